@@ -50,10 +50,11 @@ std::string describe(const Method& method) {
 
 Method discover_method(const MethodTable& table) {
   return {.name = "rpc.discover",
-          .summary = "Describes every method: an OpenRPC 1.2.6 document.",
+          .summary = "Describes all methods in an OpenRPC 1.2.6 document.",
           .params = {{"offset", ParamType::integer, "first method of this page", false, "0"},
-                     {"max_bytes", ParamType::integer, "of the reply's line", false, "49152"}},
-          .result = "the document; with x-next-offset where methods are left for another page",
+                     {"max_bytes", ParamType::integer, "largest size of the reply line", false,
+                      "49152"}},
+          .result = "the document; x-next-offset is present if another page follows",
           .result_schema = R"({"type":"object"})",
           .example = R"({"offset":0})",
           .handler = [&table](const Params& params) -> Result<std::string> {

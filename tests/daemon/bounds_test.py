@@ -83,7 +83,7 @@ class Bounds(unittest.TestCase):
             self.assertIn("interval_ms", str(self.refused("live.subscribe", interval_ms=interval)))
 
     def test_a_run_has_at_most_as_many_targets_as_its_reply_can_name(self):
-        self.assertIn("at most 1500", str(self.refused("run.start", axis="X", from_mm=0, to_mm=2700, interval_mm=1)))
+        self.assertIn("limit 1500", str(self.refused("run.start", axis="X", from_mm=0, to_mm=2700, interval_mm=1)))
         self.assertIn("1500", str(self.refused("run.start", axis="X", targets_mm=list(range(2700)))))
         self.assertIn("1024", str(self.refused("run.start", axis="X", note="n" * 1025)))
         self.assertIsNone(self.client.call("server.info")["axes"][0]["run"], "a refused run has begun")

@@ -196,7 +196,7 @@ class EndToEnd(unittest.TestCase):
     def test_squareness_has_its_uncertainty(self):
         simulated = self.measured(axis="X", targets_mm=TARGETS, repeats=1)
         y = self.measured(axis="Y")
-        with self.assertRaisesRegex(RpcError, f"run {simulated} is simulated and run {y} measured"):
+        with self.assertRaisesRegex(RpcError, f"run {simulated} is simulated and run {y} is measured"):
             self.client.call("squareness.fit", run_x=simulated, run_y=y)
         five_probe = os.path.join(DATA, "five-probe")
         with open(os.path.join(five_probe, "rig_X.toml")) as rig:

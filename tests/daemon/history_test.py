@@ -83,7 +83,7 @@ class History(unittest.TestCase):
             with self.assertRaises(RpcError) as refusal:
                 client.call(method, **params)
             self.assertEqual(refusal.exception.code, FORBIDDEN)
-            self.assertIn(f"members of the group {other} alone (approve_group", str(refusal.exception))
+            self.assertIn(f"reserved for members of the group {other} (approve_group", str(refusal.exception))
         self.assertEqual(client.call("compensation.status")["axes"], {})
         daemon.stop()
         own = grp.getgrgid(os.getgid()).gr_name

@@ -32,7 +32,7 @@ std::string group_of(const std::string& path) {
 std::string whose(const std::string& path) {
   struct stat info {};
   const bool roots = ::stat(path.c_str(), &info) == 0 && info.st_gid == 0;
-  return roots ? "mdofd was started by root: run it as the user mdof (systemctl start mdofd), and "
+  return roots ? "mdofd was started by root; run it as the user mdof (systemctl start mdofd), and "
                : "";
 }
 
@@ -41,7 +41,8 @@ tl::unexpected<Error> cannot_connect(const std::string& path, int number) {
       "; start it with \"systemctl start mdofd\" or by hand with \"mdofd\"";
   if (number == ENOENT) return io_error(path + ": no daemon is running (no socket)" + kStart);
   if (number == ECONNREFUSED)
-    return io_error(path + ": no daemon is running (the socket is a left-over)" + kStart);
+    return io_error(path + ": no daemon is running (the socket is left over from an earlier one)" +
+                    kStart);
   if (number == EACCES)
     return io_error(path + ": permission denied; " + whose(path) + "become a member of the group " +
                     group_of(path) + " (\"sudo usermod -aG " + group_of(path) +
@@ -111,7 +112,7 @@ Result<Client> Client::connect(const std::string& socket_path) {
 Status Client::send_line(std::string_view line, Clock::time_point end) {
   while (!line.empty()) {
     if (!wait_for(socket_.get(), POLLOUT, end))
-      return io_error("the daemon takes no request: time is over");
+      return io_error("the daemon does not accept the request within the time limit");
     const ssize_t n = ::send(socket_.get(), line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (n < 0 && errno == EPIPE) return {};  // it closed, and may have said why
     if (n < 0 && errno != EAGAIN && errno != EINTR)
@@ -131,7 +132,7 @@ Result<std::string> Client::read_line(Clock::time_point end) {
     }
     scanned = received_.size();
     if (!wait_for(socket_.get(), POLLIN, end))
-      return io_error("no answer from the daemon: time is over");
+      return io_error("the daemon does not answer within the time limit");
     std::array<char, 16384> bytes;
     const ssize_t n = ::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
     const int error = errno;

@@ -91,10 +91,10 @@ void Connection::take_line(Clock::time_point until) {
   line_since_.reset();
   const auto line = *std::exchange(line_, std::nullopt);
   if (line.too_long)
-    return refuse("a request line may have " +
-                  std::to_string(server_.service.options().max_line_bytes) + " bytes");
+    return refuse("the request line is too long (limit " +
+                  std::to_string(server_.service.options().max_line_bytes) + " bytes)");
   if (!session_->peer().credentials && is_http(line.text))
-    return refuse("this is no HTTP server: on TCP a line of HTTP ends the connection");
+    return refuse("this is not an HTTP server; a line of HTTP on TCP ends the connection");
   if (line.text.empty()) return;      // as a line end too many leaves it
   std::string& out = output_.text();  // whole lines
   if (!session_->handle(line.text, out, until)) line_ = line;
@@ -227,8 +227,8 @@ void Connection::check_times(Clock::time_point now) {
     return pump();
   }
   if (stalled_since_ && now - *stalled_since_ > options.stall_timeout)
-    return drop("it took none of " + std::to_string(output_.unsent()) + " unsent bytes for " +
-                std::to_string(options.stall_timeout.count()) + " ms");
+    return drop("the client accepted none of " + std::to_string(output_.unsent()) +
+                " unsent bytes for " + std::to_string(options.stall_timeout.count()) + " ms");
   if ((input_ended_ || !reading_) && !has_turn_ && hung_up(socket_.native_handle())) return close();
   if (!session_->is_idle(now)) return;
   session_->end_idle();

@@ -68,10 +68,10 @@ std::string reason(simdjson::error_code error, const ServerOptions& options) {
 std::string not_an_approver(const std::string& method, const std::string& group,
                             const Caller& caller) {
   const auto who = caller.credentials();
-  return method + " is for members of the group " + group +
-         " alone (approve_group in [rpc] of mdofd.toml), and " +
+  return method + " is reserved for members of the group " + group +
+         " (approve_group in [rpc] of mdofd.toml), and " +
          (who ? "uid " + std::to_string(who->uid) : std::string("a TCP client")) +
-         " is none: ask one of them, or become one and connect again";
+         " is not a member; ask a member, or become a member and connect again";
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ tl::expected<const Method*, Dispatcher::Parser::Refusal> Dispatcher::Parser::pre
   }
   if (method->writes && !caller.may_write())
     return tl::unexpected(
-        Refusal{kForbidden, method->name + " changes something: call it over the Unix socket", ""});
+        Refusal{kForbidden, method->name + " changes data; call it over the Unix socket", ""});
   if (method->approves && options.approvers && !caller.in_group(options.approvers->id))
     return tl::unexpected(
         Refusal{kForbidden, not_an_approver(method->name, options.approvers->name, caller), ""});
@@ -152,8 +152,8 @@ bool Dispatcher::Parser::begin_batch(const Message& message, std::size_t members
   if (members == 0 || members > options.max_batch) {
     append_error(message.out, "null", kInvalidRequest, "Invalid Request",
                  members == 0 ? ""
-                              : "a batch may have " + std::to_string(options.max_batch) +
-                                    " members: send it in parts");
+                              : "a batch may have at most " + std::to_string(options.max_batch) +
+                                    " members; send it in parts");
     return false;
   }
   message.batch = {std::make_shared<Exchange>(limits(), members, true, message.sink), 0};

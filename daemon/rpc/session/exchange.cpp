@@ -10,11 +10,12 @@ namespace mdof::rpc {
 namespace {
 
 constexpr std::string_view kTooLargeForBatch =
-    "the batch's reply is too large: send this call by itself";
+    "the reply to the batch is too large; send this call separately";
 
 std::string too_large(std::size_t bytes, std::size_t max_bytes) {
-  return "the result has " + std::to_string(bytes) + " bytes and a reply line holds " +
-         std::to_string(max_bytes) + ": ask for a page of it (offset, count)";
+  return "the result has " + std::to_string(bytes) +
+         " bytes (limit of a reply line: " + std::to_string(max_bytes) +
+         "); request a part of it (offset, count)";
 }
 
 }  // namespace

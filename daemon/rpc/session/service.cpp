@@ -30,14 +30,14 @@ std::string user_has_all(const Peer& peer, const ServerOptions& o) {
   const auto uid = uid_of(peer);
   return (uid ? "uid " + std::to_string(*uid) + " has " : "TCP clients have ") +
          std::to_string(o.max_connections_of_user) +
-         " connections, as many as one user may have: close one, or raise connections_of_user in "
-         "[rpc] of mdofd.toml";
+         " connections, the limit for one user; close one, or raise connections_of_user in [rpc] "
+         "of mdofd.toml";
 }
 
 std::string all_in_use(const ServerOptions& o) {
   return "all " + std::to_string(o.max_connections) + " connections are in use" +
          (o.kept_for_group ? " or kept for the group cnc_group" : "") +
-         ": close one, or raise connections in [rpc] of mdofd.toml";
+         "; close one, or raise connections in [rpc] of mdofd.toml";
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ Result<std::shared_ptr<Session>> Service::admit(Peer peer, Transport& transport)
   const auto place = place_for(peer);
   if (!place) {
     const std::string& why = place.error().message;
-    if (std::exchange(last_refusal_, why) != why) log("clients are turned away: " + why);
+    if (std::exchange(last_refusal_, why) != why) log("a client was refused: " + why);
     return tl::unexpected(place.error());
   }
   last_refusal_.clear();

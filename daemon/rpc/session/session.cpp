@@ -73,8 +73,9 @@ void Session::refuse(std::string_view why) {
 // The place is another's from then on; a client that comes back to it learns why.
 void Session::end_idle() {
   end_with(kBusy,
-           "nothing was asked for " + std::to_string(parts_.options.idle_timeout.count() / 1000) +
-               " s and nothing is subscribed to: connect again",
+           "the connection was idle for " +
+               std::to_string(parts_.options.idle_timeout.count() / 1000) +
+               " s (no request, no subscription); connect again",
            {});
 }
 

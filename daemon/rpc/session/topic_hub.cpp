@@ -43,7 +43,7 @@ Result<TopicHub::Row*> TopicHub::row(std::string_view topic) {
   }
   const std::string near = topic.size() <= 64 ? nearest_of(topic, names) : "";
   return fail(ErrorCode::not_found, "no topic " + in_quotes(topic) +
-                                        (near.empty() ? "; there are: " + list
+                                        (near.empty() ? "; the topics are " + list
                                                       : "; did you mean " + in_quotes(near) + "?"));
 }
 
@@ -54,7 +54,8 @@ Status TopicHub::publish(std::string_view topic, std::string json, std::string_v
     for (const auto& [who, entry] : found->subscribers) entry->miss();
     return fail(ErrorCode::usage, "topic " + in_quotes(topic) + ": a value of " +
                                       std::to_string(json.size()) +
-                                      " bytes does not fit into a reply line");
+                                      " bytes does not fit into a reply line (limit " +
+                                      std::to_string(options_.max_reply_bytes) + " bytes)");
   }
   if (found->subscribers.empty()) return {};
   const auto value = std::make_shared<const std::string>(std::move(json));
@@ -71,14 +72,14 @@ Status TopicHub::subscribe(Subscriber& who, std::string_view topic,
   MDOF_TRY(Row* const found, row(topic));
   if (const auto least = found->topic.min_interval; !found->topic.event && interval < least)
     return fail(ErrorCode::usage, "interval_ms: " + std::to_string(interval.count()) +
-                                      " is below the topic's minimum of " +
+                                      " is below the minimum of the topic, " +
                                       std::to_string(least.count()));
   for (const auto& [other, entry] : found->subscribers)
     if (other == &who) return entry->set_interval(interval), Status{};
   if (who.subscriptions.size() >= options_.max_subscriptions)
-    return fail(ErrorCode::usage, "a connection may have " +
+    return fail(ErrorCode::usage, "this connection has " +
                                       std::to_string(options_.max_subscriptions) +
-                                      " subscriptions: unsubscribe from one first");
+                                      " subscriptions, the limit; unsubscribe from one first");
   who.subscriptions.emplace_back(found->topic, interval, options_.max_queued_events);
   found->subscribers.emplace_back(&who, std::prev(who.subscriptions.end()));
   return {};

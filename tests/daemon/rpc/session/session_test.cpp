@@ -252,7 +252,7 @@ TEST_F(Sessions, ApprovingIsForMembersByTheFirstOrAFurtherGroup) {
             result("true", 1));
   const std::string refused = ask(*admit({Credentials{1000, 100, 42}, {5}}), call("approve", 1));
   EXPECT_EQ(code_in(refused), "-32003");
-  EXPECT_NE(refused.find("uid 1000 is none"), std::string::npos) << refused;
+  EXPECT_NE(refused.find("uid 1000 is not a member"), std::string::npos) << refused;
 }
 
 TEST_F(Sessions, ALateReplyAfterTheClientHasGoneGoesNowhere) {

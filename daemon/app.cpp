@@ -56,7 +56,7 @@ std::string clock_json(double step_s) {
 std::string compensation_json(std::int64_t generation) {
   JsonWriter json;
   json.begin_object().field("type", "compensation").field("generation", generation);
-  json.field("text", "another table is active, or none; read it anew");
+  json.field("text", "the active table has changed; read the active table again");
   json.field("utc", utc_now()).end_object();
   return json.take();
 }
@@ -188,7 +188,7 @@ void App::Parts::start_stations() {
 std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
   auto last = reader->last_datum(axis);
   if (last) return std::move(*last);
-  std::fprintf(stderr, "axis %c: where it stood last is not known: %s\n", letter(axis),
+  std::fprintf(stderr, "axis %c: its last position is unknown: %s\n", letter(axis),
                words::text(last.error()).c_str());
   return std::nullopt;
 }

@@ -71,11 +71,14 @@ int run(const std::string& config_file, bool check_only) {
 
 int main(int argc, char** argv) try {
   std::signal(SIGPIPE, SIG_IGN);
-  CLI::App cli("mdofd: reads probes and encoder, solves the five errors of an axis, serves them");
+  CLI::App cli(
+      "mdofd: reads probes and encoder, calculates the five errors of an axis and serves the "
+      "results");
   std::string config_file = "/etc/mdof/mdofd.toml";
   bool check_only = false;
-  cli.add_option("--config", config_file, "configuration, TOML")->capture_default_str();
-  cli.add_flag("--check-config", check_only, "read the configuration, say what is wrong, and end");
+  cli.add_option("--config", config_file, "configuration file (TOML)")->capture_default_str();
+  cli.add_flag("--check-config", check_only,
+               "check the configuration, print what is wrong, and exit");
   cli.set_version_flag("--version", mdof::daemon::kVersion);
   try {
     cli.parse(argc, argv);

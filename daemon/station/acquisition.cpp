@@ -219,8 +219,8 @@ void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
   for (const auto& [encoder, why] : lost) {
     if (why.empty() || !datum_lost_.insert(encoder).second) continue;
     report(Trouble::Kind::suspect,
-           "the encoder's datum is lost and no stop can be placed any more: " + why + "; " +
-               words::remedy(info.datum_remedy) + " and measure anew",
+           "the encoder's datum is lost, so the positions of further stops are unknown: " + why +
+               "; " + words::remedy(info.datum_remedy) + " and measure again",
            encoder);
   }
 }
@@ -239,18 +239,18 @@ void Acquisition::report_clock(const drivers::ClockState& clock) {
   const bool stepped = std::exchange(clock_steps_, clock.steps) != clock.steps;
   const bool was = std::exchange(clock_is_uncertain_, clock.doubtful);
   if (stepped)
-    report(
-        Trouble::Kind::clock,
-        "its clock jumped, or its link had been slow for long: when its samples were taken is not "
-        "known until the clock has settled (4 s); they are suspect, and stops in it are left out "
-        "or lack its probes. Look at its power and network, and measure points near it again");
+    report(Trouble::Kind::clock,
+           "the device clock jumped, or the link was slow for a long time, so the times of the "
+           "samples are unknown until the clock has settled (4 s). These samples are suspect; "
+           "stops in this time are left out or lack the probes of the device. Check power and "
+           "network, and measure the points of this time again");
   else if (clock.doubtful && !was)
     report(Trouble::Kind::clock,
-           "its packets come " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
-               " s late, or its clock stood still: its samples are suspect until they are in time "
-               "again; look at its network and at the load of this machine");
+           "the packets arrive " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
+               " s late, or the device clock stood still, so the samples are suspect until they "
+               "arrive in time again; check the network and the load of this computer");
   else if (was && !clock.doubtful)
-    report(Trouble::Kind::back, "the times of its samples are valid again");
+    report(Trouble::Kind::back, "the times of the samples are valid again");
 }
 
 bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
@@ -290,8 +290,9 @@ bool Acquisition::recover(const SampleBlock& block) {
     status_.last_error = std::exchange(status_.error, "");
     status_.recovered_utc = utc_now();
   }
-  std::string text = "it gives samples again after " + with_one_decimal(away.count()) + " s";
-  if (block.lost > 0) text += "; scans lost meanwhile: " + std::to_string(block.lost);
+  std::string text =
+      "the device sends samples again after " + with_one_decimal(away.count()) + " s";
+  if (block.lost > 0) text += "; scans lost in this time: " + std::to_string(block.lost);
   report(Trouble::Kind::back, text);
   return true;
 }
@@ -309,14 +310,13 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
                                     [](const Trouble& t) { return t.kind == Trouble::Kind::slow; });
   const bool slow = lost_in_window_ > 0 || rate_hz < (was_slow ? kWell : kSlow) * is.info.rate_hz;
   if (slow && !was_slow) {
-    report(
-        Trouble::Kind::slow,
-        "it gives " + with_one_decimal(rate_hz) + " of " + with_one_decimal(is.info.rate_hz) +
-            " scans a second, " + std::to_string(lost_in_window_) +
-            " were lost in 5 s; look at its network or cable and at the load of this machine, or "
-            "lower its rate");
+    report(Trouble::Kind::slow, "the device sends " + with_one_decimal(rate_hz) + " of " +
+                                    with_one_decimal(is.info.rate_hz) + " scans per second, and " +
+                                    std::to_string(lost_in_window_) +
+                                    " were lost in 5 s; check the network or cable and the load of "
+                                    "this computer, or lower the rate of the device");
   }
-  if (was_slow && !slow) report(Trouble::Kind::back, "it gives all its scans again");
+  if (was_slow && !slow) report(Trouble::Kind::back, "the device sends all scans again");
   window_end_ = now + kWindow;
   scans_in_window_ = lost_in_window_ = 0;
 }

@@ -24,7 +24,8 @@ fs::path nearest_folder(fs::path folder) {
 }
 
 std::string remedy_of_permission(const fs::path& folder) {
-  return "; choose another, or give it to the user and group mdof and run mdofd as that user "
+  return "; choose another folder, or make user and group mdof its owner and run mdofd as user "
+         "mdof "
          "(sudo install -d -o mdof -g mdof -m 750 " +
          folder.string() + ")";
 }
@@ -34,14 +35,13 @@ Status check_folder(const std::string& key, const fs::path& folder) {
   const fs::path nearest = nearest_folder(folder);
   std::error_code failed;
   if (!fs::is_directory(nearest, failed))
-    return bad_input(key + ": " + nearest.string() + " is no folder; choose another path");
+    return bad_input(key + ": " + nearest.string() + " is not a folder; choose another path");
   if (::access(nearest.c_str(), W_OK | X_OK) == 0) return {};
   const bool there = nearest == fs::absolute(folder, failed);
   return bad_input(key + ": " +
                    (there ? "there is no permission to write in " + folder.string()
                           : folder.string() +
-                                " is not there, and there is no permission to make "
-                                "it in " +
+                                " does not exist, and there is no permission to create it in " +
                                 nearest.string()) +
                    remedy_of_permission(folder));
 }
@@ -52,10 +52,10 @@ Status check_file(const std::string& key, const fs::path& file) {
     return bad_input(key + ": " + file.string() + " is a folder; name a file in it");
   MDOF_CHECK(check_folder(key, fs::absolute(file, failed).parent_path()));
   if (!fs::exists(file, failed) || ::access(file.c_str(), R_OK | W_OK) == 0) return {};
-  return bad_input(key + ": there is no permission to read and write " + file.string() +
-                   "; give it to the user and group mdof and run mdofd as that user (sudo chown "
-                   "mdof:mdof " +
-                   file.string() + ")");
+  return bad_input(
+      key + ": there is no permission to read and write " + file.string() +
+      "; make user and group mdof its owner and run mdofd as user mdof (sudo chown mdof:mdof " +
+      file.string() + ")");
 }
 
 Status check_socket(const Config& config) {
@@ -63,7 +63,7 @@ Status check_socket(const Config& config) {
   const fs::path socket = config.socket;
   if (fs::exists(socket, failed) && !fs::is_socket(socket, failed))
     return bad_input(config.socket_key + ": " + config.socket +
-                     " is there and no socket; remove it or choose another path");
+                     " exists and is not a socket; remove it or choose another path");
   return check_folder(config.socket_key, fs::absolute(socket, failed).parent_path());
 }
 
@@ -75,8 +75,8 @@ Status check_identities(const Config& config) {
       const auto [other, fresh] = names.emplace(device.identity(), device.name);
       if (fresh) continue;
       return bad_input(config.source + ": the devices \"" + other->second + "\" and \"" +
-                       device.name + "\" are one (" + other->first +
-                       "): it can be opened only once; take one away or correct its address");
+                       device.name + "\" are the same device (" + other->first +
+                       "), which can be opened only once; remove one or correct its address");
     }
   }
   return {};
@@ -100,7 +100,7 @@ Status make_socket_folder(const std::string& socket) {
     if (fs::exists(made, failed)) continue;
     if (::mkdir(made.c_str(), kFolderMode) != 0 && errno != EEXIST)
       return io_error("rpc.socket: the folder " + made.string() +
-                      " cannot be made: " + std::strerror(errno) + remedy_of_permission(folder));
+                      " cannot be created: " + std::strerror(errno) + remedy_of_permission(folder));
     (void)::chmod(made.c_str(), kFolderMode);  // whatever the umask
   }
   return {};

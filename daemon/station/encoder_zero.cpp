@@ -23,14 +23,15 @@ std::string advised_datum_note(const EncoderDatum& datum) {
 
 // Of what was said and does not hold any more.
 std::string lost_note(const DatumSetting& said, bool since_start, const EncoderDatum& now) {
-  std::string note =
-      "set to " + plain_number(to_mm(said.position_m), kDigits) + " mm on " + said.utc + ", lost " +
-      (since_start ? "when its device was without power" : "by a restart of mdofd") + ": " +
-      words::remedy(Remedy::set_encoder_again, std::string(1, letter(said.axis))) + "; ";
+  std::string note = "the position was set to " + plain_number(to_mm(said.position_m), kDigits) +
+                     " mm on " + said.utc + ", but was lost " +
+                     (since_start ? "when the device lost power" : "by a restart of mdofd") + ": " +
+                     words::remedy(Remedy::set_encoder_again, std::string(1, letter(said.axis))) +
+                     "; ";
   const std::string none = advised_datum_note(now);
   if (!none.empty()) return note + none;
   if (now.kind == EncoderDatum::Kind::configured)
-    return note + "until then offset_mm of the configuration holds";
+    return note + "until then offset_mm of the configuration applies";
   return note + "until then positions are as the device shows them";
 }
 
@@ -66,9 +67,11 @@ EncoderState EncoderZero::state() const {
   const std::lock_guard lock(mutex_);
   if (datum_.kind == EncoderDatum::Kind::index) return {datum_, datum_text(datum_)};
   if (index_m_ && datum_.kind == EncoderDatum::Kind::none)
-    return {datum_, "its positions are the machine's once it passed its reference mark (" +
-                        words::remedy(Remedy::pass_reference_mark) +
-                        "); until then: " + advised_datum_note(datum_)};
+    return {
+        datum_,
+        "positions are machine positions only after the encoder has passed its reference mark (" +
+            words::remedy(Remedy::pass_reference_mark) +
+            "); until then: " + advised_datum_note(datum_)};
   if (!last_) return {datum_, advised_datum_note(datum_)};
   if (datum_.kind != EncoderDatum::Kind::set)
     return {datum_, lost_note(*last_, since_start_, datum_)};
@@ -133,13 +136,12 @@ void EncoderZero::watch(double shown_m, std::int64_t time_ns) {
 Result<DatumSetting> EncoderZero::find(Axis axis, double position_m, const std::string& utc) {
   if (drivers::monotonic_ns() - last_ns_ > kStale_ns)
     return fail(ErrorCode::conflict,
-                "nothing has come from the encoder for a second, so what it shows at this place is "
-                "not known",
+                "the encoder has sent no sample for 1 s, so its present reading is unknown",
                 Remedy::list_devices);
   if (count_ == 0 || last_ns_ - since_ns_ < kRest_ns)
     return fail(ErrorCode::conflict,
-                "the axis moves (or has not been still for 0.2 s): stop it at a known place, then "
-                "say where it is");
+                "the axis moves, or has stood still for less than 0.2 s; stop it at a known "
+                "position, then set that position");
   const double shown_m = rest_m_ + sum_m_ / static_cast<double>(count_);
   const std::lock_guard lock(mutex_);
   found_ = true;
@@ -152,8 +154,8 @@ Result<EncoderDatum> EncoderZero::put(const DatumSetting& setting, const std::st
   if (!std::exchange(found_, false))
     return fail(ErrorCode::conflict,
                 "device \"" + setting.device +
-                    "\" was without power or passed its reference mark just now, so what its "
-                    "encoder showed does not hold any more: say again where the axis stands");
+                    "\" has just lost power or passed its reference mark, so the reading of its "
+                    "encoder is no longer valid; set the position of the axis again");
   datum_ = {EncoderDatum::Kind::set, setting.offset_m, setting.device, setting.utc, by};
   last_ = setting;
   since_start_ = true;

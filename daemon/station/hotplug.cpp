@@ -18,7 +18,8 @@ Result<Hotplug> Hotplug::watch() {
   hotplug.udev_.reset(udev_new());
   if (hotplug.udev_)
     hotplug.monitor_.reset(udev_monitor_new_from_netlink(hotplug.udev_.get(), "udev"));
-  if (!hotplug.monitor_) return io_error("udev cannot be asked which devices are plugged in");
+  if (!hotplug.monitor_)
+    return io_error("cannot connect to udev, which reports the devices that are plugged in");
   for (const char* subsystem : {"usb", "hidraw", "tty", "counter", "iio"})
     udev_monitor_filter_add_match_subsystem_devtype(hotplug.monitor_.get(), subsystem, nullptr);
   if (udev_monitor_enable_receiving(hotplug.monitor_.get()) < 0)

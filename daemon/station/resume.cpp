@@ -16,7 +16,8 @@ constexpr int kBlocksPerCommit = 64;
 
 tl::unexpected<Error> refused(std::int64_t run, const std::string& why,
                               Remedy remedy = Remedy::none) {
-  return fail(ErrorCode::conflict, "run " + std::to_string(run) + " cannot go on: " + why, remedy);
+  return fail(ErrorCode::conflict, "run " + std::to_string(run) + " cannot be continued: " + why,
+              remedy);
 }
 
 Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisConfig& axis) {
@@ -27,7 +28,7 @@ Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisCon
   MDOF_TRY(const auto later, reader.superseded_by(run.id));
   if (later) return refused(run.id, "run " + std::to_string(*later) + " supersedes it");
   if (run.provenance.rig_text != axis.rig.text)
-    return refused(run.id, "the rig has been changed since; start a new run");
+    return refused(run.id, "the rig was changed after its start; start a new run");
   return {};
 }
 
@@ -56,7 +57,7 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   MDOF_TRY(const RunHeader header, reader.run_header(run));
   MDOF_CHECK(check_can_go_on(reader, header, axis));
   const auto options = read_options_json(header.provenance.options_json, {});
-  if (!options) return refused(run, "what it was asked for: " + words::text(options.error()));
+  if (!options) return refused(run, "its stored request: " + words::text(options.error()));
   RunRequest request;
   request.note = header.note;
   request.targets_m = options->sequence.targets_m;
@@ -78,29 +79,29 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
     if (alike) return {};
     if (now.kind != Kind::index)
       return refused(cut_off.id,
-                     "its positions are counted from the reference mark of the encoder, and those "
-                     "of the axis are not now",
+                     "its positions were counted from the reference mark of the encoder, but the "
+                     "present positions of the axis are not",
                      Remedy::pass_reference_mark_or_start);
     return refused(cut_off.id,
-                   "since it ended the axis went over its reference mark, and its positions are "
-                   "counted from elsewhere than those of the run; start a new run");
+                   "the axis passed its reference mark after the run ended, so the present "
+                   "positions have another zero than those of the run; start a new run");
   }
   const bool in_machine = of_run.kind == Kind::set || of_run.kind == Kind::configured;
   if (in_machine && now.kind == Kind::set) return {};  // each says where the axis stands
   if (alike && counts_on) return {};
   if (of_run.kind == Kind::none)
-    return refused(cut_off.id,
-                   "its encoder had no datum, and whether it has counted on since is not known: "
-                   "positions of the run and of now may lie apart",
-                   Remedy::set_encoder_then_start);
+    return refused(
+        cut_off.id,
+        "its encoder had no datum, and it is unknown whether the encoder has counted without "
+        "interruption since then, so present positions may differ from those of the run",
+        Remedy::set_encoder_then_start);
   if (of_run.kind == Kind::absolute && now.kind != Kind::none)
     return refused(cut_off.id,
-                   "its positions are as the device shows them, and those of the axis are not now; "
-                   "start a new run");
+                   "its positions are those that the device shows, but the present positions of "
+                   "the axis are not; start a new run");
   return refused(cut_off.id,
-                 "its positions are the machine's (" + datum_text(of_run) +
-                     "), and whether the encoder still counts from there is not known: "
-                     "its datum was lost since",
+                 "its positions are machine positions (" + datum_text(of_run) +
+                     "), but the encoder has lost its datum since then",
                  Remedy::set_encoder_then_resume);
 }
 

@@ -223,7 +223,7 @@ void Station::begin_run(NewRun description, const RunRequest& request, const Opt
       });
   if (posted) return;
   shared_->run = 0;
-  done(io_error("the store is behind; try again"));
+  done(io_error("too many writes to the database are pending; try again"));
 }
 
 void Station::stop_run(bool abort, const HistoryEntry& action, RunDone done) {

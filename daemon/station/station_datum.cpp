@@ -13,12 +13,13 @@ void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDo
   const std::string axis(1, letter(config_.rig.axis));
   if (!config_.live())
     return done(fail(ErrorCode::conflict,
-                     "axis " + axis + " is read from a log, whose positions are as they are"));
+                     "axis " + axis + " is read from a log, whose positions cannot be set"));
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1))
-    return done(fail(ErrorCode::conflict, "a run of axis " + axis +
-                                              " is under way and its positions must not shift; "
-                                              "stop it with run.stop first"));
+    return done(
+        fail(ErrorCode::conflict,
+             "a run of axis " + axis +
+                 " is under way, and its positions must not change; stop it with run.stop first"));
   Item item;
   item.kind = Item::Kind::datum;
   item.position_m = position_m;
@@ -51,7 +52,7 @@ void Station::store_datum(const DatumSetting& setting, const Item& asked) {
     const auto id = store.add_datum(setting, action);
     put(id ? Result<DatumSetting>(setting) : tl::unexpected(id.error()));
   });
-  if (!posted) put(io_error("the store is behind with its work; try again"));
+  if (!posted) put(io_error("too many writes to the database are pending; try again"));
 }
 
 // The live view begins afresh, as the axis does not jump.

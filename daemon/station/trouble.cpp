@@ -117,7 +117,7 @@ Notices TroubleLog::summary() const {
       const bool recovered = back != kinds.end() && back->second.last.utc >= story.last.utc;
       const std::string end = kind != Kind::lost ? ""
                               : recovered        ? back->second.last.text
-                                                 : "it was not back when the run ended";
+                                          : "the device had not recovered when the run ended";
       notices.push_back(notice(NoticeCode::device_trouble, device,
                                {{"kind", to_string(kind)},
                                 {"times", story.times},
@@ -137,7 +137,7 @@ std::optional<std::string> JournalLimit::admit(const std::string& key, const std
     return std::nullopt;
   }
   std::string text = line;
-  if (row.left_out > 0) text += " (and " + std::to_string(row.left_out) + " times more before)";
+  if (row.left_out > 0) text += " (and " + std::to_string(row.left_out) + " more times before)";
   row = {now + kQuiet, 0};
   return text;
 }

@@ -33,7 +33,8 @@ bool has_room(const std::filesystem::path& file) {
 
 std::string not_writable(const Error& error) {
   return words::text(error) +
-         " mdofd serves the active tables and tries again; until then nothing can be stored";
+         "; mdofd serves the active tables and tries again; until it succeeds nothing can be "
+         "stored";
 }
 
 // What is there can be served, though nothing can be stored.
@@ -186,7 +187,7 @@ std::string Storekeeper::chain_fault() {
   if (!store_) return {};
   const Status whole = store_->check_head(announced_);
   if (whole || whole.error().code != ErrorCode::bad_input) return {};
-  return words::text(whole.error()) + ", and restart mdofd; until then nothing is stored";
+  return words::text(whole.error()) + ", and restart mdofd; until the restart nothing is stored";
 }
 
 // One that no longer has what was announced before is not announced anew: see watch_database().
@@ -226,10 +227,10 @@ void Storekeeper::watch_database() {
   std::string reason = database_.fault();
   if (!reason.empty())
     reason +=
-        " under mdofd, so nothing can be stored: put it back, or restart mdofd to go on with "
-        "what is there now";
+        " while mdofd was using it, so nothing can be stored; put back the old file, or restart "
+        "mdofd to continue with the present one";
   else if (store_ && !(reason = store_->journal_fault()).empty())
-    reason += "; nothing more is stored: restart mdofd";
+    reason += "; nothing more is stored; restart mdofd";
   else
     reason = chain_fault();
   {
@@ -260,7 +261,7 @@ Status Storekeeper::keep_points(std::int64_t run, const std::vector<MeasuredPoin
   if (const auto found = incomplete_.find(run); found != incomplete_.end()) {
     found->second += points.size();
     dropped_points_ += points.size();
-    return io_error("an earlier point was not kept");
+    return io_error("an earlier point of this run was not stored");
   }
   const auto recording = recordings_.find(run);
   Status kept = recording == recordings_.end() ? Status() : commit(run, recording->second);
@@ -285,7 +286,7 @@ Result<std::string> Storekeeper::run(std::function<Result<std::string>(store::St
   if (!post([promise = std::move(promise), job = std::move(job)](store::Store& store) {
         promise->set_value(job(store));
       }))
-    return io_error("the store is behind with its work; try again");
+    return io_error("too many writes to the database are pending; try again");
   try {
     return result.get();
   } catch (const std::future_error&) {  // destroyed without being run: see post()

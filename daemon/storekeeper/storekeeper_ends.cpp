@@ -8,12 +8,12 @@ namespace mdof::daemon {
 namespace {
 
 constexpr const char* kHeld =
-    ": another program holds it in a transaction that does not end; what is measured waits and is "
-    "in the recording: end that program";
+    ": another program holds the database in a transaction that does not end; measured points wait "
+    "and are in the recording; end that program";
 
 std::string too_many(std::size_t most) {
   return "; more than " + std::to_string(most) +
-         " points wait, those beyond are stored when their run ends";
+         " points wait; further points are stored when their run ends";
 }
 
 store::RunEnd end_of(const Run& run) {
@@ -92,7 +92,7 @@ void Storekeeper::wait_for_database(Points points) {
 void Storekeeper::drop(const Points& points) {
   overflowed_[points.run] += points.points.size();
   dropped_points_ += points.points.size();
-  points.done(io_error("no room for it" + too_many(options_.most_waiting)));
+  points.done(io_error("no memory reserved for this point" + too_many(options_.most_waiting)));
 }
 
 // Their number is asked for once, when the run ends.
@@ -109,7 +109,8 @@ std::size_t Storekeeper::dropped_of(std::int64_t run) {
 
 void Storekeeper::wait_for_database(Ending ending) {
   set(held_, options_.database.string() + kHeld);
-  explain(ending.run, "its end is not stored yet: " + options_.database.string() + kHeld);
+  explain(ending.run,
+          "the end of the run is not stored yet: " + options_.database.string() + kHeld);
   waiting_ends_.push_back(std::move(ending));
 }
 
@@ -124,7 +125,7 @@ void Storekeeper::explain(std::int64_t run, const std::string& why) {
 
 void Storekeeper::refused_end(Unended unended, const Error& error) {
   note_full(error);
-  explain(unended.run, "its end is not stored yet: " + words::text(error));
+  explain(unended.run, "the end of the run is not stored yet: " + words::text(error));
   unended_.push_back(std::move(unended));
 }
 
@@ -153,7 +154,7 @@ void Storekeeper::store_waiting_items() {
 // mdofd ends: the runs stay without an end, as after a power cut, and their recordings have all.
 void Storekeeper::discard_waiting_items() {
   const auto error =
-      io_error("mdofd ended while a foreign program held the database: the recording has the run",
+      io_error("mdofd ended while another program held the database; the run is in the recording",
                Remedy::resume_or_replay);
   for (const Points& points : waiting_points_) points.done(error);
   for (const Ending& ending : waiting_ends_) ending.done(error);

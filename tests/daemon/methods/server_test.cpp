@@ -108,7 +108,7 @@ TEST_F(ServerMethods, TheEncoderIsSetWhereTheAxisStandsAndNotWhileItIsNotKnown) 
   add_axis();
   const Answer nothing = call("encoder.set", R"({"axis":"X","position_mm":1})");
   EXPECT_EQ(nothing.code(), rpc::kChanged);
-  EXPECT_HAS(nothing.message(), "nothing has come from the encoder");
+  EXPECT_HAS(nothing.message(), "the encoder has sent no sample");
   TestAxis axis(3);
   axis.stand(2);
   Answer set = nothing;

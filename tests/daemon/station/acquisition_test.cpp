@@ -220,9 +220,10 @@ TEST(Acquisition, TellsOnceThatADeviceIsLostAndThatItIsBack) {
   const auto reported = collector.troubles();
   ASSERT_EQ(reported.size(), 2u);
   EXPECT_EQ(reported[0], "device \"fake\": lost: 10.0.0.9: gone");
-  EXPECT_TRUE(reported[1].starts_with("device \"fake\": back: it gives samples again after "))
+  EXPECT_TRUE(
+      reported[1].starts_with("device \"fake\": back: the device sends samples again after "))
       << reported[1];
-  EXPECT_TRUE(reported[1].ends_with("; scans lost meanwhile: 1000")) << reported[1];
+  EXPECT_TRUE(reported[1].ends_with("; scans lost in this time: 1000")) << reported[1];
 }
 
 TEST(Acquisition, TellsThatAnEncoderHasLostItsDatumAndHoldsToIt) {
@@ -263,7 +264,7 @@ TEST(Acquisition, TellsThatADeviceIsSlow) {
   while (collector.troubles().empty() && steady_clock::now() - begin < std::chrono::seconds(20))
     std::this_thread::sleep_for(milliseconds(10));
   ASSERT_EQ(collector.troubles().size(), 1u);
-  EXPECT_NE(collector.troubles()[0].find("slow: it gives 2.0 of 1000.0 scans a second"),
+  EXPECT_NE(collector.troubles()[0].find("slow: the device sends 2.0 of 1000.0 scans per second"),
             std::string::npos)
       << collector.troubles()[0];
 }
@@ -349,8 +350,8 @@ TEST(Acquisition, WhileItsClockIsInDoubtSamplesAreSuspect) {
       EXPECT_EQ(blocks[b].quality_at(0, i), b == 1 || b == 2 ? Quality::suspect : Quality::good);
   const auto troubles = collector.troubles();
   ASSERT_EQ(troubles.size(), 2u);
-  EXPECT_NE(troubles[0].find("clock: its packets come 0.3 s late"), std::string::npos);
-  EXPECT_NE(troubles[1].find("back: the times of its samples are valid again"), std::string::npos);
+  EXPECT_NE(troubles[0].find("clock: the packets arrive 0.3 s late"), std::string::npos);
+  EXPECT_NE(troubles[1].find("back: the times of the samples are valid again"), std::string::npos);
   EXPECT_TRUE(acquisition.status().standing.empty());
 }
 

@@ -114,14 +114,15 @@ TEST(EncoderZero, ItsCountGoesOnFromItsStartOrItsLastLoss) {
 TEST(EncoderZero, WhatARestartForgotIsTold) {
   EXPECT_TRUE(begins_with(EncoderZero({counting()}).state().note, "the encoder (device \"t7\")"));
   const std::string lost =
-      "set to 12.5 mm on 2026-11-01T06:00:00Z, lost by a restart of mdofd: set the position "
-      "again (mdof encoder set Y POSITION_MM); ";
+      "the position was set to 12.5 mm on 2026-11-01T06:00:00Z, but was lost by a restart of "
+      "mdofd: set the position again (mdof "
+      "encoder set Y POSITION_MM); ";
   EXPECT_TRUE(begins_with(EncoderZero({counting()}, said(0.0125)).state().note,
                           lost + "the encoder (device \"t7\") has no datum"));
   auto configured = counting();
   configured.encoder.offset_mm = 5;
   EXPECT_EQ(EncoderZero({configured}, said(0.0125)).state().note,
-            lost + "until then offset_mm of the configuration holds");
+            lost + "until then offset_mm of the configuration applies");
   auto absolute = counting();
   absolute.encoder.counts = false;
   EXPECT_EQ(EncoderZero({absolute}, said(0.0125)).state().note,
@@ -135,9 +136,10 @@ TEST(EncoderZero, WhatThePowerTookIsToldOtherwise) {
   zero.apply(block);
   ASSERT_TRUE(zero.put(zero.find(mdof::Axis::y, 0.0125, "2026-11-23T07:00:00Z").value(), "me"));
   zero.lose("t7");
-  EXPECT_TRUE(begins_with(zero.state().note,
-                          "set to 12.5 mm on 2026-11-23T07:00:00Z, lost when its device was "
-                          "without power: set the position again"))
+  EXPECT_TRUE(
+      begins_with(zero.state().note,
+                  "the position was set to 12.5 mm on 2026-11-23T07:00:00Z, but was lost when the "
+                  "device lost power: set the position again"))
       << zero.state().note;
 }
 
@@ -150,7 +152,8 @@ drivers::DriverSpec with_mark() {
 TEST(EncoderZero, FromTheMarkOnPositionsAreTheMachines) {
   EncoderZero zero({with_mark()});
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
-  EXPECT_TRUE(begins_with(zero.state().note, "its positions are the machine's once it passed"));
+  EXPECT_TRUE(begins_with(zero.state().note,
+                          "positions are machine positions only after the encoder has passed"));
   SampleBlock block = resting_at(3);
   zero.apply(block);
   EXPECT_EQ(block.value[0][0], 3);
@@ -177,7 +180,8 @@ TEST(EncoderZero, TheMarkGoesWithThePowerAndComesAgain) {
   zero.lose("t7");
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
   EXPECT_EQ(zero.datum().offset_m, 0);
-  EXPECT_TRUE(begins_with(zero.state().note, "its positions are the machine's once it passed"));
+  EXPECT_TRUE(begins_with(zero.state().note,
+                          "positions are machine positions only after the encoder has passed"));
   ASSERT_TRUE(zero.pass_mark("t7", "later"));
   EXPECT_EQ(zero.state().note, "index at 12.5 mm, passed on later");
 }

@@ -60,7 +60,7 @@ TEST(SameDatum, ALostOneIsSetAgainFirst) {
   using Kind = EncoderDatum::Kind;
   for (const Kind known : {Kind::set, Kind::configured}) {
     const std::string why = why_not(datum(known, 0.03), datum(Kind::none, 0), false);
-    EXPECT_NE(why.find("run 7 cannot go on"), std::string::npos) << why;
+    EXPECT_NE(why.find("run 7 cannot be continued"), std::string::npos) << why;
     EXPECT_NE(why.find("mdof encoder set"), std::string::npos) << why;
     EXPECT_NE(why.find("30 mm"), std::string::npos) << why;
     // Set anew its count may begin elsewhere: the positions are the machine's again.

@@ -196,7 +196,7 @@ TEST_F(StationTest, ARunUnderWayOrOfAnotherRigDoesNotGoOn) {
   ASSERT_TRUE(stop());
   AxisConfig other = station_->config();
   other.rig.text += "# shimmed\n";
-  EXPECT_SAYS(request_to_resume(*store, *id, other).error().message, "the rig has been changed");
+  EXPECT_SAYS(request_to_resume(*store, *id, other).error().message, "the rig was changed");
   EXPECT_EQ(request_to_resume(*store, 99, other).error().code, ErrorCode::not_found);
   EXPECT_TRUE(request_to_resume(*store, *id, station_->config()));
 }

@@ -165,7 +165,7 @@ TEST_F(StationDatum, IsWhatTheUserSaysOfWhereTheAxisStands) {
   EXPECT_EQ(station_->encoder().datum.kind, EncoderDatum::Kind::none);
   const auto nothing = set(12.5);
   ASSERT_FALSE(nothing);
-  EXPECT_TOLD(nothing.error().message, "nothing has come from the encoder");
+  EXPECT_TOLD(nothing.error().message, "the encoder has sent no sample");
   EXPECT_EQ(station_->run(), 0);
   Result<EncoderDatum> datum = nothing;
   for (int i = 0; i < 20 && !datum; ++i) {  // a busy machine may be too late with it

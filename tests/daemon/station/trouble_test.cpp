@@ -17,27 +17,28 @@ Trouble at(const char* time, Kind kind, const char* text, const char* device = "
 TEST(TroubleLog, ADeviceThatCameBackIsOneLineWithItsCause) {
   TroubleLog log;
   log.add(at("14:02:11", Kind::lost, "no packet for 2 s"));
-  log.add(at("14:02:14", Kind::back, "it gives samples again after 3.2 s"));
+  log.add(at("14:02:14", Kind::back, "the device sends samples again after 3.2 s"));
   EXPECT_EQ(test::shown(log.summary()),
             "device_trouble t7 kind=lost times=1 utc=2026-11-22T14:02:11.250Z reason=no packet for "
-            "2 s end=it gives samples again after 3.2 s\n");
+            "2 s end=the device sends samples again after 3.2 s\n");
 }
 
 TEST(TroubleLog, ManyAreSummarised) {
   TroubleLog log;
   for (int i = 0; i < 150; ++i) {
     log.add(at("14:02:11", Kind::lost, "no route"));
-    log.add(at("14:02:12", Kind::back, "it gives samples again after 0.1 s"));
+    log.add(at("14:02:12", Kind::back, "the device sends samples again after 0.1 s"));
   }
   log.add(at("14:05:00", Kind::lost, "no route"));
   log.add(at("14:05:01", Kind::suspect, "the encoder's datum is lost"));
-  log.add(at("14:05:02", Kind::slow, "it gives 1 of 10", "capa"));
+  log.add(at("14:05:02", Kind::slow, "the device sends 1 of 10", "capa"));
   EXPECT_EQ(test::shown(log.summary()),
             "device_trouble t7 kind=lost times=151 utc=2026-11-22T14:02:11.250Z reason=no route "
-            "end=it was not back when the run ended\n"
+            "end=the device had not recovered when the run ended\n"
             "device_trouble t7 kind=suspect times=1 utc=2026-11-22T14:05:01.250Z reason=the "
             "encoder's datum is lost end=\n"
-            "device_trouble capa kind=slow times=1 utc=2026-11-22T14:05:02.250Z reason=it gives 1 "
+            "device_trouble capa kind=slow times=1 utc=2026-11-22T14:05:02.250Z reason=the device "
+            "sends 1 "
             "of 10 end=\n");
 }
 
@@ -82,7 +83,7 @@ TEST(JournalLimit, TheFirstIsToldAtOnceAndAFloodIsCounted) {
   EXPECT_EQ(journal.admit("b", "b: lost", now), "b: lost");
   for (int i = 0; i < 99; ++i) EXPECT_FALSE(journal.admit("a", "a: lost", now));
   now += std::chrono::seconds(11);
-  EXPECT_EQ(journal.admit("a", "a: lost", now), "a: lost (and 99 times more before)");
+  EXPECT_EQ(journal.admit("a", "a: lost", now), "a: lost (and 99 more times before)");
   now += std::chrono::seconds(11);
   EXPECT_EQ(journal.admit("a", "a: lost", now), "a: lost");
 }

@@ -198,7 +198,8 @@ Result<Check> check_export(const Format& format, const std::vector<CompensationT
     const auto series = table ? series_of(*table) : std::vector<Series>();
     const Series* measured = find_series(series, one.error);
     if (!measured)
-      return fail(ErrorCode::check, "the files correct " + one.error + ", which no table has");
+      return fail(ErrorCode::check,
+                  "the files correct " + one.error + ", but no exported table contains it");
     check.errors.push_back(judged(format, *table, *measured, one, exported, options));
   }
   for (const Written& written : exported.written) {
@@ -209,7 +210,8 @@ Result<Check> check_export(const Format& format, const std::vector<CompensationT
     const Series* of = find_series(series, written.error);
     if (there) continue;
     if (of && of->factor != 0)
-      return fail(ErrorCode::check, written.error + " was written and is not read back");
+      return fail(ErrorCode::check,
+                  written.error + " was written, but the check does not find it in the files");
     check.not_judged.push_back(written.error);
   }
   return check;

@@ -25,9 +25,9 @@ Result<ControllerFile> ssfk_of(const CompensationTable& table, const Series& s,
   const auto far = [](double m) { return !(std::abs(m) < kMostOfPosition_m); };
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {
     if (far(s.position_m[i]) || far(s.forward[i]) || far(s.reverse[i]))
-      return bad_input(s.error + ": a number is beyond 32 bits of 0.1 um");
+      return bad_input(s.error + ": a value does not fit into 32 bits in units of 0.1 um");
     if (i > 0 && tenths_text(s.position_m[i]) == tenths_text(s.position_m[i - 1]))
-      return bad_input(s.error + ": two positions are the same in 0.1 um");
+      return bad_input(s.error + ": two positions are equal when rounded to 0.1 um");
   }
   std::string text =
       commented(head_lines(table, options,
@@ -57,7 +57,7 @@ Result<double> whole_after(const ControllerFile& file, const std::vector<std::st
   const auto x = words.size() == 2 && words[0] == key && words[1].find('.') == words[1].npos
                      ? decimal_from(words[1])
                      : std::nullopt;
-  if (!x) return wrong_at(file.name, at + 1, "\"" + key + "\" and a whole number are expected");
+  if (!x) return wrong_at(file.name, at + 1, "\"" + key + "\" with a whole number is expected");
   return *x;
 }
 
@@ -73,7 +73,7 @@ Result<AppliedCorrection> read_ssfk_file(const ControllerFile& file) {
   }
   const auto rows = static_cast<std::size_t>(head[3]);
   if (head[0] != 1 || head[1] != 0 || rows < 2 || rows > kMostOfSsfk)
-    return bad_input(file.name + ": bilateral, modulo or kw_nr_max is not what is meant");
+    return bad_input(file.name + ": bilateral, modulo or kw_nr_max differs from what mdof writes");
   for (std::size_t i = 0; i < rows; ++i) {
     const std::string row = "kw.ssfk.table[" + std::to_string(i) + "]";
     MDOF_TRY(const double position, whole_after(file, lines, at++, row + ".setpoint"));
@@ -97,14 +97,15 @@ Result<Series> positioning_of(const CompensationTable& table, std::size_t most,
   for (const Series& s : series)
     if (s.error != error)
       out.left_out.push_back(s.error + " of table " + std::to_string(table.id) + ": " + controller +
-                             " holds the positioning of an axis alone");
+                             " stores only the positioning of an axis");
   const Series* along = find_series(series, error);
   if (!along)
-    return bad_input("table " + std::to_string(table.id) + " has no " + error + ", and " +
-                         controller + " holds nothing else",
+    return bad_input("table " + std::to_string(table.id) + " has no " + error + ", but " +
+                         controller + " stores only this error",
                      Remedy::import_positioning);
   if (options.home_m)
-    out.notes.push_back("home_mm has no effect: " + controller + " has the errors as they are");
+    out.notes.push_back("home_mm has no effect, because " + controller +
+                        " contains the errors unchanged");
   return fitted(*along, table.id, most, options, out);
 }
 
@@ -130,7 +131,7 @@ Result<Export> write_weihong(const std::vector<CompensationTable>& tables,
 
 Result<std::vector<AppliedCorrection>> read_weihong(const std::vector<ControllerFile>& files) {
   const ControllerFile* file = find_file(files, kWeihongFile);
-  if (!file) return bad_input(std::string(kWeihongFile) + ": is not there");
+  if (!file) return bad_input(std::string(kWeihongFile) + ": the file is missing");
   std::vector<AppliedCorrection> all;
   bool unit = false;
   std::size_t n = 0;
@@ -155,7 +156,8 @@ Result<std::vector<AppliedCorrection>> read_weihong(const std::vector<Controller
       right = x.has_value();
       row[i] = from_mm(x.value_or(0));
     }
-    if (!right) return wrong_at(file->name, n, "no row of three numbers below unit and axis");
+    if (!right)
+      return wrong_at(file->name, n, "a row of three numbers below unit and axis is expected");
     if (!all.back().position_m.empty() && !(row[0] > all.back().position_m.back()))
       return wrong_at(file->name, n, "the position does not increase");
     all.back().position_m.push_back(row[0]);

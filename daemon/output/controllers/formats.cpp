@@ -15,10 +15,10 @@ const std::vector<Format>& formats() {
   static const std::vector<Format> rows = {
       {.name = "linuxcnc",
        .of = "LinuxCNC 2.9, COMP_FILE",
-       .holds = "positioning (EXX, EYY, EZZ), forward and reverse; a table an axis",
-       .limits = "256 points a joint; linear between them, end values hold",
+       .holds = "positioning (EXX, EYY, EZZ), forward and reverse; one table per axis",
+       .limits = "256 points per joint; linear between points, end values beyond them",
        .sense = "trim = -E in mm or inches, added to the motor command (COMP_FILE_TYPE 1)",
-       .source = "source of LinuxCNC, and run in one",
+       .source = "source of LinuxCNC; run in LinuxCNC",
        .sign_confirmed = true,
        .quantum_m = 1e-12,
        .takes_home = true,
@@ -30,8 +30,8 @@ const std::vector<Format>& formats() {
        .of = "any program",
        .holds = "all errors of the table with their uncertainty",
        .limits = "none",
-       .sense = "E = actual - nominal; correction = factor * E, where the chain is known",
-       .source = "mdof's own",
+       .sense = "E = actual - nominal; correction = factor * E, if the chain is known",
+       .source = "format of mdof",
        .sign_confirmed = true,
        .quantum_m = 1e-15,
        .takes_home = false,
@@ -40,8 +40,8 @@ const std::vector<Format>& formats() {
        .square = {}},
       {.name = "siemens-lec",
        .of = "Siemens SINUMERIK, encoder error compensation (ENC_COMP)",
-       .holds = "positioning, one value for both approaches; a file an axis",
-       .limits = "200 points at equal steps; linear between them, end values hold",
+       .holds = "positioning, one value for both approaches; one file per axis",
+       .limits = "200 points at equal steps; linear between points, end values beyond them",
        .sense = "value = +E in mm: a positive value moves the axis in the negative direction",
        .source = "manual of the 808D, 01/2017; not run on a control",
        .sign_confirmed = true,
@@ -52,12 +52,12 @@ const std::vector<Format>& formats() {
        .square = {}},
       {.name = "siemens-cec",
        .of = "Siemens SINUMERIK, cross error compensation (sag, CEC)",
-       .holds = "positioning and straightness, both approaches, or a volumetric table as sums and "
-                "products of tables of one axis; one file",
-       .limits = "200 points at equal steps, 8 tables in an 828D; linear between them, end values "
-                 "hold",
+       .holds = "positioning and straightness, both approaches; or a volumetric table as sums and "
+                "products of one-axis tables; one file",
+       .limits = "200 points at equal steps, 8 tables in an 828D; linear between points, end "
+                 "values beyond them",
        .sense = "value = correction in mm, added to the command of the output axis",
-       .source = "form: manual of the 828D and 840D sl, 03/2013, which does not state the sign; "
+       .source = "format: manual of the 828D and 840D sl, 03/2013, which does not state the sign; "
                  "another program writes nominal - measured; not run on a control",
        .sign_confirmed = false,
        .quantum_m = 2e-9,
@@ -67,7 +67,7 @@ const std::vector<Format>& formats() {
        .square = {}},
       {.name = "beckhoff-ssfk",
        .of = "Beckhoff TwinCAT CNC, lead screw compensation (kw.ssfk)",
-       .holds = "positioning, positive and negative travel; a file an axis",
+       .holds = "positioning, positive and negative travel; one file per axis",
        .limits = "1500 rows; whole numbers of 0.1 um; unit and interval are not written",
        .sense = "value = actual - set = +E in 0.1 um",
        .source = "worked example of the manual; not run on a control",
@@ -80,7 +80,7 @@ const std::vector<Format>& formats() {
       {.name = "weihong",
        .of = "Weihong NcStudio, NK: axeserr.dat",
        .holds = "positioning, forward and backward; one file of all axes",
-       .limits = "10000 rows an axis, a limit of mdof's own",
+       .limits = "10000 rows per axis (limit of mdof)",
        .sense = "forward and backward error = +E in mm",
        .source = "inferred from the backlash example of the manual",
        .sign_confirmed = false,
@@ -92,10 +92,10 @@ const std::vector<Format>& formats() {
       {.name = "isg-csv",
        .of = "Beckhoff TwinCAT CNC (TF5280) and ISG kernel, volumetric compensation",
        .holds = "a volumetric table: its corrections of X, Y, Z over a plane or a volume",
-       .limits = "all nodes of the table (max_records); linear between them",
+       .limits = "all nodes of the table (max_records); linear between nodes",
        .sense = "EXX, EYX, EZX in mm = actual - nominal of the tool = -correction",
-       .source = "form: manual of the TF5280, which takes the errors of ISO 230-1 and has a key "
-                 "(negate) for the other sense; not run on a control",
+       .source = "format: manual of the TF5280, which uses the errors of ISO 230-1 and has a key "
+                 "(negate) for the opposite sense; not run on a control",
        .sign_confirmed = false,
        .quantum_m = 2e-12,
        .takes_home = false,
@@ -105,9 +105,9 @@ const std::vector<Format>& formats() {
       {.name = "dynomotion",
        .of = "DynoMotion KFLOP and Kogna, geometric correction table",
        .holds = "a volumetric table of the plane XY: its corrections of X, Y and Z",
-       .limits = "4000 rows and columns at equal steps; bilinear; beyond the ends the last cell "
-                 "goes on",
-       .sense = "X, Y: where to move instead; Z: what is added; inch",
+       .limits = "4000 rows and columns at equal steps; bilinear; beyond the grid the last cell is "
+                 "extrapolated",
+       .sense = "X, Y: corrected command; Z: correction, added to the command; inch",
        .source = "manual and published source of KMotion; not run on a control",
        .sign_confirmed = true,
        .quantum_m = 1e-12,
@@ -118,8 +118,8 @@ const std::vector<Format>& formats() {
       {.name = "klipper",
        .of = "Klipper, skew_correction",
        .holds = "the squareness of X and Y",
-       .limits = "one angle: the axes are straight",
-       .sense = "diagonals AC, BD and side AD in mm of a square that the machine would draw",
+       .limits = "stores one angle only; assumes that both axes are straight",
+       .sense = "diagonals AC, BD and side AD (mm) of a square that the uncorrected machine draws",
        .source = "published source of Klipper; not run on a machine",
        .sign_confirmed = true,
        .quantum_m = 1e-10,
@@ -130,7 +130,7 @@ const std::vector<Format>& formats() {
       {.name = "marlin",
        .of = "Marlin, M852",
        .holds = "the squareness of X and Y",
-       .limits = "one angle: the axes are straight",
+       .limits = "stores one angle only; assumes that both axes are straight",
        .sense = "I: X moves to x - I y",
        .source = "published source of Marlin; not run on a machine",
        .sign_confirmed = true,
@@ -142,8 +142,9 @@ const std::vector<Format>& formats() {
       {.name = "reprapfirmware",
        .of = "RepRapFirmware (Duet), M556",
        .holds = "the squareness of X and Y",
-       .limits = "one angle: the axes are straight",
-       .sense = "X over S is the tangent; positive where the angle from +X to +Y is above 90 deg",
+       .limits = "stores one angle only; assumes that both axes are straight",
+       .sense = "X / S is the tangent of the squareness error; positive if the angle from +X to +Y "
+                "is above 90 deg",
        .source = "manual of M556; not run on a machine",
        .sign_confirmed = true,
        .quantum_m = 1e-9,
@@ -154,9 +155,9 @@ const std::vector<Format>& formats() {
       {.name = "matrixkins",
        .of = "LinuxCNC 2.10, matrixkins (not in 2.9)",
        .holds = "the squareness of X and Y",
-       .limits = "one angle: the axes are straight",
+       .limits = "stores one angle only; assumes that both axes are straight",
        .sense = "C_xy: joint X = x + C_xy y",
-       .source = "manual and test of the component in LinuxCNC; not run in one",
+       .source = "manual and test of the component in LinuxCNC; not run in LinuxCNC",
        .sign_confirmed = true,
        .quantum_m = 1e-10,
        .takes_home = false,
@@ -173,7 +174,7 @@ Result<const Format*> format_named(const std::string& name) {
     if (name == format.name) return &format;
     known += (known.empty() ? "" : ", ") + std::string(format.name);
   }
-  return fail(ErrorCode::usage, "\"" + name + "\" is no format; there are " + known);
+  return fail(ErrorCode::usage, "\"" + name + "\" is not a format; the formats are " + known);
 }
 
 }  // namespace mdof::controllers

@@ -47,14 +47,15 @@ double zero_of(const Series& s, const ExportOptions& options, Export& out) {
   const double there = s.factor * mean_error_at(s, options.home_m.value_or(0.0));
   const std::string um = plain_number(to_um(there)) + " um";
   if (options.home_m) {
-    out.notes.push_back(
-        s.error + ": " + um + " was taken from every trim, so that it is 0 at home (" +
-        plain_number(to_mm(*options.home_m)) + " mm); the axis' zero is moved by it");
+    out.notes.push_back(s.error + ": " + um +
+                        " was subtracted from every trim, so the trim is 0 at home (" +
+                        plain_number(to_mm(*options.home_m)) +
+                        " mm) and the zero of the axis moves by this amount");
     return there;
   }
   if (std::abs(there) > 1e-9)
-    out.notes.push_back(s.error + ": the trim is " + um +
-                        " at 0 mm, by which the first motion after homing steps; " +
+    out.notes.push_back(s.error + ": the trim at 0 mm is " + um +
+                        ", so the first motion after homing jumps by " + um + "; " +
                         words::remedy(Remedy::give_home));
   return 0;
 }
@@ -84,13 +85,14 @@ Status add_joint(const CompensationTable& table, const ExportOptions& options, E
   const Series* along = find_series(series, error);
   if (!along)
     return bad_input("table " + std::to_string(table.id) + " has no " + error +
-                         ", and a COMP_FILE of LinuxCNC holds nothing else",
+                         ", but a COMP_FILE of LinuxCNC stores only this error",
                      Remedy::import_positioning);
   if (joints_of(letter(table.axis), options).empty())
-    return fail(ErrorCode::usage, std::string("table ") + std::to_string(table.id) +
-                                      " is of axis " + letter(table.axis) +
-                                      ", which has no joint; name it with the others, such as " +
-                                      letter(table.axis) + "=1");
+    return fail(ErrorCode::usage,
+                std::string("table ") + std::to_string(table.id) + " is for axis " +
+                    letter(table.axis) +
+                    ", which has no joint; name the joint together with the others, such as " +
+                    letter(table.axis) + "=1");
   MDOF_TRY(const Series s, fitted(*along, table.id, kMostRows, options, out));
   out.files.push_back({std::string(1, letter(table.axis)) + ".comp",
                        rows_text(s, zero_of(s, options, out), options.inch)});
@@ -103,7 +105,7 @@ Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int t
   const auto lines = lines_of(file.text);
   if (lines.empty() || lines.size() > kMostRows)
     return bad_input(file.name + ": " + std::to_string(lines.size()) +
-                     " rows, and LinuxCNC takes 1 to " + std::to_string(kMostRows));
+                     " rows, but LinuxCNC reads 1 to " + std::to_string(kMostRows));
   for (std::size_t n = 0; n < lines.size(); ++n) {
     const auto words = words_of(lines[n]);
     std::array<double, 3> row{};
@@ -114,10 +116,10 @@ Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int t
       row[i] = inch ? x.value_or(0) * kCompInch_m : from_mm(x.value_or(0));
     }
     if (!three)
-      return wrong_at(file.name, n + 1, "not three numbers: LinuxCNC would stop reading here");
+      return wrong_at(file.name, n + 1, "not three numbers; LinuxCNC would stop reading here");
     if (n > 0 && !(row[0] > read.position_m.back()))
       return wrong_at(file.name, n + 1,
-                      "the position does not increase: LinuxCNC would skip the row");
+                      "the position does not increase; LinuxCNC would skip this row");
     read.position_m.push_back(row[0]);
     read.forward.push_back(type == 0 ? row[0] - row[1] : row[1]);
     read.reverse.push_back(type == 0 ? row[0] - row[2] : row[2]);
@@ -166,7 +168,7 @@ Result<Export> write_linuxcnc(const std::vector<CompensationTable>& tables,
       "# Restart LinuxCNC to change a table. Joints " + joints_text(options) +
       ".\n"
       "# A joint with a table ignores BACKLASH.\n"
-      "# A .comp file has no comments: it would be cut there.\n";
+      "# Do not add comments to a .comp file: LinuxCNC stops reading there.\n";
   if (options.inch) ini += std::string(kUnits) + "inch\n";
   for (const CompensationTable& table : tables) MDOF_CHECK(add_joint(table, options, out, ini));
   out.files.push_back({kIni, ini});
@@ -175,7 +177,7 @@ Result<Export> write_linuxcnc(const std::vector<CompensationTable>& tables,
 
 Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<ControllerFile>& files) {
   const ControllerFile* ini = find_file(files, kIni);
-  if (!ini) return bad_input(std::string(kIni) + ": is not there");
+  if (!ini) return bad_input(std::string(kIni) + ": the file is missing");
   std::array<JointLines, kMostJoints> joints;
   std::size_t joint = joints.size(), n = 0;
   bool inch = false;
@@ -191,7 +193,7 @@ Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<Controlle
     } else if (joint < joints.size() && words.size() == 3 && words[0] == "COMP_FILE_TYPE") {
       joints[joint].type = words[2] == "0" ? 0 : 1;
     } else {
-      return wrong_at(kIni, n, "is no line of a joint");
+      return wrong_at(kIni, n, "is not a line for a joint");
     }
   }
   std::vector<AppliedCorrection> all;
@@ -199,11 +201,11 @@ Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<Controlle
     if (joints[j].file.empty()) continue;
     const ControllerFile* file = find_file(files, joints[j].file);
     if (!file)
-      return bad_input(joints[j].file + ": is not there, and LinuxCNC would never come up");
+      return bad_input(joints[j].file + ": the file is missing, so LinuxCNC would not start");
     // The name says the axis: joints have none.
     const std::size_t axis = std::string_view(kAxes).find(joints[j].file.front());
     if (axis == std::string_view::npos)
-      return bad_input(joints[j].file + ": is the file of no axis X, Y or Z");
+      return bad_input(joints[j].file + ": the file name does not begin with an axis, X, Y or Z");
     MDOF_TRY(AppliedCorrection read, read_comp(*file, kAxes[axis], joints[j].type, inch));
     all.push_back(std::move(read));
   }

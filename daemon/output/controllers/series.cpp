@@ -74,11 +74,13 @@ Result<Series> without_holes(const Series& s, std::int64_t table, bool cut, Expo
                               (std::isfinite(s.forward[hole]) ? "reverse" : "forward") +
                               " value at " + place_text(s.position_m[hole]);
   if (end - first < 2)
-    return bad_input(missing + ", nor at two places in a row; nothing to export");
+    return bad_input(
+        missing +
+        ", and no two neighbouring positions have both values, so there is nothing to export");
   const std::string range =
       place_text(s.position_m[first]) + " to " + place_text(s.position_m[end - 1]);
   if (!cut) return bad_input(missing, Remedy::cut_range, range);
-  out.notes.push_back(missing + ": only " + range + " is exported, and the end values hold beyond");
+  out.notes.push_back(missing + "; only " + range + " is exported, with the end values beyond it");
   return range_of(s, {first, end});
 }
 
@@ -90,7 +92,7 @@ Result<Series> short_enough(const Series& s, std::int64_t table, std::size_t mos
   if (thin->kept.size() > most) {
     MDOF_TRY(const double enough, algo::tolerance_for(s.position_m, columns, most));
     return bad_input(of_table(s, table) + ": " + std::to_string(thin->kept.size()) +
-                         " points, and the controller takes " + std::to_string(most),
+                         " points, but the controller accepts " + std::to_string(most),
                      Remedy::raise_tolerance, plain_number(to_um(enough * 1.01), 3));
   }
   out.written.push_back({s.error, thin->kept.size(), s.position_m.size(), thin->largest_deviation});
@@ -133,8 +135,8 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables) {
     for (std::size_t j = 0; j < i; ++j)
       if (tables[i].axis == tables[j].axis)
         return fail(ErrorCode::usage, "tables " + std::to_string(tables[j].id) + " and " +
-                                          std::to_string(tables[i].id) + " are both of axis " +
-                                          letter(tables[i].axis) + "; name one for each axis");
+                                          std::to_string(tables[i].id) + " are both for axis " +
+                                          letter(tables[i].axis) + "; name one table per axis");
   return {};
 }
 

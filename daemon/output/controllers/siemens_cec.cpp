@@ -63,8 +63,8 @@ Status add_errors(const CompensationTable& table, const ExportOptions& options, 
   for (const Series& measured : series_of(table)) {
     if (measured.angle || measured.factor == 0) {
       out.left_out.push_back(measured.error + of_table +
-                             (measured.angle ? "an angle acts by its lever, and a CEC table knows "
-                                               "the position of one axis alone"
+                             (measured.angle ? "the effect of an angle depends on a lever, but a "
+                                               "CEC table uses the position of one axis only"
                                              : measured.gap));
       continue;
     }
@@ -74,13 +74,13 @@ Status add_errors(const CompensationTable& table, const ExportOptions& options, 
     text += cec_text(t++, table_of(s, e, e.forward, both ? 0 : 1), s.error);
     if (!both) text += cec_text(t++, table_of(s, e, e.reverse, -1), s.error);
     if (s.along != s.command)
-      out.notes.push_back(s.error + ": the squareness of " + s.along + " and " + s.command +
-                          " is not in it");
+      out.notes.push_back(s.error + ": the table does not contain the squareness of " + s.along +
+                          " and " + s.command);
   }
   if (t == before)
     return bad_input("table " + std::to_string(table.id) +
-                     " has no error that CEC can hold: positioning, or straightness whose "
-                     "correction is known");
+                     " contains no error that CEC can store; CEC stores positioning, and "
+                     "straightness whose correction sign is known");
   return {};
 }
 
@@ -146,7 +146,7 @@ Result<CecTable> read_table(Lines& lines, std::size_t t) {
   const double last = figures[1] + figures[0] * (static_cast<double>(n) - 1);
   if (n < 2 || n > kMostOfSiemens || std::abs(last - figures[2]) > 1e-6 || figures[4] < 0 ||
       figures[5] != 0)
-    return lines.expected("a table whose points, step, MIN and MAX fit");
+    return lines.expected("a table with consistent number of points, step, MIN and MAX");
   table.input = *input;
   table.output = *output;
   table.step_m = from_mm(figures[0]);
@@ -186,7 +186,7 @@ bool add_to(std::vector<AppliedCorrection>& all, const AppliedCorrection& more) 
 
 Result<std::vector<CecTable>> read_tables(const std::vector<ControllerFile>& files) {
   const ControllerFile* file = find_file(files, kFile);
-  if (!file) return bad_input(std::string(kFile) + ": is not there");
+  if (!file) return bad_input(std::string(kFile) + ": the file is missing");
   Lines lines(*file);
   if (!lines.take("CHANDATA(1)")) return lines.expected("CHANDATA(1)");
   std::vector<CecTable> tables;
@@ -194,7 +194,7 @@ Result<std::vector<CecTable>> read_tables(const std::vector<ControllerFile>& fil
     MDOF_TRY(CecTable table, read_table(lines, tables.size()));
     tables.push_back(std::move(table));
   }
-  if (!lines.at_end()) return lines.expected("the end of the file behind M17");
+  if (!lines.at_end()) return lines.expected("the end of the file after M17");
   for (const CecTable& table : tables)
     if (table.multiply_by > tables.size())
       return bad_input(std::string(kFile) + ": $AN_CEC_MULT_BY_TABLE names table " +
@@ -213,8 +213,9 @@ std::string file_text(const std::string& head, const std::string& tables) {
 
 void note_count(std::size_t tables, Export& out) {
   if (tables > kTablesOf828D)
-    out.notes.push_back(std::to_string(tables) + " CEC tables: an 828D has " +
-                        std::to_string(kTablesOf828D) + "; other controls by MD18342");
+    out.notes.push_back(std::to_string(tables) + " CEC tables: an 828D allows " +
+                        std::to_string(kTablesOf828D) +
+                        "; on other controls MD18342 sets the limit");
 }
 
 }  // namespace
@@ -225,7 +226,7 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
   Export out;
   const ExportOptions as_measured = without_tolerance(options, out);
   if (options.home_m)
-    out.notes.emplace_back("home_mm has no effect: CEC has the errors as they are");
+    out.notes.emplace_back("home_mm has no effect, because CEC contains the errors unchanged");
   std::string head, text;
   std::size_t t = 0;
   for (const CompensationTable& table : tables) {
@@ -245,8 +246,8 @@ Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile
   for (std::size_t t = 0; t < tables.size(); ++t)
     if (tables[t].multiply_by != 0 || !add_to(all, applied_by(tables[t])))
       return bad_input(std::string(kFile) + ": table " + std::to_string(t) +
-                       ": no product and the places of the table before, of the same axes, are "
-                       "expected");
+                       ": a product is not expected here, and the positions must be those of the "
+                       "earlier table of the same axes");
   return all;
 }
 
@@ -294,7 +295,7 @@ Result<std::vector<double>> commands_of(const std::vector<CecTable>& tables, cha
       own.push_back(table.first_m + table.step_m * static_cast<double>(i));
     if (!commands.empty() && commands != own)
       return bad_input(std::string(kFile) + ": the tables of axis " + axis +
-                       " have not the same places");
+                       " have different positions");
     commands = std::move(own);
   }
   if (commands.empty()) commands = {0};
@@ -332,8 +333,8 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
     if (t.command_m[axis].size() > kMostOfSiemens)
       return bad_input("table " + std::to_string(t.id) + ": " +
                        std::to_string(t.command_m[axis].size()) + " commands of " +
-                       kLinearAxes[axis] + ", and a CEC table has at most " +
-                       std::to_string(kMostOfSiemens) + " points; build it with larger steps");
+                       kLinearAxes[axis] + ", but a CEC table has at most " +
+                       std::to_string(kMostOfSiemens) + " points; build a table with larger steps");
   }
   std::vector<CecTable> tables;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -353,13 +354,14 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
   const auto head =
       head_of(t, options, "mm; value = what is added to the command of the output axis");
   out.files.push_back({kFile, file_text(commented(head, ";"), text)});
-  out.notes.push_back("what sums and products of tables of one axis cannot hold: " +
-                      plain_number(to_um(out.left_m), 2) + " um");
+  out.notes.push_back(
+      "largest residual that sums and products of one-axis tables cannot represent: " +
+      plain_number(to_um(out.left_m), 2) + " um");
   if (std::any_of(tables.begin(), tables.end(),
                   [](const CecTable& one) { return one.multiply_by > 0; }))
     out.notes.emplace_back(
-        "products (MULT_BY_TABLE): the manual's example has their product alone; see on the "
-        "machine that the control does not add the factors themselves, which are below " +
+        "products (MULT_BY_TABLE): the example in the manual uses only the product; check on the "
+        "machine that the control does not also add the factors, which are below " +
         plain_number(to_um(largest_factor(tables)), 2) + " um");
   note_count(tables.size(), out);
   count_nodes(t, out);

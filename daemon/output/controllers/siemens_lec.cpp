@@ -75,7 +75,9 @@ Result<AppliedCorrection> read_lec_file(const ControllerFile& file) {
   const auto n = static_cast<double>(read.forward.size());
   if (at + 1 != lines.size() || lines[at] != "M17" || n < 2 || n > kMostOfSiemens ||
       figures[3] != 0 || std::abs(figures[1] + figures[0] * (n - 1) - figures[2]) > 1e-7)
-    return bad_input(file.name + ": points, step, MIN and MAX do not fit, or M17 is not its end");
+    return bad_input(file.name +
+                     ": number of points, step, MIN and MAX are not consistent, or the file does "
+                     "not end with M17");
   for (std::size_t i = 0; i < read.forward.size(); ++i)
     read.position_m.push_back(from_mm(figures[1] + figures[0] * static_cast<double>(i)));
   read.reverse = read.forward;
@@ -95,8 +97,9 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
     for (std::size_t i = 0; i < s.position_m.size(); ++i)
       reversal = std::max(reversal, std::abs(s.forward[i] - s.reverse[i]));
     if (reversal > 0)
-      out.left_out.push_back(s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +
-                             " um: ENC_COMP has one value for both approaches, their mean");
+      out.left_out.push_back(
+          s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +
+          " um, because ENC_COMP has one value for both approaches (their mean)");
     MDOF_TRY(const EqualSteps e, equal_steps(mean_of_approaches(s), out));
     out.files.push_back({std::string(1, s.along) + "_EEC.INI", lec_text(table, s, e, options)});
   }

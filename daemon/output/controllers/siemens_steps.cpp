@@ -36,7 +36,7 @@ std::vector<double> resampled(const Series& s, const std::vector<double>& approa
 Result<EqualSteps> equal_steps(const Series& s, Export& out) {
   const auto& x = s.position_m;
   if (x.size() < 2)
-    return bad_input(s.error + ": one point, and a table of equal steps has two at least");
+    return bad_input(s.error + ": has one point, but a table of equal steps needs at least two");
   const double range = x.back() - x.front();
   double smallest = range;
   for (std::size_t i = 1; i < x.size(); ++i) smallest = std::min(smallest, x[i] - x[i - 1]);
@@ -49,10 +49,11 @@ Result<EqualSteps> equal_steps(const Series& s, Export& out) {
   e.forward = resampled(s, s.forward, steps, e);
   e.reverse = resampled(s, s.reverse, steps, e);
   if (e.loss_m > kSameStep_m)
-    out.notes.push_back(s.error + ": " + std::to_string(x.size()) + " points became " +
-                        std::to_string(e.forward.size()) + " at equal steps of " +
-                        plain_number(to_mm(e.step_m), 7) + " mm, by which up to " +
-                        plain_number(to_um(e.loss_m)) + " um are lost");
+    out.notes.push_back(s.error + ": " + std::to_string(x.size()) +
+                        " points were interpolated to " + std::to_string(e.forward.size()) +
+                        " at equal steps of " + plain_number(to_mm(e.step_m), 7) +
+                        " mm, which changes values by up to " + plain_number(to_um(e.loss_m)) +
+                        " um");
   out.written.back().points = e.forward.size();
   out.written.back().largest_deviation = e.loss_m;
   return e;
@@ -60,7 +61,7 @@ Result<EqualSteps> equal_steps(const Series& s, Export& out) {
 
 ExportOptions without_tolerance(const ExportOptions& options, Export& out) {
   if (options.tolerance_m > 0)
-    out.notes.emplace_back("tolerance_um has no effect: the points are at equal steps");
+    out.notes.emplace_back("tolerance_um has no effect, because the points are at equal steps");
   ExportOptions all_points = options;
   all_points.tolerance_m = 0;
   return all_points;

@@ -46,7 +46,7 @@ Result<Export> exported(const SquareAxes& axes, const ExportOptions& options, co
 Result<std::string_view> value_of(const std::vector<ControllerFile>& files, const char* name,
                                   char sign, std::string_view begin) {
   const ControllerFile* file = find_file(files, name);
-  if (!file) return bad_input(std::string(name) + ": is not there");
+  if (!file) return bad_input(std::string(name) + ": the file is missing");
   std::size_t n = 0;
   for (const std::string_view line : lines_of(file->text)) {
     ++n;
@@ -61,7 +61,7 @@ Result<double> number_of(const std::vector<ControllerFile>& files, const char* n
                          std::string_view begin) {
   MDOF_TRY(const std::string_view text, value_of(files, name, sign, begin));
   if (const auto x = decimal_from(text)) return *x;
-  return bad_input(std::string(name) + ": no number behind " + std::string(begin));
+  return bad_input(std::string(name) + ": no number after " + std::string(begin));
 }
 
 }  // namespace
@@ -69,8 +69,9 @@ Result<double> number_of(const std::vector<ControllerFile>& files, const char* n
 Result<double> shear_of(const SquareAxes& axes) {
   if (!axes.machine.known())
     return bad_input(
-        "the machine's chain is not known: a wrong sign scraps parts; add [machine] chain, such as "
-        "\"w-Y-X-b-Z-t\", to the rigs of the runs and measure or replay them again");
+        "the chain of the machine is unknown, so the sign of the correction is unknown; add "
+        "[machine] chain, such as \"w-Y-X-b-Z-t\", to the rigs of the runs and measure or replay "
+        "them again");
   const ChainAxis* x = axes.machine.find('X');
   const ChainAxis* y = axes.machine.find('Y');
   if (!x || !y)
@@ -84,9 +85,10 @@ Result<Export> write_klipper(const SquareAxes& axes, const ExportOptions& option
   const double cosine = k / std::hypot(1, k);  // of the angle at B, between BA and BC
   const double AC = kSide_mm * std::sqrt(2 - 2 * cosine);
   const double BD = kSide_mm * std::sqrt(2 + 2 * cosine);
-  return exported(axes, options, kGcode, ";",
-                  {"needs [skew_correction] in printer.cfg; keep it with SKEW_PROFILE SAVE=mdof"},
-                  "SET_SKEW XY=" + fixed(AC, 10) + "," + fixed(BD, 10) + "," + fixed(kSide_mm, 10));
+  return exported(
+      axes, options, kGcode, ";",
+      {"needs [skew_correction] in printer.cfg; save the values with SKEW_PROFILE SAVE=mdof"},
+      "SET_SKEW XY=" + fixed(AC, 10) + "," + fixed(BD, 10) + "," + fixed(kSide_mm, 10));
 }
 
 Result<double> read_klipper(const std::vector<ControllerFile>& files) {
@@ -108,7 +110,7 @@ Result<double> read_klipper(const std::vector<ControllerFile>& files) {
 Result<Export> write_marlin(const SquareAxes& axes, const ExportOptions& options) {
   MDOF_TRY(const double k, shear_of(axes));
   return exported(axes, options, kGcode, ";",
-                  {"needs SKEW_CORRECTION and SKEW_CORRECTION_GCODE; keep it with M500"},
+                  {"needs SKEW_CORRECTION and SKEW_CORRECTION_GCODE; save the value with M500"},
                   "M852 I" + fixed(-k, 10));
 }
 
@@ -119,7 +121,7 @@ Result<double> read_marlin(const std::vector<ControllerFile>& files) {
 
 Result<Export> write_reprapfirmware(const SquareAxes& axes, const ExportOptions& options) {
   MDOF_TRY(const double k, shear_of(axes));
-  return exported(axes, options, kGcode, ";", {"into config.g"},
+  return exported(axes, options, kGcode, ";", {"put this line into config.g"},
                   "M556 S100 X" + fixed(k * kSide_mm, 8));
 }
 
@@ -130,9 +132,10 @@ Result<double> read_reprapfirmware(const std::vector<ControllerFile>& files) {
 
 Result<Export> write_matrixkins(const SquareAxes& axes, const ExportOptions& options) {
   MDOF_TRY(const double k, shear_of(axes));
-  return exported(axes, options, kHal, "#",
-                  {"needs [KINS] KINEMATICS = matrixkins; into the HAL file behind loadrt"},
-                  "setp matrixkins.C_xy " + fixed(k, 12));
+  return exported(
+      axes, options, kHal, "#",
+      {"needs [KINS] KINEMATICS = matrixkins; put this line into the HAL file after loadrt"},
+      "setp matrixkins.C_xy " + fixed(k, 12));
 }
 
 Result<double> read_matrixkins(const std::vector<ControllerFile>& files) {

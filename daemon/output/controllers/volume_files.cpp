@@ -94,8 +94,9 @@ std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& 
 
 void note_options(const ExportOptions& options, Export& out) {
   if (options.tolerance_m > 0)
-    out.notes.emplace_back("the tolerance has no effect: no node is left out");
-  if (options.home_m) out.notes.emplace_back("home_mm has no effect: the grid is as it is");
+    out.notes.emplace_back("the tolerance has no effect, because no node is left out");
+  if (options.home_m)
+    out.notes.emplace_back("home_mm has no effect, because the grid is written unchanged");
 }
 
 void count_nodes(const VolumetricTable& t, Export& out) {
@@ -117,7 +118,7 @@ Result<double> equal_step(const VolumetricTable& t, std::size_t axis,
   for (std::size_t i = 0; i < c.size(); ++i)
     if (std::abs(c[i] - c.front() - step * static_cast<double>(i)) > kStepsEqual_m)
       return bad_input("table " + std::to_string(t.id) + ": the steps along " + letter_of(axis) +
-                       " are not equal, which " + controller + " needs");
+                       " are not equal, but " + controller + " needs equal steps");
   return step;
 }
 
@@ -146,7 +147,7 @@ Result<Export> write_isg_csv(const VolumetricTable& t, const ExportOptions& opti
 
 Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files) {
   const ControllerFile* file = find_file(files, kIsgTable);
-  if (!file) return bad_input(std::string(kIsgTable) + ": is not there");
+  if (!file) return bad_input(std::string(kIsgTable) + ": the file is missing");
   std::vector<std::size_t> axes;
   std::vector<std::vector<double>> rows;
   std::size_t n = 0;
@@ -161,12 +162,12 @@ Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files) {
       const std::size_t m = axes.size();
       if (m == 0 || words.size() != m + 3 || words[m] != "EXX" || words[m + 1] != "EYX" ||
           words[m + 2] != "EZX")
-        return wrong_at(file->name, n, "the columns are not axes, EXX, EYX and EZX");
+        return wrong_at(file->name, n, "columns of axes, then EXX, EYX and EZX are expected");
       continue;
     }
     auto row = numbers_in(line, ' ');
     if (!row || row->size() != axes.size() + 3)
-      return wrong_at(file->name, n, "not a number a column");
+      return wrong_at(file->name, n, "one number for each column is expected");
     rows.push_back(std::move(*row));
   }
   VolumetricTable t;
@@ -210,7 +211,8 @@ Result<Export> write_dynomotion(const VolumetricTable& t, const ExportOptions& o
   const std::size_t columns = t.command_m[0].size(), rows = t.command_m[1].size();
   if (columns < 2 || rows < 2 || t.command_m[2].size() > 1)
     return bad_input("table " + std::to_string(t.id) +
-                     " is not of the plane XY, and KMotion holds nothing else; build one of it");
+                     " is not a table of the plane XY, but KMotion stores only that plane; build a "
+                     "table of the plane XY");
   MDOF_TRY(const double step_x, equal_step(t, 0, "KMotion"));
   MDOF_TRY(const double step_y, equal_step(t, 1, "KMotion"));
   Export out;
@@ -226,20 +228,20 @@ Result<Export> write_dynomotion(const VolumetricTable& t, const ExportOptions& o
               "," + inches(c[2]) + "\n";
     }
   // KMotion reads as many rows as the first line says, and nothing behind them.
-  text += commented(
-      head_of(t, options,
-              "row, column, X and Y to move to instead, what is added to Z; steps and places of "
-              "machine coordinates; all in inch"),
-      "//");
+  text += commented(head_of(t, options,
+                            "row, column, corrected command of X and Y, correction added to Z; "
+                            "steps and positions in machine coordinates; all in inch"),
+                    "//");
   out.files.push_back({kGeoTable, std::move(text)});
-  out.notes.emplace_back("beyond the grid KMotion continues the last cell: keep the work inside");
+  out.notes.emplace_back(
+      "beyond the grid KMotion extrapolates the last cell; keep the work inside the grid");
   count_nodes(t, out);
   return out;
 }
 
 Result<VolumetricTable> read_dynomotion(const std::vector<ControllerFile>& files) {
   const ControllerFile* file = find_file(files, kGeoTable);
-  if (!file) return bad_input(std::string(kGeoTable) + ": is not there");
+  if (!file) return bad_input(std::string(kGeoTable) + ": the file is missing");
   const auto lines = lines_of(file->text);
   std::array<std::vector<double>, 3> head;
   for (std::size_t i = 0; i < head.size(); ++i) {

@@ -107,9 +107,10 @@ Status make_socket_folder(const std::string& socket) {
 }
 
 std::string first_configuration(const std::string& file) {
-  return file + R"(: is not there. Two files are needed: this configuration and a rig for each axis.
-Write them there (--config FILE names another place); with the simulator as the device all works
-without hardware. Then: mdofd --check-config
+  return file +
+         R"(: the configuration is missing. Create two files: this configuration, and a rig for
+each axis (--config FILE names another place). The example uses the simulator as its device, so it
+works without hardware. Then check the files with mdofd --check-config
 
 # --- )" +
          file +

@@ -51,7 +51,7 @@ constexpr std::array<FactKind, 10> kKinds = {{
      "WHERE generation = ?"},
     {Fact::deactivation, "deactivation", "generation", "deactivation of generation",
      "SELECT axis, actor, deactivated_utc FROM deactivation NOT INDEXED WHERE generation = ?"},
-    {Fact::action, "deed", "id", "deed",
+    {Fact::action, "deed", "id", "action",
      "SELECT name, subject, row, uid, gid, pid, user, utc FROM deed NOT INDEXED WHERE id = ?"},
     {Fact::encoder_datum, "encoder_datum", "id", "encoder datum",
      "SELECT axis, device, before_m, position_m, offset_m, utc FROM encoder_datum NOT INDEXED "
@@ -114,9 +114,9 @@ std::string finding(const FactKind& kind, std::int64_t row, const char* what) {
          "; restore the database from a backup";
 }
 
-constexpr const char* kChanged = "is not what was stored (its hash differs)";
+constexpr const char* kChanged = "was changed after it was stored (its hash differs)";
 constexpr const char* kUnlinked = "was not stored by mdof (it has no hash)";
-constexpr const char* kGone = "is gone";
+constexpr const char* kGone = "is missing";
 
 tl::unexpected<Error> damaged(const Connection& connection, const std::string& what) {
   return bad_input(connection.file().string() + ": " + what, Remedy::verify_database);
@@ -166,8 +166,8 @@ Status check_all(Connection& connection, std::vector<std::string>& findings, Wan
     if (!wanted(kind.fact)) continue;
     MDOF_TRY(const std::int64_t stored, count(connection, kind));
     if (stored != linked[static_cast<std::size_t>(kind.fact)])
-      findings.push_back("there are " + std::to_string(stored) + " rows of " + kind.name +
-                         ", and hashes of " +
+      findings.push_back("table " + std::string(kind.name) + " has " + std::to_string(stored) +
+                         " rows, but the ledger has hashes of " +
                          std::to_string(linked[static_cast<std::size_t>(kind.fact)]) +
                          "; restore the database from a backup");
   }

@@ -16,7 +16,7 @@ Result<std::optional<Plausibility>> Store::plausibility(std::int64_t run) {
   auto stored = read_plausibility_json(std::string(row.text(0)));
   if (stored) return std::optional(std::move(*stored));
   return bad_input(file().string() + ": the plausibility of run " + std::to_string(run) +
-                   " is not what was stored: " + stored.error().message +
+                   " was changed after it was stored: " + stored.error().message +
                    "; restore the database from a backup");
 }
 

@@ -186,7 +186,7 @@ Result<RunHeader> Store::run_header(std::int64_t run) {
   MDOF_TRY(auto list, headers("WHERE run.id BETWEEN ?1 AND ?2", run, run, std::nullopt));
   if (list.empty())
     return bad_input(file().string() + ": run " + std::to_string(run) +
-                     " has lost a row that it refers to; restore the database from a backup");
+                     " refers to a row that is missing; restore the database from a backup");
   return std::move(list.front());
 }
 
@@ -265,7 +265,7 @@ Status Store::check_points(std::int64_t run, std::int64_t offset,
 
 tl::unexpected<Error> Store::other_rows(std::int64_t run) const {
   return bad_input(file().string() + ": run " + std::to_string(run) +
-                   ": its result rows are not those that were stored; replay its recording");
+                   ": its results were changed after they were stored; replay its recording");
 }
 
 Result<std::vector<MeasuredPoint>> Store::read_points(std::int64_t run, std::int64_t offset,

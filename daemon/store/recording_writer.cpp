@@ -43,11 +43,12 @@ Status create_file(const fs::path& file) {
     return {};
   }
   if (errno == EEXIST)
-    return fail(
-        ErrorCode::conflict,
-        file.string() + ": exists already; a recording is never written over: name another");
-  return io_error(file.string() + ": cannot be created: " + std::strerror(errno) +
-                  ". Check the folder's mode, the free space and that its file system is writable");
+    return fail(ErrorCode::conflict,
+                file.string() +
+                    ": exists already, and a recording is never overwritten; name another file");
+  return io_error(
+      file.string() + ": cannot be created: " + std::strerror(errno) +
+      "; check the mode of the folder, the free space and whether the file system is writable");
 }
 
 Status write_header(Connection& connection, const RecordingHeader& header) {
@@ -131,13 +132,13 @@ Status RecordingWriter::append(const SampleBlock& block) {
   Stream& stream = streams_[block.device];
   if (!increases(stream.last_ns, block.time_ns))
     return bad_input(connection_.file().string() + ": device \"" + block.device +
-                     "\": time does not increase; the driver must be opened anew");
+                     "\": time does not increase; the driver must be opened again");
   if (waiting_bytes_ > kMaxWaitingBytes) {
     stream.lost += block.lost + block.scans();
     lost_ += block.lost + block.scans();
-    return io_error(
-        connection_.file().string() +
-        ": cannot be written, and too much is waiting: samples are lost. Free some space");
+    return io_error(connection_.file().string() +
+                    ": cannot be written, and the buffer is full, so samples are lost; free some "
+                    "space on the disk");
   }
   if (block.channels != stream.block.channels || block.lost + stream.lost > 0)
     MDOF_CHECK(flush(stream));

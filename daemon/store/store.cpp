@@ -29,8 +29,9 @@ Status make_parent(const fs::path& file) {
   fs::create_directories(file.parent_path(), ec);
   std::error_code ignored;  // what cannot be looked at is not there for us
   if (ec && !fs::is_directory(file.parent_path(), ignored))
-    return io_error(file.parent_path().string() + ": the database's folder cannot be made: " +
-                    ec.message() + "; make it, or name another place");
+    return io_error(file.parent_path().string() +
+                    ": the folder of the database cannot be created: " + ec.message() +
+                    "; create it, or name another place");
   return {};
 }
 
@@ -40,8 +41,8 @@ Status check_one_name(const fs::path& file) {
   const auto names = fs::hard_link_count(file, ec);
   if (ec || names < 2) return {};
   return bad_input(file.string() + ": this database has " + std::to_string(names) +
-                   " names (hard links), and its journal is beside one of them alone: remove the "
-                   "other names, or copy the file where a copy is wanted");
+                   " names (hard links), but its journal belongs to only one of them; remove the "
+                   "other names, or copy the file if you want a copy");
 }
 
 // Another user's database that no mdof writes now is a foreign file: to read it with a -shm of our
@@ -63,8 +64,8 @@ Status check_schema_is_current(Connection& connection) {
   MDOF_TRY(const std::int64_t version, connection.integer("PRAGMA user_version"));
   if (version == known_version()) return {};
   return bad_input(connection.file().string() + ": has schema version " + std::to_string(version) +
-                   " and must be brought to " + std::to_string(known_version()) +
-                   " first: open it once for writing (start mdofd, or store a run)");
+                   ", but this program needs version " + std::to_string(known_version()) +
+                   "; start mdofd or store a run, which updates the database");
 }
 
 Status set_up_writer(Connection& connection, Durability durability) {
@@ -89,8 +90,9 @@ Result<Store> Store::open(const fs::path& file, Access access, StoreOptions opti
   if (access == Access::read_only) {
     std::error_code ec;
     if (!fs::exists(file, ec))
-      return fail(ErrorCode::not_found,
-                  file.string() + ": no such database; it is made when the first run is stored");
+      return fail(
+          ErrorCode::not_found,
+          file.string() + ": no such database; mdof creates it when the first run is stored");
     MDOF_TRY(Connection connection, open_reader(file, options.busy_timeout_ms));
     MDOF_CHECK(check_schema_is_current(connection));
     return Store(WriterLock(), std::move(connection), access);

@@ -33,12 +33,11 @@ Status Store::check_head(const ChainHead& reported) {
   MDOF_TRY(const bool found, store::has_link(connection_, reported));
   if (found) return {};
   MDOF_TRY(const ChainHead now, chain_head());
-  return bad_input(file().string() + ": its chain of hashes has no link " +
+  return bad_input(file().string() + ": the chain of hashes has no link " +
                    std::to_string(reported.link) + " of hash " + reported.sha256 +
-                   " any more, which mdofd reported last, and ends at link " +
-                   std::to_string(now.link) +
-                   ": what was stored last is gone, or was changed. Restore the database; or, to "
-                   "go on with this one, remove " +
+                   ", which mdofd reported last; it ends at link " + std::to_string(now.link) +
+                   ", so the newest entries are missing or were changed. Restore the database; or, "
+                   "to continue with this one, remove " +
                    announced_head_file(file()).string());
 }
 
@@ -56,7 +55,7 @@ Status Store::verify_file(std::vector<std::string>& findings) {
     MDOF_TRY(const bool row, rows.step());
     if (!row) return {};
     findings.push_back("table " + std::string(rows.text(0)) + ": row " + std::string(rows.text(1)) +
-                       " refers to a row of " + std::string(rows.text(2)) + " that is not there");
+                       " refers to a row of " + std::string(rows.text(2)) + " that is missing");
   }
 }
 
@@ -66,8 +65,9 @@ Status Store::verify_documents(std::vector<std::string>& findings) {
     MDOF_TRY(const bool row, rows.step());
     if (!row) return {};
     if (sha256_hex(rows.text(2)) != rows.text(1))
-      findings.push_back("document " + std::to_string(rows.integer(0)) +
-                         " (a rig, a plan, options or a configuration) is not what was stored");
+      findings.push_back(
+          "document " + std::to_string(rows.integer(0)) +
+          " (a rig, a plan, options or a configuration) was changed after it was stored");
   }
 }
 
@@ -80,7 +80,7 @@ Status Store::verify_runs(std::vector<std::string>& findings) {
     MDOF_TRY(const std::string sha256, result_sha256(run));
     if (sha256 != rows.text(1))
       findings.push_back("run " + std::to_string(run) +
-                         ": its result rows are not those that were stored; replay its recording");
+                         ": its results were changed after they were stored; replay its recording");
   }
 }
 

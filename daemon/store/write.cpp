@@ -143,8 +143,9 @@ Result<std::int64_t> Store::end_and_supersede(std::int64_t run, const RunEnd& en
 
 Status Store::check_open(std::int64_t run) const {
   if (open_runs_.contains(run)) return {};
-  return fail(ErrorCode::conflict, "run " + std::to_string(run) +
-                                       ": has ended, or was begun elsewhere; start a new run");
+  return fail(ErrorCode::conflict,
+              "run " + std::to_string(run) +
+                  ": has ended, or was started by another program; start a new run");
 }
 
 // There is one writer, and it has just started: whatever has no end will not get one any more.

@@ -61,7 +61,7 @@ TEST_F(ActivationTest, OfAnotherIsRefusedByItsName) {
   store_.emplace(open_store());
   const auto done = activated(id);
   ASSERT_FALSE(done);
-  EXPECT_NE(done.error().message.find("compensation table 1: is not what was stored"),
+  EXPECT_NE(done.error().message.find("compensation table 1: was changed after it was stored"),
             std::string::npos)
       << done.error().message;
   EXPECT_EQ(store_->generation().value(), 0);

@@ -243,7 +243,7 @@ class EncoderDatum(unittest.TestCase):
         database.close()
         code, out, err = self.mdof("verify", "--db", self.daemon.database)
         self.assertEqual(code, 1, out + err)
-        self.assertIn("encoder datum 1: is not what was stored", " ".join((out + err).split()))
+        self.assertIn("encoder datum 1: was changed after it was stored", " ".join((out + err).split()))
         self.client = self.daemon.start()
 
     def test_what_cannot_be_stored_does_not_hold(self):

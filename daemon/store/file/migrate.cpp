@@ -33,7 +33,7 @@ Status back_up(Connection& connection, std::int64_t version) {
   fs::remove(partial, ec);
   MDOF_TRY(Statement copy, connection.prepare("VACUUM INTO ?"));
   if (const Status copied = copy.bind(std::string_view(partial)).run(); !copied)
-    return in_context("no backup before the change of schema, so nothing was changed",
+    return in_context("the backup before the schema change failed, so nothing was changed",
                       copied.error());
   flush_to_disk(partial);
   fs::rename(partial, name, ec);
@@ -63,8 +63,8 @@ Status check_kind(Connection& connection, int known) {
   MDOF_TRY(const std::int64_t version, connection.integer("PRAGMA user_version"));
   if (version > known)
     return bad_input(file + ": has schema version " + std::to_string(version) +
-                     ", this program knows versions up to " + std::to_string(known) +
-                     "; use the newer mdof that wrote it, or a backup from before (" + file +
+                     ", but this program supports versions up to " + std::to_string(known) +
+                     "; use the newer mdof that wrote it, or an earlier backup (" + file +
                      ".schema-*.backup)");
   return {};
 }

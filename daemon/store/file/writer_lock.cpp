@@ -76,13 +76,13 @@ int descriptor_of(const fs::path& database, int flags) {
 
 tl::unexpected<Error> not_opened(const fs::path& database) {
   return io_error(database.string() + ": cannot be opened for writing: " + std::strerror(errno) +
-                  ". To store anything the database and its folder must be writable: check owner "
-                  "and mode and that the file system is not mounted read-only, or name another");
+                  "; the database and its folder must be writable: check owner, mode and whether "
+                  "the file system is mounted read-only, or name another database");
 }
 
 tl::unexpected<Error> not_locked(const std::string& database) {
   return io_error(database + ": cannot be locked: " + std::strerror(errno) +
-                  ". Keep the database on a local file system");
+                  "; keep the database on a local file system");
 }
 
 }  // namespace
@@ -116,9 +116,10 @@ Result<WriterLock> WriterLock::acquire(const fs::path& database, int timeout_ms)
     if (waited_ms >= timeout_ms) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
   }
-  return fail(ErrorCode::conflict, database.string() +
-                                       ": another program (mdofd?) is writing this database, and "
-                                       "only one may; wait for it, or name another database");
+  return fail(ErrorCode::conflict,
+              database.string() +
+                  ": another program (perhaps mdofd) is writing this database, and only one "
+                  "program can write; wait until that program ends, or name another database");
 }
 
 bool WriterLock::held_byte(const fs::path& database, std::int64_t byte) {

@@ -41,7 +41,7 @@ Result<StudyRecord> Store::study(std::int64_t id) {
   MDOF_TRY(const bool found, row.bind(id).step());
   if (found) return record_of(row);
   return bad_input(file().string() + ": study " + std::to_string(id) +
-                   " has lost a row that it refers to; restore the database from a backup");
+                   " refers to a row that is missing; restore the database from a backup");
 }
 
 Result<std::vector<StudyRecord>> Store::list_studies(std::int64_t offset, std::int64_t count) {
@@ -82,7 +82,7 @@ Result<std::optional<StudyCheckpoint>> Store::study_checkpoint(std::int64_t stud
   StudyCheckpoint checkpoint{natural(row.integer(0)), std::string(row.bytes(2))};
   if (sha256_hex(checkpoint.bytes) == row.text(1)) return std::optional(std::move(checkpoint));
   return bad_input(file().string() + ": the checkpoint of study " + std::to_string(study) +
-                   " is damaged; run the study anew with its seed");
+                   " is damaged; run the study again with its seed");
 }
 
 Status Store::verify_studies(std::vector<std::string>& findings) {
@@ -93,7 +93,7 @@ Status Store::verify_studies(std::vector<std::string>& findings) {
     if (!row) break;
     if (sha256_hex(rows.text(1)) != rows.text(2))
       findings.push_back("study " + std::to_string(rows.integer(0)) +
-                         ": its figures are not those that were stored; run it anew");
+                         ": its figures were changed after they were stored; run the study again");
   }
   MDOF_TRY(Statement checkpoints, connection_.prepare("SELECT study FROM study_checkpoint"));
   for (;;) {

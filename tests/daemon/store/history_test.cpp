@@ -89,7 +89,7 @@ TEST_F(Deeds, ADeedOfAnotherIsFound) {
   }
   const auto reported = reader()->list_actions(0, 10);
   ASSERT_FALSE(reported);
-  EXPECT_TRUE(contains(reported.error().message, "deed 1: is not what was stored"))
+  EXPECT_TRUE(contains(reported.error().message, "action 1: was changed after it was stored"))
       << reported.error().message;
 }
 

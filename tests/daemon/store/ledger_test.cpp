@@ -223,7 +223,7 @@ TEST_F(LedgerTest, ADamagedRunIsListedAsFailedAndSaysWhy) {
   ASSERT_EQ(list.size(), 3u);
   EXPECT_EQ(list[1].state, RunState::failed);
   EXPECT_EQ(list[1].notices.front().code, NoticeCode::row_damaged);
-  EXPECT_TRUE(contains(test::shown(list[1].notices), "run 2: is not what was stored"))
+  EXPECT_TRUE(contains(test::shown(list[1].notices), "run 2: was changed after it was stored"))
       << test::shown(list[1].notices);
   EXPECT_EQ(list[0].state, RunState::complete);
 }

@@ -108,7 +108,8 @@ TEST_F(StoreTest, KeepsThePlausibilityOfARun) {
   EXPECT_EQ(result_sha256(run), result_sha256(make_run()));  // no part of the result
   EXPECT_FALSE(store->run(store->add_run(make_run()).value()).value().plausibility);
   tamper("DROP TRIGGER run_plausibility_no_update; UPDATE run_plausibility SET json = '{'");
-  EXPECT_TRUE(contains(store->run(id).error().message, "end of run 1: is not what was stored"));
+  EXPECT_TRUE(
+      contains(store->run(id).error().message, "end of run 1: was changed after it was stored"));
 }
 
 TEST_F(StoreTest, AnUnknownScalarStaysUnknown) {
@@ -342,10 +343,10 @@ TEST_F(StoreTest, VerifyFindsChangedResultsAndTexts) {
   EXPECT_FALSE(contains(findings(), "run 1:")) << findings();
   tamper("DROP TRIGGER document_no_update; UPDATE document SET text = 'x' WHERE id = 1;");
   EXPECT_TRUE(contains(findings(), "document 1 ")) << findings();
-  EXPECT_TRUE(contains(findings(), "run 1: is not what was stored")) << findings();
+  EXPECT_TRUE(contains(findings(), "run 1: was changed after it was stored")) << findings();
   tamper("PRAGMA foreign_keys = OFF; DROP TRIGGER recording_no_delete; DELETE FROM recording");
   EXPECT_TRUE(contains(findings(), "refers to a row of recording")) << findings();
-  EXPECT_TRUE(contains(findings(), "run 1: is gone")) << findings();
+  EXPECT_TRUE(contains(findings(), "run 1: is missing")) << findings();
 }
 
 }  // namespace

@@ -153,7 +153,7 @@ TEST(StudyRunner, TheAdaptiveRuleEndsAtItsLimit) {
   StudyRunner runner = StudyRunner::create(noise, options, processes).value();
   StudyWork work = work_of(noise, options);
   EXPECT_EQ(runner.run(work), StudyState::complete);
-  EXPECT_NE(runner.not_settled().find("within the trials allowed"), std::string::npos);
+  EXPECT_NE(runner.not_settled().find("within the permitted number of trials"), std::string::npos);
   EXPECT_GE(work.trials, 100000u);
   EXPECT_LT(work.trials, 100000u + algo::block_trials(noise));
 }
@@ -179,7 +179,7 @@ TEST(StudyRunner, TheAdaptiveRuleEndsWhereAnOutputIsNeverSolved) {
   StudyRunner runner = StudyRunner::create(half, adaptive(2), processes).value();
   StudyWork work = work_of(half, adaptive(2));
   EXPECT_EQ(runner.run(work), StudyState::complete);
-  EXPECT_NE(runner.not_settled().find("fewer than two of B_um"), std::string::npos)
+  EXPECT_NE(runner.not_settled().find("fewer than two values of B_um"), std::string::npos)
       << runner.not_settled();
   EXPECT_EQ(work.trials, algo::adaptive_block_trials(half, 0.95).value());
 }

@@ -64,7 +64,7 @@ std::string study_csv(const StudyResult& result) {
              std::to_string(result.trials));
   rows.end();
   if (!result.binned_key.empty()) {
-    rows.field("# from and to are of " + result.binned_key + "; empty: over all");
+    rows.field("# from and to: part of the range of " + result.binned_key + "; empty: whole range");
     rows.end();
   }
   if (result.outputs.empty()) return rows.take();

@@ -12,19 +12,20 @@ using Options = algo::SimulationOptions;
 
 constexpr std::array kNumbers = {
     PresetNumber{"angle_range_urad", &Options::angle_range_urad,
-                 "True roll, pitch and yaw: uniform within ± this"},
+                 "Limit (±) of true roll, pitch and yaw, which are uniform"},
     PresetNumber{"offset_range_um", &Options::offset_range_um,
-                 "True straightness errors: uniform within ± this"},
+                 "Limit (±) of true straightness errors, which are uniform"},
     PresetNumber{"l_mm", &Options::l_mm, "Distance l of A, B, C and E from the origin"},
-    PresetNumber{"side_plane_mm", &Options::side_plane_mm, "y of the side target surface"},
+    PresetNumber{"side_plane_mm", &Options::side_plane_mm,
+                 "Coordinate y of the side target surface"},
     PresetNumber{"side_height_mm", &Options::side_height_mm, "Height l'' of D and E"},
-    PresetNumber{"radius_um", &Options::radius_um, "Each probe is displaced by this radius r"},
-    PresetNumber{"theta_y_mrad", &Options::theta_y_mrad, "Top unit turned about Z"},
-    PresetNumber{"theta_p_mrad", &Options::theta_p_mrad, "Side unit turned about Y"},
-    PresetNumber{"theta_r_mrad", &Options::theta_r_mrad, "Both units turned about X"},
-    PresetNumber{"sigma_x_um", &Options::sigma_x_um, "Units displaced along X"},
-    PresetNumber{"sigma_y_um", &Options::sigma_y_um, "Top unit displaced along Y"},
-    PresetNumber{"sigma_z_um", &Options::sigma_z_um, "Side unit displaced along Z"},
+    PresetNumber{"radius_um", &Options::radius_um, "Radius r by which each probe is displaced"},
+    PresetNumber{"theta_y_mrad", &Options::theta_y_mrad, "Rotation of the top unit about Z"},
+    PresetNumber{"theta_p_mrad", &Options::theta_p_mrad, "Rotation of the side unit about Y"},
+    PresetNumber{"theta_r_mrad", &Options::theta_r_mrad, "Rotation of both units about X"},
+    PresetNumber{"sigma_x_um", &Options::sigma_x_um, "Displacement of the units along X"},
+    PresetNumber{"sigma_y_um", &Options::sigma_y_um, "Displacement of the top unit along Y"},
+    PresetNumber{"sigma_z_um", &Options::sigma_z_um, "Displacement of the side unit along Z"},
 };
 
 // Shortest text that reads back to the same bits.
@@ -45,9 +46,9 @@ Result<Options> preset_defaults(const std::string& name) {
   if (name == "simulation-2") return algo::simulation_2_defaults();
   const std::string nearest = nearest_of(name, {"simulation-1", "simulation-2"});
   return fail(ErrorCode::usage,
-              "--preset: \"" + name + "\" is none" +
+              "--preset: \"" + name + "\" is not a preset" +
                   (nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)") +
-                  "; there are simulation-1 and simulation-2");
+                  "; the presets are simulation-1 and simulation-2");
 }
 
 std::string preset_toml(const std::string& name, const Options& options) {
@@ -67,7 +68,7 @@ Result<Preset> parse_preset(const std::string& toml) {
   for (const PresetNumber& number : kNumbers)
     preset.options.*number.member = table.number(number.key);
   const auto travel = table.numbers("travel_mm");
-  if (travel.size() != 2) table.reject("travel_mm", "must be from and to");
+  if (travel.size() != 2) table.reject("travel_mm", "must be [from, to]");
   const std::int64_t bins = table.integer("bins");
   if (bins < 1) table.reject("bins", "must be 1 or more");
   MDOF_CHECK(table.finish());

@@ -153,7 +153,8 @@ Status read_study_figures(std::string_view json, const std::string& source, Stud
   element root;
   const simdjson::padded_string text_of(json);
   if (parser.parse(text_of).get(root) || !root.is_object())
-    return bad_input(source + ": its figures are no JSON; restore the database from a backup");
+    return bad_input(source +
+                     ": the stored figures are not JSON; restore the database from a backup");
   result.name = text(root, "name");
   result.trials = natural(root, "trials");
   result.seed = natural(root, "seed");

@@ -12,7 +12,7 @@ void warn_of_unsolved(StudyResult& result) {
     if (s.unsolved == 0) continue;
     result.warnings.push_back(s.key + ": " + std::to_string(s.unsolved) + " of " +
                               std::to_string(result.trials) +
-                              " trials could not be solved and are in no figure");
+                              " trials could not be solved and are not in the figures");
   }
 }
 
@@ -20,10 +20,10 @@ void warn_of_unsolved(StudyResult& result) {
 void warn_of_lost_moments(StudyResult& result) {
   for (const OutputSummary& s : result.outputs) {
     if (s.n < 2 || std::isfinite(s.mean + s.sd + s.sd_se)) continue;
-    result.warnings.push_back(s.key +
-                              ": mean, standard deviation or their standard errors are not known, "
-                              "as values lie very far beyond those of the first trials; extremes, "
-                              "quantiles and intervals hold");
+    result.warnings.push_back(
+        s.key +
+        ": mean, standard deviation or their standard errors are unknown, because some values are "
+        "far outside the range of the first trials; extremes, quantiles and intervals are valid");
   }
 }
 

@@ -38,9 +38,8 @@ std::string overall(const StudyResult& result) {
   const std::size_t width = terminal_columns();
   return table.text(width) +
          wrapped(
-             "se: standard error. Symmetric and shortest coverage intervals (JCGM 101 7.7, "
-             "5.3.4) and quantiles lie within the resolution of what sorting all trials would "
-             "give.",
+             "se: standard error. Symmetric and shortest coverage intervals (JCGM 101 7.7, 5.3.4) "
+             "and quantiles agree with those of all trials sorted, within the resolution.",
              width) +
          "\n";
 }
@@ -68,7 +67,8 @@ std::string indices(const OutputIndices& output) {
 }
 
 std::string tolerance(const AllocatedTolerance& t) {
-  if (std::isnan(t.value) || std::isinf(t.value)) return t.tolerance + ": does not matter";
+  if (std::isnan(t.value) || std::isinf(t.value))
+    return t.tolerance + ": has no effect on this output";
   const int d = decimals_for(t.value);
   if (std::isnan(t.low)) return t.tolerance + " " + fixed(t.value, d);
   return t.tolerance + " " + fixed(t.value, d) + " (" + fixed(t.low, d) + " ... " +
@@ -78,7 +78,8 @@ std::string tolerance(const AllocatedTolerance& t) {
 std::string allocation(const Allocation& a) {
   std::string text = "\nTolerances for |" + with_unit(a.output) +
                      "| <= " + fixed(a.limit, decimals_for(a.limit)) + " with probability " +
-                     percent(a.probability) + "; as planned: " + percent(a.reached) + "\n";
+                     percent(a.probability) + "; with the planned values: " + percent(a.reached) +
+                     "\n";
   for (const AllocatedTolerance& t : a.alone) text += "  alone     " + tolerance(t) + "\n";
   text += "  together  the planned values times " + fixed(a.common_factor, 4) + "\n";
   for (const auto& pair : a.frontier) {

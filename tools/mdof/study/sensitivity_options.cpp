@@ -35,48 +35,57 @@ void declare_preset(CLI::App& command, SensitivityCommand& o) {
         ->group(group)
         ->type_name("X");
   }
-  command.add_option("--travel-mm", o.travel_mm, "Travel: uniform between these")
+  command.add_option("--travel-mm", o.travel_mm, "Travel, uniform between FROM and TO")
       ->expected(2)
       ->group(group)
       ->type_name("FROM TO");
-  command.add_option("--bins", o.bins, "Results also for so many parts of the travel")
+  command.add_option("--bins", o.bins, "Number of equal parts of the travel that also get results")
       ->check(CLI::Range(1, static_cast<int>(kMostStudyBins)))
       ->group(group)
       ->type_name("N");
 }
 
 void declare_trials(CLI::App& command, SensitivityCommand& o) {
-  command.add_option("--trials", o.trials, "Number of trials; with --adaptive, at most")
+  command.add_option("--trials", o.trials, "Number of trials; with --adaptive the largest number")
       ->type_name("N");
-  command.add_option("--seed", o.seed, "Of the random numbers [default: 1, or the plan's]")
+  command
+      .add_option("--seed", o.seed, "Seed of the random numbers [default: 1, or as in the plan]")
       ->check(CLI::Range(std::uint64_t{0}, kLargestSeed))
       ->type_name("S");
-  command.add_option("--coverage", o.coverage, "Of the intervals [default: 0.95, or the plan's]")
+  command
+      .add_option("--coverage", o.coverage,
+                  "Coverage probability of the intervals [default: 0.95, or as in the plan]")
       ->type_name("P");
   auto* adaptive = command.add_flag("--adaptive", o.adaptive,
-                                    "As many trials as JCGM 101 7.9 takes to the tolerance");
-  command.add_option("--digits", o.digits, "Tolerance: so many digits of each sd [default: 2]")
+                                    "Run trials until the tolerance is reached (JCGM 101 7.9)");
+  command
+      .add_option("--digits", o.digits,
+                  "Tolerance: number of significant digits of each sd [default: 2]")
       ->needs(adaptive)
       ->type_name("N");
-  command.add_option("--tolerance", o.tolerances, "Tolerance of one output: EBX_urad=0.01")
+  command.add_option("--tolerance", o.tolerances, "Tolerance of one output, such as EBX_urad=0.01")
       ->needs(adaptive)
       ->type_name("KEY=VALUE");
-  command.add_option("--trial", o.trial, "Show this trial alone, what was drawn and what came out")
+  command
+      .add_option("--trial", o.trial, "Show only this trial: its random numbers and its results")
       ->check(number_in(0, kMostTrials))
       ->type_name("INDEX");
   o.threads = default_threads();
-  command.add_option("--threads", o.threads, "The figures do not depend on it")
+  command.add_option("--threads", o.threads, "Number of threads; the figures do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str()
       ->type_name("T");
 }
 
 void declare_results(CLI::App& command, SensitivityCommand& o) {
-  command.add_option("--db", o.database, "Store the study in this database; can be continued")
+  command
+      .add_option("--db", o.database,
+                  "Store the study in this database, so that it can be continued")
       ->type_name("FILE");
-  command.add_option("--plot", o.plots, "Draw histograms and more as SVG")->type_name("DIR");
+  command.add_option("--plot", o.plots, "Draw histograms and other charts as SVG in this folder")
+      ->type_name("DIR");
   add_json_flag(command, o.json);
-  command.add_flag("--csv", o.csv, "Print one row an output and bin");
+  command.add_flag("--csv", o.csv, "Print CSV with one row for each output and bin");
 }
 
 // The unit is what the option's name ends with.
@@ -89,8 +98,8 @@ struct Limit {
 constexpr std::array kLimits = {
     Limit{"-um", " µm", kLongest_m * 1e6, "is longer than 10 m"},
     Limit{"-mm", " mm", kLongest_m * 1e3, "is longer than 10 m"},
-    Limit{"-mrad", " mrad", kWidest_mrad, "is more than 0.25 rad, no small angle"},
-    Limit{"-urad", " µrad", kWidest_mrad * 1e3, "is more than 0.25 rad, no small angle"},
+    Limit{"-mrad", " mrad", kWidest_mrad, "is more than 0.25 rad, not a small angle"},
+    Limit{"-urad", " µrad", kWidest_mrad * 1e3, "is more than 0.25 rad, not a small angle"},
 };
 
 Status check_number(const std::string& option, double x) {
@@ -158,11 +167,13 @@ Result<StudySettings> settings_of(const SensitivityCommand& command) {
 }  // namespace
 
 void declare_options(CLI::App& command, SensitivityCommand& o) {
-  command.add_option("--preset", o.preset, "simulation-1 or simulation-2 of the paper")
+  command
+      .add_option("--preset", o.preset,
+                  "simulation-1 or simulation-2 as published by Kweon, Liu and Yang")
       ->type_name("NAME");
-  command.add_option("--plan", o.plan, "A study of your own; see algo/sensitivity/PLAN.md")
+  command.add_option("--plan", o.plan, "Plan of your own study; see algo/sensitivity/PLAN.md")
       ->type_name("PLAN.toml");
-  command.add_option("--continue", o.continued, "Go on with this study; see mdof studies")
+  command.add_option("--continue", o.continued, "Continue this study; see mdof studies")
       ->type_name("STUDY");
   declare_trials(command, o);
   declare_results(command, o);
@@ -201,11 +212,14 @@ Result<StudyRequest> request_of(const SensitivityCommand& command) {
 Status check_plot_folder(const std::string& folder) {
   std::error_code ec;
   fs::create_directories(folder, ec);
-  const std::string why = ec ? ec.message() : "it is no folder";
+  const std::string why = ec ? ec.message() : "it is not a folder";
   if (ec || !fs::is_directory(folder, ec))
-    return io_error(folder + ": the folder of plots cannot be made: " + why + "; name another");
+    return io_error(folder + ": the folder for plots cannot be created: " + why +
+                    "; name another folder");
   if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
-  return io_error(folder + ": plots cannot be written there; make it writable, or name another");
+  return io_error(
+      folder +
+      ": plots cannot be written to this folder; make it writable, or name another folder");
 }
 
 }  // namespace mdof::tools

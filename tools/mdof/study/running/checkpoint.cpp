@@ -116,18 +116,18 @@ Result<StudyWork> parse_checkpoint(std::string_view bytes, const algo::Experimen
   if (ours) get(in, head);
   const std::string_view statistics = in.string();
   if (!ours || !in.at_end() || head.scale.size() != experiment.outputs().size())
-    return bad_input("the checkpoint is of another version or cut short; run the study anew");
+    return bad_input("the checkpoint has another version or is cut short; run the study again");
   StudyWork state = empty_work(experiment, head.scale);
   MDOF_TRY(auto parsed, algo::StudyStatistics::parse(statistics, experiment));
   if (!parsed.matches(state.statistics))
-    return bad_input("the checkpoint is of another experiment; run the study anew");
+    return bad_input("the checkpoint belongs to another experiment; run the study again");
   state.trials = head.trials;
   state.elapsed_s = head.elapsed_s;
   state.statistics = std::move(parsed);
   state.convergence = std::move(head.convergence);
   state.rule = std::move(head.rule);
   if (fits(state, experiment.outputs())) return state;
-  return bad_input("the checkpoint contradicts itself; run the study anew");
+  return bad_input("the checkpoint is inconsistent; run the study again");
 }
 
 }  // namespace mdof::tools

@@ -33,9 +33,10 @@ Result<Start> load_module() {
   void* const module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
   void* const start = module ? ::dlsym(module, "mdof_mpi_start") : nullptr;
   if (start) return reinterpret_cast<Start>(start);
-  return io_error("started by MPI, but its module cannot be loaded (" + std::string(::dlerror()) +
-                  "), and every process would do the whole study; build with -DMDOF_MPI=ON and "
-                  "the MPI library installed, or start mdof without mpirun");
+  return io_error("mdof was started by MPI, but the MPI module cannot be loaded (" +
+                  std::string(::dlerror()) +
+                  "), so every process would calculate the whole study; build mdof with "
+                  "-DMDOF_MPI=ON and the MPI library installed, or start mdof without mpirun");
 }
 
 }  // namespace
@@ -106,7 +107,7 @@ Status Processes::agree(const Status& mine) {
     }
   }
   if (broadcast_number(all ? 1 : 0) == 1) return {};
-  return first() ? all : io_error("another process cannot go on");
+  return first() ? all : io_error("another process of the study failed");
 }
 
 void Processes::leave() {

@@ -45,7 +45,7 @@ Result<StoredStudy> study_to_continue(const std::string& database, std::int64_t 
     return fail(ErrorCode::conflict,
                 "study " + std::to_string(id) +
                     (outcome ? ": is complete; see mdof study " + std::to_string(id)
-                             : ": was ended before its first checkpoint; run it anew"));
+                             : ": ended before its first checkpoint; run the study again"));
   }
   stored.checkpoint = std::move(*checkpoint);
   MDOF_TRY(const StudySettings settings, parse_settings(stored.record.settings_toml));
@@ -59,12 +59,13 @@ Result<StudyWork> continued_work(const StoredStudy& stored, const Study& study) 
   const std::string changed = changed_since(stored.record.fingerprint, now);
   if (changed == kFirstTrials)
     return bad_input(place +
-                     ": its first trials are not what they were; mdof has changed (it was "
-                     "begun with " +
-                     stored.record.software_version + "); run it anew");
+                     ": the first trials give other results than before, because mdof has changed "
+                     "(the study was started with " +
+                     stored.record.software_version + "); run the study again");
   if (!changed.empty())
-    return bad_input(place + ": " + changed +
-                     " has changed since the study was begun; put it back, or run it anew");
+    return bad_input(
+        place + ": " + changed +
+        " has changed since the study was started; restore it, or run the study again");
   auto state = parse_checkpoint(stored.checkpoint.bytes, *study.experiment);
   if (!state) return in_context(place, state.error());
   return state;
@@ -83,7 +84,7 @@ void StudyRecorder::checkpoint(const StudyWork& state) const {
   auto store = open_to_write(database_);
   const Status kept =
       store ? store->save_checkpoint(*id_, checkpoint_of(state)) : tl::unexpected(store.error());
-  if (!kept) warn("no checkpoint was kept: " + words::text(kept.error()));
+  if (!kept) warn("the checkpoint was not stored: " + words::text(kept.error()));
 }
 
 Status StudyRecorder::end(const StudyResult& result, const std::string& figures_json,

@@ -54,7 +54,7 @@ class RunTrial {
 
   // The run that the pipeline makes of it; an error where the trial cannot be measured.
   Result<Run> measure() {
-    if (!mounted_) return bad_input("an angle is beyond 0.25 rad, where the models end");
+    if (!mounted_) return bad_input("an angle exceeds 0.25 rad, the limit of the models");
     MDOF_TRY(auto simulator,
              drivers::Simulator::make("study", plan_.rig, options(), model(), standing_clock()));
     daemon::PipelineOptions settings;
@@ -181,9 +181,8 @@ class RunExperiment final : public algo::PlanExperimentBase {
     for (const auto& q : e->axis_->draws().drawn()) {
       if (is_noise(q.target.effect) && q.group != algo::kNoCause)
         return bad_input(plan.quantities[q.quantity].where +
-                         ": in a whole run the noise of each sample is independent; take " +
-                         q.target.name +
-                         " out of its [[correlation]], or use output_of = \"point\"");
+                         ": in a whole run the noise of each sample is independent; remove " +
+                         q.target.name + " from its [[correlation]], or use output_of = \"point\"");
     }
     return std::unique_ptr<algo::ScalableExperiment>(std::move(e));
   }

@@ -108,10 +108,10 @@ std::string StudyRunner::not_settled() const {
   if (!rule_ || rule_->settled()) return "";
   const std::string what = "the adaptive rule has not settled";
   const auto output = rule_->output_that_never_settles();
-  if (!output) return what + " within the trials allowed";
+  if (!output) return what + " within the permitted number of trials";
   return what + ": a block of " + std::to_string(batch_trials_) +
-         " trials gave fewer than two of " + experiment_->outputs()[*output] +
-         "; with --trials N and no adaptive rule the others are found all the same";
+         " trials gave fewer than two values of " + experiment_->outputs()[*output] +
+         "; with --trials N and without the adaptive rule the other outputs are calculated";
 }
 
 // Of slow trials a batch for each process, as one that is cut short is lost. The adaptive rule may

@@ -26,8 +26,7 @@ std::optional<std::uint64_t> natural(TomlTable& table, const char* key) {
 }
 
 Status check(const StudySettings& settings) {
-  if (settings.trials && *settings.trials == 0)
-    return bad_input("trials: 0 give no result; ask for 1 or more");
+  if (settings.trials && *settings.trials == 0) return bad_input("trials: must be 1 or more");
   const double coverage = settings.coverage.value_or(0.95);
   if (!(coverage > 0 && coverage < 1))
     return bad_input("coverage: must lie between 0 and 1, such as 0.95");
@@ -146,9 +145,9 @@ Status add_tolerance(const std::string& key_value, algo::AdaptiveTolerance& tole
   const bool read =
       equals != std::string::npos && parse_double(key_value.data() + equals + 1, end, x) == end;
   if (!read || !std::isfinite(x) || x <= 0)
-    return fail(ErrorCode::usage, "--tolerance: \"" + key_value +
-                                      "\" is no OUTPUT=NUMBER, the number finite and above 0, "
-                                      "such as EBX_urad=0.01");
+    return fail(ErrorCode::usage,
+                "--tolerance: \"" + key_value +
+                    "\" must be OUTPUT=NUMBER with a finite number above 0, such as EBX_urad=0.01");
   if (!tolerance.absolute.emplace(key_value.substr(0, equals), x).second)
     return fail(ErrorCode::usage,
                 "--tolerance: " + key_value.substr(0, equals) + " is given twice; give it once");

@@ -9,7 +9,7 @@
 namespace mdof::tools {
 
 void add_configured_socket_option(CLI::App& command, std::string& socket) {
-  command.add_option("--socket", socket, "Socket of mdofd [default: that of the configuration]")
+  command.add_option("--socket", socket, "Socket of mdofd [default: as in the configuration]")
       ->type_name("PATH");
 }
 
@@ -28,11 +28,12 @@ Result<bool> daemon_runs(const std::string& socket) {
 
 Status refuse_beside_daemon(const std::string& command, const std::string& socket) {
   const auto runs = daemon_runs(socket);
-  if (!runs) return in_context(command + ": whether mdofd holds the devices", runs.error());
+  if (!runs)
+    return in_context(command + ": cannot find out whether mdofd holds the devices", runs.error());
   if (!*runs) return {};
   return io_error(command + ": mdofd runs (" + socket +
-                  ") and holds the devices, which this command would open itself; see mdof device "
-                  "list and mdof live, or stop mdofd first");
+                  ") and holds the devices, but this command must open them itself; see mdof "
+                  "device list and mdof live, or stop mdofd first");
 }
 
 }  // namespace mdof::tools

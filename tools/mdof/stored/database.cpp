@@ -18,7 +18,7 @@ Result<std::filesystem::path> database_file(const std::string& option) {
   if (std::filesystem::exists(file, ec) && !std::filesystem::is_regular_file(file, ec))
     return bad_input(file.string() + ": is a " +
                      (std::filesystem::is_directory(file, ec) ? "folder" : "pipe or device") +
-                     ", not a database; name its file");
+                     ", not a database; name a database file");
   return file;
 }
 

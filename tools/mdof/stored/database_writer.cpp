@@ -47,11 +47,11 @@ std::string writer_of(const fs::path& database) {
     std::getline(std::ifstream(entry.path() / "comm"), name);
     return name + " (process " + id + ")";
   }
-  return "another program (mdofd?)";
+  return "another program (perhaps mdofd)";
 }
 
 tl::unexpected<Error> held(const fs::path& database, const std::string& but) {
-  return io_error(database.string() + ": is being written by " + writer_of(database) + ", and " +
+  return io_error(database.string() + ": is being written by " + writer_of(database) + ", but " +
                   but);
 }
 
@@ -65,15 +65,15 @@ Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database
   auto client = rpc::Client::connect(socket);
   if (!client)
     return held(file, "no mdofd answers at " + socket +
-                          "; wait for it to end, or give the socket of the mdofd that holds the "
-                          "database with --socket");
+                          "; wait until that program ends, or give the socket of the mdofd that "
+                          "holds the database with --socket");
   MDOF_TRY(const std::string info, client->call("server.info"));
   simdjson::dom::parser parser;
   const std::string theirs = text(parser.parse(simdjson::padded_string(info)), "database");
   std::error_code ec;
   if (fs::equivalent(theirs, file, ec) && !ec) return std::optional(std::move(*client));
   return held(file, "the mdofd at " + socket + " holds " + theirs +
-                        "; give the socket of the one that holds it with --socket");
+                        "; give the socket of the mdofd that holds this database with --socket");
 }
 
 std::string canonical_path(const std::string& file) {

@@ -57,12 +57,12 @@ Result<int> run_program(const std::vector<std::string>& words) {
     const pid_t ended = ::waitpid(child, &status, WNOHANG);
     if (ended == child) return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
     if (ended < 0 && errno != EINTR)
-      return io_error(words.front() + ": its end is not known: " + std::strerror(errno));
+      return io_error(words.front() + ": cannot wait for its end: " + std::strerror(errno));
     if (std::chrono::steady_clock::now() > last) {
       ::kill(child, SIGKILL);
       ::waitpid(child, &status, 0);
-      return io_error(words.front() + ": prints for longer than " +
-                      std::to_string(kLongestPrint.count()) + " s; it was ended");
+      return io_error(words.front() + ": did not finish printing within " +
+                      std::to_string(kLongestPrint.count()) + " s, so mdof ended it");
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
@@ -100,8 +100,8 @@ Result<std::vector<std::string>> command_for(const fs::path& html, const fs::pat
     return std::vector<std::string>{weasyprint->string(), file_url(html),
                                     fs::absolute(pdf).string()};
   return io_error(
-      "no program that prints PDF is installed; sudo apt install chromium (or weasyprint), or "
-      "open " +
+      "no program that prints PDF is installed; install one (sudo apt install chromium, or "
+      "weasyprint), or open " +
       html.string() + " in a browser and print it");
 }
 
@@ -113,7 +113,7 @@ Status print_pdf(const fs::path& html, const fs::path& pdf) {
   fs::remove(pdf, ec);
   MDOF_TRY(const int status, run_program(words));
   if (status == 0 && fs::file_size(pdf, ec) > 0 && !ec) return {};
-  return io_error(pdf.string() + ": " + words.front() + " has not written it (exit status " +
+  return io_error(pdf.string() + ": " + words.front() + " did not write this file (exit status " +
                   std::to_string(status) + "); open " + html.string() +
                   " in a browser and print it");
 }

@@ -46,9 +46,9 @@ class Window {
 Result<std::vector<charts::RawSeries>> raw_stop(const Run& run, std::size_t row) {
   const std::string name = "run " + std::to_string(run.header.id);
   if (row >= run.points.size())
-    return fail(ErrorCode::usage, name + " has no point " + std::to_string(row) + "; its " +
+    return fail(ErrorCode::usage, name + " has no point " + std::to_string(row) + "; it has " +
                                       std::to_string(run.points.size()) +
-                                      " points count from 0 in the order measured");
+                                      " points, counted from 0 in the order measured");
   const Point& point = run.points[row].point;
   const std::int64_t around = std::max(kLeastAround_ns, (point.end_ns - point.begin_ns) / 2);
   Window window(point.begin_ns - around, point.end_ns + around);
@@ -62,8 +62,8 @@ Result<std::vector<charts::RawSeries>> raw_stop(const Run& run, std::size_t row)
     if (state == drivers::ReadState::end) break;
   }
   if (log->sha256() != run.header.provenance.recording_sha256)
-    return bad_input(path + ": is not the recording that " + name +
-                     " was made from (its SHA-256 differs); restore that file");
+    return bad_input(path + ": is not the recording of " + name +
+                     " (its SHA-256 differs); restore the recording");
   auto found = window.found();
   if (found.empty())
     return bad_input(path + ": has no scans at the time of point " + std::to_string(row) + " of " +

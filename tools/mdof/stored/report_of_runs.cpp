@@ -57,7 +57,7 @@ Result<std::vector<std::pair<std::string, double>>> tolerances_of(
     double value = 0;
     if (!CLI::detail::lexical_cast(pair.second, value) || !std::isfinite(value) || value < 0)
       return fail(ErrorCode::usage, "--tolerance " + text + ": \"" + pair.second +
-                                        "\" is no finite number that is not negative");
+                                        "\" must be a finite number, 0 or greater");
     found.emplace_back(std::move(pair.first), value);
   }
   return found;
@@ -117,15 +117,16 @@ void add_report_options(CLI::App& command, ReportRequest& request) {
   for (const ReportKey& key : report_keys())
     keys += (keys.empty() ? "" : ", ") + std::string(key.name);
   command
-      .add_option("--set", request.set,
-                  "What only a person knows, in place of [report] of the rig: " + keys)
+      .add_option(
+          "--set", request.set,
+          "Statement for the report, instead of [report] of the rig; KEY is one of: " + keys)
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--tolerance", request.tolerances,
-                  "Most that a figure may be, in its unit, such as EYX_straightness_um=0.5: "
-                  "decided by ISO 14253-1:2017")
+                  "Tolerance: largest permitted value of a figure, in its unit (ISO 14253-1:2017): "
+                  "EYX_straightness_um=0.5")
       ->type_name("NAME=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -36,7 +36,7 @@ Result<std::int64_t> latest(store::Store& store, std::optional<Axis> axis) {
 
 std::string run_word_error(const std::string& word) {
   if (word == kLatest || number_of(word) > 0) return "";
-  return "\"" + word + "\" is no run: give its number (see mdof runs), or latest";
+  return "\"" + word + "\" is not a run; give the number of a run (see mdof runs), or latest";
 }
 
 CLI::Option* add_run_argument(CLI::App& command, const char* name, std::string& run,
@@ -50,7 +50,7 @@ CLI::Option* add_run_arguments(CLI::App& command, std::vector<std::string>& runs
 }
 
 void add_axis_of_latest(CLI::App& command, std::string& axis) {
-  command.add_option("--axis", axis, "Of this axis the latest run")
+  command.add_option("--axis", axis, "Axis of the latest run")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
 }
 
@@ -61,9 +61,9 @@ Result<std::int64_t> run_number(store::Store& store, const std::string& run,
   if (axis) {
     MDOF_TRY(const RunHeader header, store.run_header(id));
     if (header.axis != *axis)
-      return bad_input("run " + run + " is of axis " + letter(header.axis) + ", not of axis " +
-                       letter(*axis) + "; give a run of it (mdof runs --axis " + letter(*axis) +
-                       ")");
+      return bad_input("run " + run + " measures axis " + letter(header.axis) + ", not axis " +
+                       letter(*axis) + "; give a run of that axis (mdof runs --axis " +
+                       letter(*axis) + ")");
   }
   return id;
 }
@@ -93,7 +93,7 @@ Result<std::array<std::int64_t, 2>> run_pair(const std::string& database,
 void add_axes_option(CLI::App& command, std::string& axes) {
   command
       .add_option("--axes", axes,
-                  "Axes that the runs have to be of [default: any; latest: X, then Y]")
+                  "Axes of the two runs [default: as the runs are; with latest: X, then Y]")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}));
 }
 

@@ -30,8 +30,8 @@ Result<std::size_t> place_of_error(const std::string& asked, Axis axis) {
     if (asked == error_names(axis)[k].name) return k;
     known += std::string(" ") + error_names(axis)[k].name;
   }
-  return fail(ErrorCode::usage,
-              "--error " + asked + ": the run of axis " + letter(axis) + " has" + known);
+  return fail(ErrorCode::usage, "--error " + asked + ": the errors of a run of axis " +
+                                    letter(axis) + " are" + known);
 }
 
 Result<std::vector<std::size_t>> chosen_errors(const std::vector<std::string>& asked, Axis axis) {
@@ -73,7 +73,8 @@ Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
 }
 
 const char* const kNotInR =
-    "R is of these visits: how well so few know that of the axis is not in U";
+    "R is calculated from these visits only; U does not include how well so few visits represent "
+    "the axis";
 
 }  // namespace
 
@@ -121,14 +122,14 @@ namespace {
 // What U covers, of the column that says most: before the figures.
 std::string U_text(const RunPositioning& found, bool simulated, std::size_t width) {
   if (!found.U_reason.empty())
-    return simulated_notice(simulated) + wrapped("U is not known: " + found.U_reason, width) + "\n";
+    return simulated_notice(simulated) + wrapped("U is unknown: " + found.U_reason, width) + "\n";
   const auto covers_more = [](const PositioningColumn& column) {
     return !column.U->covers.starts_with("noise and repeatability only");
   };
   const auto most = std::find_if(found.columns.begin(), found.columns.end(), covers_more);
   const bool noise_only = most == found.columns.end();
   const auto& U = (noise_only ? found.columns.begin() : most)->U;
-  std::string text = "U: expanded uncertainty, 95 %, " + U->covers;
+  std::string text = "U is the expanded uncertainty (95 %). It contains " + U->covers;
   if (!U->not_declared.empty()) text += "; not declared: " + joined(U->not_declared);
   return noise_only_notice(noise_only) + simulated_notice(simulated) +
          wrapped(text + ". " + kNotInR, width) + "\n\n";
@@ -143,8 +144,9 @@ std::string run_positioning_text(const Run& run, const RunPositioning& found, st
   const std::string cycle = run.plausibility ? "; cycle: " + run.plausibility->cycle : "";
   return text + stated_text(run.header.stated) +
          wrapped(std::string("straightness: ") +
-                     (found.keep_slope ? "as measured, slope and all"
-                                       : "about the least-squares line of both approaches' mean") +
+                     (found.keep_slope
+                          ? "as measured, including the slope"
+                          : "about the least-squares line of the mean of both approaches") +
                      cycle,
                  width) +
          "\n";

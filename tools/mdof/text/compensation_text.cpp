@@ -64,7 +64,7 @@ std::string corrections_text(const CompensationTable& t, std::size_t width) {
     return std::string(1, letter(t.axis)) + " command: add -" + positioning_name(t.axis) +
            ", whichever body moves\n";
   const CorrectionSigns signs = correction_signs(t.machine, t.axis);
-  if (!t.machine.known()) return wrapped("correction: not known; " + signs.gap[0], width, 2) + "\n";
+  if (!t.machine.known()) return wrapped("correction: unknown; " + signs.gap[0], width, 2) + "\n";
   std::string text = "machine " + t.machine.text + " (" + travels_of(t.machine) + ")\n";
   for (std::size_t k = 0; k < 5; ++k) {
     const ErrorName& name = error_names(t.axis)[k];
@@ -104,7 +104,9 @@ std::string table_of_positioning_text(const CompensationTable& t) {
          "\nerrors: actual - nominal, as measured\n" + corrections_text(t, terminal_columns()) +
          "\nforward\n" + positioning_text(t, along.forward, along.u_forward) + "\nreverse\n" +
          positioning_text(t, along.reverse, along.u_reverse) +
-         "± one standard uncertainty: " + covers_text(t) + "\n";
+         wrapped("± is the standard uncertainty u. It contains " + covers_text(t),
+                 terminal_columns()) +
+         "\n";
 }
 
 std::string table_text(const CompensationTable& t, std::int64_t generation) {
@@ -114,13 +116,13 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
                      state_of(generation) + ", of the runs " + runs_of(t.runs) + ", " +
                      t.created_utc,
                  terminal_columns()) +
-         "\nerrors: actual - nominal, of the " + t.sides.moves() + "\nstraightness " +
+         "\nerrors: actual - nominal, of the moving " + t.sides.moves() + "\nstraightness " +
          (t.slope_removed ? "about its least-squares line" : "as measured") +
          ", angles from the first target\n" + stated_text(t.stated) +
          corrections_text(t, terminal_columns()) + "\nforward\n" +
          side_text(t, t.forward, t.u_forward) + "\nreverse\n" +
          side_text(t, t.reverse, t.u_reverse) +
-         wrapped("± one standard uncertainty: " + covers_text(t) +
+         wrapped("± is the standard uncertainty u. It contains " + covers_text(t) +
                      (t.not_declared.empty() ? "" : "; not declared: " + joined(t.not_declared)),
                  terminal_columns()) +
          "\n";

@@ -34,8 +34,8 @@ bool is_positioning(const Run& run) {
 std::string sense_text(const Run& run) {
   if (!is_positioning(run)) return "";
   return imported_sense(run.header).sense == PositioningSense::body
-             ? ", of the body along + of the machine"
-             : ", of the place in the controller's coordinates";
+             ? ", positive if the body is too far along + of the machine"
+             : ", positive along + of the controller's coordinates";
 }
 
 void write_reading(JsonWriter& json, const MeasuredPoint& p, const std::string& key) {
@@ -54,7 +54,7 @@ std::string imported_json(const Run& run, const std::string& result_sha256,
   json.begin_object();
   write_header_members(json, run.header, words::text);
   json.field("imported", true).field("error", run.header.provenance.model);
-  json.field("sense", "actual - nominal, as the file has it");
+  json.field("sense", "actual - nominal, as in the file");
   if (is_positioning(run)) {
     const ImportedSense stated = imported_sense(run.header);
     json.field("positioning_sense", to_string(stated.sense)).key("travel");
@@ -93,13 +93,12 @@ std::string imported_text(const Run& run, const std::string& result_sha256, std:
          in_mm(p.point.position_m),
          error_of(run).angle ? in_urad(p.point.probe_m.at(0)) : in_um(p.point.probe_m.at(0))});
   const double u = run.points.empty() ? std::nan("") : u_of(run.points.front());
-  return "IMPORTED: measured elsewhere, " + run.header.provenance.model + " alone.\n" +
+  return "IMPORTED: measured by another instrument, " + run.header.provenance.model + " only.\n" +
          head_text(run.header, result_sha256, width, all_warnings) + "\n" + table.text(width) +
-         wrapped("deviation = actual - nominal, as the file has it" + sense_text(run) +
-                     "; its standard uncertainty was " +
-                     (std::isnan(u)
-                          ? std::string("not declared")
-                          : "declared as " + fixed(u, 4) + (error_of(run).angle ? " µrad" : " µm")),
+         wrapped("deviation = actual - nominal, as in the file" + sense_text(run) +
+                     ". Declared standard uncertainty: " +
+                     (std::isnan(u) ? std::string("none")
+                                    : fixed(u, 4) + (error_of(run).angle ? " µrad" : " µm")),
                  width) +
          "\n";
 }

@@ -73,7 +73,8 @@ std::string targets_text(const Plausibility& p) {
   out += ", " + std::string(odd == 0 ? "each" : "most") + " measured " + times(sum(most.first)) +
          " forward, " + times(sum(most.second)) + " in reverse\n";
   if (odd == 0) return out;
-  out += "n_ij       " + std::to_string(odd) + " of them otherwise:\n" + table.text();
+  out += "n_ij       " + std::to_string(odd) +
+         (odd == 1 ? " target differs:\n" : " targets differ:\n") + table.text();
   if (odd > kMostRows) out += "... and " + std::to_string(odd - kMostRows) + " more, see --json\n";
   return out;
 }

@@ -47,7 +47,7 @@ std::string datum_of(const Options& options) {
 // The scans of a CSV log have no number: whether some are lost is not known.
 std::string lost_of(const RunHeader& h) {
   const bool unknown = h.provenance.recording_kind == "csv" && h.scans_lost == 0;
-  return unknown ? "lost not known" : "lost " + std::to_string(h.scans_lost);
+  return unknown ? "lost unknown" : "lost " + std::to_string(h.scans_lost);
 }
 
 std::string flags_of(const MeasuredPoint& p) {
@@ -181,8 +181,8 @@ std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::
     table.add(std::move(row));
   }
   return table.text(width) +
-         wrapped("± one standard uncertainty, " + covers_text(uncertainty) +
-                     "; error = actual - nominal, of the " + run.header.sides.moves(),
+         wrapped("± is the standard uncertainty u. It contains " + covers_text(uncertainty) +
+                     ". error = actual - nominal, of the moving " + run.header.sides.moves(),
                  width) +
          "\n" + stated_text(run.header.stated);
 }
@@ -202,8 +202,8 @@ std::string straightness_text(const std::vector<StraightnessFigure>& figures,
   }
   return "straightness, peak to valley about each reference line\n" + table.text(width) +
          wrapped(
-             "± one standard uncertainty, of the mean of both approaches; form: how well a line "
-             "describes the axis",
+             "± is the standard uncertainty u of the mean of both approaches. form: how well a "
+             "line describes the axis",
              width) +
          "\n";
 }
@@ -215,7 +215,7 @@ std::string minimum_zone_text(const std::vector<StraightnessLines>& lines, std::
     table.add(
         {of.error_key.substr(0, 3), of.approach, in_um(line.zone_m), in_urad(line.slope_rad)});
   }
-  return "straightness about the line from which it deviates least\n" + table.text(width);
+  return "straightness about the minimum-zone line\n" + table.text(width);
 }
 
 std::string angles_text(const std::vector<AngleFigure>& figures, std::size_t width) {

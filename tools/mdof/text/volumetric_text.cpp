@@ -89,7 +89,7 @@ std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
              um_to_place(t.u_independent_at(largest.node)[k], largest.u_m), in_mm(at[0]),
              in_mm(at[1]), in_mm(at[2]), fixed(to_um(t.interpolation_m[k]), 4)});
   }
-  const std::string of = t.runs.empty() ? "" : ", of the runs " + runs_text(t);
+  const std::string of = t.runs.empty() ? "" : ", from runs " + runs_text(t);
   return noise_only_notice(t.noise_only) + simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", volume of " + t.name + ", " +
                      state_text(generation) + of + ", " + t.created_utc,
@@ -99,17 +99,19 @@ std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
                      t.approach,
                  terminal_columns()) +
          "\n" + wrapped(std::to_string(t.nodes()) + " nodes: " + grid_text(t), terminal_columns()) +
-         "\nadded to the commands\n" + out.text(terminal_columns()) +
-         wrapped("between nodes: the most that straight lines are off; left: " +
-                     fixed(to_um(t.place_left_m), 4) + " µm of the place and " +
-                     fixed(to_urad(t.turn_left_rad), 2) +
-                     " µrad of the turn, which the linear axes cannot correct",
+         "\ncorrections, which are added to the commands\n" + out.text(terminal_columns()) +
+         wrapped(
+             "between nodes: largest error of the linear interpolation. Largest residual that the "
+             "linear axes cannot correct: " +
+                 fixed(to_um(t.place_left_m), 4) + " µm (position), " +
+                 fixed(to_urad(t.turn_left_rad), 2) + " µrad (angle)",
+             terminal_columns()) +
+         "\n" + names_text("not measured and not corrected: ", t.not_measured) +
+         names_text("the grid extends beyond the tables of: ", t.beyond_tables) +
+         names_text("u does not include: ", t.u_not_declared) +
+         wrapped("u is the standard uncertainty. It contains " + covers_text(t),
                  terminal_columns()) +
-         "\n" + names_text("not measured, and not corrected: ", t.not_measured) +
-         names_text("beyond the ends of the tables of: ", t.beyond_tables) +
-         names_text("u is without that of: ", t.u_not_declared) +
-         wrapped("u, one standard uncertainty: " + covers_text(t), terminal_columns()) + "\n" +
-         "The nodes: --csv or --json\n";
+         "\n" + "The nodes are listed with --csv or --json\n";
 }
 
 std::string volumetric_csv(const VolumetricTable& t) {

@@ -105,11 +105,11 @@ std::string not_declared_text(const std::vector<Budget>& budgets) {
   const Budget& first = budgets.front();  // all are of the same rigs
   if (first.not_declared.empty()) return "";
   const bool only = are_noise_only(budgets);
-  return std::string(!only             ? "the rig does not declare all uncertainties"
-                     : declares(first) ? "noise only: what the rig declares adds nothing"
-                                       : "noise only: the rig declares no uncertainties") +
-         ", so that U is too small by what these would add: " +
-         joined(named_once(first.not_declared));
+  return std::string(!only ? "the rig does not declare all uncertainties"
+                     : declares(first)
+                         ? "noise only: the uncertainties that the rig declares contribute zero"
+                         : "noise only: the rig declares no uncertainties") +
+         ", so U is too small. Not declared: " + joined(named_once(first.not_declared));
 }
 
 std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width) {
@@ -122,17 +122,17 @@ std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width) 
                first.name, percent(first.share)});
   }
   return table.text(width) +
-         wrapped("± one standard uncertainty, " + covers_text(budgets) +
-                     "; U: expanded uncertainty, 95 %",
+         wrapped("± is the standard uncertainty u. It contains " + covers_text(budgets) +
+                     ". U is the expanded uncertainty (95 %).",
                  width) +
          "\n";
 }
 
 std::string stated_figures_text(const StatedFigures& stated, std::size_t width) {
   if (!stated.why.empty())
-    return wrapped("Without their uncertainty: " + stated.why + ".", width) + "\n";
+    return wrapped("Figures without uncertainty: " + stated.why + ".", width) + "\n";
   const std::string missing = not_declared_text(stated.budgets);
-  return "of both approaches' mean, with uncertainty (mdof budget has the contributors)\n" +
+  return "mean of both approaches, with uncertainty (mdof budget lists the contributors)\n" +
          budgets_text(stated.budgets, width) +
          (missing.empty() ? "" : wrapped(missing, width) + "\n");
 }

@@ -29,13 +29,14 @@ std::string closures_text(const Run& run, const std::vector<algo::Closure>& clos
   TextTable table(std::move(head));
   for (const algo::Closure& c : closures) {
     const Errors5 change = named_from_local(run.header.moving(), c.change);
-    std::vector<std::string> row{std::to_string(c.run), fixed(c.after_s / kSecondsPerMinute, 2),
-                                 c.same_side ? "the same side" : "the other side, reversal in it"};
+    std::vector<std::string> row{
+        std::to_string(c.run), fixed(c.after_s / kSecondsPerMinute, 2),
+        c.same_side ? "same side" : "opposite side (includes reversal error)"};
     for (std::size_t k = 0; k < kErrorCount; ++k)
       row.push_back(names[k].angle ? in_urad(change[k]) : in_um(change[k]));
     table.add(std::move(row));
   }
-  return "closure: change of the errors back at the start of each run, at the fixture\n" +
+  return "closure: change of the errors on return to the start of a run, at the fixture\n" +
          table.text(width);
 }
 
@@ -113,15 +114,14 @@ std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_
   std::string text;
   if (!changes.empty())
     text += wrapped("drift: " + changes +
-                        ": it is in every error of one approach and against the start; let the "
-                        "system warm up (mdof drift says when it has), or replay the log with "
-                        "--remove-drift",
+                        ". The drift is in all errors of one approach and in all errors relative "
+                        "to the start. Let the system warm up (mdof drift shows when it is ready), "
+                        "or replay the log with --remove-drift",
                     width) +
             "\n";
   if (!steps.empty())
     text += wrapped("changes from run to run: " + steps +
-                        "; they may be steps as well as a drift, so that --remove-drift leaves "
-                        "them",
+                        ". They may be steps or a drift, so --remove-drift does not remove them",
                     width) +
             "\n";
   return text;

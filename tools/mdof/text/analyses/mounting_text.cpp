@@ -25,7 +25,7 @@ std::string place(const MountedProbe& probe, std::size_t axis) {
 
 // By how much it is turned from the rig's, and how well that is known.
 std::string turn(const MountedProbe& probe, const Probe& nominal) {
-  if (!probe.direction_seen) return "as the rig";
+  if (!probe.direction_seen) return "as in the rig";
   double squared = 0;
   for (std::size_t k = 0; k < 3; ++k)
     squared += std::pow(probe.direction[k] - nominal.direction[k], 2);
@@ -39,20 +39,20 @@ std::string mounting_text(const MountingCalibration& found, const Rig& rig, std:
   for (std::size_t k = 0; k < found.probes.size(); ++k) {
     const MountedProbe& p = found.probes[k];
     table.add({p.id, place(p, 0), place(p, 1), place(p, 2), turn(p, rig.probes[k]),
-               p.zero_seen ? with_u(to_um(p.zero_m), to_um(p.u_zero_m), 3) : "as the rig"});
+               p.zero_seen ? with_u(to_um(p.zero_m), to_um(p.u_zero_m), 3) : "as in the rig"});
   }
   std::string text = noise_only_notice(!rig.declares_uncertainty()) + table.text(width);
   text += "\n" + std::to_string(found.clampings) + " clampings, tilts up to " +
           plain_number(found.tilt_rad * 1e3, 3) + " mrad apart, " + std::to_string(found.readings) +
           " readings\nchi-square " + plain_number(found.chi_square, 4) + " of " +
           std::to_string(found.freedom) + " degrees of freedom" +
-          (found.explained ? "" : ": more than noise; the uncertainties are widened by it") + "\n";
-  if (!found.not_seen.empty()) text += "Not seen:\n";
+          (found.explained ? "" : ": more than noise explains, so u was increased") + "\n";
+  if (!found.not_seen.empty()) text += "Not determined:\n";
   for (const auto& what : found.not_seen) text += "- " + wrapped(what, width - 2, 2) + "\n";
   return text +
          wrapped(
-             "\u00b1 one standard uncertainty, beside a shift of all probes of a plane "
-             "together.",
+             "\u00b1 is the standard uncertainty u. It does not contain a common shift of all "
+             "probes of a plane.",
              width) +
          "\n";
 }
@@ -84,7 +84,8 @@ std::string mounting_json(const MountingCalibration& found, const CalibrationRec
   json.field("readings", static_cast<std::uint64_t>(found.readings));
   json.field("tilt_mrad", found.tilt_rad * 1e3).field("chi_square", found.chi_square);
   json.field("freedom", found.freedom).field("explained", found.explained);
-  json.field("u_covers", rig_declares ? "noise, and what the rig declares" : "noise only")
+  json.field("u_covers",
+             rig_declares ? "noise and the uncertainties that the rig declares" : "noise only")
       .field("noise_only", !rig_declares)
       .end_object();
   return json.take();

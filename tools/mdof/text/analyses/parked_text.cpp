@@ -59,7 +59,7 @@ std::string rates_text(const daemon::ParkedLog& log, const algo::WarmUp& found, 
 std::string temperature_text(const daemon::ParkedLog& log, const algo::WarmUp& found,
                              std::size_t width) {
   if (found.with_temperature.empty())
-    return "the log has no temperature_C: what drifts with it is unknown\n";
+    return "the log has no temperature_C, so drift with temperature is unknown\n";
   TextTable table({"with temperature", "per °C", "correlation"});
   for (std::size_t s = 0; s < found.with_temperature.size(); ++s) {
     const auto& with = found.with_temperature[s];
@@ -85,7 +85,7 @@ std::string limiting_cause(const daemon::ParkedLog& log, const algo::WarmUp& fou
       return "in the last window " + log.readings.series[s].name + " has no readings";
     if (last.verdict == algo::DriftVerdict::unknown)
       return log.readings.series[s].name +
-             " never changes in the whole log: check the probe, its cable and its resolution";
+             " never changes in the whole log; check the probe, its cable and its resolution";
     const double by = (std::abs(last.rate_per_s) + 2 * last.u_rate_per_s) / limit;
     if (by <= most) continue;
     most = by;
@@ -94,7 +94,7 @@ std::string limiting_cause(const daemon::ParkedLog& log, const algo::WarmUp& fou
             with_u(shown(log, s, last.rate_per_s), shown(log, s, last.u_rate_per_s), 1) +
             (is_angle(log, s) ? " µrad/h" : " nm/h") +
             (last.verdict == algo::DriftVerdict::undecided
-                 ? ", too uncertain to decide: take longer windows (--window-s)"
+                 ? ", which is too uncertain to decide; use longer windows (--window-s)"
                  : "");
   }
   return worst;
@@ -104,17 +104,17 @@ std::string limiting_cause(const daemon::ParkedLog& log, const algo::WarmUp& fou
 
 std::string parked_verdict(const daemon::ParkedLog& log, const algo::WarmUp& found) {
   if (!found.limited)
-    return "no limit is given, so that nothing is decided: --limit-nm-per-h, or [drift] "
-           "limit_um_per_h of the rig";
+    return "no limit is given, so there is no verdict; give --limit-nm-per-h, or [drift] "
+           "limit_um_per_h in the rig";
   if (found.ready_after_s)
     return "ready after " + minutes(*found.ready_after_s) +
            " min: from then on every window is below its limit";
   const std::string what = limiting_cause(log, found);
-  return "not ready yet: " +
-         (what.empty() ? "the windows at the end that are below the limit are fewer than " +
-                             std::to_string(algo::kFewestBelow) + " or last less than " +
-                             minutes(algo::kShortestBelow_s) + " min; record for longer"
-                       : what);
+  return "not ready yet: " + (what.empty()
+                                  ? "at the end fewer than " + std::to_string(algo::kFewestBelow) +
+                                        " windows are below the limit, or they last less than " +
+                                        minutes(algo::kShortestBelow_s) + " min; record for longer"
+                                  : what);
 }
 
 std::string parked_text(const daemon::ParkedLog& log, const algo::WarmUp& found,

@@ -21,8 +21,8 @@ std::string along(const SeparationRecord& record) {
 
 std::string turned_text(const SeparationSource& source) {
   if (source.end_for_end)
-    return source.height_sign < 0 ? "end for end, looks the other way" : "end for end";
-  return source.height_sign < 0 ? "looks the other way" : "as first";
+    return source.height_sign < 0 ? "end for end, faces the other way" : "end for end";
+  return source.height_sign < 0 ? "faces the other way" : "as in set-up 1";
 }
 
 std::string sources_text(const SeparationRecord& record, std::size_t width) {
@@ -36,23 +36,24 @@ std::string sources_text(const SeparationRecord& record, std::size_t width) {
 
 std::string series_text(const std::string& title, const std::string& place,
                         const std::string& value, const SeenSeries& series, std::size_t width) {
-  TextTable table({place, value + (series.whole() ? "" : ", the part seen"), "U/µm"});
+  TextTable table({place, value + (series.whole() ? "" : ", determined part"), "U/µm"});
   const double u_m = column_u(series.u_m);
   for (std::size_t i = 0; i < series.place_m.size(); ++i) {
     const double U_m = kSeparationCoverage * series.u_m[i];
     table.add({in_mm(series.place_m[i]), um_with_u(series.seen_m[i], series.u_m[i], u_m),
                um_to_place(U_m, u_m > 0 ? kSeparationCoverage * u_m : U_m)});
   }
-  return title + (series.whole() ? ", peak to valley " : ", peak to valley of the part seen ") +
-         in_um(series.zone_m()) + " µm\nnot seen and not in it: " + unseen_text(series) + "\n" +
-         table.text(width);
+  return title +
+         (series.whole() ? ", peak to valley " : ", peak to valley of the determined part ") +
+         in_um(series.zone_m()) + " µm\nnot determined and not included: " + unseen_text(series) +
+         "\n" + table.text(width);
 }
 
 std::string fit_text(const Separation& fit) {
   std::string text = std::to_string(fit.readings) + " readings, " + std::to_string(fit.unknowns) +
                      " unknowns, rank " + std::to_string(fit.rank);
   if (fit.freedom() > 0)
-    text += "; the fit leaves " + in_um(fit.residual_m) + " µm (rms, " +
+    text += "; residuals of the fit " + in_um(fit.residual_m) + " µm (RMS, " +
             std::to_string(fit.freedom()) + " degrees of freedom)";
   return text + "\n";
 }
@@ -90,15 +91,15 @@ std::string provenance_comment(const SeparationRecord& record) {
                      " surface of the target, separated from the machine's " + record.error +
                      " (mdof separate " + record.method + ", " + record.created_utc + ")\n";
   text += marks_text(record);
-  if (!record.probe.empty()) text += "# as probe " + record.probe + " alone reads it\n";
+  if (!record.probe.empty()) text += "# as read by probe " + record.probe + " only\n";
   for (const SeparationSource& s : record.sources) {
     std::string name = s.name;
     for (char& c : name)
       if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
-    text += "# of " + name + ", sha256 " + s.sha256 + ": " + turned_text(s) + ", zero at " +
+    text += "# source " + name + ", sha256 " + s.sha256 + ": " + turned_text(s) + ", zero at " +
             plain_number(to_mm(s.shift_m), kDigits) + " mm\n";
   }
-  return text + "# not seen and not in it: " + unseen_text(record.result.target) + "\n";
+  return text + "# not determined and not included: " + unseen_text(record.result.target) + "\n";
 }
 
 }  // namespace
@@ -118,11 +119,12 @@ std::string separation_text(const SeparationRecord& record, std::size_t width) {
                      width) +
          "\n" +
          series_text("target: height of its " + std::string(to_string(record.surface)) +
-                         " surface along " + along(record) + " as it lay first",
+                         " surface along " + along(record) + " in set-up 1",
                      "place/mm", "height/µm", r.target, width) +
          "\n" +
-         wrapped("± one standard uncertainty, from " + r.u_reason +
-                     "; U (k = 2) beside it; not in it: " + not_in_separation_u(),
+         wrapped("± is the standard uncertainty u (" + r.u_reason +
+                     "). U (k = 2) is the expanded uncertainty. u does not include: " +
+                     not_in_separation_u(),
                  width) +
          "\n";
 }

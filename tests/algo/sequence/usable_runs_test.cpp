@@ -100,7 +100,7 @@ TEST(UsableRuns, ARunAndTheOneThatGoesOnFromItCountOnce) {
   mdof::Run second = run_of(6, RunState::complete, "b");
   second.header.supersedes = 4;
   for (const auto& runs : {std::vector{first, second}, std::vector{second, first}})
-    EXPECT_TRUE(contains(refusal(runs), "run 6 goes on from run 4")) << refusal(runs);
+    EXPECT_TRUE(contains(refusal(runs), "run 6 continues run 4")) << refusal(runs);
 }
 
 // A log and its compressed copy, or a run and one that goes on from it at the second remove.

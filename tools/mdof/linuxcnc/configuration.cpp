@@ -31,7 +31,7 @@ std::vector<std::string> joined_lines(const std::string& text) {
 Status read_ini_line(LinuxCncIni& ini, std::string_view line, int number, std::string& section) {
   const std::string place = ini.file.string() + ":" + std::to_string(number) + ": ";
   if (line.starts_with("#INCLUDE"))
-    return bad_input(place + "#INCLUDE is not read; name a file that has all lines");
+    return bad_input(place + "#INCLUDE is not supported; name a file that contains all lines");
   if (line.empty() || line.front() == '#' || line.front() == ';') return {};
   const std::size_t equals = line.find('=');
   if (line.front() == '[' && line.back() == ']') {
@@ -57,7 +57,8 @@ class HalReader {
     }
     const fs::path file = folder_ / name;
     if (depth > kMostNestedFiles)
-      return bad_input(file.string() + ": is sourced by files that source each other");
+      return bad_input(file.string() + ": more than " + std::to_string(kMostNestedFiles) +
+                       " nested files; check whether files source each other");
     MDOF_TRY(const std::string text, read_text_file(file));
     int number = 0;
     for (const std::string& line : joined_lines(text)) {
@@ -106,7 +107,8 @@ class HalReader {
       const auto [last, error] = std::from_chars(words[3].data(), end, place);
       if (error != std::errc() || last != end || place == 0 || place > count + 1 ||
           place < -count - 1)
-        return bad_input("addf: \"" + std::string(words[3]) + "\" is no place in " + thread);
+        return bad_input("addf: \"" + std::string(words[3]) +
+                         "\" is not a position in the thread " + thread);
     }
     const auto before = static_cast<std::size_t>(place > 0 ? place - 1 : count + 1 + place);
     const std::size_t at = before < of_thread.size() ? of_thread[before] : wiring_.functions.size();

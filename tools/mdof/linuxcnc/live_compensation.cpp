@@ -45,7 +45,7 @@ class Judge {
     const char* end = entry->value.data() + entry->value.size();
     if (parse_double(entry->value.data(), end, x) == end && std::isfinite(x)) return x;
     refuse("line " + std::to_string(entry->line) + ": [" + section + "]" + key + " = " +
-           entry->value + " is no number");
+           entry->value + " is not a number");
     return {};
   }
 
@@ -73,8 +73,8 @@ class Judge {
     const auto words = words_of(text);
     if (words.empty() || words[0] != "trivkins")
       return refuse("[KINS]KINEMATICS = \"" + text +
-                    "\": only trivkins has joints that are axes; other kinematics cannot be "
-                    "compensated joint by joint");
+                    "\" must be trivkins; with other kinematics a joint is not an axis, so joints "
+                    "cannot be compensated one by one");
     std::string letters = "XYZABCUVW";
     for (const std::string_view word : words)
       if (word.starts_with("coordinates=")) letters = word.substr(word.find('=') + 1);
@@ -95,7 +95,7 @@ class Judge {
       if (joints.size() == 2) check_pair(section_of(joints[0]), section_of(joints[1]), axis);
       live_.joints.insert(live_.joints.end(), joints.begin(), joints.end());
     }
-    if (live_.joints.empty()) refuse("[KINS]KINEMATICS: has none of X, Y, Z");
+    if (live_.joints.empty()) refuse("[KINS]KINEMATICS: has no axis X, Y or Z");
   }
 
   // Both joints have the same offset at the same position, in machine units. A motor that is
@@ -131,11 +131,12 @@ class Judge {
     const std::string type = ini_.value(section, "TYPE");
     if (type != "LINEAR") refuse("[" + section + "]TYPE = \"" + type + "\" is not LINEAR");
     if (ini_.find(section, "COMP_FILE"))
-      refuse("[" + section + "]COMP_FILE: both it and the live table would be applied; remove it");
+      refuse("[" + section +
+             "]COMP_FILE: LinuxCNC would apply this file and the live table; remove COMP_FILE");
     if (number(section, "BACKLASH").value_or(0) != 0)
       refuse("[" + section +
-             "]BACKLASH: the table has the mean of both approaches, which is "
-             "measured with BACKLASH off; remove it and measure again");
+             "]BACKLASH: the table contains the mean of both approaches, which must be measured "
+             "without BACKLASH; remove BACKLASH and measure again");
     const double least = needed(section, "MIN_LIMIT", false);
     if (needed(section, "MAX_LIMIT", false) <= least)
       refuse("[" + section + "]MAX_LIMIT is not above MIN_LIMIT");
@@ -156,7 +157,7 @@ class Judge {
     live_.max_offset = request_.margin_mm * unit_;
     live_.offset_reason = "--margin-mm";
     live_.max_velocity = kMostVelocity_mm_s * unit_;
-    live_.velocity_reason = "the largest that is ever allowed";
+    live_.velocity_reason = "the limit of mdof";
     live_.max_acceleration = kMostAcceleration_mm_s2 * unit_;
     for (const LiveJoint& joint : live_.joints) {
       const std::string s = section_of(joint);
@@ -166,7 +167,7 @@ class Judge {
                                  : 0;
       if (beyond > 0)
         at_most(live_.max_offset, beyond, live_.offset_reason,
-                "[" + s + "]HOME_OFFSET, a switch that near to the soft limit");
+                "distance of [" + s + "]HOME_OFFSET beyond the soft limit");
       at_most(live_.max_velocity,
               kShareOfFollowingError * needed(s, "MIN_FERROR") / (kLaggingPeriods * period_s_),
               live_.velocity_reason, "[" + s + "]MIN_FERROR");
@@ -186,7 +187,7 @@ class Judge {
       const double most = number(section, drive).value_or(0), least = needed(section, axis) + more;
       if (most != 0 && most < least)
         refuse("[" + section + "]" + drive + " = " + plain_number(most) + " must be at least " +
-               plain_number(least) + ": " + axis + " and what the offset needs");
+               plain_number(least) + " (" + axis + " plus the share of the offset)");
     }
   }
 
@@ -217,13 +218,13 @@ class Judge {
     const auto moves = place_of("motion-controller", other);
     if (!reads || !moves || thread != other || *moves < *reads)
       return refuse(
-          "[HAL]HALFILE: no addf of motion-command-handler and then motion-controller "
-          "to one thread" +
+          "[HAL]HALFILE: needs addf of motion-command-handler and then of motion-controller to one "
+          "thread" +
           unseen);
     if (wiring_.signal_of.contains("motion.homing-inhibit"))
       refuse(
-          "[HAL]HALFILE: nets motion.homing-inhibit, which the component has to set while its "
-          "offset is not 0");
+          "[HAL]HALFILE: connects motion.homing-inhibit, but the component must set this pin while "
+          "its offset is not 0");
     const std::string at = " " + thread + " ";
     live_.hal =
         "# Live compensation by mdof. The last HALFILE of [HAL].\nloadrt mdof_compensation\n"

@@ -22,10 +22,10 @@ Status check_corners(int first, int second) {
         "the offset_mm of the [[plane]] in both rigs");
   if (first == second)
     return bad_input(
-        "both set-ups see the angle of the square with the same sign, so that they cannot separate "
-        "it "
-        "from the machine's: turn the square over about X or Y, so that one of the two faces is "
-        "on the other side, and put the probes and the [[plane]] of that rig there");
+        "both set-ups contain the angle of the square with the same sign, so it cannot be "
+        "separated from the angle of the machine; turn the square over about X or Y so that one of "
+        "its two faces is on the other side, and place the probes and the [[plane]] of that rig "
+        "there");
   return {};
 }
 

@@ -39,9 +39,9 @@ Status check_folder(const std::string& key, const fs::path& folder) {
   if (::access(nearest.c_str(), W_OK | X_OK) == 0) return {};
   const bool there = nearest == fs::absolute(folder, failed);
   return bad_input(key + ": " +
-                   (there ? "there is no permission to write in " + folder.string()
+                   (there ? "mdofd has no permission to write in " + folder.string()
                           : folder.string() +
-                                " does not exist, and there is no permission to create it in " +
+                                " does not exist, and mdofd has no permission to create it in " +
                                 nearest.string()) +
                    remedy_of_permission(folder));
 }
@@ -53,7 +53,7 @@ Status check_file(const std::string& key, const fs::path& file) {
   MDOF_CHECK(check_folder(key, fs::absolute(file, failed).parent_path()));
   if (!fs::exists(file, failed) || ::access(file.c_str(), R_OK | W_OK) == 0) return {};
   return bad_input(
-      key + ": there is no permission to read and write " + file.string() +
+      key + ": mdofd has no permission to read and write " + file.string() +
       "; make user and group mdof its owner and run mdofd as user mdof (sudo chown mdof:mdof " +
       file.string() + ")");
 }

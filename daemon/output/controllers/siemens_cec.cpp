@@ -230,8 +230,8 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
   std::string head, text;
   std::size_t t = 0;
   for (const CompensationTable& table : tables) {
-    for (const std::string& line :
-         head_lines(table, options, "mm; value = what is added to the command of the output axis"))
+    for (const std::string& line : head_lines(
+             table, options, "mm; value = correction, added to the command of the output axis"))
       head += "; " + line + "\n";
     MDOF_CHECK(add_errors(table, as_measured, out, text, t));
   }
@@ -352,7 +352,7 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
                          : std::string("of ") + tables[i].output + " by " + tables[i].input,
                      kDecimalsOfVolume);
   const auto head =
-      head_of(t, options, "mm; value = what is added to the command of the output axis");
+      head_of(t, options, "mm; value = correction, added to the command of the output axis");
   out.files.push_back({kFile, file_text(commented(head, ";"), text)});
   out.notes.push_back(
       "largest residual that sums and products of one-axis tables cannot represent: " +

@@ -82,8 +82,8 @@ Status check_unix_path(const std::string& path) {
   constexpr std::size_t kMax = sizeof(sockaddr_un::sun_path) - 1;
   if (!path.empty() && path.size() <= kMax && path.find('\0') == std::string::npos) return {};
   return fail(ErrorCode::usage, "socket path \"" + path.substr(0, 2 * kMax) + "\" has " +
-                                    std::to_string(path.size()) + " bytes, 1 ... " +
-                                    std::to_string(kMax) + " are possible; choose another");
+                                    std::to_string(path.size()) + " bytes, but must have 1 to " +
+                                    std::to_string(kMax) + "; choose another path");
 }
 
 tl::expected<Descriptor, int> connect_to_unix(const std::string& path) {
@@ -112,7 +112,7 @@ Result<Descriptor> listen_on_tcp(const std::string& address, std::uint16_t port)
   const std::string where = address + " port " + std::to_string(port);
   const bool v6 = address == "::1";
   if (!v6 && address != "127.0.0.1")
-    return fail(ErrorCode::usage, where + ": only 127.0.0.1 and ::1 are served");
+    return fail(ErrorCode::usage, where + ": only 127.0.0.1 and ::1 are permitted");
   Descriptor fd(::socket(v6 ? AF_INET6 : AF_INET, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (fd.get() < 0) return cannot(where, errno);
   const int on = 1;

@@ -113,18 +113,18 @@ std::vector<rpc::Param> command_params(const char* what) {
 void add_machine_methods(rpc::MethodTable& table, Methods& m) {
   std::vector<rpc::Param> params = machine_params();
   for (rpc::Param& each : command_params("command of the axis")) params.push_back(std::move(each));
-  table.add(
-      {.name = "machine.at",
-       .summary = "Calculates the error of the tool relative to the work at a command of a "
-                  "machine, with u. Nothing is stored.",
-       .params = params,
-       .result = "error (actual - nominal, by the exact product): x_um, y_um, z_um, a_urad, "
+  table.add({.name = "machine.at",
+             .summary = "Calculates the error of the tool relative to the work at a command of a "
+                        "machine, with u. Nothing is stored.",
+             .params = params,
+             .result =
+                 "error (actual - nominal, by the exact product): x_um, y_um, z_um, a_urad, "
                  "b_urad, c_urad; u of x, y and z (linear form); not_measured, beyond_tables: "
                  "names of errors; notices of the stored runs that the machine names",
-       .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
-                  R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
-                  R"(EXX_um = 2\nu_EXX_um = 0.1\n", "X_mm": 10})",
-       .handler = on_query(m, machine_at)});
+             .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
+                        R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
+                        R"(EXX_um = 2\nu_EXX_um = 0.1\n", "X_mm": 10})",
+             .handler = on_query(m, machine_at)});
 }
 
 }  // namespace mdof::daemon

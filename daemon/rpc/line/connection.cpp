@@ -153,7 +153,7 @@ void Connection::wait_readable() {
   if (reading_ || input_ended_) return;
   reading_ = true;
   socket_.async_wait(asio::posix::stream_descriptor::wait_read,
-                     [self = shared_from_this()](const std::error_code& error) {
+                     [self = shared_from_this()](const LoopError& error) {
                        self->reading_ = false;
                        self->readable_ = true;
                        if (!error) self->wake();
@@ -164,7 +164,7 @@ void Connection::wait_writable() {
   if (writing_) return;
   writing_ = true;
   socket_.async_wait(asio::posix::stream_descriptor::wait_write,
-                     [self = shared_from_this()](const std::error_code& error) {
+                     [self = shared_from_this()](const LoopError& error) {
                        self->writing_ = false;
                        if (!error) self->wake();
                      });
@@ -211,7 +211,7 @@ void Connection::drop(const std::string& why) {
 void Connection::close() {
   if (state_ == State::closed) return;
   state_ = State::closed;
-  std::error_code ignored;
+  LoopError ignored;
   socket_.close(ignored);
   session_.reset();
   server_.forget(*this);

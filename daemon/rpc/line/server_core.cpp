@@ -53,7 +53,7 @@ void ServerCore::sweep() {
     return;
   }
   sweep_timer_.expires_after(sweep_period(service.options()));
-  sweep_timer_.async_wait([weak = weak_from_this()](const std::error_code& error) {
+  sweep_timer_.async_wait([weak = weak_from_this()](const LoopError& error) {
     if (const auto self = weak.lock(); self && !error) self->sweep();
   });
 }
@@ -99,7 +99,7 @@ void ServerCore::wake_subscribers_at(Clock::time_point when) {
   if (due_ && *due_ <= when) return;
   due_ = when;
   due_timer_.expires_at(when);
-  due_timer_.async_wait([weak = weak_from_this()](const std::error_code& error) {
+  due_timer_.async_wait([weak = weak_from_this()](const LoopError& error) {
     const auto self = weak.lock();
     if (!self || error) return;  // gone, or an earlier time took its place
     self->due_.reset();

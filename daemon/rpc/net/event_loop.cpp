@@ -19,7 +19,7 @@ struct Ticker : std::enable_shared_from_this<Ticker> {
     due += period;
     if (due < now) due += (now - due) / period * period + period;
     timer.expires_at(due);
-    timer.async_wait([self = shared_from_this()](const std::error_code& error) {
+    timer.async_wait([self = shared_from_this()](const LoopError& error) {
       if (error) return;
       self->work();
       self->wait();
@@ -37,7 +37,7 @@ struct SignalWatch : std::enable_shared_from_this<SignalWatch> {
       : set(context), work(std::move(call)) {}
 
   void wait() {
-    set.async_wait([self = shared_from_this()](const std::error_code& error, int number) {
+    set.async_wait([self = shared_from_this()](const LoopError& error, int number) {
       if (error) return;
       self->work(number);
       self->wait();
@@ -55,7 +55,7 @@ struct ReadWatch : std::enable_shared_from_this<ReadWatch> {
 
   void wait() {
     descriptor.async_wait(asio::posix::descriptor_base::wait_read,
-                          [self = shared_from_this()](const std::error_code& error) {
+                          [self = shared_from_this()](const LoopError& error) {
                             if (error) return;
                             self->work();
                             self->wait();

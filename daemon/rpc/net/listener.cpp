@@ -21,14 +21,14 @@ Listener::Listener(EventLoop::Core& loop, Descriptor socket, std::function<void(
 
 void Listener::start() {
   socket_.async_wait(asio::posix::stream_descriptor::wait_read,
-                     [self = shared_from_this()](const std::error_code& error) {
+                     [self = shared_from_this()](const LoopError& error) {
                        if (!error) self->accept_some();
                      });
 }
 
 void Listener::stop() {
   adopt_ = nullptr;
-  std::error_code ignored;
+  LoopError ignored;
   socket_.close(ignored);
   pause_.reset();
 }
@@ -51,7 +51,7 @@ void Listener::accept_some() {
 void Listener::wait_a_little(int why) {
   log_("cannot accept a client, trying again: " + system_error_text(why));
   pause_.emplace(socket_.get_executor(), kPause);
-  pause_->async_wait([self = shared_from_this()](const std::error_code& error) {
+  pause_->async_wait([self = shared_from_this()](const LoopError& error) {
     if (!error && self->adopt_) self->start();
   });
 }

@@ -27,6 +27,8 @@ class Caller {
   // Who to name in the audit of a writing method; nothing for a TCP client.
   virtual std::optional<Credentials> credentials() const = 0;
   virtual bool may_write() const = 0;
+  // A request of a browser: it ends with its reply, and its right to write comes with it.
+  virtual bool over_http() const = 0;
   virtual bool in_group(gid_t group) const = 0;           // not where there are no credentials
   virtual std::vector<gid_t> further_groups() const = 0;  // beside that of the credentials
 

@@ -1,6 +1,7 @@
 #include "daemon/rpc/message.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "daemon/rpc/codes.h"
 #include "daemon/words/error_text.h"
@@ -10,6 +11,8 @@ namespace mdof::rpc {
 namespace {
 
 constexpr std::size_t kMaxQuoted = 64;
+constexpr std::string_view kBeforeMethod = R"({"jsonrpc":"2.0","method":)";
+constexpr std::string_view kBeforeParams = R"(,"params":)";
 
 void append_json(std::string& out, std::string_view json) {
   const std::size_t begin = out.size();
@@ -61,11 +64,20 @@ void append_error(std::string& out, std::string_view id, const Error& error) {
 void append_notification(std::string& out, std::string_view method, std::string_view params) {
   JsonWriter name;
   name.value(method);
-  out += R"({"jsonrpc":"2.0","method":)";
+  out += kBeforeMethod;
   out += name.text();
-  out += R"(,"params":)";
+  out += kBeforeParams;
   append_json(out, params);
   out += '}';
+}
+
+// A topic's name has no quotes in it.
+Notification notification_of(std::string_view message) {
+  assert(message.starts_with(kBeforeMethod) && message.ends_with('}'));
+  message.remove_prefix(kBeforeMethod.size() + 1);
+  message.remove_suffix(1);
+  const auto end = message.find('"');
+  return {message.substr(0, end), message.substr(end + 1 + kBeforeParams.size())};
 }
 
 std::string in_quotes(std::string_view text) {

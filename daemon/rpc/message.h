@@ -19,6 +19,12 @@ void append_error(std::string& out, std::string_view id, int code, std::string_v
 void append_error(std::string& out, std::string_view id, const Error& error);
 void append_notification(std::string& out, std::string_view method, std::string_view params);
 
+// The method and the params of what append_notification() wrote.
+struct Notification {
+  std::string_view method, params;
+};
+Notification notification_of(std::string_view message);
+
 // Text of a client in a message to it: quoted, not longer than a name reasonably is.
 std::string in_quotes(std::string_view text);
 

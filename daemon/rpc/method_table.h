@@ -47,6 +47,7 @@ struct Method {
   std::string result_schema = "{}";  // JSON Schema of it
   std::string example = "{}";        // params by name
   bool writes = false;               // changes something: refused where a client may only read
+  bool subscribes = false;           // needs a connection that stays
   bool approves = false;  // only for the group of ServerOptions::approvers, if there is one
   std::variant<SyncHandler, AsyncHandler> handler;
 };

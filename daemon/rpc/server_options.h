@@ -45,6 +45,16 @@ struct ServerOptions {
   std::optional<Group> approvers;
   bool tcp_may_write = false;  // methods that write, over loopback TCP
 
+  // Of browsers, whose connections do not count among those above. A request's body may have
+  // max_line_bytes; its head, and then its body, has request_timeout.
+  std::size_t max_http_connections = 128;  // beyond it the one that has been idle longest goes
+  std::size_t max_http_streams = 64;       // of these: GET /events
+  std::size_t max_http_head_bytes = 8 * 1024;
+  milliseconds http_idle_timeout{15000};  // between two requests
+  milliseconds http_heartbeat{10000};     // of a stream on which nothing happens
+  std::size_t max_kept_events = 4096;     // for a stream that resumes
+  std::size_t max_kept_event_bytes = 1024 * 1024;
+
   std::function<void(const std::string&)> log;  // one line; empty: to stderr
 };
 

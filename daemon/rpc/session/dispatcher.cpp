@@ -9,6 +9,7 @@
 #include "daemon/rpc/message.h"
 #include "daemon/rpc/param_values.h"
 #include "daemon/rpc/request.h"
+#include "daemon/words/error_text.h"
 
 namespace mdof::rpc {
 
@@ -70,8 +71,26 @@ std::string not_an_approver(const std::string& method, const std::string& group,
   const auto who = caller.credentials();
   return method + " is reserved for members of the group " + group +
          " (approve_group in [rpc] of mdofd.toml), and " +
-         (who ? "uid " + std::to_string(who->uid) : std::string("a TCP client")) +
+         (who                  ? "uid " + std::to_string(who->uid)
+          : caller.over_http() ? std::string("a web page")
+                               : std::string("a TCP client")) +
          " is not a member; ask a member, or become a member and connect again";
+}
+
+std::string may_not_write(const std::string& method, const Caller& caller) {
+  if (!caller.over_http()) return method + " changes data; call it over the Unix socket";
+  return words::text({ErrorCode::usage,
+                      method + " changes data and needs the token of mdofd, as \"" +
+                          "Authorization: Bearer TOKEN\"",
+                      Remedy::show_token});
+}
+
+std::string may_not_write(const std::string& method, const Caller& caller) {
+  if (!caller.over_http()) return method + " changes something: call it over the Unix socket";
+  return words::text({ErrorCode::usage,
+                      method + " changes something and needs the token of mdofd, as \"" +
+                          "Authorization: Bearer TOKEN\"",
+                      Remedy::show_token});
 }
 
 }  // namespace
@@ -99,8 +118,10 @@ tl::expected<const Method*, Dispatcher::Parser::Refusal> Dispatcher::Parser::pre
                                   near.empty() ? "" : "did you mean " + in_quotes(near) + "?"});
   }
   if (method->writes && !caller.may_write())
+    return tl::unexpected(Refusal{kForbidden, may_not_write(method->name, caller), ""});
+  if (method->subscribes && caller.over_http())
     return tl::unexpected(
-        Refusal{kForbidden, method->name + " changes data; call it over the Unix socket", ""});
+        Refusal{kForbidden, method->name + " needs a connection that stays: GET /events", ""});
   if (method->approves && options.approvers && !caller.in_group(options.approvers->id))
     return tl::unexpected(
         Refusal{kForbidden, not_an_approver(method->name, options.approvers->name, caller), ""});

@@ -17,6 +17,9 @@ struct Peer {
   // Of a TCP client of this machine: whose socket it is. Counts for places and gives no right, as
   // that of a Unix socket does.
   std::optional<uid_t> socket_owner = {};
+  // Of a browser each request has its own right: its token, and nothing else, lets it write.
+  enum class Http { no, reads, writes };
+  Http http = Http::no;
 
   bool is_member(gid_t group) const {  // never without credentials
     const auto& further = further_groups;

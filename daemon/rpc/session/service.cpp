@@ -48,11 +48,14 @@ Service::Service(std::shared_ptr<Executor> loop, const MethodTable& table, Serve
       topics_(options_) {}
 
 // The kept place is of use only while it cannot be taken by those who have all the others.
+// Browsers have places of their own, as many as their transport has connections: they cannot keep
+// the machine's control out.
 Result<Service::Place> Service::place_for(const Peer& peer) const {
+  if (peer.http != Peer::Http::no) return Place::http;
   std::size_t of_user = 0, ordinary = 0, kept = 0;
   for (const auto& [weak, place] : holders_) {
     const auto session = weak.lock();
-    if (!session) continue;
+    if (!session || place == Place::http) continue;
     of_user += uid_of(session->peer()) == uid_of(peer) ? 1 : 0;
     ++(place == Place::kept ? kept : ordinary);
   }
@@ -93,6 +96,8 @@ std::optional<std::chrono::milliseconds> Service::wanted_every(std::string_view 
 }
 
 Status Service::publish(std::string_view topic, std::string json, std::string_view of) {
+  const Topic* const known = topics_.topic(topic);
+  if (hear_ && known && known->event && topics_.fits(topic, json)) hear_(topic, json);
   return topics_.publish(topic, std::move(json), of);
 }
 

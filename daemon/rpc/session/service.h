@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -33,6 +34,12 @@ class Service {
   std::size_t session_count() const;
 
   void add_topic(Topic topic);
+  // Is there such a topic?
+  const Topic* topic(std::string_view name) const { return topics_.topic(name); }
+  // Calls `hear` with each event, subscribed to or not, before subscribers get it: for what keeps
+  // events for those who come back. Nothing: no more.
+  using Hear = std::function<void(std::string_view topic, std::string_view json)>;
+  void on_event(Hear hear) { hear_ = std::move(hear); }
   // How often values are to be made, so that none is made in vain and each subscriber gets a fresh
   // one: at their interval, and as often as the topic allows while one awaits his first or they
   // have asked for different ones. Nothing: nobody has subscribed.
@@ -46,7 +53,7 @@ class Service {
   void log(const std::string& line) const;
 
  private:
-  enum class Place { ordinary, kept };
+  enum class Place { ordinary, kept, http };
   struct Holder {
     std::weak_ptr<Session> session;
     Place place;
@@ -57,6 +64,7 @@ class Service {
   Dispatcher dispatcher_;
   TopicHub topics_;
   std::vector<Holder> holders_;
+  Hear hear_;
   std::string last_refusal_;  // the log, why a client was turned away
 };
 

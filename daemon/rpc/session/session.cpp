@@ -15,6 +15,7 @@ Session::~Session() {
 }
 
 bool Session::may_write() const {
+  if (over_http()) return peer_.http == Peer::Http::writes;
   return peer_.credentials.has_value() || parts_.options.tcp_may_write;
 }
 
@@ -92,6 +93,7 @@ void Session::end() {
 }
 
 std::string Session::name() const {
+  if (over_http()) return "browser";
   if (!peer_.credentials) return "TCP client";
   return "client with uid " + std::to_string(peer_.credentials->uid) + ", pid " +
          std::to_string(peer_.credentials->pid);

@@ -76,6 +76,7 @@ class Session final : public Caller,
 
   std::optional<Credentials> credentials() const override { return peer_.credentials; }
   bool may_write() const override;
+  bool over_http() const override { return peer_.http != Peer::Http::no; }
   bool in_group(gid_t group) const override { return peer_.is_member(group); }
   std::vector<gid_t> further_groups() const override { return peer_.further_groups; }
   Status subscribe(std::string_view topic, std::chrono::milliseconds interval) override;

@@ -47,10 +47,18 @@ Result<TopicHub::Row*> TopicHub::row(std::string_view topic) {
                                                       : "; did you mean " + in_quotes(near) + "?"));
 }
 
+const Topic* TopicHub::topic(std::string_view name) const {
+  const auto found = rows_.find(name);
+  return found == rows_.end() ? nullptr : &found->second.topic;
+}
+
+bool TopicHub::fits(std::string_view topic, std::string_view json) const {
+  return json.size() + topic.size() + kEnvelopeBytes <= options_.max_reply_bytes;
+}
+
 Status TopicHub::publish(std::string_view topic, std::string json, std::string_view of) {
   MDOF_TRY(Row* const found, row(topic));
-  const std::size_t line = json.size() + topic.size() + kEnvelopeBytes;
-  if (line > options_.max_reply_bytes) {
+  if (!fits(topic, json)) {
     for (const auto& [who, entry] : found->subscribers) entry->miss();
     return fail(ErrorCode::usage, "topic " + in_quotes(topic) + ": a value of " +
                                       std::to_string(json.size()) +

@@ -30,7 +30,9 @@ class TopicHub {
  public:
   explicit TopicHub(const ServerOptions& options) : options_(options) {}
 
-  void add(Topic topic);  // a name twice is a bug
+  void add(Topic topic);                                           // a name twice is a bug
+  const Topic* topic(std::string_view name) const;                 // none: nullptr
+  bool fits(std::string_view topic, std::string_view json) const;  // into a message
   std::optional<std::chrono::milliseconds> wanted_every(std::string_view topic) const;
   Status publish(std::string_view topic, std::string json, std::string_view of = "");
 

@@ -19,6 +19,7 @@ class Anybody : public Caller {
  public:
   std::optional<Credentials> credentials() const override { return Credentials{}; }
   bool may_write() const override { return false; }
+  bool over_http() const override { return false; }
   bool in_group(gid_t) const override { return false; }
   std::vector<gid_t> further_groups() const override { return {}; }
   Status subscribe(std::string_view, std::chrono::milliseconds) override { return {}; }

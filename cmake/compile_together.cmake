@@ -7,6 +7,7 @@
 set(MDOF_COMPILE_TOGETHER "$ENV{MDOF_COMPILE_TOGETHER}" CACHE STRING
     "Compile the files of a target together (ON, OFF; default: of the environment, else under sanitizers)")
 set(MDOF_COMPILED_ALONE
+  daemon/rpc/web/http_head.cpp
   schema/base/number/number_columns_vector.cpp
   schema/base/number/number_digits.cpp
 )

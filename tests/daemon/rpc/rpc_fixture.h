@@ -19,6 +19,7 @@
 
 #include "daemon/rpc/line/server.h"
 #include "daemon/rpc/net/socket.h"
+#include "daemon/rpc/web/http_server.h"
 #include "schema/base/json_writer.h"
 
 namespace mdof::rpc::test {
@@ -173,6 +174,7 @@ class TestServer {
     loop.stop();
     if (thread_.joinable()) thread_.join();
     server.reset();
+    page.reset();
     service.reset();
   }
 
@@ -205,6 +207,7 @@ class TestServer {
   EventLoop loop;
   std::unique_ptr<Service> service;
   std::unique_ptr<LineServer> server;
+  std::unique_ptr<HttpServer> page;  // where a test makes one
 
  private:
   static inline int count_ = 0;

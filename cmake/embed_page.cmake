@@ -1,0 +1,31 @@
+# embed_page(OUTPUT FILE...): writes OUTPUT, a source file for daemon/rpc/web/page_files.h with the texts of these
+# files under their names. Runs again when one of them changes.
+function(embed_page output)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
+  foreach(file ${ARGN})
+    if(NOT EXISTS ${file})
+      message(FATAL_ERROR "${file} is not there: tools/install-dependencies installs it (libjs-dygraphs)")
+    endif()
+    get_filename_component(name ${file} NAME)
+    file(READ ${file} text)
+    string(APPEND rows "    {\"${name}\", R\"the_page(${text})the_page\"},\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${output} @ONLY CONTENT [[
+// Generated from daemon/web/ and dygraphs by cmake/embed_page.cmake.
+#include "daemon/rpc/web/page_files.h"
+
+#pragma GCC diagnostic ignored "-Woverlength-strings"
+
+namespace mdof::rpc {
+namespace {
+constexpr PageFile kPageFiles[] = {
+@rows@};
+}  // namespace
+
+std::span<const PageFile> page_files() {
+  return kPageFiles;
+}
+
+}  // namespace mdof::rpc
+]])
+endfunction()

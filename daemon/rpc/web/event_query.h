@@ -1,0 +1,21 @@
+// What GET /events asks for. Private header.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/rpc/web/http_head.h"
+
+namespace mdof::rpc {
+
+struct EventQuery {
+  std::vector<std::string> topics;
+  std::chrono::milliseconds interval{100};  // least time between two values of a topic
+};
+
+// "topics=live.update,run.event&interval_ms=100", percent-encoded or not. Error: 400.
+tl::expected<EventQuery, HttpError> read_event_query(std::string_view query);
+
+}  // namespace mdof::rpc

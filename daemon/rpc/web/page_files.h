@@ -1,0 +1,16 @@
+// The files of the web page, as a build puts them into the program (cmake/embed_page.cmake).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace mdof::rpc {
+
+struct PageFile {
+  std::string_view name;  // "index.html"
+  std::string_view text;
+};
+
+std::span<const PageFile> page_files();
+
+}  // namespace mdof::rpc

@@ -9,6 +9,8 @@
 #include "daemon/methods/methods.h"
 #include "daemon/paths.h"
 #include "daemon/rpc/line/server.h"
+#include "daemon/rpc/web/http_server.h"
+#include "daemon/rpc/web/token.h"
 #include "daemon/station/check_start.h"
 #include "daemon/station/clock_watch.h"
 #include "daemon/station/hotplug.h"
@@ -95,6 +97,7 @@ struct App::Parts {
   rpc::MethodTable table;
   rpc::Service service;
   rpc::LineServer server{loop, service};
+  std::optional<rpc::HttpServer> page;
 
   ~Parts() {
     for (auto& station : stations) station->begin_stopping();
@@ -112,6 +115,7 @@ struct App::Parts {
   void to_journal(Axis axis, const Trouble& trouble);
   void handle_signals();
   Status listen();
+  Status serve_page();
   void watch();
   void watch_clock();
   void watch_reader();
@@ -229,6 +233,7 @@ Status App::Parts::listen() {
   methods->generation =
       std::max(methods->generation, store::read_announced_head(config.database).generation);
   add_all_methods(table, *methods);
+  if (config.http) MDOF_CHECK(serve_page());
   MDOF_TRY(const auto handed_over, systemd::take_listen_sockets());
   for (const int fd : handed_over) MDOF_CHECK(server.listen_fd(fd));
   if (handed_over.empty()) {
@@ -239,6 +244,17 @@ Status App::Parts::listen() {
     MDOF_TRY(const auto port, server.listen_tcp("127.0.0.1", *config.tcp_port));
     (void)port;
   }
+  return {};
+}
+
+Status App::Parts::serve_page() {
+  const HttpAccess& http = *config.http;
+  auto token = rpc::load_token(http.token_file);
+  if (!token) return in_context(http.token_key, std::move(token.error()));
+  page.emplace(loop, service, rpc::HttpSetup{.token = std::move(*token), .hosts = http.hosts});
+  const auto port = page->listen(http.address, http.port);
+  if (!port) return in_context(http.listen_key, port.error());
+  methods->page = Page{http_url(http, *port), std::filesystem::absolute(http.token_file).string()};
   return {};
 }
 
@@ -320,7 +336,9 @@ Result<std::unique_ptr<App>> App::create(Config config) {
 }
 
 void App::run() {
-  const std::string where = "serving on " + parts_->config.socket;
+  const auto& page = parts_->methods->page;
+  const std::string where =
+      "serving on " + parts_->config.socket + (page ? " and " + page->url : "");
   systemd::notify_ready(where);
   std::fprintf(stderr, "%s: %s\n", kVersion, where.c_str());
   parts_->loop.run();

@@ -44,7 +44,29 @@ int failed(const mdof::Error& error) {
   return error.code == mdof::ErrorCode::io ? 4 : error.code == mdof::ErrorCode::usage ? 2 : 3;
 }
 
-int run(const std::string& config_file, bool check_only) {
+// --http turns the web page on, or moves it.
+mdof::Status serve_page(const std::string& address, mdof::daemon::Config& config) {
+  MDOF_TRY(auto http, mdof::daemon::http_at(address));
+  if (config.http) {
+    http.hosts = config.http->hosts;
+    http.token_file = config.http->token_file;
+    if (address.empty()) http = *config.http;
+  } else {
+    http.token_file = config.database.parent_path() / mdof::daemon::kTokenFile;
+  }
+  http.listen_key = "--http";
+  config.http = std::move(http);
+  return {};
+}
+
+struct Options {
+  std::string config_file = "/etc/mdof/mdofd.toml";
+  std::string http;  // address
+  bool serves_page = false, check_only = false;
+};
+
+int run(const Options& options) {
+  const std::string& config_file = options.config_file;
   std::error_code ignored;
   if (!std::filesystem::exists(config_file, ignored)) {
     std::fprintf(stderr, "mdofd: %s", mdof::daemon::first_configuration(config_file).c_str());
@@ -53,7 +75,10 @@ int run(const std::string& config_file, bool check_only) {
   if (auto set = mdof::check_instruction_set(); !set) return failed(set.error());
   auto config = mdof::daemon::load_config(config_file);
   if (!config) return failed(config.error());
-  if (check_only) {
+  if (options.serves_page) {
+    if (auto served = serve_page(options.http, *config); !served) return failed(served.error());
+  }
+  if (options.check_only) {
     if (auto checked = mdof::daemon::check_start(*config); !checked) return failed(checked.error());
     std::printf("%s: ok, %zu axes\n", config_file.c_str(), config->axes.size());
     return 0;
@@ -74,11 +99,14 @@ int main(int argc, char** argv) try {
   CLI::App cli(
       "mdofd: reads probes and encoder, calculates the five errors of an axis and serves the "
       "results");
-  std::string config_file = "/etc/mdof/mdofd.toml";
-  bool check_only = false;
-  cli.add_option("--config", config_file, "configuration file (TOML)")->capture_default_str();
-  cli.add_flag("--check-config", check_only,
+  Options options;
+  cli.add_option("--config", options.config_file, "configuration file (TOML)")
+      ->capture_default_str();
+  cli.add_flag("--check-config", options.check_only,
                "check the configuration, print what is wrong, and exit");
+  auto* http = cli.add_option("--http", options.http,
+                              "serve the web page [127.0.0.1:8080, or the address in [http]]");
+  http->type_name("[ADDRESS:PORT]")->expected(0, 1);
   cli.set_version_flag("--version", mdof::daemon::kVersion);
   try {
     cli.parse(argc, argv);
@@ -86,8 +114,10 @@ int main(int argc, char** argv) try {
     const int code = cli.exit(e);
     return code == 0 ? 0 : 2;
   }
-  if (check_only) set_ending_signals(SIG_DFL);  // a check that was cut off has found nothing sound
-  return run(config_file, check_only);
+  options.serves_page = http->count() > 0;
+  if (options.check_only)
+    set_ending_signals(SIG_DFL);  // a check that was cut off has found nothing sound
+  return run(options);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "mdofd: %s\n", e.what());
   return 4;

@@ -325,6 +325,7 @@ Result<Config> load_config(const std::filesystem::path& file) {
   config.text = std::move(text);
   MDOF_CHECK(read_store(root, config));
   read_rpc(root, config);
+  config.http = read_http(root, config.database.parent_path());
   config.gap_given = read_measure(root, config.measure);
   const auto base = std::filesystem::absolute(file).parent_path();
   config.machine = read_machine(root);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "daemon/http_access.h"
 #include "daemon/measure/delays.h"
 #include "daemon/measure/pipeline.h"
 #include "daemon/store/store.h"
@@ -45,6 +46,7 @@ struct Config {
   std::string socket;
   std::optional<std::uint16_t> tcp_port;  // loopback; off unless configured
   RpcAccess access;
+  std::optional<HttpAccess> http;  // the web page; off unless configured
   PipelineOptions measure;
   bool gap_given = false;  // measure.align.max_gap_s; else it follows the devices' rates
   Chain machine;           // [machine]; may be not known

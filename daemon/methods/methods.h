@@ -33,6 +33,11 @@ struct ActiveTables {
   std::shared_ptr<const store::ActiveVolumetric> volume;
 };
 
+// Of the web page.
+struct Page {
+  std::string url, token_file;
+};
+
 // What the methods work on. Lives as long as the server, on the main thread.
 struct Methods {
   rpc::EventLoop& loop;
@@ -44,8 +49,9 @@ struct Methods {
   std::string database;
   std::string started_utc;
   std::chrono::steady_clock::time_point started;
-  std::int64_t generation = 0;   // of the active tables: rises with each change of it
-  Replayer* replayer = nullptr;  // none: run.replay is refused
+  std::int64_t generation = 0;    // of the active tables: rises with each change of it
+  Replayer* replayer = nullptr;   // none: run.replay is refused
+  std::optional<Page> page = {};  // none: not served
   std::function<void(std::int64_t generation)> announce = {};  // of a change of what is active
 };
 

@@ -50,6 +50,14 @@ std::string server_info(const Methods& m) {
   const store::ChainHead head = m.keeper.chain_head();
   json.key("chain").begin_object().field("link", head.link).field("sha256", head.sha256);
   json.end_object();
+  json.key("http");
+  if (m.page)
+    json.begin_object()
+        .field("url", m.page->url)
+        .field("token_file", m.page->token_file)
+        .end_object();
+  else
+    json.null();
   json.key("axes").begin_array();
   for (const auto& station : m.stations) {
     json.begin_object()
@@ -101,7 +109,8 @@ Result<std::string> subscribe(const Params& params) {
 
 HistoryEntry action_of(const Params& params, std::string name) {
   const auto who = params.caller().credentials();
-  if (!who) return action_now(std::move(name), {-1, -1, -1, "tcp"});
+  if (!who)
+    return action_now(std::move(name), {-1, -1, -1, params.caller().over_http() ? "web" : "tcp"});
   return action_now(std::move(name), actor_of(who->uid, who->gid, who->pid));
 }
 
@@ -235,10 +244,12 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
                         {"events", ParamType::boolean, "also send run.event", false, "true"}},
              .result = "the settings of the subscription",
              .example = R"({"interval_ms": 200})",
+             .subscribes = true,
              .handler = [](const Params& params) { return subscribe(params); }});
   table.add({.name = "live.unsubscribe",
              .summary = "Ends both subscriptions of this connection.",
              .result = "an empty object",
+             .subscribes = true,
              .handler = [](const Params& params) -> Result<std::string> {
                MDOF_CHECK(params.caller().unsubscribe(kLiveTopic));
                MDOF_CHECK(params.caller().unsubscribe(kRunTopic));

@@ -88,6 +88,7 @@ Status check_start(const Config& config) {
   MDOF_CHECK(check_file(config.database_key, config.database));
   MDOF_CHECK(check_folder(config.recordings_key, config.recordings));
   MDOF_CHECK(check_socket(config));
+  if (config.http) MDOF_CHECK(check_file(config.http->token_key, config.http->token_file));
   return check_identities(config);
 }
 

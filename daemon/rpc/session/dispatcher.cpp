@@ -85,14 +85,6 @@ std::string may_not_write(const std::string& method, const Caller& caller) {
                       Remedy::show_token});
 }
 
-std::string may_not_write(const std::string& method, const Caller& caller) {
-  if (!caller.over_http()) return method + " changes something: call it over the Unix socket";
-  return words::text({ErrorCode::usage,
-                      method + " changes something and needs the token of mdofd, as \"" +
-                          "Authorization: Bearer TOKEN\"",
-                      Remedy::show_token});
-}
-
 }  // namespace
 
 Handled Dispatcher::Parser::handle(const Message& message) {

@@ -218,6 +218,8 @@ TEST(DriftDesignByHand, FreedomIsWhatVisitsHaveBesidePlacesAndOrders) {
   EXPECT_EQ(orders(1, 11), 6);
   EXPECT_EQ(orders(1, 20), 6);
   EXPECT_EQ(DriftDesign(many_visits(1, 11)).freedom(), 11 - 1 - 6);
+  EXPECT_EQ(DriftDesign(many_visits(1, 6)).freedom(), 4);
+  EXPECT_EQ(DriftDesign(many_visits(1, 5)).freedom(), 0);  // no order, nothing to leave
 }
 
 }  // namespace

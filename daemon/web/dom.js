@@ -1,0 +1,145 @@
+// Elements, numbers with units, tables: what every view is made of.
+
+// h("button", {class: "main", onclick: f}, "Start"): an element. Properties that begin with "on" are listeners;
+// null, undefined and false are left out, true is an attribute without value.
+export function h(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) element.addEventListener(name.slice(2), value);
+    else if (name === "value") element.value = value;
+    else element.setAttribute(name, value === true ? "" : value);
+  }
+  element.append(...children.flat(Infinity).filter((c) => c !== null && c !== undefined && c !== false));
+  return element;
+}
+
+const kSvg = "http://www.w3.org/2000/svg";
+export function s(tag, attributes = {}, ...children) {
+  const element = document.createElementNS(kSvg, tag);
+  for (const [name, value] of Object.entries(attributes))
+    if (value !== null && value !== undefined) element.setAttribute(name, value);
+  element.append(...children.flat(Infinity));
+  return element;
+}
+
+// Sets a text only where it differs: the page stays quiet at 30 values a second.
+export function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+// A number is missing, not 0, where the daemon gives null.
+export const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
+
+// With a true minus sign, so that columns of numbers keep their width.
+export function fixed(x, digits) {
+  if (!isNumber(x)) return "–";
+  const text = x.toFixed(digits);
+  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
+}
+
+// Two significant digits of U decide how many decimals a value has (GUM 7.2.6).
+export function decimals(U, otherwise = 3) {
+  if (!isNumber(U) || U <= 0) return otherwise;
+  return Math.min(Math.max(1 - Math.floor(Math.log10(U)), 0), 6);
+}
+
+// A value without U, by three significant digits.
+export const short = (x) => fixed(x, isNumber(x) && x !== 0 ? Math.min(Math.max(2 - Math.floor(Math.log10(Math.abs(x))), 0), 6) : 3);
+
+export const unitOf = (key) => key.endsWith("_urad") ? "µrad" : key.endsWith("_um") ? "µm" : "";
+export const nameOf = (key) => key.replace(/_(urad|um)$/, "");
+
+// "EYX straightness" of "EYX_straightness_um".
+export const titleOf = (key) => nameOf(key).replaceAll("_", " ");
+
+// "1.830 µm, U = 0.089 µm (k = 2.0)"; says where no U is known.
+export function measured(figure, unit, {with_k = true} = {}) {
+  const U = isNumber(figure?.U) ? figure.U : null;
+  const digits = decimals(U);
+  const value = `${fixed(figure?.value, digits)} ${unit}`;
+  if (U === null) return `${value}, U not known`;
+  return `${value}, U = ${fixed(U, digits)} ${unit}` + (with_k && isNumber(figure.k) ? ` (k = ${fixed(figure.k, 2)})` : "");
+}
+
+// What U contains; never left out beside a U.
+export function covers(of) {
+  const missing = of.u_not_declared ?? [];
+  if (!of.u_covers && missing.length === 0) return null;
+  const incomplete = missing.length > 0;
+  return h("div", {class: incomplete ? "notice doubtful" : "quiet"},
+    h("p", {}, incomplete ? h("strong", {}, "U incomplete: ") : "U contains ", of.u_covers ?? "", "."),
+    incomplete ? h("details", {}, h("summary", {}, `${missing.length} contributors are not declared`),
+      h("p", {}, missing.join(", "))) : null);
+}
+
+// Columns: [head, className]; rows of strings or nodes. The first cell of a row is its head.
+export function table(caption, columns, rows, attributes = {}) {
+  const element = h("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": caption},
+    h("table", attributes,
+      h("caption", {}, caption),
+      h("thead", {}, h("tr", {}, columns.map(([head, kind]) => h("th", {scope: "col", class: kind}, head)))),
+      h("tbody", {})));
+  element.columns = columns;
+  return setRows(element, rows);
+}
+
+// Other rows in a table that stays, with the focus where it is.
+export function setRows(element, rows) {
+  const cell = (content, i) => i === 0
+    ? h("th", {scope: "row", class: element.columns[i][1]}, content ?? "–") : h("td", {class: element.columns[i][1]}, content ?? "–");
+  element.querySelector("tbody").replaceChildren(...rows.map((row) => row instanceof Node ? row : h("tr", {}, row.map(cell))));
+  return element;
+}
+
+const kShapes = {invalid: "■", doubtful: "▲", information: "●"};
+
+// The daemon's own words, with a shape and a word for how much it matters.
+export function notices(list, title = "Notices") {
+  if (!list || list.length === 0) return null;
+  return h("section", {class: "notices"}, h("h3", {}, `${title} (${list.length})`),
+    h("ul", {}, list.map((n) => typeof n === "string"
+      ? h("li", {class: "notice"}, n)
+      : h("li", {class: `notice ${n.severity}`}, h("span", {class: "shape", "aria-hidden": "true"},
+        kShapes[n.severity] ?? "●"), ` ${n.severity}: ${n.text}`))));
+}
+
+export function field(label, input, hint) {
+  return h("label", {class: "field"}, h("span", {}, label), input, hint ? h("small", {}, hint) : null);
+}
+
+export function select(options, value, onchange, attributes = {}) {
+  return h("select", {...attributes, onchange: (e) => onchange?.(e.target.value)},
+    options.map(([key, text]) => h("option", {value: key, selected: String(key) === String(value)}, text)));
+}
+
+export const time = (utc) => utc ? utc.replace("T", " ").slice(0, 19) + " UTC" : "–";
+
+export function age(seconds) {
+  if (seconds < 10) return `${seconds.toFixed(1)} s`;
+  if (seconds < 120) return `${Math.round(seconds)} s`;
+  return seconds < 7200 ? `${Math.round(seconds / 60)} min` : `${Math.round(seconds / 3600)} h`;
+}
+
+// Shows what a promise gives, or its error where it belongs.
+export function fill(element, promise) {
+  element.replaceChildren(h("p", {class: "quiet"}, "Reading …"));
+  return promise.then((content) => element.replaceChildren(...[content].flat().filter(Boolean)),
+    (error) => element.replaceChildren(problem(error)));
+}
+
+export const problem = (error) => h("p", {class: "notice invalid", role: "alert"},
+  h("span", {class: "shape", "aria-hidden": "true"}, "■"), ` ${error.message}`);
+
+// A modal dialog with a form: resolves to its FormData, or to null where it was cancelled.
+export function ask(title, content, action) {
+  const dialog = document.getElementById("dialog");
+  const form = h("form", {method: "dialog"}, h("h2", {id: "dialog-title"}, title), content,
+    h("p", {class: "buttons"}, h("button", {value: "ok", class: "main"}, action),
+      h("button", {value: "", formnovalidate: true}, "Cancel")));
+  dialog.replaceChildren(form);
+  dialog.returnValue = "";
+  dialog.showModal();
+  return new Promise((resolve) => dialog.addEventListener("close",
+    () => resolve(dialog.returnValue === "ok" ? new FormData(form) : null), {once: true}));
+}

@@ -1,0 +1,68 @@
+// What comes by itself: live values and events, over ONE stream a browser. A browser has six connections to a
+// server, whatever the number of tabs: the tab that holds a lock has the stream and passes all on to the others;
+// when it is closed, another one gets the lock.
+const kTopics = ["live.update", "run.event"];
+const kInterval_ms = Number(new URLSearchParams(location.search).get("interval_ms")) || 50;
+const kReopen_ms = 2000;  // where the browser gave up: an HTTP error
+const kSay_ms = 1000;     // how often the one with the stream says how it is with it
+
+const listeners = new Map();  // name -> set of functions
+// Without locks (no secure context) each tab has a stream of its own.
+const channel = navigator.locks && "BroadcastChannel" in window ? new BroadcastChannel("mdof-live") : null;
+let connected = false;
+let saidAt = -Infinity;       // performance.now() of the last word of the tab with the stream
+
+// Names: the topics; "connected" (true, false); "gap": events may have been missed, read anew.
+export function on(name, listener) {
+  if (!listeners.has(name)) listeners.set(name, new Set());
+  listeners.get(name).add(listener);
+  return () => listeners.get(name).delete(listener);
+}
+
+function deliver(name, value) {
+  saidAt = performance.now();
+  if (name === "connected") {
+    if (value === connected) return;
+    connected = value;
+  }
+  for (const listener of listeners.get(name) ?? []) listener(value);
+}
+
+function send(name, value) {
+  channel?.postMessage({name, value});
+  deliver(name, value);
+}
+
+export const isConnected = () => connected && performance.now() - saidAt < 5 * kSay_ms;
+
+function open() {
+  const source = new EventSource(`/events?topics=${kTopics.join(",")}&interval_ms=${kInterval_ms}`);
+  let before = false;  // was it open once?
+  source.onopen = () => {
+    send("connected", true);
+    if (before) send("gap");
+    before = true;
+  };
+  source.onerror = () => {
+    send("connected", false);
+    if (source.readyState !== EventSource.CLOSED) return;  // it tries again by itself
+    setTimeout(() => { open(); send("gap"); }, kReopen_ms);
+  };
+  for (const topic of kTopics)
+    source.addEventListener(topic, (message) => {
+      const {missed, value} = JSON.parse(message.data);
+      if (topic === "run.event" && missed > 0) send("gap");
+      send(topic, value);
+    });
+  source.addEventListener("lost", () => send("gap"));
+}
+
+export function start() {
+  if (channel) channel.onmessage = ({data}) => deliver(data.name, data.value);
+  const hold = () => {
+    open();
+    setInterval(() => send("connected", connected), kSay_ms);
+    return new Promise(() => {});  // until the tab is closed
+  };
+  channel ? navigator.locks.request("mdof-live", hold) : hold();
+}

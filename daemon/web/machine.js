@@ -1,0 +1,74 @@
+// What all views share: axes, the newest value of each, fixtures, and what must be said on every view.
+import {age} from "./dom.js";
+import * as live from "./live.js";
+import {call} from "./rpc.js";
+
+const kStale_s = 2;          // without a new value
+const kRefresh_ms = 10_000;  // server.info also changes without an event: storage
+
+export const state = {
+  info: null,         // server.info
+  newest: new Map(),  // axis -> {value: live.update, at: performance.now()}
+  rigs: new Map(),    // axis -> rig.get
+  error: null,        // of the last call
+};
+const changed = new Set();
+
+// Called when server.info or a fixture was read again.
+export function onChange(listener) {
+  changed.add(listener);
+  return () => changed.delete(listener);
+}
+
+export const axes = () => (state.info?.axes ?? []).map((a) => a.axis);
+export const axisInfo = (axis) => state.info?.axes.find((a) => a.axis === axis);
+
+export function ageOf(axis) {
+  const newest = state.newest.get(axis);
+  return newest ? (performance.now() - newest.at) / 1000 : Infinity;
+}
+export const isStale = (axis) => ageOf(axis) > kStale_s || state.newest.get(axis).value.stale;
+
+export async function refresh() {
+  try {
+    state.info = await call("server.info");
+    state.error = null;
+    await Promise.all(axes().map(async (axis) => state.rigs.set(axis, await call("rig.get", {axis}))));
+  } catch (error) {
+    state.error = error;
+  }
+  for (const listener of changed) listener();
+}
+
+// [{kind, text, age}]: kind is the class of its line; the age changes all the time and is not read aloud.
+export function warnings() {
+  const found = [];
+  const all = axes();
+  if (!live.isConnected())
+    found.push({kind: "invalid", text: "No connection to mdofd: everything shown is stale.",
+      age: all.length ? Math.min(...all.map(ageOf)) : Infinity});
+  else
+    for (const axis of all.filter(isStale))
+      found.push({kind: "invalid", text: `Axis ${axis} is stale: no new values come.`, age: ageOf(axis)});
+  const simulated = (state.info?.axes ?? []).filter((a) => a.simulated).map((a) => a.axis);
+  if (simulated.length)
+    found.push({kind: "doubtful", text: `SIMULATED: ${simulated.join(", ")}. No machine is measured.`});
+  for (const [axis, rig] of state.rigs)
+    for (const notice of rig.notices) found.push({kind: "doubtful", text: `Overdue, axis ${axis}: ${notice.text}`});
+  if (state.info && state.info.storage !== "ok")
+    found.push({kind: "invalid", text: `Storage ${state.info.storage}: ${state.info.storage_reason}`});
+  return found;
+}
+
+export const ageText = (seconds) => Number.isFinite(seconds) ? ` Last value ${age(seconds)} ago.` : "";
+
+export function start() {
+  live.on("live.update", (value) => state.newest.set(value.axis, {value, at: performance.now()}));
+  live.on("run.event", ({type}) => {
+    if (["started", "ended", "compensation", "storage"].includes(type)) refresh();
+  });
+  live.on("gap", refresh);
+  live.on("connected", (is) => { if (is) refresh(); });
+  setInterval(() => { if (!document.hidden) refresh(); }, kRefresh_ms);
+  return refresh();
+}

@@ -1,0 +1,71 @@
+// The daemon's methods by POST /rpc. The token is kept in this tab alone, and sent only as a header.
+import {ask, field, h} from "./dom.js";
+
+const kForbidden = -32003;
+let id = 0;
+let asking = null;  // the dialog, while it is open
+
+export class RpcError extends Error {
+  constructor(error) {
+    super(error.message);
+    this.code = error.code;
+    this.data = error.data;
+  }
+}
+
+async function post(method, params) {
+  const headers = {"Content-Type": "application/json"};
+  const token = sessionStorage.getItem("token");
+  if (token) headers.Authorization = `Bearer ${token}`;
+  const body = JSON.stringify({jsonrpc: "2.0", id: ++id, method, params});
+  let reply;
+  try {
+    const response = await fetch("/rpc", {method: "POST", headers, body});
+    const text = await response.text();
+    try {
+      reply = JSON.parse(text);
+    } catch {
+      throw new RpcError({code: 0, message: `${method}: HTTP ${response.status}: ${text.slice(0, 200)}`});
+    }
+  } catch (error) {
+    if (error instanceof RpcError) throw error;
+    throw new RpcError({code: 0, message: `${method}: mdofd does not answer; it may be stopped or starting`});
+  }
+  if (reply.error) throw new RpcError(reply.error);
+  return reply.result;
+}
+
+export async function askToken(reason) {
+  asking ??= ask("Token", [
+    reason ? h("p", {class: "notice doubtful"}, reason) : null,
+    h("p", {}, "Whatever changes state needs the token of this mdofd. Print it with ", h("code", {}, "mdof token"),
+      " on the machine that runs it, as a user who may read it. It is kept until this tab is closed."),
+    field("Token", h("input", {name: "token", type: "password", autocomplete: "off", required: true, autofocus: true})),
+  ], "Use this token");
+  const form = await asking;
+  asking = null;
+  if (!form) return false;
+  sessionStorage.setItem("token", String(form.get("token")).trim());
+  return true;
+}
+
+// The result; throws RpcError with the daemon's message. Without token, or with a wrong one, asks once for it.
+export async function call(method, params = {}) {
+  try {
+    return await post(method, params);
+  } catch (error) {
+    if (error.code !== kForbidden || !/token/i.test(error.message) || !await askToken(error.message)) throw error;
+    return post(method, params);
+  }
+}
+
+// All items of a method that lists by pages.
+export async function pages(method, params, key, most = 100_000) {
+  const items = [];
+  for (;;) {
+    const page = await call(method, {...params, offset: items.length});
+    items.push(...page[key]);
+    const total = page.total ?? page.points_total ?? items.length;
+    if (page[key].length === 0 || items.length >= Math.min(total, most)) return {...page, [key]: items};
+  }
+}

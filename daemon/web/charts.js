@@ -1,0 +1,147 @@
+// Charts by dygraphs: errors over position, each approach with its band ± U. Loaded when the first chart is wanted.
+import {fixed, h, isNumber, nameOf, unitOf} from "./dom.js";
+
+const kHeight_px = 240;
+let loading = null;
+const dark = matchMedia("(prefers-color-scheme: dark)");
+
+function load() {
+  return loading ??= new Promise((resolve, reject) => {
+    document.head.append(h("link", {rel: "stylesheet", href: "/dygraph.min.css"}),
+      h("script", {src: "/dygraph.min.js", onload: () => resolve(withoutLegend()), onerror: () => {
+        loading = null;
+        reject(new Error("dygraph.min.js cannot be loaded"));
+      }}));
+  });
+}
+
+// Its legend sets inline styles, which the page's security policy forbids; ours is a line below the chart.
+function withoutLegend() {
+  Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
+}
+
+const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+const kDash = [6, 3];
+
+// series: [{label, name, colour, dash, wide, line, points: [[x, low, value, high]]}]: name is said in the legend, wide is
+// seen below another, line has no marks and no band; points in any order of x.
+// Rows for dygraphs with a column a series; a place that a series lacks stays open.
+export function rowsOf(series) {
+  const rows = new Map();
+  series.forEach((one, i) => one.points.forEach(([x, low, value, high]) => {
+    if (!isNumber(value)) return;
+    if (!rows.has(x)) rows.set(x, Array(series.length).fill(null));
+    rows.get(x)[i] = [isNumber(low) ? low : value, value, isNumber(high) ? high : value];
+  }));
+  return [...rows].sort((a, b) => a[0] - b[0])
+    .map(([x, values]) => [x, ...values.map((v) => v ?? [null, null, null])]);
+}
+
+export class Chart {
+  // title: what is shown with its unit; summary: the same in words, for those who do not see it.
+  constructor(title, unit, {height_px = kHeight_px, xlabel = "position/mm"} = {}) {
+    this.unit = unit;
+    this.xlabel = xlabel;
+    this.canvas = h("div", {class: "canvas", role: "img", "aria-label": title});
+    this.canvas.style.height = `${height_px}px`;
+    this.legend = h("p", {class: "legend"});
+    this.element = h("figure", {class: "chart"}, h("figcaption", {}, title), this.canvas, this.legend);
+    this.title = title;
+    this.onScheme = () => this.draw();
+    dark.addEventListener("change", this.onScheme);
+  }
+  async set(series, summary = "") {
+    this.series = series.filter((one) => one.points.some((p) => isNumber(p[2])));
+    this.canvas.setAttribute("aria-label", `${this.title}. ${summary}`);
+    await load();
+    this.draw();
+  }
+  draw() {
+    if (!this.series || !this.canvas.isConnected || this.closed) return;
+    const rows = rowsOf(this.series);
+    if (rows.length === 0) {
+      this.legend.textContent = "Nothing is solved yet.";
+      return;
+    }
+    const options = {
+      file: rows, labels: ["x", ...this.series.map((one) => one.label)], customBars: true,
+      colors: this.series.map((one) => colour(one.colour)),
+      series: Object.fromEntries(this.series.map((one) => [one.label, {
+        strokePattern: one.dash ? kDash : null, drawPoints: one.points.length < 200,
+        pointSize: one.line ? 0 : 3, strokeWidth: one.wide ? 4 : 1.6, fillAlpha: one.line ? 0 : 0.2}])),
+      axisLineColor: colour("rule"), gridLineColor: colour("grid"), axisLabelFontSize: 12, axisLabelColor: colour("text"),
+      connectSeparatedPoints: true, highlightCircleSize: 5, xlabel: this.xlabel, xLabelHeight: 16, xRangePad: 8, yRangePad: 12,
+      strokeWidth: 1.6, axes: {y: {axisLabelWidth: 62}},
+      highlightCallback: (_, x, points) => this.say(x, points), unhighlightCallback: () => this.say()};
+    if (this.graph) this.graph.updateOptions(options);
+    else this.graph = new Dygraph(this.canvas, rows, options);
+    this.say();
+  }
+  say(x, points) {
+    const kinds = [...new Map(this.series.map((one) => [one.name ?? one.label, one])).entries()].sort((a, b) => a[1].dash - b[1].dash);
+    const text = points?.length
+      ? `${fixed(x, 3)} mm: ` + points.filter((p) => isNumber(p.yval)).map((p) => `${p.name} ${fixed(p.yval, 3)} ${this.unit}`).join(", ")
+      : kinds.map(([name, one]) => `${one.dash ? "– –" : "——"} ${name}`).join("   ");
+    if (this.legend.textContent !== text) this.legend.textContent = text;
+  }
+  close() {
+    this.closed = true;
+    dark.removeEventListener("change", this.onScheme);
+    this.graph?.destroy();
+  }
+}
+
+const kMostPasses = 4;  // shown while many are there; the others are in the table
+
+export const approach = (direction) => direction > 0
+  ? {name: "forward", colour: "blue", dash: false} : {name: "reverse", colour: "orange", dash: true};
+// Values without U as points of a series.
+export const plain = (map) => [...map].map(([x, y]) => [x, y, y, y]);
+
+// Points of run.points -> a series for each pass and approach, with ± U.
+export function passes(points, key, most = kMostPasses) {
+  const found = new Map();
+  for (const p of points) {
+    const id = `${p.run}${p.direction > 0 ? "+" : "−"}`;
+    if (!found.has(id)) found.set(id, {label: id, ...approach(p.direction), run: p.run, points: []});
+    const U = p.U?.[key] ?? 0;
+    found.get(id).points.push([p.target_mm ?? p.position_mm, p[key] - U, p[key], p[key] + U]);
+  }
+  const all = [...found.values()];
+  const last = Math.max(...all.map((one) => one.run));
+  return all.filter((one) => one.run > last - most);
+}
+
+// Mean over all passes of one approach (or of both, direction 0) at each target: Map target_mm -> value.
+export function means(points, key, direction = 0) {
+  const sums = new Map();
+  for (const p of points) {
+    if (direction !== 0 && p.direction !== direction || !isNumber(p[key])) continue;
+    const x = p.target_mm ?? p.position_mm;
+    const side = sums.get(x) ?? {1: [], "-1": []};
+    side[p.direction].push(p[key]);
+    sums.set(x, side);
+  }
+  const mean = (list) => list.reduce((a, b) => a + b, 0) / list.length;
+  return new Map([...sums].map(([x, side]) =>
+    [x, mean([side[1], side[-1]].filter((list) => list.length).map(mean))]).sort((a, b) => a[0] - b[0]));
+}
+
+export const errorKeys = (point) => Object.keys(point ?? {}).filter((key) => /^E[XYZABC][XYZ]_u(m|rad)$/.test(key));
+
+// Five charts, one an error.
+export class ErrorCharts {
+  constructor(keys, options) {
+    this.charts = new Map(keys.map((key) => [key, new Chart(`${nameOf(key)} in ${unitOf(key)}`, unitOf(key), options)]));
+    this.element = h("div", {class: "charts"}, [...this.charts.values()].map((chart) => chart.element));
+  }
+  set(points) {
+    return Promise.all([...this.charts].map(([key, chart]) => {
+      const values = points.map((p) => p[key]).filter(isNumber);
+      const range = values.length ? `${values.length} points from ${fixed(Math.min(...values), 3)} to ` +
+        `${fixed(Math.max(...values), 3)} ${unitOf(key)}` : "No points yet";
+      return chart.set(passes(points, key), range);
+    }));
+  }
+  close() { for (const chart of this.charts.values()) chart.close(); }
+}

@@ -75,7 +75,7 @@ void activate(Methods& m, const Params& params, Reply reply) {
   const ActivationRequest request{
       params.integer("table"),
       {params.boolean("simulated", false), params.boolean("despite_warnings", false)},
-      action_of(params, "compensation.activate")};
+      action_with_reason(params, "compensation.activate")};
   answer_with_change(m, std::move(reply), [&m, request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(const store::Marks marks, check_activation(reader, request));
     return change_active(
@@ -88,15 +88,16 @@ void deactivate(Methods& m, const Params& params, Reply reply) {
   if (is_volume(params)) return deactivate_volume(m, params, std::move(reply));
   const auto axis = axis_param(params);
   if (!axis) return reply(tl::unexpected(axis.error()));
-  answer_with_change(m, std::move(reply),
-                     [&m, axis = *axis, action = action_of(params, "compensation.deactivate")](
-                         store::Store&) -> Result<Change> {
-                       return change_active(m, std::string("\"axis\":\"") + letter(axis) + "\"",
-                                            [axis, action](store::Store& store) {
-                                              return store.deactivate(axis, actor_text(action.by),
-                                                                      action.utc, action);
-                                            });
-                     });
+  answer_with_change(
+      m, std::move(reply),
+      [&m, axis = *axis, action = action_with_reason(params, "compensation.deactivate")](
+          store::Store&) -> Result<Change> {
+        return change_active(m, std::string("\"axis\":\"") + letter(axis) + "\"",
+                             [axis, action](store::Store& store) {
+                               return store.deactivate(axis, actor_text(action.by), action.utc,
+                                                       action);
+                             });
+      });
 }
 
 std::string status(const Methods& m) {
@@ -215,6 +216,8 @@ Result<std::string> at(const Methods& m, const Params& params) {
 
 void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param axis{"axis", ParamType::string, "X, Y, Z or volume", true};
+  const rpc::Param reason{"reason", ParamType::string, "for people, kept in the history", false,
+                          "\"\""};
   std::vector<rpc::Param> build_params{
       {"runs", ParamType::array, "ids of runs of one axis and the same targets", true},
       {"keep_slope", ParamType::boolean,
@@ -243,7 +246,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                   {"simulated", ParamType::boolean, "also accept a table of simulated data", false,
                    "false"},
                   {"despite_warnings", ParamType::boolean,
-                   "also accept a table whose runs have doubtful notices", false, "false"}},
+                   "also accept a table whose runs have doubtful notices", false, "false"},
+                  reason},
        .result =
            "table, generation, changed: false if the table was already active; simulated, doubtful",
        .example = R"({"table": 1})",
@@ -254,7 +258,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "compensation.deactivate",
        .summary =
            "Deactivates the table of an axis or of the volume; no table is active afterwards.",
-       .params = {axis},
+       .params = {axis, reason},
        .result = "axis, generation, changed: false if no table was active",
        .example = R"({"axis": "X"})",
        .writes = true,

@@ -53,6 +53,7 @@ struct Methods {
   Replayer* replayer = nullptr;   // none: run.replay is refused
   std::optional<Page> page = {};  // none: not served
   std::function<void(std::int64_t generation)> announce = {};  // of a change of what is active
+  std::function<std::vector<std::string>()> clients = {};      // who is connected
 };
 
 #define METHODS(noun) void add_##noun##_methods(rpc::MethodTable& table, Methods& m);
@@ -66,7 +67,8 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 }
 
 // Shared by the nouns.
-HistoryEntry action_of(const rpc::Params& params, std::string name);  // by the caller, now
+HistoryEntry action_of(const rpc::Params& params, std::string name);           // by the caller, now
+HistoryEntry action_with_reason(const rpc::Params& params, std::string name);  // with its "reason"
 Result<Axis> axis_param(const rpc::Params& params);
 // What a deviation or a correction may be at the most.
 std::vector<rpc::Param> limit_params();

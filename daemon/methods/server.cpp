@@ -114,6 +114,12 @@ HistoryEntry action_of(const Params& params, std::string name) {
   return action_now(std::move(name), actor_of(who->uid, who->gid, who->pid));
 }
 
+HistoryEntry action_with_reason(const Params& params, std::string name) {
+  HistoryEntry action = action_of(params, std::move(name));
+  action.detail = params.string("reason");
+  return action;
+}
+
 std::vector<rpc::Param> limit_params() {
   return {
       {"limit_um", ParamType::number, "largest value (angles: urad) [1000 um, 10000 urad]", false},

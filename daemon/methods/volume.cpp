@@ -132,13 +132,12 @@ bool is_volume(const Params& params) {
 }
 
 void deactivate_volume(Methods& m, const Params& params, Reply reply) {
-  answer_with_change(
-      m, std::move(reply),
-      [&m, action = action_of(params, "compensation.deactivate")](store::Store&) -> Result<Change> {
-        return change_active(m, R"("axis":"volume")", [action](store::Store& store) {
-          return store.change_volumetric(std::nullopt, actor_text(action.by), action.utc, action);
-        });
-      });
+  const HistoryEntry action = action_with_reason(params, "compensation.deactivate");
+  answer_with_change(m, std::move(reply), [&m, action](store::Store&) -> Result<Change> {
+    return change_active(m, R"("axis":"volume")", [action](store::Store& store) {
+      return store.change_volumetric(std::nullopt, actor_text(action.by), action.utc, action);
+    });
+  });
 }
 
 void write_volume_status(JsonWriter& json, const Methods& m) {

@@ -34,7 +34,17 @@ Status Store::insert_action(std::string_view subject, std::int64_t row,
   insert.bind(action->by.uid).bind(action->by.gid).bind(action->by.pid);
   insert.bind(std::string_view(action->by.user)).bind(std::string_view(action->utc));
   MDOF_CHECK(insert.run());
-  return add_link(connection_, Fact::action, connection_.last_insert_rowid());
+  const std::int64_t id = connection_.last_insert_rowid();
+  MDOF_CHECK(add_link(connection_, Fact::action, id));
+  return action->detail.empty() ? Status() : insert_reason(id, action->detail);
+}
+
+Status Store::insert_reason(std::int64_t action, std::string_view text) {
+  MDOF_TRY(Statement insert,
+           connection_.prepare("INSERT INTO deed_reason (deed, text) VALUES (?, ?)"));
+  insert.bind(action).bind(text);
+  MDOF_CHECK(insert.run());
+  return add_link(connection_, Fact::action_reason, action);
 }
 
 Result<std::vector<HistoryEntry>> Store::read_actions(Statement& rows) {
@@ -49,10 +59,16 @@ Result<std::vector<HistoryEntry>> Store::read_actions(Statement& rows) {
 }
 
 Status Store::add_detail(HistoryEntry& action) {
-  if (action.subject != "encoder_datum") return {};
-  MDOF_TRY(const auto setting, datum(action.row));
-  if (setting) action.detail = setting_text(*setting);
-  return {};
+  if (action.subject == "encoder_datum") {
+    MDOF_TRY(const auto setting, datum(action.row));
+    if (setting) action.detail = setting_text(*setting);
+    return {};
+  }
+  MDOF_TRY(Statement reason, connection_.prepare("SELECT text FROM deed_reason WHERE deed = ?"));
+  MDOF_TRY(const bool found, reason.bind(action.id).step());
+  if (!found) return {};
+  action.detail = reason.text(0);
+  return check_link(connection_, Fact::action_reason, action.id);
 }
 
 Result<std::vector<HistoryEntry>> Store::actions_of_run(std::int64_t run) {

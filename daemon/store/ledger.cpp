@@ -23,7 +23,7 @@ struct FactKind {
   const char* values;
 };
 
-constexpr std::array<FactKind, 10> kKinds = {{
+constexpr std::array<FactKind, 11> kKinds = {{
     {Fact::run, "run", "id", "run",
      "SELECT run.axis, run.started_utc, run.simulated, run.note, run.model, run.supersedes, "
      "recording.kind, recording.path, recording.sha256, rig.text, options.text, "
@@ -67,6 +67,8 @@ constexpr std::array<FactKind, 10> kKinds = {{
      "volumetric activation of generation",
      "SELECT volumetric_table, actor, activated_utc FROM volumetric_activation NOT INDEXED WHERE "
      "generation = ?"},
+    {Fact::action_reason, "deed_reason", "deed", "reason of deed",
+     "SELECT text FROM deed_reason NOT INDEXED WHERE deed = ?"},
 }};
 
 // Those that a database had when the ledger was new.

@@ -40,6 +40,7 @@ enum class Fact {
   encoder_datum,
   volumetric_table,
   volumetric_activation,
+  action_reason,
 };
 
 // Within the transaction that stored the fact.

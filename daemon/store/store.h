@@ -87,8 +87,9 @@ struct Activation {
 std::string activation_json(const std::string& members, const Activation& activation);
 
 // Thread-bound. A message names the file; not_found names the run or table that is not there.
-// What somebody asked for takes a `HistoryEntry`: who did it, stored in the same transaction.
-// Doubles come back with the bits that they went in with; a NaN comes back as a NaN.
+// What somebody asked for takes a `HistoryEntry`: who did it, stored in the same transaction, with
+// its `detail` as the reason. Doubles come back with the bits that they went in with; a NaN comes
+// back as a NaN.
 class Store {
  public:
   static Result<Store> open(const std::filesystem::path& file, Access access,
@@ -270,6 +271,7 @@ class Store {
   // history.cpp
   Status insert_action(std::string_view subject, std::int64_t row,
                        const std::optional<HistoryEntry>& action);
+  Status insert_reason(std::int64_t action, std::string_view text);
   Result<std::vector<HistoryEntry>> read_actions(sqlite::Statement& rows);
   Status add_detail(HistoryEntry& action);
   // encoder_data.cpp

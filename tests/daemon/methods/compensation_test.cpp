@@ -70,6 +70,17 @@ TEST_F(CompensationMethods, InForceItIsServedWithItsGeneration) {
   EXPECT_EQ(at.at("/result/table"), "1");
 }
 
+TEST_F(CompensationMethods, TheReasonIsInTheHistory) {
+  add_run();
+  ASSERT_EQ(call("compensation.build", R"({"runs":[1]})").code(), 0);
+  call("compensation.activate", R"({"table":1,"despite_warnings":true,"reason":"new guide"})");
+  call("compensation.deactivate", R"({"axis":"X","reason":"scraped"})");
+  const Answer history = call("history.list", R"({"count":3})");
+  EXPECT_EQ(history.at("/result/history/0/detail"), "\"scraped\"") << history.text();
+  EXPECT_EQ(history.at("/result/history/1/detail"), "\"new guide\"");
+  EXPECT_EQ(history.at("/result/history/2/detail"), "");
+}
+
 TEST_F(CompensationMethods, ValuesAreTheErrorsOfTheirPlaceAndSide) {
   activate();
   const TrueErrors first = TrueErrors::at(0), truth = TrueErrors::at(15);

@@ -69,6 +69,26 @@ TEST_F(Deeds, EachChangeHasItsDeed) {
   EXPECT_TRUE(store->verify()->empty());
 }
 
+TEST_F(Deeds, AReasonComesBackAndAnotherIsFound) {
+  {
+    auto store = writer();
+    const auto table =
+        store->add_table(make_table({measured(*store)}), by_anna("compensation.build")).value();
+    HistoryEntry action = by_anna("compensation.activate");
+    action.detail = "after \"scraping\"";
+    ASSERT_TRUE(store->activate(table, "anna", "x", action));
+    const auto actions = store->list_actions(0, 2).value();
+    EXPECT_EQ(actions[0].detail, "after \"scraping\"");
+    EXPECT_EQ(actions[1].detail, "");
+    EXPECT_TRUE(store->verify()->empty());
+  }
+  tamper("DROP TRIGGER deed_reason_no_update; UPDATE deed_reason SET text = 'no reason'");
+  EXPECT_FALSE(reader()->verify()->empty());
+  const auto reported = reader()->list_actions(0, 1);
+  ASSERT_FALSE(reported);
+  EXPECT_TRUE(contains(reported.error().message, "reason of deed")) << reported.error().message;
+}
+
 TEST_F(Deeds, WhoStoresNothingDidNothing) {
   auto store = writer();
   EXPECT_FALSE(store->add_table(make_table({99}), by_anna("compensation.build")));

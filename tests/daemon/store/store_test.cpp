@@ -282,7 +282,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
     ASSERT_TRUE(store->add_run(whole, std::nullopt, known));
     ASSERT_TRUE(store->add_squareness({0, {}, 1, 1, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}));
     ASSERT_TRUE(store->activate(store->add_table(make_table({1})).value(), "me", "now",
-                                HistoryEntry{"compensation.activate", {}, "now"}));
+                                HistoryEntry{"compensation.activate", {}, "now", 0, 0, {}, "why"}));
     ASSERT_TRUE(store->deactivate(Axis::x, "me", "now"));
     ASSERT_TRUE(store->end_study(store->begin_study({}).value(), {}, std::nullopt));
     ASSERT_TRUE(store->add_datum({0, Axis::x, "t7", 0, 0, 0, "now"}));
@@ -304,7 +304,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
       EXPECT_TRUE(contains(done.error().message, "append only")) << done.error().message;
     }
   }
-  EXPECT_EQ(tables, 24);
+  EXPECT_EQ(tables, 25);
 }
 
 TEST_F(StoreTest, ViewsNameErrorsByAxisWithTheirSigns) {

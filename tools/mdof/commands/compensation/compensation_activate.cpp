@@ -3,6 +3,7 @@
 
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
+#include "schema/base/json_writer.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/compensation/active_table.h"
 #include "tools/mdof/options.h"
@@ -13,24 +14,30 @@ namespace mdof::tools {
 namespace {
 
 struct ActivateCommand {
-  std::string database, socket;
+  std::string database, socket, reason;
   std::int64_t table = 0;
   daemon::Consent consent;
   bool json = false;
 };
 
 Result<std::string> activated(const ActivateCommand& command) {
-  const std::string table = "\"table\":" + std::to_string(command.table);
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
-  const std::string consent =
-      std::string(command.consent.simulated ? ",\"simulated\":true" : "") +
-      (command.consent.despite_warnings ? ",\"despite_warnings\":true" : "");
-  if (mdofd) return mdofd->call("compensation.activate", "{" + table + consent + "}");
+  if (mdofd) {
+    JsonWriter params;
+    params.begin_object()
+        .field("table", command.table)
+        .field("simulated", command.consent.simulated)
+        .field("despite_warnings", command.consent.despite_warnings)
+        .field("reason", command.reason)
+        .end_object();
+    return mdofd->call("compensation.activate", params.text());
+  }
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  const HistoryEntry action = daemon::action_now("compensation.activate", daemon::this_process());
+  HistoryEntry action = daemon::action_now("compensation.activate", daemon::this_process());
+  action.detail = command.reason;
   MDOF_TRY(const auto done,
            daemon::activate_table(store, {command.table, command.consent, action}));
-  return store::activation_json(table, done);
+  return store::activation_json("\"table\":" + std::to_string(command.table), done);
 }
 
 Status activate(const ActivateCommand& command) {
@@ -44,6 +51,7 @@ Action declare_activate(CLI::App& command) {
   add_database_option(command, o->database);
   command.add_option("TABLE", o->table, "Number of the table")->required()->type_name("");
   add_consent_flags(command, o->consent, "a table");
+  command.add_option("--reason", o->reason, "Kept in the history");
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return activate(*o); };

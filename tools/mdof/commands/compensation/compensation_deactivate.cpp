@@ -3,6 +3,7 @@
 
 #include "daemon/history.h"
 #include "schema/axis.h"
+#include "schema/base/json_writer.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/compensation/active_table.h"
 #include "tools/mdof/options.h"
@@ -15,22 +16,26 @@ namespace {
 constexpr const char* kVolume = "volume";
 
 struct DeactivateCommand {
-  std::string database, socket, axis;
+  std::string database, socket, axis, reason;
   bool json = false;
 };
 
 Result<std::string> deactivated(const DeactivateCommand& command) {
-  const std::string axis = "\"axis\":\"" + command.axis + "\"";
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
-  if (mdofd) return mdofd->call("compensation.deactivate", "{" + axis + "}");
+  if (mdofd) {
+    JsonWriter params;
+    params.begin_object().field("axis", command.axis).field("reason", command.reason).end_object();
+    return mdofd->call("compensation.deactivate", params.text());
+  }
   MDOF_TRY(store::Store store, open_to_write(command.database));
-  const HistoryEntry action = daemon::action_now("compensation.deactivate", daemon::this_process());
+  HistoryEntry action = daemon::action_now("compensation.deactivate", daemon::this_process());
+  action.detail = command.reason;
   const std::string actor = daemon::actor_text(action.by);
   MDOF_TRY(const auto done,
            command.axis == kVolume
                ? store.change_volumetric(std::nullopt, actor, action.utc, action)
                : store.deactivate(*axis_from(command.axis), actor, action.utc, action));
-  return store::activation_json(axis, done);
+  return store::activation_json("\"axis\":\"" + command.axis + "\"", done);
 }
 
 Status deactivate(const DeactivateCommand& command) {
@@ -46,6 +51,7 @@ Action declare_deactivate(CLI::App& command) {
   command.add_option("--axis", o->axis, "Axis whose table is deactivated, or volume")
       ->required()
       ->check(CLI::IsMember({"X", "Y", "Z", kVolume}));
+  command.add_option("--reason", o->reason, "Kept in the history");
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return deactivate(*o); };

@@ -228,6 +228,7 @@ Status App::Parts::listen() {
   methods->announce = [this](std::int64_t generation) {
     report(kRunTopic, compensation_json(generation));
   };
+  methods->clients = [this] { return service.clients(); };
   MDOF_TRY(methods->generation, reader->generation());
   // Never back, though what raised it is lost.
   methods->generation =

@@ -39,6 +39,13 @@ double displacement_m(const Calibration& c, double raw_um) {
   return from_um(c.reads_gap ? -displacement_um : displacement_um);
 }
 
+std::array<double, 2> displacement_window_m(const Probe& probe) {
+  const Window raw = valid_window(probe);
+  const double a_m = displacement_m(probe.calibration, raw.low_um);
+  const double b_m = displacement_m(probe.calibration, raw.high_um);
+  return {std::min(a_m, b_m), std::max(a_m, b_m)};
+}
+
 namespace {
 
 // Raw values to displacements. True: some are outside the window, or NaN. Loops without branches,

@@ -2,6 +2,7 @@
 // last step of every driver; nothing after it knows volts or gaps.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -15,6 +16,10 @@ namespace mdof::drivers {
 
 // Displacement along `measures` in m for a raw reading in µm (schema/rig/rig.h, Calibration).
 double displacement_m(const Calibration& calibration, double raw_um);
+
+// Displacements along `measures` in m between which a reading of the probe is not at the end of its
+// range, the lower one first.
+std::array<double, 2> displacement_window_m(const Probe& probe);
 
 // Reentrant; holds a copy of what it needs of the rig.
 class Calibrator {

@@ -87,6 +87,13 @@ std::size_t Service::session_count() const {
                     [](const Holder& holder) { return !holder.session.expired(); }));
 }
 
+std::vector<std::string> Service::clients() const {
+  std::vector<std::string> names;
+  for (const Holder& holder : holders_)
+    if (const auto session = holder.session.lock()) names.push_back(session->name());
+  return names;
+}
+
 void Service::add_topic(Topic topic) {
   topics_.add(std::move(topic));
 }

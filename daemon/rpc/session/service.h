@@ -32,6 +32,7 @@ class Service {
   // until nobody holds it any more: the transport releases it when the client has gone.
   Result<std::shared_ptr<Session>> admit(Peer peer, Transport& transport);
   std::size_t session_count() const;
+  std::vector<std::string> clients() const;  // their names (Session::name())
 
   void add_topic(Topic topic);
   // Is there such a topic?

@@ -29,7 +29,7 @@ EXACT = 1e-12  # relative
 # What states the uncertainty of a run, of two, or of a table of runs is compared here ...
 COMPARED = {"analyse", "budget", "compare", "compensation build", "compensation show", "parallelism", "replay", "show",
             "squareness", "trend"}
-COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid", "compensation.status",
+COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid", "compensation.status", "compensation.table",
                     "parallelism.fit", "run.budget", "run.compare", "run.get", "run.points", "squareness.budget", "squareness.fit"}
 # ... and what states none, or that of other things: of files, of studies, of calibrations, of a machine's description.
 OTHERS = {"clearance", "completion", "help", "machine kinematics", "machine budget", "milling",
@@ -40,9 +40,9 @@ OTHERS = {"clearance", "completion", "help", "machine kinematics", "machine budg
           "machine circle", "machine diagonal", "machine error", "machine map", "machine perpendicularity", "machine study", "record", "runs",
           "selftest", "sensitivity", "separate reversal", "separate shift", "separate square", "setup network",
           "solve", "status", "stop", "straightness", "studies", "study", "verify"}
-OTHER_METHODS = {"compensation.activate", "compensation.build_volume", "compensation.deactivate", "device.list", "encoder.set", "history.list",
-                 "live.subscribe", "live.unsubscribe", "machine.at", "rpc.discover", "run.import", "run.list", "run.replay", "run.resume",
-                 "run.start", "run.stop", "server.info"}
+OTHER_METHODS = {"compensation.activate", "compensation.build_volume", "compensation.deactivate", "compensation.list", "device.list", "encoder.set", "history.list",
+                 "live.subscribe", "live.unsubscribe", "machine.at", "rig.get", "rpc.discover", "run.import", "run.list", "run.replay", "run.resume",
+                 "run.start", "run.stop", "server.health", "server.info"}
 
 
 def mdof(*words):
@@ -203,6 +203,7 @@ class OneQuantity(unittest.TestCase):
         replies["compensation.build"] = client.call("compensation.build", runs=[1])
         replies["compensation.status"] = client.call("compensation.status")
         replies["compensation.grid"] = client.call("compensation.grid", axis="X", offset=0, count=100)
+        replies["compensation.table"] = client.call("compensation.table", table=replies["compensation.build"]["table"], count=100)
         cls.at = []
         for p in replies["compensation.grid"]["points"]:
             for side, direction in (("forward", 1), ("reverse", -1)):
@@ -238,6 +239,7 @@ class OneQuantity(unittest.TestCase):
         table(n, "compensation show", cls.documents["compensation show"]["points"])
         table(n, "compensation build", cls.documents["compensation build"]["points"])
         table(n, "compensation.grid", cls.replies["compensation.grid"]["points"])
+        table(n, "compensation.table", cls.replies["compensation.table"]["points"])
         for side, at_mm, reply in cls.at:
             for key, u in reply["u"].items():
                 n.add(f"table {side} {at_mm:.6f} {key}", "compensation.at", value=reply["error"][key], u=u)

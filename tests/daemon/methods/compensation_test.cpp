@@ -1,4 +1,4 @@
-// compensation.build, activate, deactivate, status, grid, at.
+// compensation.build, activate, deactivate, status, grid, at, list, table.
 #include "tests/daemon/methods/methods_fixture.h"
 
 namespace mdof::daemon {
@@ -68,6 +68,30 @@ TEST_F(CompensationMethods, InForceItIsServedWithItsGeneration) {
   const Answer at = value_at(5, 1);
   EXPECT_EQ(at.at("/result/generation"), generation);
   EXPECT_EQ(at.at("/result/table"), "1");
+}
+
+TEST_F(CompensationMethods, StoredTablesAreListedAndReadWhetherActiveOrNot) {
+  const std::string generation = activate();
+  ASSERT_EQ(call("compensation.build", R"({"runs":[1]})").at("/result/table"), "2");
+  const Answer list = call("compensation.list", R"({"axis":"X"})");
+  ASSERT_EQ(list.size("/result/tables"), 2u) << list.text();
+  EXPECT_EQ(list.at("/result/tables/0/table"), "2");
+  EXPECT_EQ(list.at("/result/tables/0/active"), "false");
+  EXPECT_EQ(list.at("/result/tables/0/generation"), "0");
+  EXPECT_EQ(list.at("/result/tables/1/active"), "true");
+  EXPECT_EQ(list.at("/result/tables/1/generation"), generation);
+  EXPECT_EQ(call("compensation.list", R"({"axis":"Y"})").size("/result/tables"), 0u);
+  EXPECT_EQ(call("compensation.list", R"({"axis":"volume"})").size("/result/tables"), 0u);
+  EXPECT_EQ(call("compensation.list", R"({"offset":1})").at("/result/tables/0/table"), "1");
+  const Answer grid = call("compensation.grid", R"({"axis":"X","offset":1,"count":2})");
+  const Answer table = call("compensation.table", R"({"table":1,"offset":1,"count":2})");
+  EXPECT_EQ(table.at("/result/points"), grid.at("/result/points"));
+  EXPECT_EQ(table.at("/result/doubtful"), grid.at("/result/doubtful"));
+  EXPECT_EQ(table.at("/result/active"), "true");
+  const Answer other = call("compensation.table", R"({"table":2})");
+  EXPECT_EQ(other.at("/result/active"), "false");
+  EXPECT_NE(other.at("/result/points/1"), table.at("/result/points/0"));  // its slope was removed
+  EXPECT_EQ(call("compensation.table", R"({"table":9})").code(), rpc::kNotFound);
 }
 
 TEST_F(CompensationMethods, TheReasonIsInTheHistory) {

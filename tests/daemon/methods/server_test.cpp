@@ -67,6 +67,35 @@ TEST_F(ServerMethods, ListsDevicesWithTheirAxisAndState) {
   EXPECT_EQ(list.number("/result/devices/0/scans"), 500);
 }
 
+TEST_F(ServerMethods, TheFixtureIsGivenWithTheEndsOfItsRanges) {
+  EXPECT_EQ(call("rig.get", R"({"axis":"X"})").code(), rpc::kNotFound);
+  add_axis();
+  const Answer rig = call("rig.get", R"({"axis":"X"})");
+  ASSERT_EQ(rig.size("/result/probes"), 5u) << rig.text();
+  EXPECT_EQ(rig.at("/result/probes/0/id"), "\"A\"");
+  EXPECT_EQ(rig.at("/result/probes/0/due"), "null");
+  EXPECT_EQ(rig.at("/result/notices"), "[]");
+  const Rig configured = five_probe_rig();
+  for (std::size_t k = 0; k < 5; ++k) {
+    const std::string at = "/result/probes/" + std::to_string(k);
+    EXPECT_EQ(rig.number(at + "/range_um"), to_um(configured.probes[k].range_m));
+    EXPECT_NEAR(rig.number(at + "/low_um"), -to_um(configured.probes[k].range_m) / 2, 0.1);
+    EXPECT_NEAR(rig.number(at + "/high_um"), to_um(configured.probes[k].range_m) / 2, 0.1);
+    for (int d = 0; d < 3; ++d)
+      EXPECT_EQ(rig.number(at + "/direction/" + std::to_string(d)),
+                configured.probes[k].direction[static_cast<std::size_t>(d)]);
+  }
+}
+
+TEST_F(ServerMethods, WhatIsLeftOfTheDiskIsSaid) {
+  const Answer health = call("server.health");
+  EXPECT_GT(health.number("/result/free_bytes"), 0) << health.text();
+  EXPECT_GT(health.number("/result/database_bytes"), 4096);
+  EXPECT_EQ(health.at("/result/newest_recording"), "null");
+  add_run();  // of a CSV: it says nothing of recordings
+  EXPECT_EQ(call("server.health").at("/result/newest_recording"), "null");
+}
+
 TEST_F(ServerMethods, ALostDatabaseIsToldAndNothingIsStored) {
   add_axis();
   std::filesystem::rename(folder_ / "mdof.db", folder_ / "aside.db");

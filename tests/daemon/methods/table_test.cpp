@@ -44,7 +44,8 @@ TEST_F(MethodTableTest, WhoMayCallWhat) {
       "live.unsubscribe",    "run.list",          "run.get",           "run.points",
       "run.budget",          "run.compare",       "squareness.budget", "history.list",
       "compensation.status", "compensation.grid", "compensation.at",   "parallelism.fit",
-      "machine.at"};
+      "machine.at",          "rig.get",           "compensation.list", "compensation.table",
+      "server.health"};
   const std::set<std::string> approving = {"compensation.activate", "compensation.deactivate"};
   for (const auto& [name, method] : methods()) {
     EXPECT_EQ(method.writes, writing.contains(name)) << name;

@@ -69,7 +69,7 @@ export class Chart {
       series: Object.fromEntries(this.series.map((one) => [one.label, {
         strokePattern: one.dash ? kDash : null, drawPoints: one.points.length < 200,
         pointSize: one.line ? 0 : 3, strokeWidth: one.wide ? 4 : 1.6, fillAlpha: one.line ? 0 : 0.2}])),
-      axisLineColor: colour("rule"), gridLineColor: colour("grid"), axisLabelFontSize: 12, axisLabelColor: colour("text"),
+      axisLineColor: colour("rule"), gridLineColor: colour("grid"), axisLabelFontSize: 12,
       connectSeparatedPoints: true, highlightCircleSize: 5, xlabel: this.xlabel, xLabelHeight: 16, xRangePad: 8, yRangePad: 12,
       strokeWidth: 1.6, axes: {y: {axisLabelWidth: 62}},
       highlightCallback: (_, x, points) => this.say(x, points), unhighlightCallback: () => this.say()};

@@ -32,7 +32,7 @@ COMPARED = {"analyse", "budget", "compare", "compensation build", "compensation 
 COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid", "compensation.status", "compensation.table",
                     "parallelism.fit", "run.budget", "run.compare", "run.get", "run.points", "squareness.budget", "squareness.fit"}
 # ... and what states none, or that of other things: of files, of studies, of calibrations, of a machine's description.
-OTHERS = {"clearance", "completion", "help", "machine kinematics", "machine budget", "milling",
+OTHERS = {"clearance", "completion", "demo", "help", "machine kinematics", "machine budget", "milling",
           "form scan", "form compare", "form clamp", "form cut", "form path", "part", "plot", "report",
           "calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
           "compensation deactivate", "compensation export", "compensation linuxcnc", "compensation list", "device list", "device monitor",

@@ -8,13 +8,13 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
-#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "tools/mdof/find_program.h"
 
 namespace mdof::tools {
 
@@ -23,19 +23,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::chrono::seconds kLongestPrint{120};
-
-// The first of this name on PATH.
-std::optional<fs::path> program(const std::string& name) {
-  const char* value = std::getenv("PATH");
-  const std::string path = value ? value : "";
-  for (std::size_t at = 0; at <= path.size();) {
-    const std::size_t end = std::min(path.find(':', at), path.size());
-    const fs::path file = fs::path(path.substr(at, end - at)) / name;
-    if (end > at && ::access(file.c_str(), X_OK) == 0 && fs::is_regular_file(file)) return file;
-    at = end + 1;
-  }
-  return std::nullopt;
-}
 
 // The program's exit status; its words go nowhere: what went wrong shows in the missing file.
 Result<int> run_program(const std::vector<std::string>& words) {
@@ -85,7 +72,7 @@ std::string file_url(const fs::path& file) {
 }
 
 Result<std::vector<std::string>> command_for(const fs::path& html, const fs::path& pdf) {
-  if (const auto chromium = program("chromium")) {
+  if (const auto chromium = find_program("chromium")) {
     std::vector<std::string> words = {chromium->string(),
                                       "--headless",
                                       "--disable-gpu",
@@ -96,7 +83,7 @@ Result<std::vector<std::string>> command_for(const fs::path& html, const fs::pat
     if (::geteuid() == 0) words.insert(words.begin() + 1, "--no-sandbox");
     return words;
   }
-  if (const auto weasyprint = program("weasyprint"))
+  if (const auto weasyprint = find_program("weasyprint"))
     return std::vector<std::string>{weasyprint->string(), file_url(html),
                                     fs::absolute(pdf).string()};
   return io_error(

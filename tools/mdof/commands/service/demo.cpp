@@ -1,0 +1,117 @@
+// mdof demo: a simulated machine, mdofd and its page, measuring.
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "daemon/rpc/line/client.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/service/demo_daemon.h"
+#include "tools/mdof/interrupt.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/json_read.h"
+
+namespace mdof::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kLook{100};
+// The targets at which the simulated axis X of the example stops.
+constexpr const char* kRun =
+    R"({"axis":"X","from_mm":0,"to_mm":60,"interval_mm":10,"jitter_mm":0.5,"repeats":5,)"
+    R"("note":"demonstration"})";
+
+struct DemoCommand {
+  std::string folder, mdofd, http = "127.0.0.1:0";
+};
+
+// A folder of its own, removed at the end, or the one that was given.
+class DemoFolder {
+ public:
+  static Result<DemoFolder> make(const std::string& given) {
+    if (!given.empty()) return DemoFolder(given, false);
+    std::string made = (fs::temp_directory_path() / "mdof-demo-XXXXXX").string();
+    if (!::mkdtemp(made.data())) return io_error(made + ": cannot be made");
+    return DemoFolder(made, true);
+  }
+  ~DemoFolder() {
+    std::error_code ignored;
+    if (removes_) fs::remove_all(path_, ignored);
+  }
+  DemoFolder(DemoFolder&& other) noexcept
+      : path_(std::move(other.path_)), removes_(std::exchange(other.removes_, false)) {}
+  DemoFolder(const DemoFolder&) = delete;
+  DemoFolder& operator=(const DemoFolder&) = delete;
+
+  const fs::path& path() const { return path_; }
+  bool is_temporary() const { return removes_; }
+
+ private:
+  DemoFolder(fs::path path, bool removes) : path_(std::move(path)), removes_(removes) {}
+  fs::path path_;
+  bool removes_;
+};
+
+std::string token_in(const fs::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  return line;
+}
+
+// Where the page is, and what it asks for.
+Result<std::string> welcome(rpc::Client& mdofd, const DemoFolder& folder) {
+  MDOF_TRY(const std::string info, mdofd.call("server.info"));
+  simdjson::dom::parser parser;
+  simdjson::dom::element page;
+  if (parser.parse(simdjson::padded_string(info))["http"].get(page))
+    return io_error("this mdofd serves no page");
+  return "page    " + text(page, "url") + "\ntoken   " + token_in(text(page, "token_file")) +
+         "\nfolder  " + folder.path().string() +
+         (folder.is_temporary() ? " (removed at the end)" : "") + "\n";
+}
+
+Status demo(const DemoCommand& command) {
+  const Interrupt interrupt;
+  MDOF_TRY(const fs::path program, find_mdofd(command.mdofd));
+  MDOF_TRY(const DemoFolder folder, DemoFolder::make(command.folder));
+  MDOF_TRY(DemoDaemon daemon, DemoDaemon::start(program, folder.path(), command.http));
+  MDOF_TRY(rpc::Client mdofd, rpc::Client::connect(daemon.socket()));
+  MDOF_TRY(const std::string where, welcome(mdofd, folder));
+  MDOF_CHECK(write_out(where));
+  MDOF_CHECK(mdofd.call("run.start", kRun));
+  MDOF_CHECK(write_line(
+      "\nA simulated axis X is measured: open the page in a browser, and Capture there. What "
+      "changes\nsomething asks for the token. Ctrl-C ends it all."));
+  while (!Interrupt::requested() && !daemon.has_ended()) std::this_thread::sleep_for(kLook);
+  return Interrupt::requested() ? Status() : io_error("mdofd has ended by itself");
+}
+
+Action declare_demo(CLI::App& command) {
+  const auto o = std::make_shared<DemoCommand>();
+  command.add_option("--folder", o->folder, "Keep everything here [default: a temporary one]")
+      ->type_name("DIR");
+  command.add_option("--http", o->http, "Where the page is served; port 0: any")
+      ->type_name("ADDRESS:PORT")
+      ->capture_default_str();
+  command.add_option("--mdofd", o->mdofd, "The program [default: beside mdof, else on PATH]")
+      ->type_name("FILE");
+  return [o] { return demo(*o); };
+}
+
+}  // namespace
+
+Command demo_command() {
+  return {.name = "demo",
+          .summary = "Measure a simulated machine, with the page in a browser; needs no hardware",
+          .footer =
+              "Examples:\n"
+              "  mdof demo\n"
+              "  mdof demo --folder demo --http 127.0.0.1:8080",
+          .declare = declare_demo};
+}
+
+}  // namespace mdof::tools

@@ -1,0 +1,8 @@
+// The example configuration (daemon/examples/), in the program: mdof demo works without files.
+#pragma once
+
+namespace mdof::tools {
+
+extern const char k_mdofd_toml[], k_rig_X_toml[], k_rig_Y_toml[];
+
+}  // namespace mdof::tools

@@ -1,0 +1,149 @@
+// The whole story in a browser: set up, capture, the run, its table built and activated; what the page says is compared
+// with what the Unix socket says. mdofd killed: stale is shown; started again: the page goes on by itself.
+import assert from "node:assert/strict";
+import {accessible, launch, text, watch} from "./browser.mjs";
+import {Daemon} from "./daemon.mjs";
+import {units} from "./units.mjs";
+
+const kFirstView_bytes = 200_000;
+const daemon = new Daemon(process.argv[2]);
+const errors = [];
+const step = (what) => console.log(`${(performance.now() / 1000).toFixed(1)} s: ${what}`);
+
+async function setUp(page) {
+  const sizes = [];
+  page.on("response", (response) => { if (!/\/(events|rpc)/.test(response.url())) response.body().then((b) => sizes.push(b.length)).catch(() => {}); });
+  const began = performance.now();
+  await page.goto(daemon.url);
+  await page.waitForFunction(() => [...document.querySelectorAll(".probe .value")].filter((v) => /\d/.test(v.textContent)).length === 5);
+  step(`first values after ${Math.round(performance.now() - began)} ms, ${sizes.reduce((a, b) => a + b, 0)} bytes in ${sizes.length} files`);
+  assert.ok(sizes.length > 5 && sizes.reduce((a, b) => a + b, 0) < kFirstView_bytes, "the first view is small");
+  assert.match(await text(page, "#banner"), /SIMULATED: X, Y/);
+  await page.waitForFunction(() => document.querySelector(".probe .state").textContent.includes("in range"));
+  await page.waitForFunction(() => /simulator-X[^]*20\d\d|simulator-X[^]*19\d\d/.test(document.querySelector(".setup").innerText));  // its rate, measured
+  await accessible(page, "Set up");
+}
+
+// Without a mouse: the link to the content, then the views.
+async function byKeyboard(page) {
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press("Tab");
+  assert.match(await page.evaluate(() => document.activeElement.className), /skip/);
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter");
+  await page.getByRole("button", {name: "Start the run"}).waitFor();
+}
+
+async function capture(page) {
+  await page.getByLabel("To/mm").fill("6");
+  await page.getByLabel("Interval/mm").fill("2");
+  await page.getByLabel("Repeats").fill("1");
+  await page.getByLabel("Note").fill("story");
+  assert.match(await text(page, "form"), /4 targets, 8 points expected/);
+  await page.getByRole("button", {name: "Start the run"}).click();
+  const dialog = page.getByRole("dialog");
+  await dialog.waitFor();
+  await accessible(page, "the question for the token");
+  await dialog.getByLabel("Token").fill("wrong");
+  await dialog.getByRole("button", {name: "Use this token"}).click();
+  await page.getByRole("alert").filter({hasText: /token/}).waitFor();
+  assert.equal((await daemon.call("run.list")).total, 0, "nothing is begun with a wrong token");
+  await page.getByRole("button", {name: "Start the run"}).click();
+  await dialog.getByLabel("Token").fill(daemon.token());
+  await dialog.getByRole("button", {name: "Use this token"}).click();
+  await page.waitForFunction(() => /[1-7] of 8 points; next target/.test(document.querySelector(".capture").innerText));
+  await page.locator(".chart canvas").first().waitFor();
+  assert.equal(await page.locator(".chart").count(), 5);
+  await accessible(page, "Capture while it measures");
+  await page.waitForFunction(() => /Run \d+ has ended: complete/.test(document.querySelector(".capture").innerText));
+  await page.getByRole("link", {name: /Show run/}).click();
+}
+
+async function runs(page) {
+  const [{run}] = (await daemon.call("run.list")).runs;
+  const whole = await daemon.call("run.get", {run});
+  await page.getByRole("heading", {name: "Straightness", exact: true}).waitFor();
+  const straightness = whole.uncertainty.EYX_straightness_um;
+  const said = await text(page, ".view");
+  const shown = said.match(/Straightness (−?[\d.]+) µm, U = ([\d.]+) µm/) ?? assert.fail(said);
+  assert.ok(Math.abs(Number(shown[1]) - straightness.value) < 0.01 * straightness.value + 1e-3, `${shown[1]} is ${straightness.value}`);
+  assert.ok(Math.abs(Number(shown[2]) / straightness.U - 1) < 0.06, `${shown[2]} is ${straightness.U}`);
+  assert.match(await text(page, ".view"), /U incomplete: noise and repeatability only/);
+  await page.getByText("noise and repeatability", {exact: true}).waitFor();  // its budget
+  await accessible(page, "one run");
+  await page.getByRole("link", {name: "All runs"}).click();
+  await page.getByLabel("Note contains").fill("story");
+  await page.getByText("1 of 1 runs").waitFor();
+  await accessible(page, "Runs");
+  return run;
+}
+
+async function compensation(page, run) {
+  await page.getByRole("link", {name: "Compensation"}).click();
+  await page.getByText("No table is active").waitFor();
+  await page.getByLabel(new RegExp(`run ${run},`)).check();
+  await page.getByRole("button", {name: "Build the table"}).click();
+  await page.getByRole("button", {name: "Activate table 1"}).click();
+  const dialog = page.getByRole("dialog");
+  await dialog.waitFor();
+  await accessible(page, "the question before a table is activated");
+  await dialog.getByLabel("Reason").fill("as the story wants it");
+  for (const box of await dialog.getByRole("checkbox").all()) await box.check();
+  await dialog.getByRole("button", {name: "Activate"}).click();
+  await page.getByText(/^Table 1, generation \d+/).waitFor();
+  const {axes} = await daemon.call("compensation.status");
+  assert.equal(axes.X.table, 1);
+  assert.deepEqual(axes.X.runs, [run]);
+  const {history} = await daemon.call("history.list", {count: 1});
+  assert.equal(history[0].deed, "compensation.activate");
+  assert.equal(history[0].detail, "as the story wants it");
+  await page.getByText("as the story wants it").waitFor();
+  await page.getByText("All numbers with u").waitFor();
+  await accessible(page, "Compensation");
+  await page.getByRole("link", {name: "Volume"}).click();
+  await page.getByText("No table of the volume is active").waitFor();
+  await accessible(page, "the volume");
+}
+
+async function restart(page) {
+  await page.getByRole("link", {name: "Health"}).click();
+  await page.getByText(/things? needs? a look|Everything works/).waitFor();
+  await page.getByText(/h at the rate of run/).waitFor();
+  await accessible(page, "Health");
+  await page.getByRole("link", {name: "Set up"}).click();
+  await page.locator(".probe .value").first().waitFor();
+  await daemon.end("SIGKILL");
+  await page.waitForFunction(() => /No connection to mdofd[^]*Last value/.test(document.getElementById("banner").innerText) && document.querySelector(".setup.stale"));
+  assert.match(await text(page, ".setup"), /stale/);
+  step("stale is shown");
+  await accessible(page, "Set up while it is stale");
+  const before = await text(page, ".where");
+  await daemon.start();
+  await page.waitForFunction((old) => !/No connection/.test(document.getElementById("banner").innerText) && !document.querySelector(".setup.stale") &&
+    document.querySelector(".where").textContent !== old, before);
+  step("goes on after the restart");
+}
+
+let browser;
+try {
+  await daemon.start();
+  step("mdofd serves");
+  browser = await launch();
+  const page = await browser.newPage({viewport: {width: 1280, height: 900}});
+  page.setDefaultTimeout(30_000);
+  watch(page, errors);
+  await setUp(page);
+  await units(page);
+  await byKeyboard(page);
+  await capture(page);
+  step("a run is measured");
+  const run = await runs(page);
+  await compensation(page, run);
+  step("its table is active");
+  await restart(page);
+  assert.deepEqual(errors, []);
+} finally {
+  await browser?.close();
+  await daemon.close();
+}

@@ -1,0 +1,64 @@
+// Known answers for what the page itself calculates, in the browser that runs it.
+import assert from "node:assert/strict";
+
+export async function units(page) {
+  const found = await page.evaluate(async () => {
+    const {Noise, verdict, shimText, stateOf} = await import("/setup.js");
+    const {lineThrough} = await import("/run_detail.js");
+    const {difference} = await import("/run_pair.js");
+    const {valueAt} = await import("/compensation.js");
+    const {expected} = await import("/capture.js");
+    const {rowsOf, means} = await import("/charts.js");
+    const {hoursLeft} = await import("/health.js");
+    const {layer} = await import("/volume.js");
+    const {fixed, measured, short} = await import("/dom.js");
+    const probe = {id: "A", direction: [0, 0, 1], low_um: -100, high_um: 100};
+    const card = {probe, noise: {pooled: [0.01, 60]}};
+    // Two stops at places far apart: ss of 0 2 is 2, of 10 14 is 8, each with one degree of freedom; then 20 times 100.
+    const noise = new Noise();
+    const few = [[0, 1], [2, 1], [5, 0], [10, 1], [14, 1]];
+    for (const [x, still] of few) noise.add(x, still);
+    const tooFew = noise.pooled;
+    noise.add(0, false);
+    for (let i = 0; i < 20; ++i) noise.add(100, true);
+    const points = [{position_mm: 0, forward: {k: 1}}, {position_mm: 10, forward: {k: 3}}];
+    return {
+      // The target is pushed along what the probe measures: its reading rises.
+      right: verdict(5, card, [0, 0, 1]), wrong: verdict(-5, card, [0, 0, 1]), across: verdict(5, card, [1, 0, 0]), none: verdict(0.1, card, [0, 0, 1]),
+      noise: [tooFew, noise.pooled],
+      shim: shimText(40, probe), shim_back: shimText(-40, probe), centred: shimText(5, probe),
+      states: [[0, "good"], [60, "good"], [-90, "simulated"], [0, "over_range"]].map(([um, q]) => stateOf(um, q, -100, 100, false)[2]),
+      // y = 2x + 1 with one point 3 too high: by hand slope 2, mean y (1 + 6 + 5) / 3.
+      least: lineThrough([[0, 1], [1, 6], [2, 5]], "least_squares"), ends: lineThrough([[0, 1], [1, 6], [2, 5]], "end_point"),
+      difference: [...difference(new Map([[0, 3], [5, 4]]), new Map([[0.004, 1], [7, 0]]))],
+      between: [valueAt(points, "forward", "k", 5), valueAt(points, "forward", "k", 10), valueAt(points, "forward", "k", 11), valueAt(points, "forward", "k", -1)],
+      expected: [expected({from_mm: 0, to_mm: 30, interval_mm: 5, repeats: 5}), expected({targets_mm: [1, 2], repeats: 0}), expected({from_mm: 0, to_mm: 1, interval_mm: 0})],
+      rows: rowsOf([{points: [[1, 0, 1, 2], [0, 0, 0, 0]]}, {points: [[1, 4, 5, 6], [2, 0, null, 0]]}]),
+      // Both approaches count alike, however often each was passed.
+      means: [...means([{target_mm: 0, direction: 1, k: 1}, {target_mm: 0, direction: 1, k: 3}, {target_mm: 0, direction: -1, k: 6}], "k")],
+      // 36 MB of 100 s, 3.6 GB left.
+      hours: hoursLeft({free_bytes: 3.6e9, newest_recording: {bytes: 36e6}}, {scans: 100_000, plausibility: {rate_hz: 1000}}),
+      layer: layer([[0, 0, 0], [0, 0, 5], [1, 0, 5]], "XY", 5).length,
+      numbers: [fixed(-0.0001, 2), fixed(-1.5, 1), fixed(null, 2), measured({value: 1.83045, U: 0.0886, k: 2}, "µm"), measured({value: 1}, "µm"), short(0.000123456)],
+    };
+  });
+  assert.match(found.right, /as the rig says/);
+  assert.match(found.wrong, /REVERSED.*probe A/);
+  assert.match(found.across, /across/);
+  assert.equal(found.none, "no change yet");
+  assert.equal(found.shim, "Shim 40.0 µm: the probe towards +Z, or the target towards −Z");
+  assert.equal(found.shim_back, "Shim 40.0 µm: the probe towards −Z, or the target towards +Z");
+  assert.match(found.centred, /no shim/);
+  assert.deepEqual(found.noise, [null, [Math.sqrt((2 + 8 + 0) / 21), 21]]);
+  assert.deepEqual(found.states, ["in range", "off centre", "near the end of its range", "over range"]);
+  assert.deepEqual(found.least, [[0, 2], [2, 6]]);
+  assert.deepEqual(found.ends, [[0, 1], [2, 5]]);
+  assert.deepEqual(found.difference, [[0, 2]]);
+  assert.deepEqual(found.between, [2, 3, null, null]);
+  assert.deepEqual(found.expected, [{targets: 7, points: 70}, {targets: 2, points: null}, null]);
+  assert.deepEqual(found.rows, [[0, [0, 0, 0], [null, null, null]], [1, [0, 1, 2], [4, 5, 6]]]);
+  assert.deepEqual(found.means, [[0, 4]]);
+  assert.equal(found.hours, 100 * 100 / 3600);
+  assert.equal(found.layer, 2);
+  assert.deepEqual(found.numbers, ["0.00", "−1.5", "–", "1.830 µm, U = 0.089 µm (k = 2.00)", "1.000 µm, U not known", "0.000123"]);
+}

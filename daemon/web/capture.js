@@ -121,6 +121,8 @@ class Progress {
   event(e) {
     if (e.type === "trouble" && e.axis === this.axis)
       this.trouble.append(h("p", {class: "notice doubtful"}, `▲ ${e.device ? `${e.device}: ` : ""}${e.kind}: ${e.text}`));
+    // Its id may be another one: of the run that supersedes it.
+    if (e.type === "ended" && e.axis === this.axis && !this.over) return this.ended(e);
     if (e.run !== this.run) return;
     if (e.type === "points") {
       if (e.offset > this.points.length) return this.read();
@@ -128,7 +130,6 @@ class Progress {
       this.draw(e);
     }
     if (e.type === "progress") this.progress(e);
-    if (e.type === "ended") this.ended(e);
   }
   progress({points, of, done, awaited_mm}) {
     if (of) {

@@ -1,6 +1,7 @@
 // Compensation: the active tables, what is stored, the difference, and the change from one to another.
+import {change} from "./activation.js";
 import {Chart, errorKeys} from "./charts.js";
-import {ask, covers, decimals, field, fixed, h, nameOf, notices, problem, setRows, table, time, unitOf} from "./dom.js";
+import {covers, decimals, fixed, h, nameOf, notices, problem, setRows, table, time, unitOf} from "./dom.js";
 import * as live from "./live.js";
 import * as machine from "./machine.js";
 import {call, pages} from "./rpc.js";
@@ -147,13 +148,9 @@ class AxisPanel {
       this.wrong.replaceChildren(problem(error));
     }
   }
-  async change(method, params, title, text, action, marks = {}) {
-    const form = await ask(title, [text, field("Reason", h("input", {name: "reason", required: true, maxlength: 500}), "kept in the history"),
-      marks.simulated ? h("label", {class: "check"}, h("input", {type: "checkbox", name: "simulated", required: true}), "Activate it though its data are SIMULATED") : null,
-      marks.doubtful ? h("label", {class: "check"}, h("input", {type: "checkbox", name: "despite_warnings", required: true}), "Activate it despite the warnings of its runs") : null], action);
-    if (!form) return;
+  async change(method, params, question) {
     try {
-      await call(method, {...params, reason: form.get("reason"), simulated: form.has("simulated") || undefined, despite_warnings: form.has("despite_warnings") || undefined});
+      if (!await change(method, params, question)) return;
       this.wrong.replaceChildren();
       await this.read();
     } catch (error) {
@@ -162,12 +159,12 @@ class AxisPanel {
   }
   async activate(id) {
     const t = await call("compensation.table", {table: id, count: 1}).catch((error) => this.wrong.replaceChildren(problem(error)));
-    if (t) this.change("compensation.activate", {table: id}, `Activate table ${id} on axis ${t.axis}?`,
-      [card(t), this.now ? h("p", {}, `It replaces table ${this.now.table}, at once and for everybody.`) : null], "Activate", t);
+    if (t) this.change("compensation.activate", {table: id}, {title: `Activate table ${id} on axis ${t.axis}?`, action: "Activate", marks: t,
+      text: [card(t), this.now ? h("p", {}, `It replaces table ${this.now.table}, at once and for everybody.`) : null]});
   }
   deactivate() {
-    this.change("compensation.deactivate", {axis: this.axis}, `Deactivate the table of axis ${this.axis}?`,
-      h("p", {}, `Table ${this.now.table} is no longer served; nothing is corrected on this axis.`), "Deactivate");
+    this.change("compensation.deactivate", {axis: this.axis}, {title: `Deactivate the table of axis ${this.axis}?`, action: "Deactivate",
+      text: h("p", {}, `Table ${this.now.table} is no longer served; nothing is corrected on this axis.`)});
   }
   close() { this.opened?.close(); }
 }

@@ -4,6 +4,7 @@ import * as live from "./live.js";
 import {call} from "./rpc.js";
 
 const kStale_s = 2;          // without a new value
+const kFirst_ms = 3000;      // no word of the stream is missing before
 const kRefresh_ms = 10_000;  // server.info also changes without an event: storage
 
 export const state = {
@@ -44,7 +45,7 @@ export async function refresh() {
 export function warnings() {
   const found = [];
   const all = axes();
-  if (!live.isConnected())
+  if (!live.isConnected() && performance.now() > kFirst_ms)
     found.push({kind: "invalid", text: "No connection to mdofd: everything shown is stale.",
       age: all.length ? Math.min(...all.map(ageOf)) : Infinity});
   else

@@ -1,4 +1,5 @@
 // The corrections over a plane or a volume: arrows and heat map, drawn as one stands before the machine.
+import {change} from "./activation.js";
 import {covers, decimals, field, fixed, h, isNumber, problem, s, select, table, time} from "./dom.js";
 import * as live from "./live.js";
 import {call} from "./rpc.js";
@@ -9,6 +10,7 @@ const kAxes = "XYZ";
 const kPlanes = {XY: [0, 1, "from above: X to the right, Y away"], XZ: [0, 2, "from the front: X to the right, Z up"],
   YZ: [1, 2, "from the right side: Y to the right, Z up"]};
 const kWidth = 760, kEdge = 60;
+const kMostRows = 1000;  // of the table of nodes
 
 const size = ([, , , x, y, z]) => Math.hypot(x, y, z);
 
@@ -83,29 +85,52 @@ function pictures(volume, nodes) {
   return h("div", {}, h("div", {class: "fields"}, field("Plane", select(planes.map((p) => [p, `${p}, ${kPlanes[p][2]}`]), plane, choose)), layers), place);
 }
 
-export function openVolume(place) {
-  const body = h("div", {});
-  place.append(body);
-  async function read() {
-    const {volume} = await call("compensation.status");
-    if (!volume) {
-      body.replaceChildren(h("p", {class: "notice"}, "No table of the volume is active. Build one of a machine and activate it there; see mdof compensation build --help."));
-      return;
+function activeOf(volume, nodes) {
+  return [h("h2", {}, `Table ${volume.table} of ${volume.machine}, generation ${volume.generation}`),
+    h("p", {class: "result"}, largestText(nodes)),
+    volume.simulated ? h("p", {class: "notice doubtful"}, "▲ SIMULATED: no machine was measured") : "",
+    volume.not_measured.length ? h("p", {class: "notice doubtful"}, `▲ Not measured, and in no correction: ${volume.not_measured.join(", ")}`) : "",
+    covers({u_covers: volume.u_covers, u_not_declared: volume.not_declared}) ?? "", pictures(volume, nodes),
+    facts([["Approach", volume.approach], ["Beyond the tables", volume.beyond_tables.join(", ")],
+      ["What interpolation leaves", Object.entries(volume.interpolation).map(([k, x]) => `${k[0]} ${isNumber(x) ? fixed(x, 4) : "–"} µm`).join(", ")],
+      ["Active since", `${time(volume.activated_utc)}, by ${volume.activated_by}`], ["Sense", volume.sense]]),
+    h("details", {}, h("summary", {}, "All nodes with u"), table("Corrections of the nodes; u: standard uncertainty",
+      [...["X/mm", "Y/mm", "Z/mm", "X/µm", "Y/µm", "Z/µm", "u X/µm", "u Y/µm", "u Z/µm"].map((c) => [c, "n"])],
+      nodes.slice(0, kMostRows).map((n) => n.slice(0, 9).map((x, i) => fixed(x, i < 3 ? 3 : 4)))))];
+}
+
+// Activating one of the volume while one of an axis is active is refused by mdofd: both would correct twice.
+function stored(tables, active, done) {
+  const act = async (method, params, question) => {
+    try {
+      await change(method, params, question);
+      done();
+    } catch (error) {
+      done(error);
     }
-    const nodes = await grid();
-    body.replaceChildren(h("h2", {}, `Table ${volume.table} of ${volume.machine}, generation ${volume.generation}`),
-      h("p", {class: "result"}, largestText(nodes)),
-      volume.simulated ? h("p", {class: "notice doubtful"}, "▲ SIMULATED: no machine was measured") : "",
-      volume.not_measured.length ? h("p", {class: "notice doubtful"}, `▲ Not measured, and in no correction: ${volume.not_measured.join(", ")}`) : "",
-      covers({u_covers: volume.u_covers, u_not_declared: volume.not_declared}) ?? "", pictures(volume, nodes),
-      facts([["Approach", volume.approach], ["Beyond the tables", volume.beyond_tables.join(", ")],
-        ["What interpolation leaves", Object.entries(volume.interpolation).map(([k, x]) => `${k[0]} ${isNumber(x) ? fixed(x, 4) : "–"} µm`).join(", ")],
-        ["Active since", `${time(volume.activated_utc)}, by ${volume.activated_by}`], ["Sense", volume.sense]]),
-      h("details", {}, h("summary", {}, "All nodes with u"), table("Corrections of the nodes; u: standard uncertainty",
-        [...["X/mm", "Y/mm", "Z/mm", "X/µm", "Y/µm", "Z/µm", "u X/µm", "u Y/µm", "u Z/µm"].map((c) => [c, "n"])],
-        nodes.slice(0, 1000).map((n) => n.slice(0, 9).map((x, i) => fixed(x, i < 3 ? 3 : 4))))));
+  };
+  const on = (t) => h("button", {"aria-label": `Activate table ${t.table} of the volume`, onclick: () => act("compensation.activate", {table: t.table},
+    {title: `Activate table ${t.table} of the volume?`, action: "Activate", marks: {simulated: t.simulated, doubtful: null},
+      text: h("p", {}, `${t.machine}, ${t.nodes} nodes, built ${time(t.created_utc)}.${active ? ` It replaces table ${active.table}.` : ""}`)})}, "Activate …");
+  const off = (t) => h("button", {class: "danger", "aria-label": `Deactivate table ${t.table} of the volume`, onclick: () => act("compensation.deactivate", {axis: "volume"},
+    {title: "Deactivate the table of the volume?", action: "Deactivate", text: h("p", {}, `Table ${t.table} is no longer served.`)})}, "Deactivate …");
+  return table("Stored tables of the volume, newest first", [["table"], ["state", "w"], ["machine"], ["nodes", "n"], ["data"], ["built", "w"], ["do"]],
+    tables.map((t) => [String(t.table), t.active ? "● active" : "stored", t.machine, String(t.nodes), t.simulated ? "SIMULATED" : "measured", time(t.created_utc), t.active ? off(t) : on(t)]));
+}
+
+export function openVolume(place) {
+  const wrong = h("div", {}), body = h("div", {});
+  place.append(wrong, body);
+  async function read() {
+    const [{volume}, {tables}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis: "volume"})]);
+    const now = volume ? activeOf(volume, await grid())
+      : [h("p", {class: "notice"}, "No table of the volume is active. A machine's table is built by mdof compensation build --machine.")];
+    body.replaceChildren(...now, tables.length ? stored(tables, volume, again) : "");
   }
-  const again = () => read().catch((error) => body.replaceChildren(problem(error)));
+  function again(error) {
+    wrong.replaceChildren(...error ? [problem(error)] : []);
+    return read().catch((e) => wrong.replaceChildren(problem(e)));
+  }
   again();
   return live.on("run.event", ({type}) => { if (type === "compensation") again(); });
 }

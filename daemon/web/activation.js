@@ -1,0 +1,16 @@
+// The question before a table becomes active or is no longer: why, and that what is wrong with it is known.
+import {ask, field, h} from "./dom.js";
+import {call} from "./rpc.js";
+
+const consent = (name, text, required) => h("label", {class: "check"}, h("input", {type: "checkbox", name, required}), text);
+
+// marks: {simulated, doubtful} of the table; doubtful null: not known. True: it was done. Throws as call().
+export async function change(method, params, {title, text, action, marks = {}}) {
+  const form = await ask(title, [text, field("Reason", h("input", {name: "reason", required: true, maxlength: 500}), "kept in the history"),
+    marks.simulated ? consent("simulated", "Activate it though its data are SIMULATED", true) : null,
+    marks.doubtful || marks.doubtful === null ? consent("despite_warnings", "Activate it despite the warnings of its runs", marks.doubtful === true) : null], action);
+  if (!form) return false;
+  await call(method, {...params, reason: form.get("reason"), simulated: form.has("simulated") || undefined,
+    despite_warnings: form.has("despite_warnings") || undefined});
+  return true;
+}

@@ -14,9 +14,7 @@
 #include "schema/units.h"
 
 namespace mdof::daemon {
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 Result<OnTheFlyRun> OnTheFlyRun::create(const Rig& rig, const PipelineOptions& options) {
   MDOF_TRY(algo::Solver solver, algo::Solver::create(rig, options.model));

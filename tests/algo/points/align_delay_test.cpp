@@ -69,6 +69,36 @@ TEST(AlignDelay, IsTakenOutOfTheChannelThatHasIt) {
   }
 }
 
+// A device reads A, B and the encoder's counter one after the other, 0.5 ms apart, and stamps the
+// scan with the first instant. What is read earlier is older: the delay of an input is the time to
+// the last one (drivers/README.md).
+TEST(AlignDelay, OfInputsReadInTurnIsTheTimeToTheLast) {
+  constexpr double kTurn_s = 0.5e-3;
+  const auto frames_of = [&](const AlignOptions& options) {
+    Aligner aligner(options, {"A", "B"});
+    FrameBlock out;
+    SampleBlock b = scans(0, 2000, 0);
+    for (std::size_t i = 0; i < b.scans(); ++i) {
+      const double t_s = static_cast<double>(b.time_ns[i]) / 1e9;
+      b.value[1][i] = kSlope * place_m(t_s);
+      b.value[2][i] = kSlope * place_m(t_s + kTurn_s);
+      b.value[0][i] = place_m(t_s + 2 * kTurn_s);
+    }
+    EXPECT_TRUE(aligner.push(b, out));
+    aligner.flush(out);
+    return out;
+  };
+  const double error_m = kSlope * kSpeed_m_s * kTurn_s;
+  const FrameBlock plain = frames_of({}),
+                   right = frames_of({.delay_s = {{"A", 2 * kTurn_s}, {"B", kTurn_s}}}),
+                   wrong = frames_of({.delay_s = {{"A", -2 * kTurn_s}, {"B", -kTurn_s}}});
+  EXPECT_NEAR(worst_m(plain, 0), 2 * error_m, 1e-15);
+  EXPECT_NEAR(worst_m(plain, 1), error_m, 1e-15);
+  EXPECT_LT(worst_m(right, 0), 1e-15);
+  EXPECT_LT(worst_m(right, 1), 1e-15);
+  EXPECT_NEAR(worst_m(wrong, 0), 4 * error_m, 1e-15);
+}
+
 // The encoder's instants stay, to the nanosecond, and none is without the reading to come.
 TEST(AlignDelay, FramesStayOnTheEncodersTimeAndEndWhereReadingsDo) {
   const FrameBlock out = frames({.delay_s = {{"A", 0.25}, {"B", 0}}}, 0.25);

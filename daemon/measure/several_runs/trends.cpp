@@ -161,7 +161,7 @@ Status add_axis(store::Store& store, Axis axis, const TrendRequest& request,
   MDOF_TRY(const Chosen chosen, choose(store, axis, request.mixed));
   std::vector<Trend> of_axis;
   for (const algo::Figure& figure : figures)
-    of_axis.push_back({figure.name, {}, {}, chosen.left_out, chosen.notices, {}, false, {}});
+    of_axis.push_back({figure.name, 0, {}, {}, chosen.left_out, chosen.notices, {}, false, {}});
   for (const RunHeader& run : chosen.runs) MDOF_CHECK(add_run(store, run, of_axis, figures));
   for (Trend& trend : of_axis)
     if (!trend.values.empty() || !request.figure.empty() || request.axis)
@@ -177,7 +177,7 @@ Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& re
   std::map<std::int64_t, const RunHeader*> allowed;
   for (const auto* chosen : {&a, &b})
     for (const RunHeader& run : chosen->runs) allowed[run.id] = &run;
-  Trend trend{figure_of(axes), {}, {}, {}, {}, {}, false, {}};
+  Trend trend{figure_of(axes), 0, {}, {}, {}, {}, {}, false, {}};
   std::vector<Squareness> fits;
   for (const auto* chosen : {&a, &b}) {
     trend.left_out.insert(trend.left_out.end(), chosen->left_out.begin(), chosen->left_out.end());

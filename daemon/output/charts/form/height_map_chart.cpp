@@ -18,7 +18,7 @@ using output::Language;
 using output::Phrase;
 using output::phrase;
 
-constexpr double kCellsLongestPx = 600, kCellsLeftPx = 60, kBarPx = 16, kBarTextPx = 64;
+constexpr double kCellsLongestPx = 600, kCellsLeftPx = 60, kScalePx = 16, kScaleTextPx = 64;
 constexpr int kShades = 10;  // classes height-0 (lowest) to height-9 of style.h
 
 // Neighbouring pixels, the same number of columns and rows in each cell but the last.
@@ -96,16 +96,16 @@ void draw_cells(Svg& svg, const Panel& panel, const SurfaceMap& map, const Cells
 }
 
 // The heights of the shades, the lowest at the bottom.
-void draw_bar(Svg& svg, const Panel& panel, const Shades& shades) {
+void draw_scale(Svg& svg, const Panel& panel, const Shades& shades) {
   const double x = panel.corner.x + panel.width + 20,
                step = std::min(panel.height, 200.0) / kShades;
   const int decimals = std::clamp(1 - decimal_exponent(shades.high_um - shades.low_um), 0, 6);
   for (int k = 0; k < kShades; ++k)
-    svg.rect("height-" + std::to_string(k), {x, panel.corner.y + (kShades - 1 - k) * step}, kBarPx,
-             step);
+    svg.rect("height-" + std::to_string(k), {x, panel.corner.y + (kShades - 1 - k) * step},
+             kScalePx, step);
   for (int k = 0; k <= kShades; k += kShades / 2) {
     const double z = shades.low_um + (shades.high_um - shades.low_um) * k / kShades;
-    svg.text("tick", {x + kBarPx + 5, panel.corner.y + (kShades - k) * step + 4}, Anchor::start,
+    svg.text("tick", {x + kScalePx + 5, panel.corner.y + (kShades - k) * step + 4}, Anchor::start,
              fixed_text(z, decimals));
   }
   svg.text("tick", {x, panel.corner.y - 8}, Anchor::start, "z / µm");
@@ -128,7 +128,7 @@ std::string height_map_svg(const SurfaceMap& map, const std::string& title, Lang
   const double top = run_head_height({}) + 34;
   const Panel panel = panel_of(map, top);
   const double bottom = top + std::max(panel.height, 60.0) + 50;
-  Svg svg(std::max(kWidthPx, panel.corner.x + panel.width + kBarPx + kBarTextPx + kMarginPx),
+  Svg svg(std::max(kWidthPx, panel.corner.x + panel.width + kScalePx + kScaleTextPx + kMarginPx),
           bottom + notes_height(notes) + 12, title, about, Theme::light);
   draw_run_head(svg, title, about, {}, language);
   svg.data("panel", "height-map").data("pv-um", to_um(figures.pv_m));
@@ -137,7 +137,7 @@ std::string height_map_svg(const SurfaceMap& map, const std::string& title, Lang
   draw_axes(svg, panel, "x_mm");
   draw_y_title(svg, panel, "y_mm");
   draw_cells(svg, panel, map, cells, shades);
-  draw_bar(svg, panel, shades);
+  draw_scale(svg, panel, shades);
   svg.end_group();
   draw_notes(svg, bottom, notes);
   return svg.take();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "daemon/output/charts/form/height_map_chart.h"
+#include "daemon/output/charts/plot_files.h"
 #include "schema/base/files.h"
 #include "schema/base/output/output_files.h"
 #include "schema/form/map_text.h"

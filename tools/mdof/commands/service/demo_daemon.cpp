@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::chrono::seconds kLongestStart{20};
-constexpr std::chrono::milliseconds kLook{20};
+constexpr std::chrono::milliseconds kPoll{20};
 // X and Y carry the work, Z the tool: straightness is corrected by the other two axes.
 constexpr const char* kMachine = "\n[machine]\nchain = \"w-Y-X-b-Z-t\"\n";
 
@@ -86,7 +86,7 @@ Result<DemoDaemon> DemoDaemon::start(const fs::path& program, const fs::path& fo
       return io_error(program.string() + ": has ended: " + last_line(folder / "mdofd.log"));
     if (Interrupt::requested() || std::chrono::steady_clock::now() > last)
       return io_error(program.string() + ": does not answer at " + daemon.socket());
-    std::this_thread::sleep_for(kLook);
+    std::this_thread::sleep_for(kPoll);
   }
 }
 

@@ -347,8 +347,13 @@ Status take_squareness(store::Store& store, Machine& machine, const StatedAxes& 
   for (const Squareness& s : fits) {
     MDOF_CHECK(take_squareness(store, machine, s, stated, all));
     if (!named.empty() && !(has(named, s.run_a) && has(named, s.run_b))) {
-      Notice other = notice(NoticeCode::squareness_of_other_runs, "",
-                            {{"squareness", s.id}, {"run_x", s.run_a}, {"run_y", s.run_b}});
+      Notice other = notice(NoticeCode::squareness_of_unnamed_runs, "",
+                            {{"squareness", s.id},
+                             {"error", squareness_name(s.axes)},
+                             {"axis_a", std::string(1, letter(s.axes.a))},
+                             {"run_a", s.run_a},
+                             {"axis_b", std::string(1, letter(s.axes.b))},
+                             {"run_b", s.run_b}});
       append(all.notices, {other});
       append(all.doubtful, {other});
     }

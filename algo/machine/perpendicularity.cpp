@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kWidestGap_rad = kTurn / 6;
+constexpr double kTurnsOfDrift = 1 + 1.0 / 6;
 
 double sine(double angle_rad) {
   return sine_of_turns(angle_rad / kTurn);
@@ -30,8 +31,35 @@ double widest_gap(const std::vector<double>& angles) {
   return widest;
 }
 
-Status check(const CircleReadings& r, int highest) {
-  const std::size_t n = r.angle_rad.size(), unknowns = 2 * static_cast<std::size_t>(highest) + 1;
+// The shorter way from each reading to the next.
+double turns_of(const std::vector<double>& angles) {
+  double turns = 0;
+  for (std::size_t i = 1; i < angles.size(); ++i) {
+    const double step = (angles[i] - angles[i - 1]) / kTurn;
+    turns += std::abs(step - std::round(step));
+  }
+  return turns;
+}
+
+// Share of the whole time at each reading, 0 to 1.
+Result<Eigen::VectorXd> times_of(const CircleReadings& r) {
+  const auto n = static_cast<Eigen::Index>(r.angle_rad.size());
+  if (r.time_s.empty()) return Eigen::VectorXd::LinSpaced(n, 0, 1);
+  Eigen::VectorXd share(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (i > 0 && !(r.time_s[at] > r.time_s[at - 1]))
+      return bad_input("reading " + std::to_string(i + 1) +
+                       " of the circle is not later than the "
+                       "one before; give the readings in the order of their times");
+    share[i] = (r.time_s[at] - r.time_s.front()) / (r.time_s.back() - r.time_s.front());
+  }
+  return share;
+}
+
+Status check(const CircleReadings& r, int highest, bool drift) {
+  const std::size_t n = r.angle_rad.size(),
+                    unknowns = 2 * static_cast<std::size_t>(highest) + (drift ? 2 : 1);
   if (!(r.radius_m > 0 && r.radius_m < 100))
     return bad_input("the radius of the circle must be above 0");
   if (n < unknowns + 2)
@@ -48,9 +76,14 @@ Status check(const CircleReadings& r, int highest) {
 }  // namespace
 
 Result<Perpendicularity> perpendicularity(const CircleReadings& r, int highest) {
-  MDOF_CHECK(check(r, highest));
+  Perpendicularity p;
+  p.turns = turns_of(r.angle_rad);
+  p.drift_fitted = p.turns > kTurnsOfDrift;
+  MDOF_CHECK(check(r, highest, p.drift_fitted));
+  MDOF_TRY(const Eigen::VectorXd time, times_of(r));
   const auto n = static_cast<Eigen::Index>(r.angle_rad.size());
-  Eigen::MatrixXd A(n, 2 * highest + 1);
+  Eigen::MatrixXd A(n, 2 * highest + (p.drift_fitted ? 2 : 1));
+  if (p.drift_fitted) A.rightCols<1>() = time.array() - 0.5;
   Eigen::VectorXd h(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -70,11 +103,14 @@ Result<Perpendicularity> perpendicularity(const CircleReadings& r, int highest) 
     return bad_input("these angles do not separate so many harmonics; give fewer harmonics");
   const Eigen::VectorXd x = normal.solve(A.transpose() * h);
   const Eigen::MatrixXd covariance = normal.solve(Eigen::MatrixXd::Identity(A.cols(), A.cols()));
-  Perpendicularity p;
   p.freedom = static_cast<double>(n - A.cols());
   p.residual_sd_m = (h - A * x).norm() / std::sqrt(p.freedom);
   const auto u_of = [&](Eigen::Index k) { return p.residual_sd_m * std::sqrt(covariance(k, k)); };
   p.mean_m = x[0];
+  if (p.drift_fitted) {
+    p.drift_m = x[A.cols() - 1];
+    p.u_drift_m = u_of(A.cols() - 1);
+  }
   for (int k = 1; k <= highest; ++k)
     p.harmonics.push_back({k, x[2 * k - 1], x[2 * k], std::max(u_of(2 * k - 1), u_of(2 * k))});
   p.EA0C_rad = x[2] / r.radius_m;

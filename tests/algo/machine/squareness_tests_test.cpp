@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <random>
 
 #include "algo/machine/diagonal.h"
-#include "algo/machine/perpendicularity.h"
 
 namespace mdof::algo {
 namespace {
@@ -205,70 +205,6 @@ TEST(PlaneMap, HasAllPointsOfTheRangeUpToAMillion) {
   EXPECT_EQ(plane_map(m, request)->points.size(), 36U);
 }
 
-// A disc that leans by turns a and b about X and Y, as points of a plane; a wobble of the table and
-// a saddle of the linear axes upon it.
-CircleReadings circle(double a, double b, double noise_m, std::mt19937& source, bool known) {
-  CircleReadings r;
-  r.radius_m = 0.1;
-  const int n = 72;
-  for (int i = 0; i < n; ++i) {
-    const double angle = 6.283185307179586 * i / n, x = 0.1 * std::cos(angle),
-                 y = 0.1 * std::sin(angle);
-    const double wobble_a = 3e-6 * std::cos(2 * angle + 0.4), wobble_b = 2e-6 * std::sin(3 * angle);
-    const double axes = 40e-6 * x * x - 300e-6 * x * x * x;
-    r.angle_rad.push_back(angle);
-    r.height_m.push_back(2e-6 + a * y - b * x + wobble_a * y - wobble_b * x + axes +
-                         noise_m * noise(source));
-    if (!known) continue;
-    r.tilt_a_rad.push_back(wobble_a);
-    r.tilt_b_rad.push_back(wobble_b);
-    r.axes_m.push_back(axes);
-  }
-  return r;
-}
-
-TEST(PerpendicularityTest, IsToldApartFromTiltAndAxes) {
-  std::mt19937 source(5);
-  const auto p = perpendicularity(circle(20e-6, -7e-6, 0, source, true), 5);
-  ASSERT_TRUE(p);
-  EXPECT_NEAR(p->EA0C_rad, 20e-6, 1e-15);
-  EXPECT_NEAR(p->EB0C_rad, -7e-6, 1e-15);
-  EXPECT_NEAR(p->mean_m, 2e-6, 1e-15);
-  EXPECT_TRUE(p->tilt_known && p->axes_known);
-  for (std::size_t k = 1; k < 5; ++k)
-    EXPECT_NEAR(std::hypot(p->harmonics[k].cosine_m, p->harmonics[k].sine_m), 0, 1e-15);
-  // Not told, the wobble of the table at twice the angle counts as a lean.
-  const auto blind = perpendicularity(circle(20e-6, -7e-6, 0, source, false), 5);
-  EXPECT_GT(std::abs(blind->EA0C_rad - 20e-6), 1e-6);
-  EXPECT_FALSE(blind->tilt_known || blind->axes_known);
-}
-
-TEST(PerpendicularityTest, CoversTheTruth) {
-  std::mt19937 source(6);
-  int a_covered = 0, b_covered = 0;
-  for (int i = 0; i < kSimulations; ++i) {
-    const double a = 20e-6 * noise(source), b = 20e-6 * noise(source);
-    const auto p = perpendicularity(circle(a, b, 0.1e-6, source, true), 5);
-    a_covered += std::abs(p->EA0C_rad - a) <= p->U_rad ? 1 : 0;
-    b_covered += std::abs(p->EB0C_rad - b) <= p->U_rad ? 1 : 0;
-  }
-  for (const int covered : {a_covered, b_covered}) {
-    EXPECT_GE(covered, 0.94 * kSimulations);
-    EXPECT_LE(covered, 0.965 * kSimulations);
-  }
-}
-
-TEST(PerpendicularityTest, APartOfATurnIsRefused) {
-  std::mt19937 source(7);
-  auto r = circle(0, 0, 1e-7, source, false);
-  EXPECT_FALSE(perpendicularity(r, 40));
-  r.angle_rad.resize(54);
-  r.height_m.resize(54);
-  const auto p = perpendicularity(r, 3);
-  ASSERT_FALSE(p);
-  EXPECT_NE(p.error().message.find("whole turn"), std::string::npos);
-}
-
 // A bow of EXX along X alone: below its ends at one quarter, above them at three quarters.
 TEST(Diagonals, TheRangeIsFromTheLowestToTheHighest) {
   Machine m;
@@ -316,49 +252,6 @@ TEST(Diagonals, UncertaintyOfRepeatedAndDeclaredLines) {
   const double declared = 1e-6 * std::sqrt(1 / 0.09 + 1 / 0.16 + 0.25 / 0.0144);
   EXPECT_NEAR(both->u_repeat_rad, by_repeats->u_repeat_rad, 1e-15);
   EXPECT_NEAR(both->u_rad, std::hypot(declared, by_repeats->u_rad), 1e-11);
-}
-
-// What the harmonics leave of equal steps: u of a coefficient is s √(2/n).
-TEST(PerpendicularityTest, UncertaintyIsOfWhatTheHarmonicsLeave) {
-  std::mt19937 source(8);
-  CircleReadings r = circle(3e-6, 4e-6, 0, source, true);
-  for (std::size_t i = 0; i < 72; ++i) r.height_m[i] += 1e-7 * std::cos(7 * r.angle_rad[i]);
-  const auto p = perpendicularity(r, 5);
-  ASSERT_TRUE(p) << p.error().message;
-  EXPECT_EQ(p->freedom, 72 - 11);
-  EXPECT_NEAR(p->residual_sd_m, 1e-7 * std::sqrt(36.0 / 61), 1e-15);
-  EXPECT_NEAR(p->harmonics[0].u_m, p->residual_sd_m * std::sqrt(2.0 / 72), 1e-15);
-  EXPECT_NEAR(p->u_rad, p->harmonics[0].u_m / 0.1, 1e-15);
-  EXPECT_NEAR(p->size_rad, 5e-6, 1e-13);
-  EXPECT_NEAR(p->k, 1.99962, 1e-4);  // of 61
-  EXPECT_NEAR(p->U_rad, p->k * p->u_rad, 1e-18);
-  EXPECT_EQ(p->harmonics[4].order, 5);
-  r.tilt_b_rad.clear();
-  EXPECT_FALSE(perpendicularity(r, 5)->tilt_known);
-}
-
-TEST(PerpendicularityTest, NeedsTwoReadingsMoreThanUnknownsAndSixtyDegrees) {
-  const auto readings = [](int n, double step_deg) {
-    CircleReadings r;
-    r.radius_m = 0.1;
-    for (int i = 0; i < n; ++i) {
-      r.angle_rad.push_back(step_deg * i * 0.017453292519943295);
-      r.height_m.push_back(i % 2 ? 1e-6 : 0);
-    }
-    return r;
-  };
-  EXPECT_TRUE(perpendicularity(readings(13, 360.0 / 13), 5));
-  EXPECT_FALSE(perpendicularity(readings(12, 30), 5));
-  EXPECT_TRUE(perpendicularity(readings(11, 30.1), 2));   // 59° are left out
-  EXPECT_FALSE(perpendicularity(readings(11, 29.9), 2));  // 61°
-  CircleReadings shifted = readings(11, 29.9);
-  for (double& a : shifted.angle_rad) a -= 10;  // the gap lies within the turn
-  EXPECT_FALSE(perpendicularity(shifted, 2));
-  CircleReadings r = readings(13, 360.0 / 13);
-  for (const double radius_m : {0.0, -0.1, 100.0}) {
-    r.radius_m = radius_m;
-    EXPECT_FALSE(perpendicularity(r, 1)) << radius_m;
-  }
 }
 
 }  // namespace

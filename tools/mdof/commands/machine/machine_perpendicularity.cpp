@@ -7,6 +7,7 @@
 #include "algo/machine/perpendicularity.h"
 #include "drivers/csv/csv_table.h"
 #include "schema/base/json_writer.h"
+#include "schema/sample.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -41,6 +42,10 @@ std::string counted_text(const algo::Perpendicularity& p) {
     text +=
         "EA0C and EB0C contain a part of the errors of X and Y (1 cycle per turn), because axes_um "
         "is not given.\n";
+  if (!p.drift_fitted)
+    text +=
+        "Each spot was read once: EA0C and EB0C contain the drift of the height, and u does not. "
+        "To separate the drift, measure at least two turns, in the order of time.\n";
   return text;
 }
 
@@ -65,6 +70,10 @@ std::string perpendicularity_json(const algo::Perpendicularity& p, double radius
       .field("residual_sd_um", to_um(p.residual_sd_m))
       .field("tilt_taken_away", p.tilt_known)
       .field("axes_taken_away", p.axes_known)
+      .field("turns", p.turns)
+      .field("drift_taken_away", p.drift_fitted)
+      .field("drift_um", p.drift_fitted ? to_um(p.drift_m) : kNaN)
+      .field("u_drift_um", p.drift_fitted ? to_um(p.u_drift_m) : kNaN)
       .field("simulated", simulated)
       .key("harmonics")
       .begin_array();
@@ -84,6 +93,11 @@ std::string perpendicularity_text(const algo::Perpendicularity& p, bool simulate
   for (const algo::Harmonic& h : p.harmonics)
     table.add({std::to_string(h.order), um_to_place(h.cosine_m, h.u_m),
                um_to_place(h.sine_m, h.u_m), um_to_place(h.u_m, h.u_m)});
+  const std::string drift = p.drift_fitted ? "drift from the first reading to the last " +
+                                                 with_u(um_to_place(p.drift_m, p.u_drift_m),
+                                                        um_to_place(p.u_drift_m, p.u_drift_m)) +
+                                                 " µm, taken away\n"
+                                           : "";
   const auto tilt = [&p](double tilt_rad) {
     return with_u(urad_to_place(tilt_rad, p.U_rad), urad_to_place(p.u_rad, p.u_rad));
   };
@@ -95,17 +109,18 @@ std::string perpendicularity_text(const algo::Perpendicularity& p, bool simulate
          urad_to_place(p.size_rad, p.U_rad) + " µrad\n" + table.text(terminal_columns()) +
          "residual " + in_um(p.residual_sd_m) +
          " µm; ± is the standard uncertainty u, which contains the noise of the readings only\n" +
-         counted_text(p);
+         drift + counted_text(p);
 }
 
 Status machine_perpendicularity(const PerpendicularityCommand& o) {
   if (!std::isfinite(o.radius_mm))
     return fail(ErrorCode::usage, "--radius-mm must be a finite number");
   MDOF_TRY(const auto csv, drivers::read_csv_table(o.file, {"angle_deg", "height_um"},
-                                                   {"EAC_urad", "EBC_urad", "axes_um"}));
+                                                   {"EAC_urad", "EBC_urad", "axes_um", "time_s"}));
   algo::CircleReadings readings{from_mm(o.radius_mm),
                                 scaled(csv.columns[0], std::numbers::pi / 180),
                                 scaled(csv.columns[1], from_um(1)),
+                                csv.columns[5],
                                 scaled(csv.columns[2], from_urad(1)),
                                 scaled(csv.columns[3], from_urad(1)),
                                 scaled(csv.columns[4], from_um(1))};
@@ -125,7 +140,8 @@ Action declare_machine_perpendicularity(CLI::App& command) {
       .add_option("FILE", o->file,
                   "CSV: angle_deg of the spot about the table axis from +X to +Y, height_um of the "
                   "table, + towards +Z; if known EAC_urad, EBC_urad (tilt error motion of the "
-                  "table), axes_um (height error of X and Y)")
+                  "table), axes_um (height error of X and Y), time_s. Readings in the order of "
+                  "time; from two turns on a linear drift is removed")
       ->required()
       ->type_name("");
   command.add_option("--radius-mm", o->radius_mm, "Radius of the circle")

@@ -38,7 +38,6 @@ Result<Export> exported(const SquareAxes& axes, const ExportOptions& options, co
   std::vector<std::string> head = head_of(axes, options);
   head.insert(head.end(), how.begin(), how.end());
   out.files.push_back({name, commented(head, sign) + line + "\n"});
-  out.written.push_back({"EC0Y", 1, 1, 0});
   return out;
 }
 

@@ -5,11 +5,13 @@
 
 #include "schema/base/output/output_files.h"
 #include "schema/run_json.h"
+#include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/compensation/exported.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -100,6 +102,14 @@ std::string exported_json(const ExportedTables& exported, const std::vector<std:
   exported.squareness > 0 ? json.value(exported.squareness) : json.null();
   write_strings(json, "files", names);
   json.key("written").begin_array();
+  if (exported.squareness > 0)
+    json.begin_object()
+        .field("error", "EC0Y")
+        .field("value_urad", to_urad(exported.angle.value))
+        .field("u_urad", to_urad(exported.angle.u))
+        .field("U_urad", to_urad(exported.angle.U))
+        .field("k", exported.angle.coverage_factor)
+        .end_object();
   for (const auto& written : exported.files.written)
     json.begin_object()
         .field("error", written.error)
@@ -121,6 +131,10 @@ std::string exported_text(const ExportedTables& exported, const std::vector<std:
   for (const auto& name : names) text += name + "\n";
   if (exported.squareness > 0) text += exported.files.files.front().text;  // the line to paste
   text += std::string("sense: ") + exported.format->sense + "\n";
+  if (exported.squareness > 0)
+    text += "EC0Y: " + urad_to_place(exported.angle.value, exported.angle.U) + " µrad (U " +
+            urad_to_place(exported.angle.U, exported.angle.U) +
+            " µrad, 95 %), one angle for all positions\n";
   for (const auto& written : exported.files.written)
     text += written.error + ": " + std::to_string(written.points) + " of " +
             std::to_string(written.points_before) + " points kept, largest deviation " +

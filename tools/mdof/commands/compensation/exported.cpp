@@ -285,6 +285,7 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
   const controllers::SquareAxes axes{stored.id, fitted.squareness.error_rad, fitted.budgets.front(),
                                      x};
   out.squareness = stored.id;
+  out.angle = axes.budget;
   MDOF_TRY(out.files, out.format->square.write(axes, out.options));
   MDOF_TRY(out.check, controllers::check_export(*out.format, axes, out.files, out.options));
   return {};

@@ -34,6 +34,7 @@ struct ExportedTables {
   const controllers::Format* format = nullptr;
   std::vector<std::int64_t> tables;
   std::int64_t squareness = 0;               // 0: tables
+  Budget angle;                              // of EC0Y, of a squareness
   bool simulated = false, doubtful = false;  // any of them
   controllers::ExportOptions options;
   controllers::Export files;

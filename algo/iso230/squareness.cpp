@@ -142,8 +142,9 @@ Result<AxisPair> pair_of(const Run& a, const Run& b) {
                    "; squareness needs runs of two axes, in the order X, Y, Z");
 }
 
-Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t named) {
-  const Run run = restate(measured, kAtFixture);
+Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t named,
+                                             const StatedAt& at) {
+  const Run run = restate(measured, at);
   const auto series = target_means(run.header.moving(), run.points, Approach::both);
   const auto x = own_travels(run.header.sides, series);
   if (series.size() < 3 || !can_fit(x)) {
@@ -198,14 +199,14 @@ Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const Art
 }
 
 Result<Squareness> squareness(const Run& run_a, const Run& run_b, const SquareArtefact& artefact,
-                              bool take_partial) {
+                              bool take_partial, const StatedPair& at) {
   Squareness s;
   MDOF_TRY(s.axes, pair_of(run_a, run_b));
   MDOF_CHECK(check_usable({&run_a, &run_b}, take_partial, "squareness"));
   MDOF_TRY(const StraightnessSlope a,
-           straightness_slope(run_a, straightness_along(s.axes.a, s.axes.b)));
+           straightness_slope(run_a, straightness_along(s.axes.a, s.axes.b), at.a));
   MDOF_TRY(const StraightnessSlope b,
-           straightness_slope(run_b, straightness_along(s.axes.b, s.axes.a)));
+           straightness_slope(run_b, straightness_along(s.axes.b, s.axes.a), at.b));
   s.run_a = run_a.header.id;
   s.run_b = run_b.header.id;
   s.slope_a_rad = a.line.slope;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "schema/base/result.h"
+#include "schema/rig/reference.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
@@ -22,13 +23,20 @@ struct ArtefactGiven {
 // otherwise).
 Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const ArtefactGiven& given);
 
+// Where the straightness of each of the two axes is stated. From one point to another a slope
+// changes by the arm times the slope of an angle, and the squareness with it.
+struct StatedPair {
+  StatedAt a = kAtFixture, b = kAtFixture;
+  bool operator==(const StatedPair&) const = default;
+};
+
 // Least-squares lines through the mean of both approaches of the straightness of each axis along
-// the other (EYX over x and EXY over y; with Z EZX and EXZ, EZY and EYZ), at the fixture: slope and
-// face are then compared, and neither run needs to be zeroed against the other. u of a slope: the
-// larger of what follows from the targets' u (GUM 5.1.2) and of the scatter of the repeats' slopes,
-// s/√n. Refuses runs of one axis or not in the order X, Y, Z, series of fewer than three targets,
-// and as check_usable().
+// the other (EYX over x and EXY over y; with Z EZX and EXZ, EZY and EYZ), at the fixture unless
+// `at` says otherwise, not at the carriage: slope and face are then compared, and neither run needs
+// to be zeroed against the other. u of a slope: the larger of what follows from the targets' u
+// (GUM 5.1.2) and of the scatter of the repeats' slopes, s/√n. Refuses runs of one axis or not in
+// the order X, Y, Z, series of fewer than three targets, and as check_usable().
 Result<Squareness> squareness(const Run& run_a, const Run& run_b, const SquareArtefact& artefact,
-                              bool take_partial = false);
+                              bool take_partial = false, const StatedPair& at = {});
 
 }  // namespace mdof::algo

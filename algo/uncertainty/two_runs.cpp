@@ -136,8 +136,9 @@ struct TwoRuns {
   RunBudgets a, b;
 };
 
-Result<TwoRuns> two_runs(const Rig& rig_a, const Run& run_a, const Rig& rig_b, const Run& run_b) {
-  const Run at_a = restate(run_a, kAtFixture), at_b = restate(run_b, kAtFixture);
+Result<TwoRuns> two_runs(const Rig& rig_a, const Run& run_a, const Rig& rig_b, const Run& run_b,
+                         const StatedPair& at = {}) {
+  const Run at_a = restate(run_a, at.a), at_b = restate(run_b, at.b);
   MDOF_TRY(auto of_a, contributors(rig_a, at_a));
   MDOF_TRY(auto of_b, contributors(rig_b, at_b));
   const PartsOfTwo parts = parts_of_two(of_a, rig_a.axis, of_b, rig_b.axis);
@@ -158,8 +159,9 @@ Result<Budget> squareness_budget(const Rig& rig_a, const Run& run_a, const Rig& 
 
 Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_a, const Run& run_a,
                                                            const Rig& rig_b, const Run& run_b,
-                                                           const SquareArtefact& artefact) {
-  MDOF_TRY(const TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b));
+                                                           const SquareArtefact& artefact,
+                                                           const StatedPair& at) {
+  MDOF_TRY(const TwoRuns runs, two_runs(rig_a, run_a, rig_b, run_b, at));
   const AxisPair axes{rig_a.axis, rig_b.axis};
   return std::array{squareness_budget(axes, runs.a, runs.b, artefact, {}),
                     runs.a.of(slope_along(axes.a, axes.b)), runs.b.of(slope_along(axes.b, axes.a))};

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "algo/iso230/squareness.h"
 #include "algo/uncertainty/budget.h"
 #include "schema/base/result.h"
 #include "schema/rig/rig.h"
@@ -19,10 +20,11 @@ Result<Budget> squareness_budget(const Rig& rig_a, const Run& run_a, const Rig& 
                                  const Run& run_b, const SquareArtefact& artefact,
                                  const TrialsRequest& request = {});
 
-// The same, then those of both slopes, of one set of budgets of the runs.
+// The same, then those of both slopes, of one set of budgets of the runs, stated at `at`.
 Result<std::array<Budget, 3>> squareness_and_slope_budgets(const Rig& rig_a, const Run& run_a,
                                                            const Rig& rig_b, const Run& run_b,
-                                                           const SquareArtefact& artefact);
+                                                           const SquareArtefact& artefact,
+                                                           const StatedPair& at = {});
 
 // slope of B - slope of A of each of the two straightness errors, at the fixture:
 // "EYX_parallelism_urad". What goes with a probe and the surface of a plane that both rigs have are

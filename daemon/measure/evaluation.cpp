@@ -225,8 +225,9 @@ namespace {
 
 // Sets the combined standard uncertainties of `s`.
 Result<std::vector<Budget>> state_uncertainty(Squareness& s, const Run& a, const Rig& rig_a,
-                                              const Run& b, const Rig& rig_b) {
-  MDOF_TRY(auto budgets, algo::squareness_and_slope_budgets(rig_a, a, rig_b, b, s.artefact));
+                                              const Run& b, const Rig& rig_b,
+                                              const algo::StatedPair& at = {}) {
+  MDOF_TRY(auto budgets, algo::squareness_and_slope_budgets(rig_a, a, rig_b, b, s.artefact, at));
   s.u_error_rad = budgets[0].u;
   s.u_slope_a_rad = budgets[1].u;
   s.u_slope_b_rad = budgets[2].u;
@@ -273,12 +274,20 @@ Result<FittedSquareness> calculate_squareness(store::Store& store,
                           algo::inherited_notices({&of.a, &of.b})};
 }
 
-Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness) {
+Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness,
+                                           const algo::StatedPair& at) {
   MDOF_TRY(const Run a, store.run(squareness.run_a));
   MDOF_TRY(const Run b, store.run(squareness.run_b));
   MDOF_TRY(const Rig rig_a, rig_of(a.header));
   MDOF_TRY(const Rig rig_b, rig_of(b.header));
-  MDOF_TRY(auto budgets, state_uncertainty(squareness, a, rig_a, b, rig_b));
+  if (at != algo::StatedPair{}) {
+    MDOF_TRY(const Squareness there, algo::squareness(a, b, squareness.artefact, true, at));
+    squareness.error_rad = there.error_rad;
+    squareness.slope_a_rad = there.slope_a_rad;
+    squareness.slope_b_rad = there.slope_b_rad;
+    squareness.form_rad = there.form_rad;
+  }
+  MDOF_TRY(auto budgets, state_uncertainty(squareness, a, rig_a, b, rig_b, at));
   return FittedSquareness{std::move(squareness), std::move(budgets),
                           algo::inherited_notices({&a, &b})};
 }

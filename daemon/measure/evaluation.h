@@ -103,7 +103,9 @@ Result<FittedSquareness> calculate_squareness(store::Store& store,
                                               const SquarenessRequest& request);
 Status store_squareness(store::Store& store, Squareness& squareness,
                         const std::optional<HistoryEntry>& action);
-// The same of one that is stored, its uncertainties made anew.
-Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness);
+// The same of one that is stored, its uncertainties made anew; by the same lines at other points
+// where `at` names some, as tables of the axes may be stated.
+Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness,
+                                           const algo::StatedPair& at = {});
 
 }  // namespace mdof::daemon

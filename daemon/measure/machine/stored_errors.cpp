@@ -77,25 +77,24 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
 // How the straightness of an axis that probes measured is stated.
 struct StatedStraightness {
   std::string axis;
-  Reference reference = Reference::fixture;
+  StatedAt at = kAtFixture;
   bool slope_removed = true;
 };
 using StatedAxes = std::vector<StatedStraightness>;
 
-Status check_slope(const MachineFrame& frame, const StatedAxes& stated) {
+// Where the squareness of the axis has to be: at the point of its table.
+Result<StatedAt> point_of_slope(const MachineFrame& frame, const StatedAxes& stated) {
+  StatedAt at = kAtFixture;
   for (const StatedStraightness& s : stated) {
     if (s.axis != frame.id) continue;
-    if (s.reference != Reference::fixture)
-      return bad_input(
-          axis_of(frame) + "its table is stated at the " + to_string(s.reference) +
-          ", but the squareness at the fixture; build a table that is stated at the fixture");
     if (!s.slope_removed)
       return bad_input(axis_of(frame) +
                        "its table contains the straightness slope, which the squareness contains "
                        "too, so the slope would count twice; build the table without the slope, or "
                        "remove the squareness from the machine file");
+    at = s.at;
   }
-  return {};
+  return at;
 }
 
 std::size_t body_error_of(const CompensationTable& table, std::size_t named) {
@@ -178,7 +177,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
                             scaled(along.reverse, body), u, along.u_forward));
   }
   MDOF_CHECK(check_set_up(machine, frame, table));
-  taken.stated.push_back({frame.id, table.stated.reference, table.slope_removed});
+  taken.stated.push_back({frame.id, table.stated, table.slope_removed});
   for (std::size_t named = 0; named < 5; ++named) {
     std::vector<double> u;
     for (std::size_t row = 0; row < table.position_m.size(); ++row)
@@ -330,9 +329,10 @@ Status take_squareness(store::Store& store, Machine& machine, const Squareness& 
     return bad_input("squareness of the machine: " + with_unit(location_name(*b, about), about) +
                      " or " + with_unit(location_name(*a, about), about) +
                      " is given as well as the squareness; give one of them");
-  MDOF_CHECK(check_slope(*a, stated));
-  MDOF_CHECK(check_slope(*b, stated));
-  MDOF_TRY(const FittedSquareness fitted, stored_squareness(store, stored));
+  algo::StatedPair at;
+  MDOF_TRY(at.a, point_of_slope(*a, stated));
+  MDOF_TRY(at.b, point_of_slope(*b, stated));
+  MDOF_TRY(const FittedSquareness fitted, stored_squareness(store, stored, at));
   b->location[about] = {fitted.squareness.error_rad, fitted.squareness.u_error_rad};
   machine.simulated = machine.simulated || fitted.squareness.simulated;
   append(all.notices, fitted.notices);

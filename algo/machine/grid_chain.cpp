@@ -51,6 +51,19 @@ void GridErrors::Chain::add(const Segment& next) {
     last.poses[i] = next.poses[next.varies == Varies::nowhere ? 0 : i] * last.poses[i];
 }
 
+void GridErrors::Chain::begin_line(std::size_t j) {
+  line = j;
+  begin = tool;
+  for (in_line = 0; in_line < segments.size() && segments[in_line].varies != Varies::with_first;
+       ++in_line)
+    begin = through(segments[in_line], 0, begin);
+}
+
+void GridErrors::begin_line(std::size_t j) {
+  actual_.begin_line(j);
+  nominal_.begin_line(j);
+}
+
 void GridErrors::add_frame(const MachineFrame& frame, const GridPlan& plan) {
   Segment actual, nominal;
   std::size_t count = 1;
@@ -75,7 +88,8 @@ void GridErrors::add_frame(const MachineFrame& frame, const GridPlan& plan) {
 }
 
 GridErrors::GridErrors(const Machine& machine, const GridPlan& plan)
-    : actual_{vector_of(machine.tool_m), {}}, nominal_{vector_of(machine.tool_m), {}} {
+    : actual_{vector_of(machine.tool_m), {}, 0, 0, {}},
+      nominal_{vector_of(machine.tool_m), {}, 0, 0, {}} {
   // From the tool to the bed, then from the bed to the work: frames begin at the work.
   for (const bool of_work : {false, true})
     for (std::size_t i = machine.frames.size(); i-- > 0;)

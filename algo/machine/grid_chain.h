@@ -21,9 +21,8 @@ struct GridPlan {
 class GridErrors {
  public:
   GridErrors(const Machine& machine, const GridPlan& plan);
-  Eigen::Vector3d at(std::size_t i, std::size_t j) const {
-    return actual_.at(i, j) - nominal_.at(i, j);
-  }
+  void begin_line(std::size_t j);  // of the second axis, before at() of its points
+  Eigen::Vector3d at(std::size_t i) const { return actual_.at(i) - nominal_.at(i); }
 
  private:
   enum class Varies { nowhere, with_first, with_second };
@@ -36,14 +35,23 @@ class GridErrors {
     Eigen::Vector3d tool;
     std::vector<Segment> segments;  // as they take the tool's point to the work
 
+    // Of a line: its number, where the first segments take the tool's point, and how many these
+    // are.
+    std::size_t line = 0, in_line = 0;
+    Eigen::Vector3d begin;
+
     void add(const Segment& next);
-    Eigen::Vector3d at(std::size_t i, std::size_t j) const {
-      Eigen::Vector3d point = tool;
-      for (const Segment& s : segments)
-        point = s.poses[s.varies == Varies::with_first    ? i
-                        : s.varies == Varies::with_second ? j
-                                                          : 0] *
-                point;
+    void begin_line(std::size_t j);
+    Eigen::Vector3d through(const Segment& s, std::size_t i, const Eigen::Vector3d& point) const {
+      return s.poses[s.varies == Varies::with_first    ? i
+                     : s.varies == Varies::with_second ? line
+                                                       : 0] *
+             point;
+    }
+    Eigen::Vector3d at(std::size_t i) const {
+      Eigen::Vector3d point = begin;
+      for (std::size_t s = in_line; s < segments.size(); ++s)
+        point = through(segments[s], i, point);
       return point;
     }
   };

@@ -23,13 +23,18 @@ void add_points(const Machine& machine, const PlaneMapRequest& request, PlaneMap
                       map.second_m,  request.others, request.approach};
   GridErrors errors(machine, plan);
   GridVariances variances(machine, plan);
-  map.points.reserve(map.first_m.size() * map.second_m.size());
+  MapExtremes extremes;
+  if (!request.extremes_only) map.points.reserve(map.first_m.size() * map.second_m.size());
   for (std::size_t j = 0; j < map.second_m.size(); ++j) {
+    errors.begin_line(j);
     variances.begin_line(j);
-    for (std::size_t i = 0; i < map.first_m.size(); ++i)
-      map.points.push_back(
-          {map.first_m[i], map.second_m[j], errors.at(i, j), variances.u_at(i, j)});
+    for (std::size_t i = 0; i < map.first_m.size(); ++i) {
+      const PlanePoint point{errors.at(i), variances.u_at(i, j)};
+      extremes.add(point);
+      if (!request.extremes_only) map.points.push_back(point);
+    }
   }
+  map.extremes = extremes.found();
 }
 
 // A derivative is linear in the commands of two linear axes, so that one that counts anywhere
@@ -94,6 +99,7 @@ Result<PlaneMap> plane_map(const Machine& machine, const PlaneMapRequest& reques
                {},
                {},
                {},
+               {},
                {}};
   const Machine chosen = request.without_angles ? without_angles(machine) : machine;
   add_points(chosen, request, map);
@@ -101,31 +107,24 @@ Result<PlaneMap> plane_map(const Machine& machine, const PlaneMapRequest& reques
   return map;
 }
 
-std::array<MapExtreme, 3> extremes_of(const PlaneMap& map) {
-  struct Ends {
-    std::size_t lowest = 0, highest = 0;
-    double low = INFINITY, high = -INFINITY;
-  };
-  std::array<Ends, 3> ends;
-  for (std::size_t i = 0; i < map.points.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double e = map.points[i].error[static_cast<Eigen::Index>(k)];
-      Ends& of = ends[k];
-      if (e < of.low) {
-        of.low = e;
-        of.lowest = i;
-      }
-      if (e > of.high) {
-        of.high = e;
-        of.highest = i;
-      }
-    }
+void MapExtremes::add(const PlanePoint& point) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto of = static_cast<Eigen::Index>(k);
+    const double e = point.error[of];
+    if (e < ends_[k].lowest.value) ends_[k].lowest = {points_, e, point.u[of], 0};
+    if (e > ends_[k].highest.value) ends_[k].highest = {points_, e, point.u[of], 0};
+  }
+  ++points_;
+}
+
+std::array<MapExtreme, 3> MapExtremes::found() const {
   std::array<MapExtreme, 3> extremes;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Ends& of = ends[k];
-    const double low_size = std::abs(of.low), high_size = std::abs(of.high);
-    const bool is_low = low_size == high_size ? of.lowest < of.highest : low_size > high_size;
-    extremes[k] = {is_low ? of.lowest : of.highest, is_low ? of.low : of.high, of.high - of.low};
+    const MapExtreme &low = ends_[k].lowest, &high = ends_[k].highest;
+    const double low_size = std::abs(low.value), high_size = std::abs(high.value);
+    const bool is_low = low_size == high_size ? low.point < high.point : low_size > high_size;
+    extremes[k] = is_low ? low : high;
+    extremes[k].range = high.value - low.value;
   }
   return extremes;
 }

@@ -217,8 +217,7 @@ Machine found_machine(const Machine& machine, const AxisReading& x, const AxisRe
 }
 
 PlaneRange range_of_map(const PlaneMap& map) {
-  const auto extremes = extremes_of(map);
-  return {extremes[0].range, extremes[1].range};
+  return {map.extremes[0].range, map.extremes[1].range};
 }
 
 PlaneRange actual_range(const Plant& plant) {

@@ -278,22 +278,24 @@ TEST(PlaneMapEdges, OthersApproachAndAnglesAreAsAskedFor) {
 }
 
 TEST(PlaneMapEdges, TheExtremeIsTheLargestBySize) {
-  PlaneMap map;
+  MapExtremes extremes;
   for (const double e : {1.0, -5.0, 4.0, 5.0, -2.0}) {
     PlanePoint point;
-    point.u.setZero();
+    point.u.setConstant(e + 10);
     point.error.setConstant(e);
     point.error[2] = -e;
-    map.points.push_back(point);
+    extremes.add(point);
   }
-  const MapExtreme first = extremes_of(map)[0];
+  const MapExtreme first = extremes.found()[0];
   EXPECT_EQ(first.point, 1u);  // the first of those of the same size
   EXPECT_EQ(first.value, -5);
   EXPECT_EQ(first.range, 10);
-  EXPECT_EQ(extremes_of(map)[2].value, 5);
-  map.points.resize(1);
-  EXPECT_EQ(extremes_of(map)[0].value, 1);
-  EXPECT_EQ(extremes_of(map)[0].range, 0);
+  EXPECT_EQ(first.u, 5);
+  EXPECT_EQ(extremes.found()[2].value, 5);
+  MapExtremes one;
+  one.add({Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()});
+  EXPECT_EQ(one.found()[0].value, 1);
+  EXPECT_EQ(one.found()[0].range, 0);
 }
 
 // Without errors the first step finds that nothing is left.

@@ -50,9 +50,9 @@ void compare_with_points(const Machine& machine, const PlaneMapRequest& request,
   Eigen::Vector3d largest_u = Eigen::Vector3d::Zero();
   std::vector<ToolError> alone;
   Command command = request.others;
-  for (const PlanePoint& p : map->points) {
-    command[request.first] = p.first_m;
-    command[request.second] = p.second_m;
+  for (std::size_t i = 0; i < map->points.size(); ++i) {
+    command[request.first] = map->first_at(i);
+    command[request.second] = map->second_at(i);
     alone.push_back(tool_error(machine, command, request.approach));
     for (Eigen::Index k = 0; k < 3; ++k)
       if (alone.back().u[k] > largest_u[k]) largest_u[k] = alone.back().u[k];

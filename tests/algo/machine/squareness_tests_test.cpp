@@ -189,9 +189,16 @@ TEST(PlaneMap, HasAllPointsOfTheRangeUpToAMillion) {
   ASSERT_EQ(map->points.size(), 20U);
   EXPECT_NEAR(map->first_m[1], 0, 1e-15);
   EXPECT_NEAR(map->second_m[4], 0.45, 1e-15);
-  EXPECT_EQ(map->points[6].first_m, map->first_m[2]);  // the first axis runs fastest
-  EXPECT_EQ(map->points[6].second_m, map->second_m[1]);
-  const MapExtreme extreme = extremes_of(*map)[1];
+  EXPECT_EQ(map->first_at(6), map->first_m[2]);  // the first axis runs fastest
+  EXPECT_EQ(map->second_at(6), map->second_m[1]);
+  EXPECT_NEAR(map->points[6].error[1], 3e-6, 1e-15);
+  const MapExtreme extreme = map->extremes[1];
+  request.extremes_only = true;
+  const auto without_points = plane_map(m, request);
+  EXPECT_TRUE(without_points->points.empty());
+  EXPECT_EQ(without_points->extremes[1].value, extreme.value);
+  EXPECT_EQ(without_points->extremes[1].point, extreme.point);
+  request.extremes_only = false;
   EXPECT_NEAR(extreme.value, 6e-6, 1e-15);
   EXPECT_EQ(extreme.point % 4, 3U);  // of any row
   EXPECT_NEAR(extreme.range, 9e-6, 1e-15);

@@ -62,7 +62,7 @@ Panel true_panel(const algo::PlaneMap& map, double margin_mm, double top) {
 void draw_arrow(Svg& svg, const Panel& panel, const algo::PlaneMap& map, std::size_t row,
                 double factor) {
   const algo::PlanePoint& p = map.points[row];
-  const double x = to_mm(p.first_m), y = to_mm(p.second_m);
+  const double x = to_mm(map.first_at(row)), y = to_mm(map.second_at(row));
   const Place from = panel.at(x, y);
   const Place to = panel.at(x + error_um(p, map.first) * factor / 1e3,
                             y + error_um(p, map.second) * factor / 1e3);

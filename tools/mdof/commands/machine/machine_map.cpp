@@ -114,17 +114,15 @@ Status write_csv(const Machine& machine, const std::vector<FoundMap>& maps) {
 
 void write_extremes(JsonWriter& json, const algo::PlaneMap& map) {
   json.key("largest").begin_object();
-  const auto extremes = algo::extremes_of(map);
   for (std::size_t k = 0; k < 3; ++k) {
-    const algo::MapExtreme& extreme = extremes[k];
-    const auto& p = map.points[extreme.point];
+    const algo::MapExtreme& extreme = map.extremes[k];
     json.key(kComponents[k])
         .begin_object()
         .field("value_um", to_um(extreme.value))
-        .field("u_um", to_um(p.u[static_cast<Eigen::Index>(k)]))
+        .field("u_um", to_um(extreme.u))
         .field("range_um", to_um(extreme.range))
-        .field(key_in_mm(map.first), to_mm(p.first_m))
-        .field(key_in_mm(map.second), to_mm(p.second_m))
+        .field(key_in_mm(map.first), to_mm(map.first_at(extreme.point)))
+        .field(key_in_mm(map.second), to_mm(map.second_at(extreme.point)))
         .end_object();
   }
   json.end_object();
@@ -132,10 +130,11 @@ void write_extremes(JsonWriter& json, const algo::PlaneMap& map) {
 
 void write_grid(JsonWriter& json, const algo::PlaneMap& map) {
   json.key("points").begin_array();
-  for (const algo::PlanePoint& p : map.points) {
+  for (std::size_t row = 0; row < map.points.size(); ++row) {
+    const algo::PlanePoint& p = map.points[row];
     json.begin_object()
-        .field(key_in_mm(map.first), to_mm(p.first_m))
-        .field(key_in_mm(map.second), to_mm(p.second_m));
+        .field(key_in_mm(map.first), to_mm(map.first_at(row)))
+        .field(key_in_mm(map.second), to_mm(map.second_at(row)));
     for (int k = 0; k < 3; ++k) json.field(kComponents[k], to_um(p.error[k]));
     for (int k = 0; k < 3; ++k) json.field(std::string("u_") + kComponents[k], to_um(p.u[k]));
     json.end_object();
@@ -176,18 +175,17 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
        std::string(1, "XYZ"[first.second]) + "/mm", "range/µm"},
       2);
   for (const FoundMap& found : maps) {
-    const auto extremes = algo::extremes_of(found.map);
     for (std::size_t k = 0; k < 3; ++k) {
-      const algo::MapExtreme& extreme = extremes[k];
-      const auto& p = found.map.points[extreme.point];
-      const double u_m = p.u[static_cast<Eigen::Index>(k)];
-      table.add({found.approach, std::string(1, "xyz"[k]), um_to_place(extreme.value, u_m),
-                 um_to_place(u_m, u_m), in_mm(p.first_m), in_mm(p.second_m), in_um(extreme.range)});
+      const algo::MapExtreme& extreme = found.map.extremes[k];
+      table.add({found.approach, std::string(1, "xyz"[k]), um_to_place(extreme.value, extreme.u),
+                 um_to_place(extreme.u, extreme.u), in_mm(found.map.first_at(extreme.point)),
+                 in_mm(found.map.second_at(extreme.point)), in_um(extreme.range)});
     }
   }
   return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
-         machine.name + ", " + machine.chain.text + ": " + std::to_string(first.points.size()) +
-         " points of the plane " + o.plane + ", error of the tool relative to the workpiece\n" +
+         machine.name + ", " + machine.chain.text + ": " +
+         std::to_string(first.first_m.size() * first.second_m.size()) + " points of the plane " +
+         o.plane + ", error of the tool relative to the workpiece\n" +
          table.text(terminal_columns()) +
          (o.without_angles ? "the figures contain positioning, straightness and squareness, but no "
                              "angular errors\n"
@@ -225,6 +223,7 @@ Status machine_map(const MachineMapCommand& o) {
   request.second = std::string("XYZ").find(o.plane[1]);
   request.step_m = from_mm(o.step_mm);
   request.without_angles = o.without_angles;
+  request.extremes_only = !o.csv && !o.json && o.plots.empty();
   if (!o.at.empty()) {
     MDOF_TRY(request.others, command_from(machine, o.at));
   }

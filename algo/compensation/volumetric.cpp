@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "algo/compensation/volumetric_noise.h"
 #include "algo/machine/compensating.h"
 #include "algo/machine/plane_map.h"
 #include "schema/base/number/number_text.h"
@@ -84,11 +85,18 @@ class CorrectedPlace {
   CompensatingCommand found_;
 };
 
-bool has_noise(const Machine& machine) {
-  for (const MachineFrame& frame : machine.frames)
-    for (const ErrorFunction& f : frame.error)
-      if (!f.u_independent.empty()) return true;
-  return false;
+// Whether noise is known apart, axis by axis.
+bool has_parts(const VolumetricTable& table) {
+  return std::any_of(table.noise.begin(), table.noise.end(),
+                     [](const auto& axis) { return !axis.empty(); });
+}
+
+Vec3 u_independent(const VolumetricTable& table, std::size_t node) {
+  const std::size_t nx = table.command_m[0].size(), ny = table.command_m[1].size();
+  Vec3 u = noise_variance(table, {{{node % nx}, {node / nx % ny}, {node / (nx * ny)}}},
+                          table.command_at(node));
+  for (double& of : u) of = std::sqrt(of);
+  return u;
 }
 
 Status add_node(VolumetricTable& table, const Machine& machine, const VolumetricRequest& request,
@@ -98,8 +106,7 @@ Status add_node(VolumetricTable& table, const Machine& machine, const Volumetric
   const ToolError error = tool_error(machine, place.command(), request.approach);
   table.correction_m.push_back(place.correction_m());
   table.u_m.push_back({error.u[0], error.u[1], error.u[2]});
-  if (has_noise(machine))
-    table.u_independent_m.push_back({error.u_noise[0], error.u_noise[1], error.u_noise[2]});
+  if (has_parts(table)) table.u_independent_m.push_back(u_independent(table, node));
   table.place_left_m = std::max(table.place_left_m, place.found().residual_m.norm());
   table.turn_left_rad = std::max(table.turn_left_rad, place.found().angles_rad.norm());
   for (std::size_t k = 0; k < 3; ++k) {
@@ -170,14 +177,7 @@ Status check_measured(const VolumetricTable& table, const VolumetricRequest& req
       Remedy::allow_incomplete);
 }
 
-// The interval of a command, and the part of it: 0 at its begin.
-struct Cell {
-  std::size_t index = 0;
-  double part = 0;
-  bool inside = true;
-};
-
-Cell cell_of(const std::vector<double>& commands, double command) {
+GridCell cell_of(const std::vector<double>& commands, double command) {
   const double low = commands.front(), high = commands.back();
   if (command <= low) return {0, 0, command > low - kSamePlace_m};
   const bool inside = command < high + kSamePlace_m;
@@ -185,6 +185,21 @@ Cell cell_of(const std::vector<double>& commands, double command) {
   const auto next = std::upper_bound(commands.begin(), commands.end(), command);
   const auto index = static_cast<std::size_t>(next - commands.begin()) - 1;
   return {index, (command - commands[index]) / (commands[index + 1] - commands[index]), true};
+}
+
+// u and its parts, from u_common_m. Of a table whose parts are not known, that is the whole.
+void set_u(const VolumetricTable& table, const std::array<GridCell, 3>& cell, const Vec3& command_m,
+           VolumetricValue& value) {
+  value.u_m = value.u_common_m;
+  if (!has_parts(table)) {
+    value.u_common_m = value.u_independent_m = {kNaN, kNaN, kNaN};
+    return;
+  }
+  const Vec3 variance = noise_variance(table, cell, command_m);
+  for (std::size_t k = 0; k < 3; ++k) {
+    value.u_independent_m[k] = std::sqrt(variance[k]);
+    value.u_m[k] = std::hypot(value.u_common_m[k], value.u_independent_m[k]);
+  }
 }
 
 }  // namespace
@@ -200,6 +215,7 @@ Result<VolumetricTable> build_volumetric(const Machine& machine, const Volumetri
                                                                   : "mean";
   table.tool_m = machine.tool_m;
   MDOF_CHECK(set_grid(table, machine, request));
+  set_noise_of_axes(table, machine, request.others, request.approach);
   for (std::size_t node = 0; node < table.nodes(); ++node)
     MDOF_CHECK(add_node(table, machine, request, node));
   MDOF_CHECK(check_measured(table, request));
@@ -214,7 +230,7 @@ Status check_limits(const VolumetricTable& table, const TableLimits& limits) {
 }
 
 VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m) {
-  std::array<Cell, 3> cell;
+  std::array<GridCell, 3> cell;
   VolumetricValue value;
   bool at_a_node = true;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -232,18 +248,16 @@ VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_
     }
     if (weight == 0) continue;  // of a last node there is no next
     const std::size_t node = table.node(index[0], index[1], index[2]);
+    const Vec3 common = has_parts(table) ? table.u_common_at(node) : table.u_m[node];
     for (std::size_t k = 0; k < 3; ++k) {
       value.correction_m[k] += weight * table.correction_m[node][k];
-      // The errors of neighbours are not independent: no smaller than between them.
-      value.u_m[k] += weight * table.u_m[node][k];
-      if (!table.u_independent_m.empty())
-        value.u_independent_m[k] += weight * table.u_independent_m[node][k];
+      value.u_common_m[k] += weight * common[k];
     }
   }
-  if (table.u_independent_m.empty()) value.u_independent_m = {kNaN, kNaN, kNaN};
   for (std::size_t k = 0; k < 3 && !at_a_node; ++k)
-    value.u_m[k] = std::hypot(value.u_m[k], table.interpolation_m[k] / std::numbers::sqrt3);
-  value.u_common_m = u_beside(value.u_m, value.u_independent_m);
+    value.u_common_m[k] =
+        std::hypot(value.u_common_m[k], table.interpolation_m[k] / std::numbers::sqrt3);
+  set_u(table, cell, command_m, value);
   return value;
 }
 

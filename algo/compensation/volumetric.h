@@ -39,9 +39,11 @@ struct VolumetricValue {
   Vec3 u_common_m{}, u_independent_m{};  // parts of u_m; NaN: not known apart
   bool inside = true;                    // else the value of the nearest place of the grid
 };
-// Linear along each axis between the nodes. u is that of the nodes about it with what
-// interpolation may be off, of a rectangular distribution, which is in u_common; at a node without
-// it.
+// Linear along each axis between the nodes. The common part of u is that of the nodes about it,
+// with what interpolation may be off, of a rectangular distribution; at a node without it. The
+// independent part is smaller than that of the nodes, since they are averaged (noise_variance()).
+// Of an older table, whose noise is not known by axis, u is that of the nodes and the parts are
+// NaN.
 VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m);
 
 }  // namespace mdof::algo

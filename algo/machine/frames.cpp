@@ -8,29 +8,13 @@ namespace {
 
 constexpr std::string_view kLetters = "XYZABC";
 
-struct Place {
-  std::size_t cell = 0;
-  double part = 0;  // of the way from its begin to its end
-  bool beyond = false;
-};
-
-Place place_of(const std::vector<double>& position, double at) {
-  if (position.empty()) return {};
-  if (position.size() == 1) return {0, 0, at != position[0]};
-  if (at <= position.front()) return {0, 0, at < position.front()};
-  if (at >= position.back()) return {position.size() - 2, 1, at > position.back()};
-  const auto above = std::upper_bound(position.begin(), position.end(), at);
-  const auto cell = static_cast<std::size_t>(above - position.begin()) - 1;
-  return {cell, (at - position[cell]) / (position[cell + 1] - position[cell])};
-}
-
-double value_at(const std::vector<double>& values, const Place& place) {
+double value_at(const std::vector<double>& values, const TablePlace& place) {
   if (values.size() < 2) return values.empty() ? 0 : values[0];
   const double a = values[place.cell], b = values[place.cell + 1];
   return place.part == 1 ? b : a + (b - a) * place.part;
 }
 
-double value_at(const ErrorFunction& f, const Place& place, MachineApproach approach) {
+double value_at(const ErrorFunction& f, const TablePlace& place, MachineApproach approach) {
   const double forward = value_at(f.forward, place);
   if (f.reverse.empty() || approach == MachineApproach::forward) return forward;
   const double reverse = value_at(f.reverse, place);
@@ -58,7 +42,7 @@ using SharedErrors = std::vector<std::array<double, kBodyErrors>>;
 SharedErrors shared_at(const ErrorCorrelation& correlation, double at) {
   SharedErrors all;
   if (correlation.shared.empty()) return all;
-  const Place place = place_of(correlation.position, at);
+  const TablePlace place = place_of(correlation.position, at);
   for (const SharedPart& part : correlation.shared) {
     const auto& low = part.at[place.cell];
     const auto& high = part.at[std::min(place.cell + 1, part.at.size() - 1)];
@@ -74,7 +58,7 @@ Matrix6 parts_of(const ErrorCorrelation& correlation, double at,
                  const std::array<double, kBodyErrors>& u, const SharedErrors& shared) {
   if (correlation.at.empty())
     return Matrix6(Eigen::Map<const Eigen::Matrix<double, kBodyErrors, 1>>(u.data()).asDiagonal());
-  const Place place = place_of(correlation.position, at);
+  const TablePlace place = place_of(correlation.position, at);
   const auto& low = correlation.at[place.cell];
   const auto& high = correlation.at[std::min(place.cell + 1, correlation.at.size() - 1)];
   Matrix6 covariance;
@@ -111,6 +95,16 @@ Pose motion(const MachineFrame& frame, const FrameValues& v) {
 
 }  // namespace
 
+TablePlace place_of(const std::vector<double>& position, double at) {
+  if (position.empty()) return {};
+  if (position.size() == 1) return {0, 0, at != position[0]};
+  if (at <= position.front()) return {0, 0, at < position.front()};
+  if (at >= position.back()) return {position.size() - 2, 1, at > position.back()};
+  const auto above = std::upper_bound(position.begin(), position.end(), at);
+  const auto cell = static_cast<std::size_t>(above - position.begin()) - 1;
+  return {cell, (at - position[cell]) / (position[cell + 1] - position[cell])};
+}
+
 double command_of(const MachineFrame& frame, const Command& command) {
   return frame.kind == FrameKind::fixed ? 0 : command[kLetters.find(frame.id)];
 }
@@ -128,7 +122,7 @@ FrameValues values_at(const MachineFrame& frame, const Command& command, Machine
   v.travel = travel_of(frame, command);
   for (std::size_t k = 0; k < kBodyErrors; ++k) {
     const ErrorFunction& f = frame.error[k];
-    const Place place = place_of(f.position, at);
+    const TablePlace place = place_of(f.position, at);
     v.error[k] = value_at(f, place, approach);
     v.u_error[k] = value_at(f.u, place);
     v.beyond[k] = f.known() && place.beyond;

@@ -36,6 +36,14 @@ FrameValues values_at(const MachineFrame& frame, const Command& command, Machine
 std::vector<FrameValues> values_at(const Machine& machine, const Command& command,
                                    MachineApproach approach);
 
+// A command in a table of an error: the position below it, and the part of the way to the next.
+struct TablePlace {
+  std::size_t cell = 0;
+  double part = 0;
+  bool beyond = false;  // the end is held
+};
+TablePlace place_of(const std::vector<double>& position, double at);
+
 double command_of(const MachineFrame& frame, const Command& command);
 // How far its body goes along + of its axis.
 double travel_of(const MachineFrame& frame, const Command& command);

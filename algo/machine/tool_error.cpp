@@ -194,13 +194,12 @@ namespace {
 
 // By frame and independent part of its body's errors.
 Vector6 body_variance(const std::vector<ErrorDerivative>& derivatives,
-                      const std::vector<FrameValues>& values,
-                      Eigen::Matrix<double, kBodyErrors, kBodyErrors> FrameValues::*of) {
+                      const std::vector<FrameValues>& values) {
   std::vector<Eigen::Matrix<double, 6, kBodyErrors>> parts(
       values.size(), Eigen::Matrix<double, 6, kBodyErrors>::Zero());
   for (const ErrorDerivative& d : derivatives)
     if (!d.of_line)
-      parts[d.frame] += d.d * (values[d.frame].*of).row(static_cast<Eigen::Index>(d.k));
+      parts[d.frame] += d.d * values[d.frame].u_parts.row(static_cast<Eigen::Index>(d.k));
   Vector6 sum = Vector6::Zero();
   for (const auto& of_frame : parts) sum += of_frame.cwiseAbs2().rowwise().sum();
   return sum;
@@ -222,16 +221,11 @@ std::vector<Vector6> shared_effects(const std::vector<ErrorDerivative>& derivati
 
 Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
                           const std::vector<FrameValues>& values) {
-  Vector6 sum = body_variance(derivatives, values, &FrameValues::u_parts);
+  Vector6 sum = body_variance(derivatives, values);
   for (const ErrorDerivative& d : derivatives)
     if (d.of_line) sum += (d.d * values[d.frame].u_location[d.k]).cwiseAbs2();
   for (const Vector6& part : shared_effects(derivatives, values)) sum += part.cwiseAbs2();
   return sum.cwiseSqrt();
-}
-
-Vector6 noise_uncertainty(const std::vector<ErrorDerivative>& derivatives,
-                          const std::vector<FrameValues>& values) {
-  return body_variance(derivatives, values, &FrameValues::noise_parts).cwiseSqrt();
 }
 
 LinearBound linear_bound(const Machine& machine, const Command& command,
@@ -258,7 +252,6 @@ ToolError tool_error(const Machine& machine, const Command& command, MachineAppr
   ToolError error{exact_error(machine, command, values),
                   linear_error(all, values),
                   error_uncertainty(all, values),
-                  noise_uncertainty(all, values),
                   linear_bound(machine, command, values),
                   {},
                   {},

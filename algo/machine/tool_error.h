@@ -42,9 +42,6 @@ Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
 // bodies with that by their shared parts, of lines independent. 0: none declared.
 Vector6 error_uncertainty(const std::vector<ErrorDerivative>& derivatives,
                           const std::vector<FrameValues>& values);
-// The part of it that is independent from position to position of an axis.
-Vector6 noise_uncertainty(const std::vector<ErrorDerivative>& derivatives,
-                          const std::vector<FrameValues>& values);
 
 // More than |exact - linear| can be, as vectors: of the place, m, and of each angle, rad.
 struct LinearBound {
@@ -56,7 +53,6 @@ LinearBound linear_bound(const Machine& machine, const Command& command,
 // Everything said of one command.
 struct ToolError {
   Vector6 exact, linear, u;  // u: NaN where nothing that counts has one
-  Vector6 u_noise;           // part of u: noise_uncertainty()
   LinearBound bound;
   // By component: names of errors that were not measured and would count; that have no u.
   std::array<std::vector<std::string>, 6> not_measured, no_u;

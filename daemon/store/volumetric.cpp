@@ -15,7 +15,7 @@ constexpr std::string_view kVolumetric =
     "SELECT v.id, v.machine, document.text, v.chain, v.chain_travel, v.simulated, v.noise_only, "
     "v.approach, v.tool_m, v.rotary_rad, v.X_m, v.Y_m, v.Z_m, v.correction_m, v.u_m, "
     "v.interpolation_m, v.place_left_m, v.turn_left_rad, v.not_measured, v.u_not_declared, "
-    "v.beyond_tables, v.created_utc, v.sha256, v.u_independent_m "
+    "v.beyond_tables, v.created_utc, v.sha256, v.u_independent_m, v.noise "
     "FROM volumetric_table AS v JOIN document ON document.id = v.description ";
 
 std::vector<double> flat(const std::vector<Vec3>& values) {
@@ -41,7 +41,9 @@ std::string json_list(const std::vector<std::string>& names) {
 }
 
 Status check_shape(const VolumetricTable& t) {
-  const bool parts = t.u_independent_m.empty() || t.u_independent_m.size() == t.nodes();
+  bool parts = t.u_independent_m.empty() || t.u_independent_m.size() == t.nodes();
+  for (std::size_t k = 0; k < 3; ++k)
+    parts = parts && (t.noise[k].empty() || t.noise[k].size() == t.command_m[k].size());
   if (t.nodes() > 0 && t.correction_m.size() == t.nodes() && t.u_m.size() == t.nodes() && parts)
     return {};
   return fail(ErrorCode::usage,
@@ -52,8 +54,11 @@ Status check_shape(const VolumetricTable& t) {
 // The bytes are not copied: what is bound has to live until the statement has run.
 struct FlatNodes {
   explicit FlatNodes(const VolumetricTable& t)
-      : correction(flat(t.correction_m)), u(flat(t.u_m)), u_independent(flat(t.u_independent_m)) {}
-  std::vector<double> correction, u, u_independent;
+      : correction(flat(t.correction_m)),
+        u(flat(t.u_m)),
+        u_independent(flat(t.u_independent_m)),
+        noise(noise_numbers(t)) {}
+  std::vector<double> correction, u, u_independent, noise;
 };
 
 void bind_values(Statement& insert, const VolumetricTable& t, const FlatNodes& nodes) {
@@ -65,7 +70,7 @@ void bind_values(Statement& insert, const VolumetricTable& t, const FlatNodes& n
     const std::string list = json_list(*names);
     insert.bind(std::string_view(list));
   }
-  insert.bind_bytes(bytes_of(nodes.u_independent));
+  insert.bind_bytes(bytes_of(nodes.u_independent)).bind_bytes(bytes_of(nodes.noise));
 }
 
 }  // namespace
@@ -88,8 +93,8 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
                "INSERT INTO volumetric_table (id, machine, description, chain, chain_travel, "
                "simulated, noise_only, approach, created_utc, sha256, tool_m, rotary_rad, X_m, "
                "Y_m, Z_m, correction_m, u_m, interpolation_m, place_left_m, turn_left_rad, "
-               "not_measured, u_not_declared, beyond_tables, u_independent_m) "
-               "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
+               "not_measured, u_not_declared, beyond_tables, u_independent_m, noise) "
+               "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
   const std::string travels = travels_of(table.machine);
   insert.bind(id).bind(std::string_view(table.name)).bind(description);
   insert.bind(std::string_view(table.machine.text)).bind(std::string_view(travels));
@@ -134,7 +139,7 @@ Result<VolumetricTable> Store::volumetric_of(Statement& row) {
   t.created_utc = row.text(21);
   t.sha256 = row.text(22);
   t.u_independent_m = vectors_from(row.bytes(23));
-  if (!check_shape(t))
+  if (!set_noise(t, doubles_from(row.bytes(24))) || !check_shape(t))
     return bad_input(file().string() + ": volumetric table " + std::to_string(t.id) +
                      " is damaged; restore the database from a backup");
   MDOF_TRY(t.runs, integers("SELECT run FROM volumetric_source WHERE volumetric_table = ? ORDER BY "

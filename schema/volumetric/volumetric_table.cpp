@@ -31,12 +31,47 @@ Vec3 VolumetricTable::u_common_at(std::size_t node) const {
   return u_beside(u_m[node], u_independent_at(node));
 }
 
+namespace {
+
+// Of each number of `noise`, in the order of noise_numbers().
+template <class Noise, class Take>
+void for_each_number(Noise& noise, Take take) {
+  for (auto& axis : noise)
+    for (auto& node : axis)
+      for (auto* forms : {&node.variance, &node.with_next})
+        for (auto& form : *forms)
+          for (auto& number : form) take(number);
+}
+
+}  // namespace
+
+std::vector<double> noise_numbers(const VolumetricTable& table) {
+  std::vector<double> numbers;
+  for_each_number(table.noise, [&](double x) { numbers.push_back(x); });
+  return numbers;
+}
+
+bool set_noise(VolumetricTable& table, const std::vector<double>& numbers) {
+  table.noise = {};
+  if (numbers.empty()) return true;
+  std::size_t count = 0, next = 0;
+  for (std::size_t k = 0; k < table.noise.size(); ++k)
+    if (table.command_m[k].size() > 1) table.noise[k].resize(table.command_m[k].size());
+  for_each_number(table.noise, [&](double) { ++count; });
+  if (count != numbers.size()) return false;
+  for_each_number(table.noise, [&](double& x) { x = numbers[next++]; });
+  return true;
+}
+
 std::string volumetric_sha256(const VolumetricTable& t) {
   using canonical::put;
   std::string bytes;
   const auto put_text = [&](std::string_view text) { put(bytes, text); };
   const auto put_vector = [&](const Vec3& v) { put(bytes, std::span<const double>(v)); };
-  put_text(t.u_independent_m.empty() ? "mdof volumetric table 1" : "mdof volumetric table 2");
+  const std::vector<double> noise = noise_numbers(t);
+  put_text(!noise.empty()              ? "mdof volumetric table 3"
+           : t.u_independent_m.empty() ? "mdof volumetric table 1"
+                                       : "mdof volumetric table 2");
   put_text(t.name);
   put_text(t.machine.text);
   put_text(travels_of(t.machine));
@@ -51,6 +86,7 @@ std::string volumetric_sha256(const VolumetricTable& t) {
   for (const auto& commands : t.command_m) canonical::put_counted(bytes, commands);
   for (const auto* nodes : {&t.correction_m, &t.u_m, &t.u_independent_m})
     for (const Vec3& v : *nodes) put_vector(v);
+  put(bytes, std::span<const double>(noise));
   put_vector(t.interpolation_m);
   put(bytes, t.place_left_m);
   put(bytes, t.turn_left_rad);

@@ -13,6 +13,16 @@
 
 namespace mdof {
 
+// The noise of the tables of one axis at one of its nodes. By component X, Y, Z of the correction,
+// m²: its variance there, and its covariance with that at the axis' next node, each as c0 + c1 p +
+// c2 q + c3 p² + c4 p q + c5 q² of the commands p, q (m) of the other two axes in the order X, Y,
+// Z.
+struct AxisNoise {
+  using SquareForm = std::array<double, 6>;
+  std::array<SquareForm, 3> variance{}, with_next{};
+  bool operator==(const AxisNoise&) const = default;
+};
+
 // The nodes of the grid lie at all combinations of the commands, X fastest, then Y, then Z. An axis
 // with one command stands there: a plane has one such axis, or a machine without it.
 struct VolumetricTable {
@@ -31,10 +41,12 @@ struct VolumetricTable {
   // By node: added to the commands of X, Y, Z, m; standard uncertainty of the tool's place along X,
   // Y, Z of the work, m (NaN: nothing that counts declares one).
   std::vector<Vec3> correction_m, u_m;
-  // The part of u_m by noise of the axes' tables, which is independent from one position of an axis
-  // to another: nodes with the same command of an axis have that axis' part in common. Empty: the
-  // table is older than this, or nothing declares one.
+  // The part of u_m by noise of the tables of the grid's axes, which is independent from one
+  // position of an axis to another: nodes with the same command of an axis have that axis' part in
+  // common. Empty: the table is older than this, or nothing declares one.
   std::vector<Vec3> u_independent_m;
+  // The same by axis and its commands; of an axis with one command: none. Empty: likewise.
+  std::array<std::vector<AxisNoise>, 3> noise;
   // The largest that straight lines between nodes are off the correction of the model, found in the
   // middle of cells, faces and edges; m, by axis.
   Vec3 interpolation_m{};
@@ -62,12 +74,18 @@ struct VolumetricTable {
 // The part of u that is left beside another, m; NaN where one is.
 Vec3 u_beside(const Vec3& u_m, const Vec3& part_m);
 
+// All of `noise`, X first: the variances of a node, its covariances. set_noise() takes them for the
+// commands of the table; false: not as many as these have.
+std::vector<double> noise_numbers(const VolumetricTable& table);
+bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
+
 // SHA-256 of what the table says. Bytes hashed (schema/base/canonical.h):
-//   s "mdof volumetric table 1" (2 with u_independent_m), s name, s chain, s travels, s
-//   description, i number of runs, i each run, i simulated, i noise_only, s approach, d tool_m[3],
-//   d rotary_rad[3], then of X, Y, Z i n, d command_m[n], d correction_m[nodes][3], d
-//   u_m[nodes][3], d u_independent_m[nodes][3] (2), d interpolation_m[3], d place_left_m, d
-//   turn_left_rad, then of not_measured, u_not_declared, beyond_tables i n, s each
+//   s "mdof volumetric table 1" (2 with u_independent_m, 3 with noise), s name, s chain, s travels,
+//   s description, i number of runs, i each run, i simulated, i noise_only, s approach, d
+//   tool_m[3], d rotary_rad[3], then of X, Y, Z i n, d command_m[n], d correction_m[nodes][3], d
+//   u_m[nodes][3], d u_independent_m[nodes][3] (2, 3), d noise (3; noise_numbers()), d
+//   interpolation_m[3], d place_left_m, d turn_left_rad, then of not_measured, u_not_declared,
+//   beyond_tables i n, s each
 std::string volumetric_sha256(const VolumetricTable& table);
 
 // What its u covers: one sentence for people, without a full stop.

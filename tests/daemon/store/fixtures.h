@@ -153,6 +153,10 @@ inline VolumetricTable make_volume(const std::vector<std::int64_t>& runs = {}) {
     t.u_m.push_back({1e-8, kNaN, 3e-8 * i});
     t.u_independent_m.push_back({5e-9, 0, 1e-8 * i});
   }
+  for (std::size_t k = 0; k < 3; ++k)
+    if (t.command_m[k].size() > 1) t.noise[k].resize(t.command_m[k].size());
+  for (auto& axis : t.noise)
+    for (auto& node : axis) node.with_next[2] = {1e-18 / 3, 0, -2e-18, 0, 0, 3e-18};
   t.interpolation_m = {1e-9, 2e-9, 3e-9};
   t.place_left_m = 4e-9;
   t.turn_left_rad = 5e-6;

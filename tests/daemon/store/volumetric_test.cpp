@@ -30,6 +30,7 @@ TEST_F(StoreTest, GivesAVolumetricTableBackToTheLastBit) {
     EXPECT_EQ(back->u_m[i][2], table.u_m[i][2]);
   }
   EXPECT_EQ(back->u_independent_m, table.u_independent_m);
+  EXPECT_EQ(back->noise, table.noise);
   EXPECT_EQ(back->interpolation_m, table.interpolation_m);
   EXPECT_EQ(back->place_left_m, 4e-9);
   EXPECT_EQ(back->turn_left_rad, 5e-6);
@@ -43,7 +44,11 @@ TEST_F(StoreTest, GivesAVolumetricTableBackToTheLastBit) {
   VolumetricTable half = make_volume();
   half.u_independent_m.pop_back();
   EXPECT_EQ(store->add_volumetric(half).error().code, ErrorCode::usage);
+  VolumetricTable other_axes = make_volume();
+  other_axes.noise[0].pop_back();
+  EXPECT_EQ(store->add_volumetric(other_axes).error().code, ErrorCode::usage);
   VolumetricTable without_parts = make_volume();
+  without_parts.noise = {};
   without_parts.u_independent_m.clear();
   EXPECT_TRUE(
       store->volumetric(store->add_volumetric(without_parts).value())->u_independent_m.empty());

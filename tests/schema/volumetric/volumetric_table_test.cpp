@@ -59,6 +59,11 @@ TEST(VolumetricTable, EveryStatementIsInItsHash) {
       [](auto& t) {
         t.u_independent_m.assign(6, Vec3{1e-9, 0, 0});
       },
+      [](auto& t) { t.noise[0].resize(t.command_m[0].size()); },
+      [](auto& t) {
+        t.noise[0].resize(t.command_m[0].size());
+        t.noise[0][1].with_next[2][5] = 1e-18;
+      },
       [](auto& t) { t.interpolation_m[1] = 1e-9; },
       [](auto& t) { t.place_left_m = 1e-9; },
       [](auto& t) { t.turn_left_rad = 1e-9; },

@@ -1,0 +1,3 @@
+-- The noise of each axis of a volumetric table by its commands (schema/volumetric/volumetric_table.h, noise_numbers());
+-- NULL or empty where it is not known apart.
+ALTER TABLE volumetric_table ADD COLUMN noise BLOB;

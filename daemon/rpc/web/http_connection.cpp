@@ -253,7 +253,8 @@ void HttpConnection::send_events() {
 void HttpConnection::send_stream() {
   while (state_ == State::streaming && output_.unsent() == 0) {
     send_events();
-    if (const auto next = session_->send_due(Clock::now())) server_.wake_streams_at(*next);
+    due_ = session_->send_due(Clock::now());
+    if (due_) server_.wake_streams_at(*due_);
     if (output_.unsent() == 0) return;
     sent_ = Clock::now();
     flush();

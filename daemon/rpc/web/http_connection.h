@@ -39,6 +39,8 @@ class HttpConnection final : public Transport, public std::enable_shared_from_th
   bool is_stream() const { return state_ == State::streaming; }
   bool is_idle() const { return state_ == State::reading && input_.empty(); }
   Clock::time_point since() const { return since_; }
+  // Of a stream: when a value that waits may be sent.
+  std::optional<Clock::time_point> due() const { return due_; }
 
   void send(std::string_view message) override;
   std::size_t unsent() const override { return output_.unsent(); }
@@ -89,7 +91,7 @@ class HttpConnection final : public Transport, public std::enable_shared_from_th
   bool input_ended_ = false, shut_down_ = false;
   Clock::time_point since_ = Clock::now();  // of what goes on: idle, a head, a body, draining
   Clock::time_point sent_ = since_;         // on a stream
-  std::optional<Clock::time_point> stalled_since_;
+  std::optional<Clock::time_point> due_, stalled_since_;
 };
 
 }  // namespace mdof::rpc

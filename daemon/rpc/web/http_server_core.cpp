@@ -116,8 +116,17 @@ void HttpServerCore::wake_streams_at(Clock::time_point when) {
     const auto self = weak.lock();
     if (!self || error) return;  // gone, or an earlier time took its place
     self->due_.reset();
-    self->wake_streams();
+    self->wake_due_streams();
   });
+}
+
+void HttpServerCore::wake_due_streams() {
+  const auto now = Clock::now();
+  for (const auto& connection : connections) {
+    const auto due = connection->is_stream() ? connection->due() : std::nullopt;
+    if (due && *due > now) wake_streams_at(*due);
+    if (due && *due <= now) connection->wake();
+  }
 }
 
 void HttpServerCore::wake_streams() {

@@ -45,6 +45,7 @@ struct HttpServerCore : std::enable_shared_from_this<HttpServerCore> {
   bool make_room();
   void sweep();
   void wake_streams();
+  void wake_due_streams();
   void post_turns();
   void give_turns();
 

@@ -7,8 +7,9 @@ namespace mdof::rpc {
 namespace {
 
 std::uint64_t first_id(std::chrono::system_clock::time_point start) {
-  const auto s = std::chrono::duration_cast<std::chrono::seconds>(start.time_since_epoch()).count();
-  return static_cast<std::uint64_t>(std::max<std::int64_t>(s, 1)) * 1'000'000;
+  using std::chrono::microseconds;
+  const auto us = std::chrono::duration_cast<microseconds>(start.time_since_epoch()).count();
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(us, 1));
 }
 
 }  // namespace

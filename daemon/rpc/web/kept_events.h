@@ -13,8 +13,8 @@
 
 namespace mdof::rpc {
 
-// Ids rise by 1, and from one life of mdofd to the next: they begin at its start in seconds, times
-// a million. Below 2^53, so that a page may take one as a number.
+// Ids rise by 1, and from one life of mdofd to the next: they begin at its start in microseconds.
+// Below 2^53, so that a page may take one as a number.
 class KeptEvents {
  public:
   struct Limits {

@@ -1,4 +1,4 @@
-// Capture: what to measure, then the five errors as they grow, point by point.
+// Capture: the request for a run, then the five errors as they grow, point by point.
 import {ErrorCharts, errorKeys} from "./charts.js";
 import {ask, covers, field, fixed, h, notices, problem, select, setText} from "./dom.js";
 import * as live from "./live.js";
@@ -43,7 +43,7 @@ class Wizard {
     this.kind = select(kKinds, "even", () => this.show(), {name: "kind"});
     this.element = h("form", {class: "panel", oninput: () => this.show(), onsubmit: (e) => { e.preventDefault(); this.start(started); }},
       h("h2", {}, "New run"),
-      h("fieldset", {}, h("legend", {}, "1 What is measured"), h("div", {class: "fields"},
+      h("fieldset", {}, h("legend", {}, "1 Axis and note"), h("div", {class: "fields"},
         field("Axis", select(machine.state.info.axes.map((a) => [a.axis, `${a.axis}: ${a.rig}`]), null, null, {name: "axis"})),
         field("Note", h("input", {name: "note", maxlength: 1000}), "for people; it is stored with the run"))),
       h("fieldset", {}, h("legend", {}, "2 Targets"), field("Targets are", this.kind), this.even, this.list),

@@ -8,7 +8,7 @@ import {facts} from "./run_detail.js";
 const kRead_ms = 3000;
 const GB = (bytes) => isNumber(bytes) ? `${fixed(bytes / 1e9, 1)} GB` : "not known";
 
-// Everything that keeps something from working, in the daemon's words. Each: [place, text].
+// Why something does not work, in the daemon's words. Each: [place, text].
 export function reasons(info, devices, compensation) {
   const found = [];
   if (info.storage !== "ok") found.push(["storage", `${info.storage}: ${info.storage_reason}`]);
@@ -52,7 +52,7 @@ function calibrations() {
 
 export function open(place) {
   const t = {
-    why: table("What keeps something from working", [["place", "w"], ["why"]], []),
+    why: table("Reasons", [["place", "w"], ["reason"]], []),
     devices: table("Devices", [["device", "w"], ["axis"], ["driver"], ["state", "w"], ["rate/Hz", "n"], ["scans", "n"], ["lost", "n"], ["dropped blocks", "n"], ["opened again", "n"], ["last error"]], []),
     clocks: table("Clocks of the devices against this machine's", [["device", "w"], ["drift/ppm", "n"], ["jitter/ms", "n"], ["settled"], ["steps", "n"]], []),
     calibrations: table("Calibrations", [["of", "w"], ["certificate"], ["laboratory"], ["calibrated", "w"], ["due", "w"], ["state", "w"]], []),
@@ -60,7 +60,7 @@ export function open(place) {
   const fine = h("p", {}), server = h("div", {}), storage = h("div", {}), clients = h("div", {}), wrong = h("div", {role: "alert"});
   place.append(wrong, h("section", {class: "panel"}, h("h2", {}, "Why something does nothing"), fine, t.why),
     h("div", {class: "columns"}, h("section", {class: "panel"}, h("h2", {}, "mdofd"), server), h("section", {class: "panel"}, h("h2", {}, "Storage"), storage),
-      h("section", {class: "panel"}, h("h2", {}, "Who is connected"), clients)),
+      h("section", {class: "panel"}, h("h2", {}, "Connected clients"), clients)),
     h("section", {}, h("h2", {}, "Devices"), t.devices), h("section", {}, h("h2", {}, "Clocks"), t.clocks), h("section", {}, h("h2", {}, "Calibrations"), t.calibrations));
   let sized = null;  // the newest recorded run, of which the rate is known
   async function read() {

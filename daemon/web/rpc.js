@@ -38,7 +38,7 @@ async function post(method, params) {
 export async function askToken(reason) {
   asking ??= ask("Token", [
     reason ? h("p", {class: "notice doubtful"}, reason) : null,
-    h("p", {}, "Whatever changes state needs the token of this mdofd. Print it with ", h("code", {}, "mdof token"),
+    h("p", {}, "A call that changes something needs the token of this mdofd. Print it with ", h("code", {}, "mdof token"),
       " on the machine that runs it, as a user who may read it. It is kept until this tab is closed."),
     field("Token", h("input", {name: "token", type: "password", autocomplete: "off", required: true, autofocus: true})),
   ], "Use this token");

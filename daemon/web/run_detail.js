@@ -33,7 +33,7 @@ class Straightness {
   constructor(run, points) {
     this.run = run;
     this.points = points;
-    this.charts = Object.keys(run.straightness).map((key) => [key, new Chart(`${nameOf(key)} in µm with its reference line`, "µm"), h("p", {})]);
+    this.charts = Object.keys(run.straightness ?? {}).map((key) => [key, new Chart(`${nameOf(key)} in µm with its reference line`, "µm"), h("p", {})]);
     this.element = h("section", {}, h("h2", {}, "Straightness"),
       field("Reference line", select(kLines, "least_squares", (kind) => this.draw(kind))),
       h("div", {class: "charts"}, this.charts.map(([, chart, text]) => h("div", {}, chart.element, text))));
@@ -55,7 +55,7 @@ class Straightness {
 
 function angles(run) {
   return table("Angles: range over the travel, mean of both approaches", [["error"], ["range", "w"], ["at start/µrad", "n"], ["smallest/µrad", "n"], ["largest/µrad", "n"]],
-    Object.entries(run.angles).map(([key, {mean}]) => [nameOf(key), measured(run.uncertainty?.[key.replace("_urad", "_range_urad")] ?? {value: mean.range_urad}, "µrad"),
+    Object.entries(run.angles ?? {}).map(([key, {mean}]) => [nameOf(key), measured(run.uncertainty?.[key.replace("_urad", "_range_urad")] ?? {value: mean.range_urad}, "µrad"),
       fixed(mean.start_urad, 3), fixed(mean.min_urad, 3), fixed(mean.max_urad, 3)]));
 }
 

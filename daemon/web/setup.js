@@ -144,7 +144,7 @@ class Devices {
   before = new Map();  // device -> {scans, at}
   constructor() {
     this.table = table("Devices of this axis",
-      [["device", "w"], ["driver"], ["state", "w"], ["rate/Hz", "n"], ["nominal/Hz", "n"], ["lost scans", "n"], ["what is wrong"]], []);
+      [["device", "w"], ["driver"], ["state", "w"], ["rate/Hz", "n"], ["nominal/Hz", "n"], ["lost scans", "n"], ["problem"]], []);
     this.wrong = h("div", {});
     this.element = h("section", {class: "panel"}, h("h2", {}, "Devices"), this.table, this.wrong);
   }

@@ -1,4 +1,4 @@
-// The corrections over a plane or a volume: arrows and heat map, drawn as one stands before the machine.
+// The corrections over a plane or a volume: arrows and heat map, as seen from before the machine.
 import {change} from "./activation.js";
 import {covers, decimals, field, fixed, h, isNumber, problem, s, select, table, time} from "./dom.js";
 import * as live from "./live.js";
@@ -14,7 +14,7 @@ const kMostRows = 1000;  // of the table of nodes
 
 const size = ([, , , x, y, z]) => Math.hypot(x, y, z);
 
-// The nodes of one layer: those where the third axis stands at `at_mm`.
+// The nodes of one layer: those where the third axis is at `at_mm`.
 export function layer(nodes, plane, at_mm) {
   const third = [0, 1, 2].find((k) => k !== kPlanes[plane][0] && k !== kPlanes[plane][1]);
   return nodes.filter((n) => Math.abs(n[third] - at_mm) < 1e-6);
@@ -92,7 +92,7 @@ function activeOf(volume, nodes) {
     volume.not_measured.length ? h("p", {class: "notice doubtful"}, `▲ Not measured, and in no correction: ${volume.not_measured.join(", ")}`) : "",
     covers({u_covers: volume.u_covers, u_not_declared: volume.not_declared}) ?? "", pictures(volume, nodes),
     facts([["Approach", volume.approach], ["Beyond the tables", volume.beyond_tables.join(", ")],
-      ["What interpolation leaves", Object.entries(volume.interpolation).map(([k, x]) => `${k[0]} ${isNumber(x) ? fixed(x, 4) : "–"} µm`).join(", ")],
+      ["Interpolation error", Object.entries(volume.interpolation).map(([k, x]) => `${k[0]} ${isNumber(x) ? fixed(x, 4) : "–"} µm`).join(", ")],
       ["Active since", `${time(volume.activated_utc)}, by ${volume.activated_by}`], ["Sense", volume.sense]]),
     h("details", {}, h("summary", {}, "All nodes with u"), table("Corrections of the nodes; u: standard uncertainty",
       [...["X/mm", "Y/mm", "Z/mm", "X/µm", "Y/µm", "Z/µm", "u X/µm", "u Y/µm", "u Z/µm"].map((c) => [c, "n"])],

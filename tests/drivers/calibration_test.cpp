@@ -42,6 +42,19 @@ TEST(Calibration, AMissingValueStaysMissingWhateverTheCalibration) {
   }
 }
 
+// By hand: 0.05 % inside the range of 200 um; a gap grows as the target recedes.
+TEST(Calibration, TheEndsOfARangeAreDisplacementsTheLowerOneFirst) {
+  const auto expect = [](const std::string& more, double low_um, double high_um) {
+    const auto [low_m, high_m] = displacement_window_m(rig_with(more).probes[0]);
+    EXPECT_NEAR(low_m, low_um * 1e-6, 1e-12) << more;
+    EXPECT_NEAR(high_m, high_um * 1e-6, 1e-12) << more;
+  };
+  expect("", -99.95, 99.95);
+  expect("offset_um = 10\n", -109.95, 89.95);
+  expect("reads = \"gap\"\noffset_um = 120\n", 120 - 199.9, 120 - 0.1);
+  expect("valid_um = [-50, 80]\n", -50, 80);
+}
+
 TEST(Calibration, TakesThePositionInVoltsByTheScaleOfTheRig) {
   for (const double um_per_V : {5000.0, -250.0}) {
     const Rig rig = rig_with("[encoder]\num_per_V = " + std::to_string(um_per_V) + "\n");

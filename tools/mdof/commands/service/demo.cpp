@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <thread>
+#include <utility>
 
 #include "daemon/rpc/line/client.h"
 #include "tools/mdof/commands/command.h"

@@ -29,6 +29,7 @@ class BenchCaller final : public rpc::Caller {
   std::vector<std::pair<std::string, std::chrono::milliseconds>> subscribed;
 
   std::optional<rpc::Credentials> credentials() const override { return who; }
+  bool over_http() const override { return false; }
   bool may_write() const override { return writes; }
   bool in_group(gid_t wanted) const override { return group == wanted; }
   std::vector<gid_t> further_groups() const override {

@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "drivers/clock/monotonic.h"
+#include "schema/units.h"
 #include "tests/daemon/methods/methods_fixture.h"
 
 namespace mdof::daemon {

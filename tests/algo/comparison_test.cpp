@@ -82,5 +82,14 @@ TEST(ComparisonByHand, WhatDoesNotVaryHasNoRatio) {
   EXPECT_TRUE(std::isnan(result[0].ratio_se));
 }
 
+TEST(ComparisonByHand, OfOneTrialThereIsNoScatter) {
+  const double nan = std::nan("");
+  const auto result = compared({"EYX_um", {nan, 2, nan, nan}}, {"EYX_um", {1, 3, 2, 5}});
+  ASSERT_EQ(result.size(), 1u);
+  EXPECT_EQ(result[0].sd_this, 0);
+  EXPECT_EQ(result[0].sd_other, 0);
+  EXPECT_TRUE(std::isnan(result[0].ratio));
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -142,5 +142,23 @@ TEST(BinFit, AtTheEndsASpikeIsTwiceAsHigh) {
   }
 }
 
+// Halves about one place tell no slope: the level is that of the readings.
+TEST(BinFit, OfHalvesAboutOnePlaceTheSlopeIsNone) {
+  BinFit found;
+  std::vector<double> place, reading, scratch;
+  for (int i = 0; i < 20; ++i) {
+    place.push_back((i % 2 == 0 ? 0.5 : -0.5) * (i % 5 + 1) / 5);
+    reading.push_back(2e-6 + (i == 7 ? 1e-6 : 0));
+  }
+  std::vector<double> first(place.begin(), place.begin() + 10),
+      last(place.begin() + 10, place.end());
+  std::sort(first.begin(), first.end());
+  std::sort(last.begin(), last.end());
+  ASSERT_EQ(first, last);
+  found = fit_bin(place, reading, 5e-8, scratch);
+  EXPECT_EQ(found.rejected, 1U);
+  EXPECT_NEAR(found.value, 2e-6, 1e-15);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -227,5 +227,17 @@ TEST(OnTheFlyRun, FlagsThePointsOfAProbeThatStands) {
   EXPECT_GT(flagged, 28U);
 }
 
+// Bins of 0.5 mm every mm: what is missing from 11.2 mm to 11.75 mm lies between those at 11 and
+// 12 mm.
+TEST(OnTheFlyRun, AGapBetweenTwoBinsIsOfNeither) {
+  OnTheFlyOptions options;
+  options.bin_mm = 0.5;
+  const OnTheFly run =
+      measured({.scanned = [](std::int64_t ms) { return ms < 1126 || ms > 1175; }}, options);
+  EXPECT_EQ(run.summary().gaps, 1U);
+  for (const MeasuredPoint& p : run.sequence().points)
+    EXPECT_FALSE(has_flag(p.point, Flag::gap)) << p.target;
+}
+
 }  // namespace
 }  // namespace mdof::algo

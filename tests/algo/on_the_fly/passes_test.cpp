@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <vector>
 
 #include "algo/on_the_fly/target_grid.h"
 #include "algo/points/frame_rows.h"
@@ -97,6 +98,22 @@ TEST(TargetGrid, RefusesWhatMakesNoTargets) {
   }
   EXPECT_TRUE(check_on_the_fly({}, {}));
   EXPECT_TRUE(check_on_the_fly(every_from_to(1, 0, 60), {}));
+}
+
+// The end of a log ends its pass: what comes after it goes its own way.
+TEST(PassFinder, BeginsAnewAfterTheEnd) {
+  std::vector<PassFound> found;
+  const auto take = [&](const AxisPass& pass) {
+    const auto at = [&](std::size_t row) { return std::round(1e6 * pass.frames.encoder_m[row]); };
+    found.emplace_back(at(pass.first), at(pass.last - 1), pass.direction);
+  };
+  PassFinder finder;
+  for (const auto& turns : {std::vector<double>{0, 10}, {20, 10}, {5, 15}}) {
+    const FrameBlock frames = way_over(turns);
+    EXPECT_TRUE(finder.push(frames, 0, frames.size(), take));
+    finder.flush(take);
+  }
+  EXPECT_EQ(found, (std::vector<PassFound>{{0, 9990, 1}, {20000, 10010, -1}, {5000, 14990, 1}}));
 }
 
 }  // namespace

@@ -252,5 +252,20 @@ TEST(DwellTimes, AHoleIsToldByTheLastScanBeforeIt) {
   EXPECT_EQ(found.summary.scans, frames.size());
 }
 
+// Readings that are no number, in a log without qualities: the others are averaged.
+TEST(DwellTimes, AReadingThatIsNoNumberIsLeftOut) {
+  SteppingAxis axis = fast_axis();
+  for (int i = 0; i < 4; ++i) axis.stop(1e-3 * i);
+  axis.move_to(9e-3);
+  FrameBlock frames = axis.frames;
+  for (auto& quality : frames.probe_quality) quality.clear();
+  const Found whole = found_in(frames);
+  for (std::size_t i = 40; i < frames.size(); i += 40) frames.probe_m[0][i] = std::nan("");
+  const Found found = found_in(frames);
+  ASSERT_EQ(found.points.size(), whole.points.size());
+  for (std::size_t i = 0; i < found.points.size(); ++i)
+    EXPECT_NEAR(found.points[i].probe_m[0], whole.points[i].probe_m[0], 2e-9) << i;
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "algo/uncertainty/effects/reading_covariance.h"
 #include "tests/algo/rigs.h"
@@ -34,6 +36,26 @@ void expect_by_travel(const Eigen::MatrixXd& found, double u_m) {
 TEST(EncoderCovariance, IsOfAllReadingsTogether) {
   expect_by_travel(covariance_of("[encoder]\nu_um = 20\n", 0.03), 20e-6);
   EXPECT_EQ(covariance_of("", 0.03).norm(), 0);
+}
+
+// A record that has the direction of a probe says it instead of the rig: of a probe of the top by X
+// and Y, of the side by X and Z.
+TEST(CalibratedDirections, TakeThePlaceOfTheRigs) {
+  for (const auto& [id, across] : {std::pair("A", 1U), {"B", 1U}, {"D", 2U}, {"E", 2U}}) {
+    const auto covariance = [&, id = std::string(id)](const std::string& keys) {
+      Rig rig = test::rig_x_with(id, keys);
+      CalibrationRecord& record = rig.records.emplace_back();
+      record.covariance.of = {direction_name(id, 0), direction_name(id, across)};
+      record.covariance.m2 = {{4e-8, 1e-8}, {1e-8, 9e-8}};
+      const Solver solver = Solver::create(rig, Model::rigid).value();
+      Errors5 carriage{};
+      carriage[kEx] = carriage[kEy] = carriage[kEz] = 1e-3;
+      return declared_covariance(rig, solver, 0.03, carriage, std::vector<double>(5, 0.0), 0);
+    };
+    const Eigen::MatrixXd recorded = covariance("");
+    EXPECT_GT(recorded.norm(), 0) << id;
+    EXPECT_EQ((covariance("u_direction_mrad = 5") - recorded).norm(), 0) << id;
+  }
 }
 
 }  // namespace

@@ -336,5 +336,15 @@ TEST(WallByHand, FiguresAreThoseOfItsLines) {
   EXPECT_EQ(wall.Ra_root_m, lines[4].Ra_m());
 }
 
+// What is drawn is solved up to a tenth of the radius of runout, either way; beyond it is no cut.
+TEST(MillingTrials, RunoutIsUpToATenthOfTheRadius) {
+  for (const double share : {-0.101, -0.099, 0.099, 0.101}) {
+    MillingPlan plan = rigid_cut();
+    plan.runout_m = share * plan.radius_m();
+    const auto found = outputs_of(*milling_trials(plan, {{&depth_input(), 0}}, 1), 0, 1, 1);
+    EXPECT_EQ(std::isfinite(found[0][0]), std::abs(share) < 0.1) << share;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

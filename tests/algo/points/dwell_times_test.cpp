@@ -267,5 +267,34 @@ TEST(DwellTimes, AReadingThatIsNoNumberIsLeftOut) {
     EXPECT_NEAR(found.points[i].probe_m[0], whole.points[i].probe_m[0], 2e-9) << i;
 }
 
+// A break that is told before its time comes is passed where it is, as one that is told in time.
+TEST(DwellTimes, ABreakIsPassedWhereItIs) {
+  SteppingAxis axis = fast_axis();
+  for (int i = 0; i < 3; ++i) axis.stop(1e-3 * i);
+  const std::size_t before = axis.frames.size();
+  const std::int64_t last_ns = axis.frames.time_ns.back();
+  axis.t_ns += 50'000'000;
+  for (int i = 3; i < 6; ++i) axis.stop(1e-3 * i);
+  axis.move_to(9e-3);
+  std::vector<Point> told[2];
+  for (const bool early : {false, true}) {
+    DwellDetector detector({}, {"A"}, {200e-6});
+    std::vector<Point>& points = told[early ? 1 : 0];
+    if (early) detector.break_after(last_ns);
+    detector.push(cut_frames(axis.frames, 0, before), points);
+    if (!early) detector.break_after(last_ns);
+    detector.push(cut_frames(axis.frames, before, axis.frames.size()), points);
+    detector.flush(points);
+  }
+  ASSERT_EQ(told[0].size(), 6U);
+  ASSERT_EQ(told[1].size(), 6U);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(told[1][i].begin_ns, told[0][i].begin_ns) << i;
+    EXPECT_EQ(told[1][i].end_ns, told[0][i].end_ns) << i;
+    EXPECT_EQ(told[1][i].direction, told[0][i].direction) << i;
+    EXPECT_EQ(to_string(told[1][i].flags), to_string(told[0][i].flags)) << i;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -186,5 +186,26 @@ TEST(ScanMapByHand, EndsWhereItsHeightsEnd) {
   for (const double z : map->z_m) EXPECT_NEAR(z, 3e-6, 1e-15);
 }
 
+// One point a quarter of a pixel, from (0, 0) on: of a paraboloid every height is exact.
+TEST(ScanMapByHand, AParaboloidIsExactUpToItsFirstPoints) {
+  constexpr double kPixel_m = 1e-3;
+  ScanPoints points;
+  const auto height = [](double x, double y) { return 2e-6 + 0.5 * x * x - 0.3 * y * y + x * y; };
+  for (int j = 0; j <= 40; ++j)
+    for (int i = 0; i <= 40; ++i) {
+      points.x_m.push_back(kPixel_m / 4 * i);
+      points.y_m.push_back(kPixel_m / 4 * j);
+      points.z_m.push_back(height(points.x_m.back(), points.y_m.back()));
+    }
+  const auto scan = scan_map(points, kPixel_m);
+  ASSERT_TRUE(scan) << scan.error().message;
+  EXPECT_GE(scan->map.measured(), 49U);
+  for (std::size_t j = 0; j < scan->map.ny; ++j)
+    for (std::size_t i = 0; i < scan->map.nx; ++i)
+      if (const double z = scan->map.at(i, j); !std::isnan(z)) {
+        EXPECT_NEAR(z, height(scan->map.x_m(i), scan->map.y_m(j)), 1e-14) << i << " " << j;
+      }
+}
+
 }  // namespace
 }  // namespace mdof::algo

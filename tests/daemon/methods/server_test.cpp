@@ -91,7 +91,7 @@ TEST_F(ServerMethods, TheFixtureIsGivenWithTheEndsOfItsRanges) {
 TEST_F(ServerMethods, WhatIsLeftOfTheDiskIsSaid) {
   const Answer health = call("server.health");
   EXPECT_GT(health.number("/result/free_bytes"), 0) << health.text();
-  EXPECT_GT(health.number("/result/database_bytes"), 4096);
+  EXPECT_GE(health.number("/result/database_bytes"), 4096);  // a page of SQLite
   EXPECT_EQ(health.at("/result/newest_recording"), "null");
   add_run();  // of a CSV: it says nothing of recordings
   EXPECT_EQ(call("server.health").at("/result/newest_recording"), "null");

@@ -228,8 +228,9 @@ Change change_active(Methods& m, std::string reply_members,
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.info",
              .summary = "Returns version, uptime, axes and the compensation generation.",
-             .result = "identity of the daemon; chain: link and sha256 of the newest entry of the "
-                       "chain of hashes (a later check can name it); axes with their devices, the "
+             .result = "identity of the daemon; http: url of the web page and the file of its "
+                       "token, or null; chain: link and sha256 of the newest entry of the chain of "
+                       "hashes (a later check can name it); axes with their devices, the "
                        "run under way and the datum of the encoder positions: datum (absolute, "
                        "none, configured, set, index), offset_mm, note",
              .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});

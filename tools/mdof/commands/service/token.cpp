@@ -1,0 +1,53 @@
+// mdof token: what the web page asks for before it changes something.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "daemon/rpc/web/token.h"
+#include "tools/mdof/commands/command.h"
+#include "tools/mdof/options.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/stored/daemon_call.h"
+#include "tools/mdof/stored/json_read.h"
+
+namespace mdof::tools {
+namespace {
+
+struct TokenCommand {
+  std::string socket;
+};
+
+Status print_token(const TokenCommand& command) {
+  const auto info = call_daemon(command.socket, "server.info");
+  if (!info) return in_context("mdofd", info.error());
+  simdjson::dom::parser parser;
+  const auto parsed = parser.parse(simdjson::padded_string(*info));
+  const auto http = parsed["http"];
+  if (parsed.error() || http.error() || http.is_null())
+    return fail(ErrorCode::usage,
+                "mdofd serves no web page: start it with --http, or give its configuration [http]");
+  auto token = rpc::read_token(text(http.value_unsafe(), "token_file"));
+  if (!token) {
+    token.error().message += "; read it as mdofd's user, such as sudo -u mdof mdof token";
+    return tl::unexpected(std::move(token.error()));
+  }
+  std::fprintf(stderr, "For %s, where it asks for the token; who has it may change everything:\n",
+               text(http.value_unsafe(), "url").c_str());
+  return write_line(*token);
+}
+
+Action declare_token(CLI::App& command) {
+  const auto o = std::make_shared<TokenCommand>();
+  add_socket_option(command, o->socket);
+  return [o] { return print_token(*o); };
+}
+
+}  // namespace
+
+Command token_command() {
+  return {.name = "token",
+          .summary = "The token with which the web page of mdofd may change something",
+          .footer = "Example:\n  sudo -u mdof mdof token",
+          .declare = declare_token};
+}
+
+}  // namespace mdof::tools

@@ -287,7 +287,7 @@ TEST(EncoderCovariance, IsOfAllReadingsTogether) {
 // and Y, of the side by X and Z.
 TEST(CalibratedDirections, TakeThePlaceOfTheRigs) {
   for (const auto& [id, across] : {std::pair("A", 1U), {"B", 1U}, {"D", 2U}, {"E", 2U}}) {
-    const auto covariance = [&, id = std::string(id)](const std::string& keys) {
+    const auto covariance = [id = std::string(id), across = across](const std::string& keys) {
       Rig rig = test::rig_x_with(id, keys);
       CalibrationRecord& record = rig.records.emplace_back();
       record.covariance.of = {direction_name(id, 0), direction_name(id, across)};

@@ -65,9 +65,9 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   request.resumes =
       CutOffRun{run, header.provenance.recording_path, options->datum, header.started_utc};
   for (const Notice& of_run : header.notices)  // of a run that had gone on before
-    if (of_run.code == NoticeCode::run_continues) request.notices.push_back(of_run);
+    if (of_run.code == NoticeCode::run_goes_on) request.notices.push_back(of_run);
   request.notices.push_back(
-      notice(NoticeCode::run_continues, "", {{"run", run}, {"datum", datum_text(options->datum)}}));
+      notice(NoticeCode::run_goes_on, "", {{"run", run}, {"datum", datum_text(options->datum)}}));
   return request;
 }
 

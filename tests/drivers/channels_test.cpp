@@ -55,7 +55,7 @@ TEST(Channels, EachMistakeIsNamed) {
       {a + a, "channel \"A\" has a second input"},
       {a + "[[channel]]\nid = \"left\"\ninput = \"1\"\n", "is already used by \"A\""},
       {"[channel]\nid = \"A\"\n", "[[channel]]"},
-      {a + "index_mm = 3\n", "mdofd.toml:4: channel[1].index_mm: is of the encoder"},
+      {a + "index_mm = 3\n", "mdofd.toml:4: channel[1].index_mm: applies to the encoder only"},
   };
   for (const auto& c : cases)
     EXPECT_NE(refusal(c.toml).find(c.says), std::string::npos) << refusal(c.toml);
@@ -97,7 +97,7 @@ TEST(IndexSupport, WhoCannotTellSaysWhyAndWhatToDo) {
       {"pokeys57u", channel + counter + "input = \"ultrafast\"\n", "PoKeysLibEncoders.c"},
       {"modbus", host + "profile = \"pokeys57e\"\n" + channel + counter + "input = \"encoder1\"\n",
        "a Modbus device does not report"},
-      {"mcc_usb1608fs_plus", channel + "input = \"CH0\"\n", "not counts"},
+      {"mcc_usb1608fs_plus", channel + "input = \"CH0\"\n", "has no counter"},
       {"qsb", "port = \"/dev/ttyUSB0\"\n" + channel + counter + "input = \"count\"\n", "accepted"},
   };
   for (const auto& c : cases) {

@@ -60,7 +60,8 @@ TEST_F(CsvTableTest, TakesOptionalColumnsWhereTheyAre) {
   EXPECT_EQ(none.columns, (std::vector<std::vector<double>>{{1}, {2}, {}, {}}));
   const auto unit = with("position_mm,deviation_um,u_mm\n1,2,3\n");
   ASSERT_FALSE(unit);
-  EXPECT_NE(unit.error().message.find("name it u_um"), std::string::npos) << unit.error().message;
+  EXPECT_NE(unit.error().message.find("name the column u_um"), std::string::npos)
+      << unit.error().message;
   EXPECT_FALSE(with("position_mm,deviation_um,u_um\n1,2,\n"));
 }
 

@@ -47,7 +47,7 @@ TEST(PlausibilityJson, AMemberThatIsMissingIsNamed) {
     const auto back = read_plausibility_json(damaged);
     EXPECT_EQ(back.has_value(), for_people) << damaged;
     if (back) continue;
-    EXPECT_EQ(back.error().message, "its \"" + name + "\" cannot be read");
+    EXPECT_EQ(back.error().message, "the value of \"" + name + "\" cannot be read");
   }
   EXPECT_GE(members, 25);
 }

@@ -19,11 +19,12 @@ std::string option(const char* name, double value) {
 
 // All of them, whatever the defaults are: a recording has options of its own, which would hold.
 std::string options_of(const daemon::PipelineOptions& o) {
-  std::string text =
-      std::string(" --model ") + to_string(o.model) +
-      option("--tolerance-um", to_um(o.dwell.tolerance_m)) +
-      option("--settle-s", o.dwell.settle_s) + option("--min-length-s", o.dwell.min_length_s) +
-      option("--max-gap-s", o.align.max_gap_s) + option("--lag-bound-s", o.align.lag_bound_s);
+  std::string text = std::string(" --model ") + to_string(o.model) +
+                     option("--max-gap-s", o.align.max_gap_s) +
+                     option("--lag-bound-s", o.align.lag_bound_s);
+  if (!o.on_the_fly)  // which has no stops
+    text += option("--tolerance-um", to_um(o.dwell.tolerance_m)) +
+            option("--settle-s", o.dwell.settle_s) + option("--min-length-s", o.dwell.min_length_s);
   if (!o.sequence.targets_m.empty()) {
     text += " --targets-mm";
     for (const double target_m : o.sequence.targets_m)

@@ -27,7 +27,7 @@ TEST(TableLimits, ValueAndSlopeUpToTheLimitPass) {
 
 TEST(TableLimits, WhatIsBeyondIsNamedWithItsPlaceTheLimitAndTheOption) {
   expect_said(refusal(false, {0, 0.2e-3, 1.01e-3}),
-              {"EXX forward", "1010 um at 40 mm", "1000 um, the limit"});
+              {"EXX forward", "1010 um at 40 mm", "the limit of 1000 um"});
   expect_said(refusal(false, {0, 0.51e-3, 0.5e-3}),
               {"51 um/mm from 0 mm to 10 mm", "limit is 50 um/mm"});
   EXPECT_EQ(check_limits("EXX", false, {0, 0.01}, {0, 1.01e-3}, {}).error().remedy,

@@ -77,7 +77,7 @@ TEST(UsableRuns, WhatIsWrongWithARunIsWrongWithItsFigure) {
 TEST(UsableRuns, SimulatedAndMeasuredAreNotMixed) {
   mdof::Run a = run_of(7, RunState::complete, "a"), b = run_of(8, RunState::complete, "b");
   b.header.simulated = true;
-  EXPECT_TRUE(contains(refusal({a, b}), "run 8 is simulated and run 7 measured"));
+  EXPECT_TRUE(contains(refusal({a, b}), "run 8 is simulated and run 7 is measured"));
   a.header.simulated = true;
   EXPECT_EQ(refusal({a, b}), "");
 }

@@ -210,7 +210,7 @@ TEST_F(CompensationMethods, ATableBeyondItsLimitsIsNotBuilt) {
   add_run();
   const Answer refused = call("compensation.build", R"({"runs":[1],"limit_um":0.01})");
   EXPECT_EQ(refused.code(), rpc::kBadInput) << refused.text();
-  EXPECT_SAID(refused.message(), "0.01 um, the limit");
+  EXPECT_SAID(refused.message(), "the limit of 0.01 um");
   EXPECT_SAID(refused.message(), "limit_um");
   EXPECT_EQ(call("compensation.build", R"({"runs":[1],"limit_um":1e9})").code(),
             rpc::kInvalidParams);

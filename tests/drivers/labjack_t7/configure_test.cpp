@@ -144,7 +144,7 @@ TEST(LabjackT7Configure, BadKeysAreRefusedWithTheirPlace) {
 
 TEST(LabjackT7Configure, BadChannelsAreRefused) {
   EXPECT_TRUE(has(with_channel("id = \"A\"\ninput = \"AIN14\"\n"), "AIN13, DIO0"));
-  EXPECT_TRUE(has(with_channel("id = \"D\"\ninput = \"AIN0\"\n"), "no probe"));
+  EXPECT_TRUE(has(with_channel("id = \"D\"\ninput = \"AIN0\"\n"), "neither a probe"));
   EXPECT_TRUE(has(with_channel("id = \"encoder\"\ninput = \"DIO0\"\n"), "um_per_count"));
   EXPECT_TRUE(has(with_channel("id = \"A\"\ninput = \"AIN0\"\num_per_count = 1\n"), "um_per_V"));
   EXPECT_TRUE(has(refusal("address = \"t7\"\n", ""), "channel"));
@@ -162,14 +162,14 @@ TEST(LabjackT7Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
   EXPECT_EQ(s->inputs[3].range_v, 1);
   EXPECT_EQ(s->inputs[0].negative, -1);
   EXPECT_EQ(s->inputs[0].range_v, 0);
-  EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "AIN5")), "AIN2 against AIN3"));
+  EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "AIN5")), "negative = \"AIN3\" with AIN2"));
   EXPECT_TRUE(
       has(refusal(a, kChannels + pair("AIN3", "AIN2")), "give negative = \"AIN3\" with AIN2"));
   EXPECT_TRUE(
       has(refusal(a, kChannels + pair("AIN5", "AIN6")), "give negative = \"AIN5\" with AIN4"));
   EXPECT_TRUE(has(refusal(a, "[[channel]]\nid = \"A\"\ninput = \"AIN3\"\n" + pair("AIN2", "AIN3")),
                   "AIN3 is the negative input of \"C\""));
-  EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "GND")), "AIN2 against AIN3"));
+  EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "GND")), "negative = \"AIN3\" with AIN2"));
   EXPECT_TRUE(
       has(refusal(a, kChannels + pair("AIN12", "AIN13")), "AIN13 is the negative input of \"C\""));
   EXPECT_TRUE(has(refusal(a, kChannels + pair("AIN2", "AIN3") + "range_v = 2\n"),

@@ -39,11 +39,12 @@ TEST_F(LabjackT7Driver, AStampOfAnotherStreamIsRefused) {
 // LabJack's ljm_constants.json: STREAM_START_TIME_STAMP from 1.0214, STREAM_AUTORECOVER_DISABLE
 // from 1.026 on.
 TEST_F(LabjackT7Driver, FirmwareThatLacksWhatIsNeededIsRefused) {
-  for (const auto& [firmware, says] : {std::pair{1.0188F, "1.0188 lacks the time stamp"},
-                                       {1.0213F, "(1.0214)"},
-                                       {1.0214F, "1.0214 lacks streams that recover (1.026)"},
-                                       {1.0259F, "(1.026)"},
-                                       {1.026F, "opened"}}) {
+  for (const auto& [firmware, says] :
+       {std::pair{1.0188F, "1.0188 lacks the time stamp"},
+        {1.0213F, "(new in 1.0214)"},
+        {1.0214F, "1.0214 lacks streams that recover (new in 1.026)"},
+        {1.0259F, "(new in 1.026)"},
+        {1.026F, "opened"}}) {
     made.reset();
     served.reset();
     SimulatedLabjackT7::Options options;

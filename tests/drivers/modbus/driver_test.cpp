@@ -118,10 +118,9 @@ TEST(ModbusDriver, AnAdamInAnotherRangeOrNoAdamIsRefusedAtOpening) {
   auto driver = driver_of(toml_of("adam-6017", served.address(), channel("A", "AI3")));
   const auto opened = driver->open();
   ASSERT_FALSE(opened);
-  EXPECT_NE(
-      opened.error().message.find("the input is not set to +-10 V: register 203 reads 0x0142, "
-                                  "the profile requires 0x0143"),
-      std::string::npos)
+  EXPECT_NE(opened.error().message.find("the input is not set to +-10 V (register 203 is 0x0142, "
+                                        "the profile requires 0x0143)"),
+            std::string::npos)
       << opened.error().message;
 
   faults.words = {{{modbus::kReadHolding, 210}, 0x6018}};

@@ -97,6 +97,11 @@ struct Bad {
   std::string text, says;
 };
 
+// Else its address is part of the test's name.
+void PrintTo(const Bad& bad, std::ostream* out) {
+  *out << bad.says;
+}
+
 class BadPlan : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadPlan, IsRefusedWithPlaceAndRemedy) {
@@ -116,8 +121,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{kHead + "modle = \"exact\"\n", "did you mean \"model\"?"},
         Bad{kHead + "model = \"exakt\"\n", "did you mean \"exact\"?"},
         Bad{kHead + "trials = 0\n", "plan.toml:3: trials: must be from 1"},
-        Bad{kHead + "coverage = 1.0\n", "coverage: must lie between 0 and 1"},
-        Bad{kHead + "coverage = 0\n", "coverage: must lie between 0 and 1"},
+        Bad{kHead + "coverage = 1.0\n", "coverage: must be more than 0 and less than 1"},
+        Bad{kHead + "coverage = 0\n", "coverage: must be more than 0 and less than 1"},
         Bad{kHead + "seed = -1\n", "seed: must be from 0"},
         Bad{kHead + "outputs = [\"EBX_um\"]\n", "did you mean \"EYX_um\"?"},
         Bad{kHead + "outputs = [\"EYX_um\", \"EYX_um\"]\n", "listed twice"},

@@ -86,7 +86,7 @@ TEST_F(NetworkAccess, TheDoctorNamesWhatTheServiceMayNotReach) {
   install();
   EXPECT_EQ(found({"127.0.0.1", "[::1]"}), "");
   const std::string reported = found({"192.168.0.7", "192.168.1.9"});
-  EXPECT_NE(reported.find("WRONG network: the service mdofd may not reach 192.168.0.7 (device at "
+  EXPECT_NE(reported.find("WRONG network: the service mdofd may not connect to 192.168.0.7 (device at "
                           "192.168.0.7)"),
             std::string::npos)
       << reported;

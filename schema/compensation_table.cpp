@@ -55,7 +55,7 @@ std::string covers_text(const CompensationTable& table) {
     return "noise, repeatability and the uncertainties that the rigs declare";
   return table.has_declared()
              ? "noise and repeatability only (the uncertainties that the rigs declare "
-               "contribute zero)"
+               "contribute at most 1 % of u)"
              : "noise and repeatability only";
 }
 

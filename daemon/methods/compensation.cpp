@@ -216,7 +216,8 @@ Result<std::string> at(const Methods& m, const Params& params) {
 
 void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param axis{"axis", ParamType::string, "X, Y, Z or volume", true};
-  const rpc::Param reason{"reason", ParamType::string, "for people, kept in the history", false,
+  const rpc::Param reason{"reason", ParamType::string,
+                          "free text that explains the change; stored in the history", false,
                           "\"\""};
   std::vector<rpc::Param> build_params{
       {"runs", ParamType::array, "ids of runs of one axis and the same targets", true},

@@ -107,9 +107,10 @@ Result<ByteStream> connect_tcp(const Endpoint& to, milliseconds timeout) {
 Error connect_error(const Endpoint& to, int error, bool service) {
   Error why{ErrorCode::io, to.text() + ": " + std::strerror(error)};
   const bool forbidden = error == EPERM || error == EACCES;
-  why.message += forbidden
-                     ? "; a firewall, or IPAddressDeny of systemd, forbids the connection"
-                     : "; check that the device is on and on the network, and check its address";
+  why.message +=
+      forbidden ? "; a firewall, or IPAddressDeny of systemd, forbids the connection"
+                : "; check that the device is switched on and connected to the network, and that "
+                  "its address is correct";
   if (forbidden || (service && error == ETIMEDOUT)) {
     why.remedy = Remedy::allow_network;
     why.remedy_for = to.host;

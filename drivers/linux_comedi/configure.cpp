@@ -6,6 +6,7 @@
 #include "drivers/channels.h"
 #include "drivers/io/device_lock.h"
 #include "drivers/linux_comedi/linux_comedi.h"
+#include "schema/base/number/number_text.h"
 
 namespace mdof::drivers {
 namespace {
@@ -69,7 +70,8 @@ void read_timing(TomlTable& table, Settings& settings) {
   const double scan_us = 1e6 / settings.rate_hz;
   const double most_us = scan_us / static_cast<double>(settings.inputs.size());
   if (!(*settings.convert_us >= 0.1 && *settings.convert_us <= most_us))
-    table.reject("convert_us", "must be from 0.1 to 1e6 / rate_hz / number of inputs");
+    table.reject("convert_us", "must be from 0.1 to " + plain_number(most_us, 6) +
+                                   " us, which is 1e6 / (rate_hz * number of inputs)");
 }
 
 Result<unsigned> number_of(const ChannelInput& channel) {
@@ -82,10 +84,9 @@ Result<unsigned> number_of(const ChannelInput& channel) {
 Result<InputSetting> input_of(const ChannelInput& channel, const Wiring& wiring) {
   MDOF_TRY(const unsigned number, number_of(channel));
   if (channel.um_per_count != 0)
-    return bad_input(
-        channel.where + ": " + channel.input +
-        " gives volts, not counts (the driver does not read counters of Comedi boards); remove "
-        "um_per_count (the rig gives um_per_V, also for the encoder)");
+    return bad_input(channel.where + ": " + channel.input +
+                     " gives volts; this driver does not read counters of Comedi boards; remove "
+                     "um_per_count here, and set um_per_V in the rig (also for an encoder)");
   return InputSetting{
       {channel.id, Unit::volt}, number, wiring.low_v, wiring.high_v, wiring.reference};
 }

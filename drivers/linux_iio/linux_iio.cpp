@@ -21,7 +21,7 @@ Result<std::string> check_chip(const std::string& folder) {
   MDOF_TRY(const auto chip, read_sysfs(folder + "/name"));
   if (!chip)
     return io_error(folder + ": " + sysfs_error(ENODEV) +
-                    "; grep . /sys/bus/iio/devices/*/name lists the devices");
+                    "; to list the devices, run: grep . /sys/bus/iio/devices/*/name");
   if (*chip != "ad7745" && *chip != "ad7746")
     return io_error(folder + "/name: is \"" + *chip +
                     "\", but must be ad7745 or ad7746; devices are numbered in the order of "

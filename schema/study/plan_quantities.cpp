@@ -201,7 +201,9 @@ PlannedCorrelation read_correlation(TomlTable& table, StudyPlan& plan,
     }
   }
   if (group.quantities.size() < 2)
-    table.reject("quantities", "must name at least two quantities, or one with a star");
+    table.reject(
+        "quantities",
+        "must name at least two quantities; * stands for any name, such as probe.*.drift_nm");
   read_matrix(table, group);
   return group;
 }

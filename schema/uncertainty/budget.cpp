@@ -26,7 +26,7 @@ std::string covers_text(const Budget& budget) {
       budget.is_single_run ? "; noise slower than a stop is not included (single run)" : "";
   if (!budget.noise_only) return "noise, repeatability and the declared uncertainties" + slow;
   return std::string("noise and repeatability only (") +
-         (declares(budget) ? "the declared uncertainties contribute zero"
+         (declares(budget) ? "the declared uncertainties contribute at most 1 % of u"
                            : "no uncertainties are declared") +
          ")" + slow;
 }

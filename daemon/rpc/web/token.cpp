@@ -53,7 +53,9 @@ Result<std::string> read_token(const std::filesystem::path& file) {
   struct stat info {};
   if (::fstat(fd.get(), &info) != 0) return cannot_use(file, "cannot read it", errno);
   if (!S_ISREG(info.st_mode))
-    return fail(ErrorCode::check, "token_file: " + file.string() + ": is no file");
+    return fail(ErrorCode::check,
+                "token_file: " + file.string() +
+                    ": is not a regular file; remove it, and mdofd makes another one");
   if ((info.st_mode & 077) != 0)
     return fail(ErrorCode::check, "token_file: " + file.string() +
                                       ": others may read it; remove it, and mdofd makes another "

@@ -141,7 +141,7 @@ TEST(CapancdtSetup, NobodyThere) {
   }
   const std::string error = error_of(Capancdt(options).open());
   expect_has(error, "device \"probes\": 127.0.0.1:" + std::to_string(options.command.port));
-  expect_has(error, "the device is on and on the network");
+  expect_has(error, "the device is switched on and connected to the network");
 }
 
 }  // namespace

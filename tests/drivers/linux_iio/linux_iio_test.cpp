@@ -188,7 +188,7 @@ TEST_F(LinuxIio, WhatIsNoAd7746IsRefused) {
   ASSERT_TRUE(tree_->set("name", "bme280"));
   expect_refused("is \"bme280\", but must be ad7745 or ad7746");
   options_.device = "iio:device9";
-  expect_refused("lists the devices");
+  expect_refused("to list the devices, run: grep");
 }
 
 TEST_F(LinuxIio, AnAd7745HasNoSecondInput) {

@@ -22,8 +22,8 @@ constexpr std::array kNumbers = {
     PresetNumber{"radius_um", &Options::radius_um, "Radius r by which each probe is displaced"},
     PresetNumber{"theta_y_mrad", &Options::theta_y_mrad, "Rotation of the top unit about Z"},
     PresetNumber{"theta_p_mrad", &Options::theta_p_mrad, "Rotation of the side unit about Y"},
-    PresetNumber{"theta_r_mrad", &Options::theta_r_mrad, "Rotation of both units about X"},
-    PresetNumber{"sigma_x_um", &Options::sigma_x_um, "Displacement of the units along X"},
+    PresetNumber{"theta_r_mrad", &Options::theta_r_mrad, "Rotation of both probe units about X"},
+    PresetNumber{"sigma_x_um", &Options::sigma_x_um, "Displacement of both probe units along X"},
     PresetNumber{"sigma_y_um", &Options::sigma_y_um, "Displacement of the top unit along Y"},
     PresetNumber{"sigma_z_um", &Options::sigma_z_um, "Displacement of the side unit along Z"},
 };

@@ -51,7 +51,7 @@ Action declare_activate(CLI::App& command) {
   add_database_option(command, o->database);
   command.add_option("TABLE", o->table, "Number of the table")->required()->type_name("");
   add_consent_flags(command, o->consent, "a table");
-  command.add_option("--reason", o->reason, "Kept in the history");
+  command.add_option("--reason", o->reason, "Reason of the change, stored in the history");
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return activate(*o); };

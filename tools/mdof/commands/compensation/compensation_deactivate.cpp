@@ -48,10 +48,12 @@ Status deactivate(const DeactivateCommand& command) {
 Action declare_deactivate(CLI::App& command) {
   const auto o = std::make_shared<DeactivateCommand>();
   add_database_option(command, o->database);
-  command.add_option("--axis", o->axis, "Axis whose table is deactivated, or volume")
+  command
+      .add_option("--axis", o->axis,
+                  "Deactivate the table of this axis (X, Y, Z) or the volumetric table (volume)")
       ->required()
       ->check(CLI::IsMember({"X", "Y", "Z", kVolume}));
-  command.add_option("--reason", o->reason, "Kept in the history");
+  command.add_option("--reason", o->reason, "Reason of the change, stored in the history");
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return deactivate(*o); };

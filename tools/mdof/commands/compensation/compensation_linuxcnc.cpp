@@ -92,7 +92,7 @@ Action declare_linuxcnc(CLI::App& command) {
   add_consent_flags(command, o->consent, "a table");
   command.add_flag(
       "--one-approach", o->request.one_approach,
-      "A table of the forward or the reverse approach holds in both; a reversal is not "
+      "Use a table of one approach (forward or reverse) for both; the reversal error is not "
       "corrected");
   add_socket_option(command, o->request.socket);
   add_json_flag(command, o->json);

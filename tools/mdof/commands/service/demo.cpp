@@ -1,7 +1,9 @@
 // mdof demo: a simulated machine, mdofd and its page, measuring.
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -34,8 +36,11 @@ class DemoFolder {
  public:
   static Result<DemoFolder> make(const std::string& given) {
     if (!given.empty()) return DemoFolder(given, false);
-    std::string made = (fs::temp_directory_path() / "mdof-demo-XXXXXX").string();
-    if (!::mkdtemp(made.data())) return io_error(made + ": cannot be made");
+    const fs::path place = fs::temp_directory_path();
+    std::string made = (place / "mdof-demo-XXXXXX").string();
+    if (!::mkdtemp(made.data()))
+      return io_error(place.string() + ": cannot create a folder there: " + std::strerror(errno) +
+                      "; set TMPDIR to a folder that you may write to");
     return DemoFolder(made, true);
   }
   ~DemoFolder() {

@@ -87,8 +87,9 @@ TEST(ComediConfigure, BadValuesNameTheirKey) {
       {channel("A", "AIN0"), "channel 0 of the subdevice is \"CH0\""},
       {channel("A", "CH256"), "is not an input of a board"},
       {channel("A", "CH00"), "is not an input of a board"},
-      {channel("encoder", "CH0", "um_per_count = 1\n"), "does not read counters of Comedi boards"},
-      {channel("A", "CH0", "um_per_count = 1\n"), "not counts"},
+      {channel("encoder", "CH0", "um_per_count = 1\n"),
+       "this driver does not read counters of Comedi boards"},
+      {channel("A", "CH0", "um_per_count = 1\n"), "gives volts"},
       {channel("A", "CH0", "reference = 5\n"), "reference"},
   };
   for (const auto& [toml, message] : wrong) {

@@ -93,7 +93,7 @@ TEST(Tcp, ConnectsOrSaysWhyNot) {
   const auto refused = connect_tcp(to, milliseconds(500));
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find(to.text()), std::string::npos);
-  EXPECT_NE(refused.error().message.find("the device is on"), std::string::npos);
+  EXPECT_NE(refused.error().message.find("the device is switched on"), std::string::npos);
   ASSERT_EQ(::listen(server, 1), 0);
   const auto connected = connect_tcp(to, milliseconds(500));
   ASSERT_TRUE(connected) << connected.error().message;

@@ -109,7 +109,12 @@ TEST_F(HostileBrowser, OpensTenThousandConnections) {
     if (i % 50 == 0) most = std::max(most, this->open());
   }
   EXPECT_LE(most, 40U);
-  EXPECT_LT(resident_memory_mb() - before, 20);
+#ifdef MDOF_SANITIZED
+  constexpr double kMost_mb = 400;  // ASan keeps what was freed, 256 MB of it
+#else
+  constexpr double kMost_mb = 20;
+#endif
+  EXPECT_LT(resident_memory_mb() - before, kMost_mb);
   expect_others_served();
   open.clear();
   EXPECT_TRUE(open_become(0));

@@ -67,7 +67,7 @@ constexpr std::array<FactKind, 11> kKinds = {{
      "volumetric activation of generation",
      "SELECT volumetric_table, actor, activated_utc FROM volumetric_activation NOT INDEXED WHERE "
      "generation = ?"},
-    {Fact::action_reason, "deed_reason", "deed", "reason of deed",
+    {Fact::action_reason, "deed_reason", "deed", "reason of action",
      "SELECT text FROM deed_reason NOT INDEXED WHERE deed = ?"},
 }};
 

@@ -74,6 +74,17 @@ double draw_legend(Svg& svg, double top, std::span<const LegendItem> items) {
   return place.y + 6;
 }
 
+Panel panel_in_proportion(Place corner, const Range& x, const Range& y, double longest_px) {
+  const double px_per_unit = longest_px / std::max(x.span(), y.span());
+  Panel panel;
+  panel.corner = corner;
+  panel.width = x.span() * px_per_unit;
+  panel.height = y.span() * px_per_unit;
+  panel.x = horizontal_axis(x, panel.width);
+  panel.y = vertical_axis(y, panel.height);
+  return panel;
+}
+
 void draw_axes(Svg& svg, const Panel& panel, std::string_view x_key) {
   const double left = panel.corner.x, right = left + panel.width;
   const double top = panel.corner.y, bottom = top + panel.height;

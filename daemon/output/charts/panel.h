@@ -43,6 +43,8 @@ struct Panel {
   double px_y(double value) const { return corner.y + (1 - y.fraction(value)) * height; }
   Place at(double vx, double vy) const { return {px_x(vx), px_y(vy)}; }
 };
+// Where a unit is as long along x as along y: the longer side has `longest_px`.
+Panel panel_in_proportion(Place corner, const Range& x, const Range& y, double longest_px);
 // Grid lines, tick labels and the title of x below.
 void draw_axes(Svg& svg, const Panel& panel, std::string_view x_key);
 // The title of y, set level, above the upper left corner.

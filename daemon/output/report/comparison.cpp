@@ -16,12 +16,11 @@ Phrase effect_phrase(daemon::Effect effect) {
                                                : Phrase::effect_not_shown;
 }
 
-// "0.123 ± 0.045", in the unit of the figure's key.
+// In the unit of the figure's key.
 std::string with_U_text(const Budget& budget, const std::string& figure) {
   const bool angle = figure.ends_with("_urad");
   const auto shown = [&](double x) { return angle ? to_urad(x) : to_um(x); };
-  const double U = shown(budget.U);
-  return value_text(shown(budget.value), U) + "\u00a0±\u00a0" + uncertainty_text(U);
+  return value_with_U(shown(budget.value), shown(budget.U));
 }
 
 }  // namespace

@@ -23,6 +23,10 @@ std::string value_text(double value, double u) {
                                    : charts::number_text(value);
 }
 
+std::string value_with_U(double value, double U) {
+  return value_text(value, U) + "\u00a0±\u00a0" + uncertainty_text(U);
+}
+
 std::string unit_of_key(const std::string& key) {
   return charts::split_key(key).unit;
 }

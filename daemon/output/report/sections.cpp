@@ -65,9 +65,7 @@ std::vector<std::string> point_row(const ReportRun& run, std::size_t row) {
   const Errors5 named = named_from_local(results.header.moving(), p.errors.local);
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     const double U = to_key_unit(uncertainty.points[row].U[k]);
-    cells.push_back(p.errors.valid ? value_text(to_key_unit(named[k]), U) + "\u00a0±\u00a0" +
-                                         uncertainty_text(U)
-                                   : "–");
+    cells.push_back(p.errors.valid ? value_with_U(to_key_unit(named[k]), U) : "–");
   }
   std::string flags = to_string(p.point.flags);
   if (!p.errors.valid) flags += (flags.empty() ? "" : "; ") + p.errors.reason;

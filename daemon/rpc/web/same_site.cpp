@@ -38,9 +38,9 @@ tl::expected<void, HttpError> check_same_site(const HttpHead& head,
                                               const std::vector<std::string>& hosts) {
   const std::string host = lower_case(head.host), origin = lower_case(head.origin);
   if (!is_own(host, hosts))
-    return tl::unexpected(
-        HttpError{421, "mdofd is not known as " + in_quotes(head.host) +
-                           ": where that is right, name it in hosts of [http] of mdofd.toml"});
+    return tl::unexpected(HttpError{
+        421, "mdofd is not known as " + in_quotes(head.host) +
+                 "; if this is a name of the machine, add it to hosts in [http] of mdofd.toml"});
   if (!origin.empty() && origin != "http://" + host && origin != "https://" + host)
     return tl::unexpected(HttpError{
         403, "the page of " + in_quotes(head.origin) +

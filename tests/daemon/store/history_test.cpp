@@ -86,7 +86,7 @@ TEST_F(Deeds, AReasonComesBackAndAnotherIsFound) {
   EXPECT_FALSE(reader()->verify()->empty());
   const auto reported = reader()->list_actions(0, 1);
   ASSERT_FALSE(reported);
-  EXPECT_TRUE(contains(reported.error().message, "reason of deed")) << reported.error().message;
+  EXPECT_TRUE(contains(reported.error().message, "reason of action")) << reported.error().message;
 }
 
 TEST_F(Deeds, WhoStoresNothingDidNothing) {

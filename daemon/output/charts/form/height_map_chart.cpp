@@ -61,14 +61,7 @@ Panel panel_of(const SurfaceMap& map, double top) {
   x.include(to_mm(map.x_m(map.nx - 1) + map.dx_m / 2));
   y.include(to_mm(map.y_m(0) - map.dy_m / 2));
   y.include(to_mm(map.y_m(map.ny - 1) + map.dy_m / 2));
-  const double px_per_mm = kCellsLongestPx / std::max(x.span(), y.span());
-  Panel panel;
-  panel.corner = {kMarginPx + kCellsLeftPx, top};
-  panel.width = x.span() * px_per_mm;
-  panel.height = y.span() * px_per_mm;
-  panel.x = horizontal_axis(x, panel.width);
-  panel.y = vertical_axis(y, panel.height);
-  return panel;
+  return panel_in_proportion({kMarginPx + kCellsLeftPx, top}, x, y, kCellsLongestPx);
 }
 
 void draw_cells(Svg& svg, const Panel& panel, const SurfaceMap& map, const Cells& cells,

@@ -49,14 +49,7 @@ Panel true_panel(const algo::PlaneMap& map, double margin_mm, double top) {
     range->include(to_mm(at->front()) - margin_mm);
     range->include(to_mm(at->back()) + margin_mm);
   }
-  const double px_per_mm = kMapLongestPx / std::max(x.span(), y.span());
-  Panel panel;
-  panel.corner = {kMarginPx + kMapLeftPx, top};
-  panel.width = x.span() * px_per_mm;
-  panel.height = y.span() * px_per_mm;
-  panel.x = horizontal_axis(x, panel.width);
-  panel.y = vertical_axis(y, panel.height);
-  return panel;
+  return panel_in_proportion({kMarginPx + kMapLeftPx, top}, x, y, kMapLongestPx);
 }
 
 void draw_arrow(Svg& svg, const Panel& panel, const algo::PlaneMap& map, std::size_t row,

@@ -90,8 +90,8 @@ Status demo(const DemoCommand& command) {
   MDOF_CHECK(write_out(where));
   MDOF_CHECK(mdofd.call("run.start", kRun));
   MDOF_CHECK(write_line(
-      "\nA simulated axis X is measured: open the page in a browser, and Capture there. What "
-      "changes\nsomething asks for the token. Ctrl-C ends it all."));
+      "\nA simulated axis X is measured: open the page in a browser, and Capture there. The "
+      "page\nasks for the token before it changes anything. Ctrl-C ends the demo."));
   while (!Interrupt::requested() && !daemon.has_ended()) std::this_thread::sleep_for(kLook);
   return Interrupt::requested() ? Status() : io_error("mdofd has ended by itself");
 }

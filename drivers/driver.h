@@ -55,6 +55,9 @@ class Driver {
  public:
   virtual ~Driver() = default;  // releases the device; never throws
   virtual DeviceInfo info() const = 0;
+  // The clock whose state is in info(); nullptr: none. Asked for at each block, as it costs
+  // nothing.
+  virtual const DeviceClock* clock() const { return nullptr; }
   // May be called again after an error of read().
   virtual Status open() = 0;
   // Replaces `block` (its capacity is reused). Waits at most `timeout`. An error means the device

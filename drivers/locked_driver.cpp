@@ -23,6 +23,7 @@ class LockedDriver final : public Driver {
         driver_(std::move(driver)) {}
 
   DeviceInfo info() const override { return driver_->info(); }
+  const DeviceClock* clock() const override { return driver_->clock(); }
   const Driver& device() const { return *driver_; }
 
   void trust_count() override { driver_->trust_count(); }

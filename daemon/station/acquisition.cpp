@@ -229,10 +229,11 @@ void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
 // recording, too.
 void Acquisition::watch_clock(const drivers::Driver& driver, SampleBlock& block) {
   if (!spec_.live) return;
-  const auto clock = driver.info().clock;
+  const drivers::DeviceClock* clock = driver.clock();
   if (!clock) return;
-  if (clock->doubtful) mark_suspect(block);
-  if (clock->doubtful != clock_is_uncertain_ || clock->steps != clock_steps_) report_clock(*clock);
+  if (clock->doubtful()) mark_suspect(block);
+  if (clock->doubtful() != clock_is_uncertain_ || clock->steps() != clock_steps_)
+    report_clock(clock->state());
 }
 
 void Acquisition::report_clock(const drivers::ClockState& clock) {

@@ -40,6 +40,10 @@ DeviceInfo Capancdt::info() const {
   return info;
 }
 
+const DeviceClock* Capancdt::clock() const {
+  return session_ ? &session_->clock : nullptr;
+}
+
 Status Capancdt::open() {
   session_.reset();
   auto setup = set_up_controller(options_);

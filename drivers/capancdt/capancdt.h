@@ -34,6 +34,7 @@ class Capancdt final : public Driver {
   explicit Capancdt(Options options);
 
   DeviceInfo info() const override;
+  const DeviceClock* clock() const override;
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 

@@ -113,7 +113,7 @@ void DeviceClock::fit() {
   fitted_ = true;
 }
 
-bool DeviceClock::is_uncertain() const {
+bool DeviceClock::doubtful() const {
   return late_since_ns_ || best_.size() <= uncertain_stretches_;
 }
 
@@ -142,7 +142,7 @@ ClockState DeviceClock::state() const {
   state.drift_ppm = -slope_ * 1e6;
   state.settled = fitted_;
   state.steps = steps_;
-  state.doubtful = is_uncertain();
+  state.doubtful = doubtful();
   state.late_ns = late_since_ns_ ? std::llround(late_ns_) : 0;
   if (best_.empty()) return state;
   std::vector<double> spreads;

@@ -45,6 +45,9 @@ class DeviceClock {
   void reset();
 
   ClockState state() const;
+  // Of state(), what is looked at with each block.
+  bool doubtful() const;
+  std::uint64_t steps() const { return steps_; }
 
  private:
   struct Best {  // of a stretch
@@ -55,7 +58,6 @@ class DeviceClock {
   double nominal_ns(std::int64_t ticks) const;
   void fit();
   void step(std::int64_t ticks, std::int64_t received_ns);
-  bool is_uncertain() const;
   bool is_late(double offset_ns, double nominal_ns, std::int64_t received_ns);
   void take(std::int64_t ticks, std::int64_t received_ns, double offset_ns, double nominal_ns);
 

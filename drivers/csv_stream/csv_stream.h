@@ -48,7 +48,6 @@ class CsvStream final : public Driver {
 
   std::uint64_t bad_lines() const { return protocol_ ? protocol_->bad_lines() : 0; }  // since open
   Notices notices() const;
-  ClockState clock() const { return clock_.state(); }
 
  private:
   struct Row {

@@ -36,6 +36,7 @@ class LabjackT7 final : public Driver {
   ~LabjackT7() override;  // stops the stream
 
   DeviceInfo info() const override;
+  const DeviceClock* clock() const override { return &clock_; }
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override;

@@ -32,6 +32,7 @@ class LabjackU6 final : public Driver {
   ~LabjackU6() override;  // stops the stream
 
   DeviceInfo info() const override;
+  const DeviceClock* clock() const override { return &clock_; }
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override;

@@ -25,6 +25,7 @@ class LinuxComedi final : public Driver {
   ~LinuxComedi() override;  // ends the command
 
   DeviceInfo info() const override;
+  const DeviceClock* clock() const override { return &clock_; }
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 

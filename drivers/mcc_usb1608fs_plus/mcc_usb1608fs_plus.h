@@ -27,6 +27,7 @@ class MccUsb1608fsPlus final : public Driver {
   ~MccUsb1608fsPlus() override;  // stops the scan
 
   DeviceInfo info() const override;
+  const DeviceClock* clock() const override { return &clock_; }
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 

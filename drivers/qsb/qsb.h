@@ -48,6 +48,7 @@ class Qsb final : public Driver {
   Qsb(std::string name, QsbOptions options);
 
   DeviceInfo info() const override;
+  const DeviceClock* clock() const override { return &clock_; }
   Status open() override;
   // A step of the stamps is lost lines. Errors: a reset in mid-stream, stamps that cannot be true,
   // more than 10 malformed lines in a row, silence.
@@ -57,7 +58,6 @@ class Qsb final : public Driver {
 
   std::uint64_t malformed_lines() const { return malformed_; }  // since the start
   double tick_ns() const { return tick_.ns(); }
-  ClockState clock() const { return clock_.state(); }
 
  private:
   struct Sample {

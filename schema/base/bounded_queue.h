@@ -39,6 +39,7 @@ class BoundedQueue {
     emptied_.wait_for(lock, timeout, [&] { return closed_ || items_.size() < capacity_; });
     if (closed_ || items_.size() >= capacity_) return false;
     items_.push_back(std::move(value));
+    lock.unlock();  // who wakes finds it free
     if (wake == Wake::yes) filled_.notify_one();
     return true;
   }

@@ -36,8 +36,9 @@ class Scripted final : public drivers::Driver {
  public:
   explicit Scripted(Script script) : script_(std::move(script)) {}
   drivers::DeviceInfo info() const override {
-    return {"fake", "fake", "", {{"A", Unit::um}}, 1000, false, clock_, datum_lost_};
+    return {"fake", "fake", "", {{"A", Unit::um}}, 1000, false, clock_.state(), datum_lost_};
   }
+  const drivers::DeviceClock* clock() const override { return &clock_; }
   Status open() override {
     const auto act = next();
     if (act == Script::Act::open_anew) datum_lost_ = "it counts from 0 again";
@@ -52,7 +53,7 @@ class Scripted final : public drivers::Driver {
       case Script::Act::end:
         return drivers::ReadState::end;
       case Script::Act::late_block:
-        clock_ = drivers::ClockState{.settled = true, .doubtful = true, .late_ns = 300'000'000};
+        clock_.add(script_.time_ns, script_.time_ns + 300'000'000);
         fill(block);
         break;
       case Script::Act::slow_read:
@@ -62,7 +63,7 @@ class Scripted final : public drivers::Driver {
         std::this_thread::sleep_for(milliseconds(700));
         break;
       case Script::Act::block:
-        if (clock_) clock_->doubtful = false;
+        clock_.add(script_.time_ns, script_.time_ns);
         fill(block);
         break;
       default:
@@ -93,7 +94,7 @@ class Scripted final : public drivers::Driver {
   }
   Script script_;
   std::string datum_lost_;
-  std::optional<drivers::ClockState> clock_;
+  drivers::DeviceClock clock_{1.0};  // its ticks are nanoseconds
 };
 
 // Collects what comes; takes only so many blocks where told so.

@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -205,6 +206,7 @@ void Acquisition::trust_counts(drivers::Driver& driver) {
 void Acquisition::refresh_info(const drivers::Driver& driver) {
   next_refresh_ = steady_clock::now() + kRefresh;
   const drivers::DeviceInfo info = driver.info();
+  assert(info.clock.has_value() == (driver.clock() != nullptr));
   {
     const std::lock_guard lock(status_mutex_);
     status_.info = info;

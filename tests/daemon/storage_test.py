@@ -83,7 +83,7 @@ class SmallDisk(unittest.TestCase):
         self.assertIn("storage full", text)
         header = client.call("run.list")["runs"][0]
         self.assertEqual((header["run"], header["state"]), (run, "aborted"))
-        self.assertIn("interrupted", notice_lines(header))
+        self.assertIn("the run was interrupted: mdofd or its computer stopped during the run", notice_lines(header))
         before = self.recordings()
         for method, params in (("run.start", {"axis": "X"}), ("compensation.deactivate", {"axis": "X"})):
             with self.assertRaises(RpcError) as refusal:
@@ -177,7 +177,7 @@ class HangUp(unittest.TestCase):
         header = client.call("run.get", run=run)
         self.daemon.stop()
         self.assertEqual(header["state"], "aborted")
-        self.assertIn("the daemon was stopped", notice_lines(header))
+        self.assertIn("the run was aborted, because mdofd was stopped", notice_lines(header))
         with sqlite3.connect(header["recording"]["path"]) as recording:
             self.assertEqual(recording.execute("SELECT count(*) FROM seal").fetchone(), (1,))
 

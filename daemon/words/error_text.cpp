@@ -28,10 +28,9 @@ constexpr std::array<RemedyWords, kRemedies + 1> kWords = [] {
 #undef REMEDY_WORDS
   return all;
 }();
-static_assert(
-    std::none_of(kWords.begin(), kWords.end(),
-                 [](const RemedyWords& row) { return row.english == nullptr; }),
-    "each code of remedies.inc in schema/base has its words in daemon/words/remedies.inc");
+static_assert(std::none_of(kWords.begin(), kWords.end(),
+                           [](const RemedyWords& row) { return row.english == nullptr; }),
+              "a code of schema/base/remedy/remedies.inc has no row in daemon/words/remedies.inc");
 
 }  // namespace
 

@@ -34,7 +34,7 @@ constexpr std::array<Pattern, kCodes> kPatterns = [] {
 }();
 static_assert(std::none_of(kPatterns.begin(), kPatterns.end(),
                            [](const Pattern& p) { return p.english == nullptr; }),
-              "each code of notice_codes.inc has its words in notices.inc");
+              "a code of schema/notice/notice_codes.inc has no row in daemon/words/notices/");
 
 // Values that algo gives: "targets 1 to 3", "forward", "the end" (of a log).
 struct GermanName {

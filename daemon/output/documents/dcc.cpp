@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kWhatItIs =
     "Test report. This document is not a calibration certificate of an accredited laboratory: it "
-    "uses the data format of the Digital Calibration Certificate for the results of a test.";
+    "contains the results of a test in the data format of the Digital Calibration Certificate.";
 
 struct Days {
   std::string first, last;
@@ -56,8 +56,8 @@ Result<Days> days_of(const Report& report) {
     const std::string first = header.started_utc.substr(0, 10);
     if (header.provenance.recording_kind == "csv" || !is_date(first))
       return bad_input("run " + std::to_string(header.id) +
-                           ": the log does not contain the date of the measurement, which a "
-                           "certificate must state",
+                           ": the log contains no date, but a certificate must state the date of "
+                           "the measurement",
                        Remedy::state_in_report, "date");
     const std::string last = last_day(header, run.results.run.points);
     if (all.first.empty() || first < all.first) all.first = first;
@@ -100,11 +100,12 @@ void write_software(Xml& xml, const Report& report) {
   xml.open("dcc:refTypeDefinitions");
   xml.open("dcc:refTypeDefinition");
   write_text(xml, "dcc:name", "mdof");
-  write_text(xml, "dcc:description",
-             "mdof_position, mdof_target, mdof_pass, mdof_direction: position, target, pass and "
-             "direction of approach of each point; mdof_EYX and others: error with its name of "
-             "ISO 230-1, actual minus nominal; mdof_figure: figure of a run, calculated from the "
-             "mean of both approaches");
+  write_text(
+      xml, "dcc:description",
+      "mdof_position, mdof_target, mdof_pass, mdof_direction: position, target, pass and "
+      "direction of approach of each point; mdof_EYX and others: error with its name of "
+      "ISO 230-1, actual minus nominal; mdof_figure: result of a run such as a straightness, "
+      "calculated from the mean of both approaches");
   xml.leaf("dcc:namespace", "mdof");
   xml.leaf("dcc:link", "urn:mdof:refTypes");
   xml.close();

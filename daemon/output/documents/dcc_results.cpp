@@ -135,7 +135,7 @@ void write_figures(Xml& xml, const ReportRun& run) {
   if (budgets.empty()) return;
   open_result(
       xml, "figures",
-      "calculated from the mean of both approaches; straightness is about the least-squares "
+      "calculated from the mean of both approaches; straightness refers to the least-squares "
       "line. U covers: " +
           covers_text(budgets));
   for (const Budget& b : budgets) write_figure(xml, b, charts::split_key(b.figure).name);
@@ -219,9 +219,10 @@ void write_notices(Xml& xml, const ReportRun& run) {
   for (const std::string& key : run.results.uncertainty.not_declared)
     keys += (keys.empty() ? "" : ", ") + key;
   if (!keys.empty())
-    write_declaration(xml, kMetaData, "not declared, so that U is too small", keys);
+    write_declaration(xml, kMetaData,
+                      "uncertainties that the rig does not declare, so that U is too small", keys);
   if (run.results.figures.budgets.empty())
-    write_declaration(xml, kMetaData, "figures left out", run.results.figures.why);
+    write_declaration(xml, kMetaData, "reason why no figures are stated", run.results.figures.why);
 }
 
 void write_meta_data(Xml& xml, const ReportRun& run) {

@@ -198,8 +198,8 @@ Result<Check> check_export(const Format& format, const std::vector<CompensationT
     const auto series = table ? series_of(*table) : std::vector<Series>();
     const Series* measured = find_series(series, one.error);
     if (!measured)
-      return fail(ErrorCode::check,
-                  "the files correct " + one.error + ", but no exported table contains it");
+      return fail(ErrorCode::check, "the files correct " + one.error +
+                                        ", but no exported table contains " + one.error);
     check.errors.push_back(judged(format, *table, *measured, one, exported, options));
   }
   for (const Written& written : exported.written) {
@@ -211,7 +211,7 @@ Result<Check> check_export(const Format& format, const std::vector<CompensationT
     if (there) continue;
     if (of && of->factor != 0)
       return fail(ErrorCode::check,
-                  written.error + " was written, but the check does not find it in the files");
+                  written.error + " was exported, but the files do not contain " + written.error);
     check.not_judged.push_back(written.error);
   }
   return check;

@@ -5,6 +5,7 @@
 
 #include "daemon/output/controllers/series.h"
 #include "daemon/output/controllers/text_lines.h"
+#include "schema/base/number/number_text.h"
 #include "schema/imported/series.h"
 #include "schema/units.h"
 
@@ -25,16 +26,19 @@ Result<ControllerFile> ssfk_of(const CompensationTable& table, const Series& s,
   const auto far = [](double m) { return !(std::abs(m) < kMostOfPosition_m); };
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {
     if (far(s.position_m[i]) || far(s.forward[i]) || far(s.reverse[i]))
-      return bad_input(s.error + ": a value does not fit into 32 bits in units of 0.1 um");
+      return bad_input(s.error + ": a position or error is " + plain_number(kMostOfPosition_m) +
+                       " m or more, too large for a lead screw table (32 bits, in 0.1 um)");
     if (i > 0 && tenths_text(s.position_m[i]) == tenths_text(s.position_m[i - 1]))
-      return bad_input(s.error + ": two positions are equal when rounded to 0.1 um");
+      return bad_input(s.error +
+                       ": two neighbouring positions are equal when rounded to 0.1 um, the step "
+                       "of a lead screw table");
   }
   std::string text =
       commented(head_lines(table, options,
                            "setpoint, .pos, .neg in 0.1 um; value = actual - set = +" + s.error),
                 "#");
   text +=
-      "# kw.ssfk.unit and kw.ssfk.interval are not written: set them by the control's manual\n"
+      "# kw.ssfk.unit and kw.ssfk.interval are not in this file: set both by the control's manual\n"
       "kw.ssfk.bilateral 1\nkw.ssfk.modulo 0\nkw.ssfk.kw_startpos " +
       tenths_text(s.position_m.front()) + "\nkw.ssfk.kw_nr_max " +
       std::to_string(s.position_m.size()) + "\n";
@@ -73,7 +77,10 @@ Result<AppliedCorrection> read_ssfk_file(const ControllerFile& file) {
   }
   const auto rows = static_cast<std::size_t>(head[3]);
   if (head[0] != 1 || head[1] != 0 || rows < 2 || rows > kMostOfSsfk)
-    return bad_input(file.name + ": bilateral, modulo or kw_nr_max differs from what mdof writes");
+    return bad_input(
+        file.name +
+        ": kw.ssfk.bilateral must be 1, kw.ssfk.modulo 0, and kw.ssfk.kw_nr_max from 2 to " +
+        std::to_string(kMostOfSsfk));
   for (std::size_t i = 0; i < rows; ++i) {
     const std::string row = "kw.ssfk.table[" + std::to_string(i) + "]";
     MDOF_TRY(const double position, whole_after(file, lines, at++, row + ".setpoint"));
@@ -83,7 +90,8 @@ Result<AppliedCorrection> read_ssfk_file(const ControllerFile& file) {
     read.forward.push_back(-positive * kTenthOfMicrometre);
     read.reverse.push_back(-negative * kTenthOfMicrometre);
   }
-  if (at != lines.size()) return wrong_at(file.name, at + 1, "more rows than kw_nr_max");
+  if (at != lines.size())
+    return wrong_at(file.name, at + 1, "the file has more rows than kw.ssfk.kw_nr_max");
   return read;
 }
 
@@ -97,7 +105,7 @@ Result<Series> positioning_of(const CompensationTable& table, std::size_t most,
   for (const Series& s : series)
     if (s.error != error)
       out.left_out.push_back(s.error + " of table " + std::to_string(table.id) + ": " + controller +
-                             " stores only the positioning of an axis");
+                             " stores only the positioning error of an axis");
   const Series* along = find_series(series, error);
   if (!along)
     return bad_input("table " + std::to_string(table.id) + " has no " + error + ", but " +
@@ -157,9 +165,12 @@ Result<std::vector<AppliedCorrection>> read_weihong(const std::vector<Controller
       row[i] = from_mm(x.value_or(0));
     }
     if (!right)
-      return wrong_at(file->name, n, "a row of three numbers below unit and axis is expected");
+      return wrong_at(
+          file->name, n,
+          "a row of three numbers is expected, below \"unit = mm\" and an axis such as \"[X]\"");
     if (!all.back().position_m.empty() && !(row[0] > all.back().position_m.back()))
-      return wrong_at(file->name, n, "the position does not increase");
+      return wrong_at(file->name, n,
+                      "the position is not larger than the position in the row before");
     all.back().position_m.push_back(row[0]);
     all.back().forward.push_back(-row[1]);
     all.back().reverse.push_back(-row[2]);

@@ -94,8 +94,8 @@ const std::vector<Format>& formats() {
        .holds = "a volumetric table: its corrections of X, Y, Z over a plane or a volume",
        .limits = "all nodes of the table (max_records); linear between nodes",
        .sense = "EXX, EYX, EZX in mm = actual - nominal of the tool = -correction",
-       .source = "format: manual of the TF5280, which uses the errors of ISO 230-1 and has a key "
-                 "(negate) for the opposite sense; not run on a control",
+       .source = "format: manual of the TF5280, which uses the errors of ISO 230-1 and has the key "
+                 "\"negate\" for the opposite sense; not run on a control",
        .sign_confirmed = false,
        .quantum_m = 2e-12,
        .takes_home = false,

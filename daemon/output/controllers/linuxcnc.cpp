@@ -80,8 +80,10 @@ Status add_joint(const CompensationTable& table, const ExportOptions& options, E
   const auto series = series_of(table);
   for (const Series& s : series)
     if (s.error != error)
-      out.left_out.push_back(s.error + " of table " + std::to_string(table.id) +
-                             ": a COMP_FILE corrects a joint by its own position");
+      out.left_out.push_back(
+          s.error + " of table " + std::to_string(table.id) +
+          ": a COMP_FILE corrects only positioning errors, because it corrects each "
+          "joint by the position of the same joint");
   const Series* along = find_series(series, error);
   if (!along)
     return bad_input("table " + std::to_string(table.id) + " has no " + error +
@@ -91,7 +93,7 @@ Status add_joint(const CompensationTable& table, const ExportOptions& options, E
     return fail(ErrorCode::usage,
                 std::string("table ") + std::to_string(table.id) + " is for axis " +
                     letter(table.axis) +
-                    ", which has no joint; name the joint together with the others, such as " +
+                    ", but the list of joints has no joint of this axis; add one, such as " +
                     letter(table.axis) + "=1");
   MDOF_TRY(const Series s, fitted(*along, table.id, kMostRows, options, out));
   out.files.push_back({std::string(1, letter(table.axis)) + ".comp",
@@ -104,8 +106,8 @@ Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int t
   AppliedCorrection read{{'E', axis, axis}, axis, axis, {}, {}, {}};
   const auto lines = lines_of(file.text);
   if (lines.empty() || lines.size() > kMostRows)
-    return bad_input(file.name + ": " + std::to_string(lines.size()) +
-                     " rows, but LinuxCNC reads 1 to " + std::to_string(kMostRows));
+    return bad_input(file.name + ": the file has " + std::to_string(lines.size()) +
+                     " rows, but LinuxCNC reads 1 to " + std::to_string(kMostRows) + " rows");
   for (std::size_t n = 0; n < lines.size(); ++n) {
     const auto words = words_of(lines[n]);
     std::array<double, 3> row{};
@@ -116,10 +118,13 @@ Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int t
       row[i] = inch ? x.value_or(0) * kCompInch_m : from_mm(x.value_or(0));
     }
     if (!three)
-      return wrong_at(file.name, n + 1, "not three numbers; LinuxCNC would stop reading here");
-    if (n > 0 && !(row[0] > read.position_m.back()))
       return wrong_at(file.name, n + 1,
-                      "the position does not increase; LinuxCNC would skip this row");
+                      "three numbers in at most " + std::to_string(kLongestLine) +
+                          " characters are expected; LinuxCNC would stop reading here");
+    if (n > 0 && !(row[0] > read.position_m.back()))
+      return wrong_at(
+          file.name, n + 1,
+          "the position is not larger than in the row before; LinuxCNC would skip this row");
     read.position_m.push_back(row[0]);
     read.forward.push_back(type == 0 ? row[0] - row[1] : row[1]);
     read.reverse.push_back(type == 0 ? row[0] - row[2] : row[2]);
@@ -193,7 +198,10 @@ Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<Controlle
     } else if (joint < joints.size() && words.size() == 3 && words[0] == "COMP_FILE_TYPE") {
       joints[joint].type = words[2] == "0" ? 0 : 1;
     } else {
-      return wrong_at(kIni, n, "is not a line for a joint");
+      return wrong_at(kIni, n,
+                      "allowed are [JOINT_0] to [JOINT_" + std::to_string(kMostJoints - 1) +
+                          "] and, below such a line, \"COMP_FILE = NAME\" or "
+                          "\"COMP_FILE_TYPE = NUMBER\"");
     }
   }
   std::vector<AppliedCorrection> all;
@@ -205,7 +213,8 @@ Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<Controlle
     // The name says the axis: joints have none.
     const std::size_t axis = std::string_view(kAxes).find(joints[j].file.front());
     if (axis == std::string_view::npos)
-      return bad_input(joints[j].file + ": the file name does not begin with an axis, X, Y or Z");
+      return bad_input(joints[j].file +
+                       ": the file name must begin with the letter of the axis, X, Y or Z");
     MDOF_TRY(AppliedCorrection read, read_comp(*file, kAxes[axis], joints[j].type, inch));
     all.push_back(std::move(read));
   }

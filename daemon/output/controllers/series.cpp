@@ -80,7 +80,8 @@ Result<Series> without_holes(const Series& s, std::int64_t table, bool cut, Expo
   const std::string range =
       place_text(s.position_m[first]) + " to " + place_text(s.position_m[end - 1]);
   if (!cut) return bad_input(missing, Remedy::cut_range, range);
-  out.notes.push_back(missing + "; only " + range + " is exported, with the end values beyond it");
+  out.notes.push_back(missing + "; only the range " + range +
+                      " is exported, and the controller uses the end values beyond this range");
   return range_of(s, {first, end});
 }
 
@@ -92,7 +93,7 @@ Result<Series> short_enough(const Series& s, std::int64_t table, std::size_t mos
   if (thin->kept.size() > most) {
     MDOF_TRY(const double enough, algo::tolerance_for(s.position_m, columns, most));
     return bad_input(of_table(s, table) + ": " + std::to_string(thin->kept.size()) +
-                         " points, but the controller accepts " + std::to_string(most),
+                         " points, but the controller accepts at most " + std::to_string(most),
                      Remedy::raise_tolerance, plain_number(to_um(enough * 1.01), 3));
   }
   out.written.push_back({s.error, thin->kept.size(), s.position_m.size(), thin->largest_deviation});
@@ -125,7 +126,8 @@ const Series* find_series(const std::vector<Series>& series, const std::string& 
 
 Result<Series> fitted(const Series& series, std::int64_t table, std::size_t most,
                       const ExportOptions& options, Export& out) {
-  if (series.position_m.empty()) return bad_input(of_table(series, table) + ": has no points");
+  if (series.position_m.empty())
+    return bad_input(of_table(series, table) + ": the table has no points");
   MDOF_TRY(const Series whole, without_holes(series, table, options.cut_range, out));
   return short_enough(whole, table, most, options, out);
 }

@@ -63,8 +63,8 @@ Status add_errors(const CompensationTable& table, const ExportOptions& options, 
   for (const Series& measured : series_of(table)) {
     if (measured.angle || measured.factor == 0) {
       out.left_out.push_back(measured.error + of_table +
-                             (measured.angle ? "the effect of an angle depends on a lever, but a "
-                                               "CEC table uses the position of one axis only"
+                             (measured.angle ? "the effect of an angle depends on a lever arm, but "
+                                               "a CEC table uses the position of one axis only"
                                              : measured.gap));
       continue;
     }
@@ -74,13 +74,13 @@ Status add_errors(const CompensationTable& table, const ExportOptions& options, 
     text += cec_text(t++, table_of(s, e, e.forward, both ? 0 : 1), s.error);
     if (!both) text += cec_text(t++, table_of(s, e, e.reverse, -1), s.error);
     if (s.along != s.command)
-      out.notes.push_back(s.error + ": the table does not contain the squareness of " + s.along +
-                          " and " + s.command);
+      out.notes.push_back(s.error + ": the CEC table does not contain the squareness of " +
+                          s.along + " and " + s.command);
   }
   if (t == before)
     return bad_input("table " + std::to_string(table.id) +
-                     " contains no error that CEC can store; CEC stores positioning, and "
-                     "straightness whose correction sign is known");
+                     " contains no error that CEC can store; CEC stores positioning errors, and "
+                     "straightness errors whose correction sign is known");
   return {};
 }
 
@@ -146,7 +146,9 @@ Result<CecTable> read_table(Lines& lines, std::size_t t) {
   const double last = figures[1] + figures[0] * (static_cast<double>(n) - 1);
   if (n < 2 || n > kMostOfSiemens || std::abs(last - figures[2]) > 1e-6 || figures[4] < 0 ||
       figures[5] != 0)
-    return lines.expected("a table with consistent number of points, step, MIN and MAX");
+    return lines.expected("a table of 2 to " + std::to_string(kMostOfSiemens) +
+                          " points with MAX = MIN + (points - 1) * STEP, MULT_BY_TABLE 0 or more "
+                          "and IS_MODULO 0");
   table.input = *input;
   table.output = *output;
   table.step_m = from_mm(figures[0]);
@@ -198,22 +200,23 @@ Result<std::vector<CecTable>> read_tables(const std::vector<ControllerFile>& fil
   for (const CecTable& table : tables)
     if (table.multiply_by > tables.size())
       return bad_input(std::string(kFile) + ": $AN_CEC_MULT_BY_TABLE names table " +
-                       std::to_string(table.multiply_by) + " of " + std::to_string(tables.size()));
+                       std::to_string(table.multiply_by) + ", but the file has " +
+                       std::to_string(tables.size()) + " tables");
   return tables;
 }
 
 std::string file_text(const std::string& head, const std::string& tables) {
   return head +
-         "; AX1, AX2, AX3 are taken for the machine axes X, Y, Z. Load with MD32710 = 0,\n"
-         "; then enable it for each output axis, SD41300 for each table, and reset; the\n"
-         "; input axis must be referenced.\n"
+         "; AX1, AX2, AX3 are assumed to be the machine axes X, Y, Z. Load this file with\n"
+         "; MD32710 = 0. Then set MD32710 = 1 for each output axis and SD41300 = 1 for each\n"
+         "; table, and reset the control. The input axes must be referenced.\n"
          "CHANDATA(1)\n" +
          tables + "M17\n";
 }
 
 void note_count(std::size_t tables, Export& out) {
   if (tables > kTablesOf828D)
-    out.notes.push_back(std::to_string(tables) + " CEC tables: an 828D allows " +
+    out.notes.push_back(std::to_string(tables) + " CEC tables, but an 828D allows only " +
                         std::to_string(kTablesOf828D) +
                         "; on other controls MD18342 sets the limit");
 }
@@ -243,11 +246,13 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
 Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile>& files) {
   MDOF_TRY(const auto tables, read_tables(files));
   std::vector<AppliedCorrection> all;
-  for (std::size_t t = 0; t < tables.size(); ++t)
-    if (tables[t].multiply_by != 0 || !add_to(all, applied_by(tables[t])))
-      return bad_input(std::string(kFile) + ": table " + std::to_string(t) +
-                       ": a product is not expected here, and the positions must be those of the "
-                       "earlier table of the same axes");
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    const std::string place = std::string(kFile) + ": table " + std::to_string(t) + ": ";
+    if (tables[t].multiply_by != 0)
+      return bad_input(place + "$AN_CEC_MULT_BY_TABLE must be 0 in a correction of single axes");
+    if (!add_to(all, applied_by(tables[t])))
+      return bad_input(place + "the positions differ from the earlier table of the same axes");
+  }
   return all;
 }
 
@@ -332,7 +337,7 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
     MDOF_TRY(step_m[axis], equal_step(t, axis, "CEC"));
     if (t.command_m[axis].size() > kMostOfSiemens)
       return bad_input("table " + std::to_string(t.id) + ": " +
-                       std::to_string(t.command_m[axis].size()) + " commands of " +
+                       std::to_string(t.command_m[axis].size()) + " positions of " +
                        kLinearAxes[axis] + ", but a CEC table has at most " +
                        std::to_string(kMostOfSiemens) + " points; build a table with larger steps");
   }
@@ -349,7 +354,8 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
                      tables[i].multiply_by > 0 ? "first factor of a product"
                      : i > 0 && tables[i - 1].multiply_by > 0
                          ? "second factor of the product"
-                         : std::string("of ") + tables[i].output + " by " + tables[i].input,
+                         : std::string("correction of ") + tables[i].output +
+                               " by the position of " + tables[i].input,
                      kDecimalsOfVolume);
   const auto head =
       head_of(t, options, "mm; value = correction, added to the command of the output axis");
@@ -360,8 +366,9 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
   if (std::any_of(tables.begin(), tables.end(),
                   [](const CecTable& one) { return one.multiply_by > 0; }))
     out.notes.emplace_back(
-        "products (MULT_BY_TABLE): the example in the manual uses only the product; check on the "
-        "machine that the control does not also add the factors, which are below " +
+        "products (MULT_BY_TABLE): in the example of the manual, the control adds only the "
+        "product; check on the machine that the control does not add the single factors too; each "
+        "factor is below " +
         plain_number(to_um(largest_factor(tables)), 2) + " um");
   note_count(tables.size(), out);
   count_nodes(t, out);

@@ -29,8 +29,9 @@ std::string lec_text(const CompensationTable& table, const Series& s, const Equa
                       ", mean of both approaches; a positive value moves the "
                       "axis in the negative direction"))
     text += "; " + line + "\n";
-  text += "; " + axis + " is taken for the machine axis " + s.along +
-          ". Load with MD32700 = 0, then enable and reset; the axis must be referenced.\n"
+  text += "; " + axis + " is assumed to be the machine axis " + s.along +
+          ".\n; Load this file with MD32700 = 0. Then set MD32700 = 1 and reset the control.\n"
+          "; The axis must be referenced.\n"
           "CHANDATA(1)\n";
   for (std::size_t i = 0; i < e.forward.size(); ++i)
     text += "$AA_ENC_COMP[0," + std::to_string(i) + "," + axis +
@@ -55,7 +56,7 @@ Result<AppliedCorrection> read_lec_file(const ControllerFile& file) {
   std::erase_if(lines, [](std::string_view line) { return line.starts_with(";"); });
   std::size_t at = 0;
   if (lines.empty() || lines[at++] != "CHANDATA(1)")
-    return bad_input(file.name + ": does not begin with CHANDATA(1)");
+    return bad_input(file.name + ": the first line below the comments must be CHANDATA(1)");
   for (; at < lines.size(); ++at) {
     const auto value = assigned(
         lines[at], "$AA_ENC_COMP[0," + std::to_string(read.forward.size()) + "," + axis + "]");
@@ -69,15 +70,16 @@ Result<AppliedCorrection> read_lec_file(const ControllerFile& file) {
         at < lines.size()
             ? assigned(lines[at], std::string("$AA_ENC_COMP_") + keys[k] + "[0," + axis + "]")
             : std::nullopt;
-    if (!value) return bad_input(file.name + ": $AA_ENC_COMP_" + keys[k] + " is expected");
+    if (!value)
+      return bad_input(file.name + ": $AA_ENC_COMP_" + keys[k] + " with a number is expected");
     figures[k] = *value;
   }
   const auto n = static_cast<double>(read.forward.size());
   if (at + 1 != lines.size() || lines[at] != "M17" || n < 2 || n > kMostOfSiemens ||
       figures[3] != 0 || std::abs(figures[1] + figures[0] * (n - 1) - figures[2]) > 1e-7)
-    return bad_input(file.name +
-                     ": number of points, step, MIN and MAX are not consistent, or the file does "
-                     "not end with M17");
+    return bad_input(file.name + ": 2 to " + std::to_string(kMostOfSiemens) +
+                     " points are expected, with MAX = MIN + (points - 1) * STEP, IS_MODULO = 0 "
+                     "and M17 as the last line");
   for (std::size_t i = 0; i < read.forward.size(); ++i)
     read.position_m.push_back(from_mm(figures[1] + figures[0] * static_cast<double>(i)));
   read.reverse = read.forward;
@@ -97,9 +99,8 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
     for (std::size_t i = 0; i < s.position_m.size(); ++i)
       reversal = std::max(reversal, std::abs(s.forward[i] - s.reverse[i]));
     if (reversal > 0)
-      out.left_out.push_back(
-          s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +
-          " um, because ENC_COMP has one value for both approaches (their mean)");
+      out.left_out.push_back(s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +
+                             " um, because ENC_COMP stores only the mean of both approaches");
     MDOF_TRY(const EqualSteps e, equal_steps(mean_of_approaches(s), out));
     out.files.push_back({std::string(1, s.along) + "_EEC.INI", lec_text(table, s, e, options)});
   }

@@ -36,7 +36,8 @@ std::vector<double> resampled(const Series& s, const std::vector<double>& approa
 Result<EqualSteps> equal_steps(const Series& s, Export& out) {
   const auto& x = s.position_m;
   if (x.size() < 2)
-    return bad_input(s.error + ": has one point, but a table of equal steps needs at least two");
+    return bad_input(s.error +
+                     ": only one point, but a table of equal steps needs at least two points");
   const double range = x.back() - x.front();
   double smallest = range;
   for (std::size_t i = 1; i < x.size(); ++i) smallest = std::min(smallest, x[i] - x[i - 1]);

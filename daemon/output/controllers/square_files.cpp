@@ -51,16 +51,17 @@ Result<std::string_view> value_of(const std::vector<ControllerFile>& files, cons
     ++n;
     if (line.starts_with(sign)) continue;
     if (line.starts_with(begin)) return line.substr(begin.size());
-    return wrong_at(name, n, std::string(begin) + "... is expected");
+    return wrong_at(name, n, "a line that begins with \"" + std::string(begin) + "\" is expected");
   }
-  return bad_input(std::string(name) + ": has no " + std::string(begin));
+  return bad_input(std::string(name) + ": no line begins with \"" + std::string(begin) + "\"");
 }
 
 Result<double> number_of(const std::vector<ControllerFile>& files, const char* name, char sign,
                          std::string_view begin) {
   MDOF_TRY(const std::string_view text, value_of(files, name, sign, begin));
   if (const auto x = decimal_from(text)) return *x;
-  return bad_input(std::string(name) + ": no number after " + std::string(begin));
+  return bad_input(std::string(name) + ": a number is expected after \"" + std::string(begin) +
+                   "\"");
 }
 
 }  // namespace
@@ -68,13 +69,14 @@ Result<double> number_of(const std::vector<ControllerFile>& files, const char* n
 Result<double> shear_of(const SquareAxes& axes) {
   if (!axes.machine.known())
     return bad_input(
-        "the chain of the machine is unknown, so the sign of the correction is unknown; add "
-        "[machine] chain, such as \"w-Y-X-b-Z-t\", to the rigs of the runs and measure or replay "
-        "them again");
+        "the chain of the machine is unknown, so the sign of the correction is unknown; set chain "
+        "in [machine] of the rig file of both runs, such as \"w-Y-X-b-Z-t\", and measure or replay "
+        "both runs again");
   const ChainAxis* x = axes.machine.find('X');
   const ChainAxis* y = axes.machine.find('Y');
   if (!x || !y)
-    return bad_input("the chain " + axes.machine.text + " has no axis " + (x ? "Y" : "X"));
+    return bad_input("the chain " + axes.machine.text + " has no axis " + (x ? "Y" : "X") +
+                     ", but the squareness of X and Y needs both axes");
   return sign_of_command(*x) * sign_of_command(*y) * std::tan(axes.EC0Y_rad);
 }
 
@@ -95,7 +97,8 @@ Result<double> read_klipper(const std::vector<ControllerFile>& files) {
   double length[3] = {};
   for (double& x : length) {
     const auto read = decimal_from(text.substr(0, text.find(',')));
-    if (!read) return bad_input(std::string(kGcode) + ": three lengths are expected");
+    if (!read)
+      return bad_input(std::string(kGcode) + ": three lengths are expected after \"SET_SKEW XY=\"");
     x = *read;
     text = text.find(',') == text.npos ? std::string_view() : text.substr(text.find(',') + 1);
   }

@@ -60,7 +60,7 @@ Status read_document(const ControllerFile& file, std::vector<AppliedCorrection>&
   if (json["format"].get(format) != simdjson::SUCCESS || format != "mdof compensation table" ||
       json["table"].get(table) != simdjson::SUCCESS ||
       table["correction"].get(rules) != simdjson::SUCCESS)
-    return bad_input(file.name + ": is not the JSON of a compensation table");
+    return bad_input(file.name + ": the file is not the JSON of a compensation table");
   for (const auto& rule : rules) {
     if (!std::isfinite(number_of(rule.value, "factor"))) continue;
     MDOF_TRY(AppliedCorrection read,
@@ -83,7 +83,8 @@ Result<Export> write_table_json(const std::vector<CompensationTable>& tables,
   }
   if (options.tolerance_m > 0 || options.cut_range || options.home_m)
     out.notes.emplace_back(
-        "the JSON contains the unchanged table; tolerance, range and home have no effect");
+        "the JSON contains the unchanged table; tolerance_um, cut_range and home_mm have no "
+        "effect");
   return out;
 }
 

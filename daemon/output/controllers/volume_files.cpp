@@ -61,7 +61,7 @@ std::string isg_list(const VolumetricTable& t, const std::vector<std::string>& h
   return commented(head, "#") +
          "# in the start-up list: vol_comp[0].file_name, vol_comp[0].max_records at least " +
          std::to_string(t.nodes()) +
-         "\n# 1, 2, 3 are taken for the logical numbers of the axes\n"
+         "\n# 1, 2, 3 are assumed to be the logical numbers of the axes X, Y, Z\n"
          "X 1\nY 2\nZ 3\nworkpiece_axes 0\ninterpolation GRID\nfile[0] " +
          kIsgTable + "\nfile_format[0] ISG_CSV\n";
 }
@@ -76,7 +76,7 @@ std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& 
       "sha256 of the table " + t.sha256,
       "machine " + t.machine.text + " (" + travels_of(t.machine) + "), approach " + t.approach,
       "sense: " + sense};
-  std::string at = "holds at the tool's point";
+  std::string at = "valid at the tool point";
   for (const double x : t.tool_m) at += " " + plain_number(to_mm(x), 9);
   for (std::size_t k = 0; k < 3; ++k)
     if (t.command_m[k].size() == 1 && t.machine.find(kLinear[k]))
@@ -94,7 +94,7 @@ std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& 
 
 void note_options(const ExportOptions& options, Export& out) {
   if (options.tolerance_m > 0)
-    out.notes.emplace_back("the tolerance has no effect, because no node is left out");
+    out.notes.emplace_back("tolerance_um has no effect, because all nodes are written");
   if (options.home_m)
     out.notes.emplace_back("home_mm has no effect, because the grid is written unchanged");
 }
@@ -162,7 +162,9 @@ Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files) {
       const std::size_t m = axes.size();
       if (m == 0 || words.size() != m + 3 || words[m] != "EXX" || words[m + 1] != "EYX" ||
           words[m + 2] != "EZX")
-        return wrong_at(file->name, n, "columns of axes, then EXX, EYX and EZX are expected");
+        return wrong_at(
+            file->name, n,
+            "the names of the columns are expected: axes (X, Y, Z), then EXX, EYX and EZX");
       continue;
     }
     auto row = numbers_in(line, ' ');
@@ -183,7 +185,7 @@ Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files) {
   }
   // The controller's mode GRID takes nothing else.
   if (rows.empty() || t.nodes() != rows.size())
-    return bad_input(file->name + ": the rows are not on a grid");
+    return bad_input(file->name + ": the rows do not form a complete grid of positions");
   resize_to_grid(t);
   for (const auto& row : rows) {
     std::array<std::size_t, 3> index{};
@@ -267,7 +269,8 @@ Result<VolumetricTable> read_dynomotion(const std::vector<ControllerFile>& files
     const bool right = row && row->size() == 5 && (*row)[0] >= 0 && (*row)[1] >= 0 &&
                        (*row)[0] < head[0][0] && (*row)[1] < head[0][1];
     if (!right)
-      return wrong_at(file->name, head.size() + i + 1, "row, column, X, Y, Z are expected");
+      return wrong_at(file->name, head.size() + i + 1,
+                      "row, column, X, Y and Z are expected, with row and column inside the grid");
     const auto y = static_cast<std::size_t>((*row)[0]), x = static_cast<std::size_t>((*row)[1]);
     t.correction_m[t.node(x, y, 0)] = {(*row)[2] * kInch_m - t.command_m[0][x],
                                        (*row)[3] * kInch_m - t.command_m[1][y],

@@ -18,21 +18,21 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
     all.charts.push_back({"run-" + number + "-" + name + ".svg", std::move(svg)});
   };
   if (!has_five_errors(results)) {
-    all.left_out.push_back(run + ": no point has error values, so there are no charts");
+    all.left_out.push_back(run + ": no point has error values, but each chart needs such points");
     return all;
   }
   add("five-errors", five_errors_svg(results, language));
   if (has_straightness(results))
     add("straightness", straightness_svg(results, language));
   else
-    all.left_out.push_back(run +
-                           ": no chart of straightness, because it needs at least three targets");
+    all.left_out.push_back(run + ": the chart of straightness needs at least three targets");
   if (has_repeatability(results)) {
     add("repeatability", repeatability_svg(results, language));
     add("drift", drift_svg(results, language));
   } else {
-    all.left_out.push_back(
-        run + ": no charts of repeatability and drift, because no target was visited again");
+    all.left_out.push_back(run +
+                           ": the charts of repeatability and drift need a target that was visited "
+                           "twice from the same side");
   }
   const std::string title =
       phrase(Phrase::run_axis, language, {number, std::string(1, letter(results.run.header.axis))});
@@ -40,11 +40,11 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
     if (has_budget(budget))
       add("budget-" + file_name(budget.figure), budget_svg(budget, title, results.marks, language));
     else
-      all.left_out.push_back(run + ": no budget of " + budget.figure +
-                             ", because its u is unknown");
+      all.left_out.push_back(run + ": the budget of " + budget.figure +
+                             " needs u, but u is unknown");
   if (results.figures.budgets.empty())
     all.left_out.push_back(
-        run + ": no chart of the budget: " +
+        run + ": chart of the budget: " +
         (results.figures.why.empty() ? "the run has no figures" : results.figures.why));
   return all;
 }

@@ -79,10 +79,11 @@ std::vector<BinnedOutput> binned_outputs(const StudyResult& result) {
 
 std::array<LegendItem, 4> legend_of(const StudyResult& result) {
   const double coverage = result.bins.front().outputs.front().coverage;
-  return {{{LegendSign::line, "ink", "mean"},
-           {LegendSign::area, "narrow", "± sd"},
-           {LegendSign::area, "wide", "symmetric " + number_text(100 * coverage) + "\u00a0%"},
-           {LegendSign::line, "edge dot", "extremes"}}};
+  return {
+      {{LegendSign::line, "ink", "mean"},
+       {LegendSign::area, "narrow", "± sd"},
+       {LegendSign::area, "wide", "symmetric " + number_text(100 * coverage) + "\u00a0% interval"},
+       {LegendSign::line, "edge dot", "extremes"}}};
 }
 
 void draw_output(Svg& svg, const Panel& panel, const BinnedOutput& out, std::string_view x_key) {
@@ -131,7 +132,7 @@ std::string bins_svg(const StudyResult& result) {
     draw_output(svg, sheet.panel(i, x, false), outputs[i], result.binned_key);
   if (cut)
     svg.text("quiet", {kMarginPx, sheet.bottom() + 8}, Anchor::start,
-             "Extremes that are drawn at the edge of a panel lie outside it.");
+             "An extreme that is drawn at the edge of a panel lies outside the panel.");
   return svg.take();
 }
 

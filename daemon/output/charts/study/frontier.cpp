@@ -104,7 +104,7 @@ void draw_uncertainty(Svg& svg, const Panel& panel, const Point& p) {
 std::string condition(const Allocation& a) {
   const auto [name, unit] = split_key(a.output);
   return "|" + name + "| ≤ " + number_text(a.limit) + (unit.empty() ? "" : "\u00a0" + unit) +
-         " with " + number_text(100 * a.probability) + "\u00a0%";
+         " with a probability of " + number_text(100 * a.probability) + "\u00a0%";
 }
 
 std::string in_words(const StudyResult& result, const std::vector<Frontier>& all) {
@@ -144,8 +144,8 @@ std::string frontier_svg(const StudyResult& result) {
   draw_head(svg, title, study_line(result));
   const std::vector<LegendItem> legend = {
       {LegendSign::line, "blue", "largest value that meets the limit"},
-      {LegendSign::area, "wide", "meets the limit"},
-      {LegendSign::line, "ink", "95\u00a0% of the sampling uncertainty"}};
+      {LegendSign::area, "wide", "values that meet the limit"},
+      {LegendSign::line, "ink", "95\u00a0% interval of the sampling uncertainty"}};
   draw_legend(svg, kHeadPx, legend);
   for (std::size_t i = 0; i < all.size(); ++i)
     draw_frontier(svg, sheet.panel(i, first_range(all[i]), false), all[i]);

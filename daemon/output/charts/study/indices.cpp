@@ -95,7 +95,8 @@ std::string left_out(const OutputIndices& output) {
   double largest = 0;
   for (std::size_t i = shown(output); i < output.causes.size(); ++i)
     largest = std::max(largest, output.causes[i].total);
-  return std::to_string(rest) + " more, each with a total of at most " + fixed_text(largest, 3);
+  return std::to_string(rest) + " more causes, each with a total of at most " +
+         fixed_text(largest, 3);
 }
 
 void draw_output(Svg& svg, Panel panel, const OutputIndices& output, double top) {

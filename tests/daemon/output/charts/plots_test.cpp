@@ -180,7 +180,7 @@ TEST_F(Plots, ShowTheirFigures) {
   EXPECT_TRUE(has("histogram-EAX_urad.svg", "shortest 95\u00a0%"));
   EXPECT_TRUE(has("error-against-travel.svg", "travel / mm"));
   EXPECT_TRUE(has("sensitivity.svg", "0.412 ± 0.004"));
-  EXPECT_TRUE(has("allocation.svg", "|EBX| ≤ 2\u00a0µrad with 95\u00a0%"));
+  EXPECT_TRUE(has("allocation.svg", "|EBX| ≤ 2\u00a0µrad with a probability of 95\u00a0%"));
   EXPECT_TRUE(has("convergence.svg", "10⁸"));
 }
 
@@ -251,12 +251,13 @@ TEST_F(Plots, OfManyCausesShowTheLargestAndSayWhatIsLeftOut) {
   const std::string text = write(r).at("sensitivity.svg");
   EXPECT_NE(text.find(">cause 19<"), std::string::npos);
   EXPECT_EQ(text.find(">cause 20<"), std::string::npos);
-  EXPECT_NE(text.find(">30 more, each with a total of at most 0.024<"), std::string::npos);
+  EXPECT_NE(text.find(">30 more causes, each with a total of at most 0.024<"), std::string::npos);
 }
 
 TEST_F(Plots, SayWhenExtremesAreCutOff) {
   StudyResult r = study();
-  constexpr const char* kNote = "Extremes that are drawn at the edge of a panel lie outside it.";
+  constexpr const char* kNote =
+      "An extreme that is drawn at the edge of a panel lies outside the panel.";
   EXPECT_EQ(write(r).at("error-against-travel.svg").find(kNote), std::string::npos);
   r.bins[0].outputs[0].max = 1e6;
   EXPECT_NE(write(r).at("error-against-travel.svg").find(kNote), std::string::npos);

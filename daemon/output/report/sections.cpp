@@ -153,8 +153,9 @@ void write_results(Html& html, const ReportRun& run, Language language) {
                rows, "numbers");
   html.element("p", of(Phrase::U_explained), "quiet");
   if (figures.budgets.empty())
-    html.element("p", phrase(Phrase::U_missing_because, language,
-                             {figures.why.empty() ? "the run has no figures" : figures.why}));
+    html.element("p",
+                 phrase(Phrase::U_missing_because, language,
+                        {figures.why.empty() ? "the run has no calculated results" : figures.why}));
   else
     html.element("p", phrase(Phrase::u_covers, language, {covers_text(figures.budgets)}));
   std::string keys;

@@ -45,7 +45,7 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
   if (results.figures.budgets.empty())
     all.left_out.push_back(
         run + ": chart of the budget: " +
-        (results.figures.why.empty() ? "the run has no figures" : results.figures.why));
+        (results.figures.why.empty() ? "the run has no calculated results" : results.figures.why));
   return all;
 }
 

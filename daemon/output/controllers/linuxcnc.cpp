@@ -168,12 +168,13 @@ Result<Export> write_linuxcnc(const std::vector<CompensationTable>& tables,
                               const ExportOptions& options) {
   MDOF_CHECK(check_one_table_an_axis(tables));
   Export out;
-  std::string ini =
-      std::string("# For the ini file of LinuxCNC, with the .comp files beside it.\n") +
-      "# Restart LinuxCNC to change a table. Joints " + joints_text(options) +
-      ".\n"
-      "# A joint with a table ignores BACKLASH.\n"
-      "# Do not add comments to a .comp file: LinuxCNC stops reading there.\n";
+  std::string ini = std::string(
+                        "# Copy these lines to the ini file of LinuxCNC, and the .comp files to "
+                        "the same folder.\n") +
+                    "# Restart LinuxCNC to change a table. Joints " + joints_text(options) +
+                    ".\n"
+                    "# A joint with a table ignores BACKLASH.\n"
+                    "# Do not add comments to a .comp file: LinuxCNC stops reading there.\n";
   if (options.inch) ini += std::string(kUnits) + "inch\n";
   for (const CompensationTable& table : tables) MDOF_CHECK(add_joint(table, options, out, ini));
   out.files.push_back({kIni, ini});
@@ -200,8 +201,8 @@ Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<Controlle
     } else {
       return wrong_at(kIni, n,
                       "allowed are [JOINT_0] to [JOINT_" + std::to_string(kMostJoints - 1) +
-                          "] and, below such a line, \"COMP_FILE = NAME\" or "
-                          "\"COMP_FILE_TYPE = NUMBER\"");
+                          "] and, below such a line, \"COMP_FILE = NAME\" and "
+                          "\"COMP_FILE_TYPE = 0\" (or 1)");
     }
   }
   std::vector<AppliedCorrection> all;

@@ -1,5 +1,9 @@
 #include "daemon/measure/machine/volumetric.h"
 
+#include <map>
+#include <set>
+#include <utility>
+
 #include "daemon/measure/machine/stored_errors.h"
 #include "daemon/paths.h"
 
@@ -24,6 +28,32 @@ Notices own_notices(const VolumetricTable& table) {
   return own;
 }
 
+Result<std::vector<Run>> runs_of(store::Store& store, const VolumetricTable& table) {
+  std::vector<Run> runs(table.runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    MDOF_TRY(runs[i], store.run(table.runs[i]));
+  }
+  return runs;
+}
+
+// Axes whose targets were all approached from one side, and not from that of the table: the errors
+// of that side stand for those of the other, so a reversal error is not in the table.
+Notices one_sided(const VolumetricTable& table, const std::vector<Run>& runs) {
+  std::map<std::pair<Axis, bool>, std::set<std::string>> seen;  // positioning is measured apart
+  for (const Run& run : runs)
+    for (const MeasuredPoint& p : run.points)
+      if (p.point.direction != 0)
+        seen[{run.header.axis, is_imported(run.header)}].insert(p.point.direction > 0 ? "forward"
+                                                                                      : "reverse");
+  Notices found;
+  for (const auto& [measured, approaches] : seen)
+    if (approaches.size() == 1 && *approaches.begin() != table.approach)
+      found.push_back(notice(
+          NoticeCode::volume_from_one_side, std::string(1, letter(measured.first)),
+          {{"approach", *approaches.begin()}, {"positioning", measured.second ? "yes" : ""}}));
+  return found;
+}
+
 }  // namespace
 
 Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
@@ -34,7 +64,9 @@ Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
   MDOF_TRY(built.table, algo::build_volumetric(machine, request.grid));
   built.table.description = request.description;
   built.table.runs = std::move(stored.runs);
+  MDOF_TRY(const std::vector<Run> runs, runs_of(store, built.table));
   built.notices = own_notices(built.table);
+  append(built.notices, one_sided(built.table, runs));
   built.doubtful = built.notices;
   append(built.notices, std::move(stored.notices));
   append(built.doubtful, std::move(stored.doubtful));
@@ -51,10 +83,8 @@ Status store_volumetric(store::Store& store, VolumetricTable& table,
 
 Result<Notices> doubtful_notices(store::Store& store, const VolumetricTable& table) {
   Notices found = own_notices(table);
-  std::vector<Run> runs(table.runs.size());
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    MDOF_TRY(runs[i], store.run(table.runs[i]));
-  }
+  MDOF_TRY(const std::vector<Run> runs, runs_of(store, table));
+  append(found, one_sided(table, runs));
   append(found, doubtful_notices(runs));
   return found;
 }

@@ -104,17 +104,18 @@ class MeasuredMill(unittest.TestCase):
         self.folder = pathlib.Path(temporary.name)
         self.database = self.folder / "mdof.db"
 
-    def measure(self, mill, seed, machine=""):
+    def measure(self, mill, seed, machine="", ways=(1, -1)):
         for axis in "XY":
             extra = (('moves = "fixture"\n' if axis == "Y" else "") + ('travel = "-"\n' if mill.way[axis] < 0 else "") + machine)
             rig = model.write_rig(self.folder / f"{axis}.toml", axis, extra)
             log = self.folder / f"{axis}.csv"
-            model.write_log(log, axis, model.stops(TARGETS, 1), lambda at: mill.readings(axis, at), seed=2 * seed + (axis == "Y"),
+            way = [stop for stop in model.stops(TARGETS, 1)][:None if len(ways) == 2 else len(TARGETS) + 2]
+            model.write_log(log, axis, way, lambda at: mill.readings(axis, at), seed=2 * seed + (axis == "Y"),
                             dwell_s=.4, speed_m_s=.05)
             run_json("replay", log, "--rig", rig, "--db", self.database)
             laser = self.folder / f"laser_{axis}.csv"
             laser.write_text("target_mm,direction,run,deviation_um\n" + "".join(
-                f"{t * 1e3:g},{way},1,{mill.deviation(axis, t) * 1e6}\n" for way in (1, -1) for t in TARGETS))
+                f"{t * 1e3:g},{way},1,{mill.deviation(axis, t) * 1e6}\n" for way in ways for t in TARGETS))
             code, _, err = run("import", laser, "--axis", axis, "--db", self.database)
             self.assertEqual(code, 0, err)
         across = {"X": lambda t: model.error_at("X", mill.way["X"] * t, mill.pose("X", t), (0, 0, 0))[1],

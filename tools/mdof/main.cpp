@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const std::filesystem::filesystem_error& error) {
     say("mdof: " + error.path1().string() + ": " + error.code().message() +
-        "; check that the folder exists and may be used");
+        "; check that the folder exists and that you have permission to use it");
     return kDeviceOrIo;
   } catch (const std::exception& error) {  // memory is used up, or a bug
     say(std::string("mdof: ") + error.what());

@@ -47,13 +47,15 @@ Result<algo::TableLimits> LimitOptions::limits() const {
 
 void add_limit_options(CLI::App& command, LimitOptions& limits) {
   command
-      .add_option("--limit-um", limits.um,
-                  "Largest accepted value (angles: urad) [default: 1000 um, 10000 urad]")
+      .add_option(
+          "--limit-um", limits.um,
+          "Largest permitted error or correction (angles: urad) [default: 1000 um, 10000 urad]")
       ->check(positive_number())
       ->type_name("UM");
   command
       .add_option("--limit-um-per-mm", limits.um_per_mm,
-                  "Largest accepted slope (angles: urad/mm) [default: 50 um/mm, 500 urad/mm]")
+                  "Largest permitted slope of an error or correction (angles: urad/mm) [default: "
+                  "50 um/mm, 500 urad/mm]")
       ->check(positive_number())
       ->type_name("UM");
 }
@@ -61,7 +63,7 @@ void add_limit_options(CLI::App& command, LimitOptions& limits) {
 void add_consent_flags(CLI::App& command, daemon::Consent& consent, const std::string& what) {
   command.add_flag("--simulated", consent.simulated, "Accept simulated data in " + what);
   command.add_flag("--despite-warnings", consent.despite_warnings,
-                   "Accept doubtful notices about the runs of " + what);
+                   "Accept doubtful notices about the source runs of " + what);
 }
 
 void add_database_option(CLI::App& command, std::string& database) {

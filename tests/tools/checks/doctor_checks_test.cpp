@@ -108,7 +108,7 @@ TEST(CheckSysfsFiles, TheServiceMustBeAbleToWriteTheRate) {
   EXPECT_EQ(mine[0].level, Diagnosis::Level::good);
   EXPECT_EQ(mine[0].what, "IIO converter: iio:device0 (ad7746)");
   EXPECT_EQ(mine[1].level, Diagnosis::Level::doubtful);
-  EXPECT_NE(mine[1].what.find("iio:device1 (ad7745): the group mdof may not write"),
+  EXPECT_NE(mine[1].what.find("iio:device1 (ad7745): the group mdof has no permission to write"),
             std::string::npos);
   EXPECT_NE(mine[1].what.find("device1/in_capacitance_sampling_frequency"), std::string::npos);
   EXPECT_NE(mine[1].remedy.find("60-mdof.rules"), std::string::npos);
@@ -139,7 +139,7 @@ TEST(CheckSysfsFiles, EachCountOfACounterMustBeOpen) {
   EXPECT_EQ(open[0].level, Diagnosis::Level::good);
   ASSERT_EQ(closed.size(), 1U);
   EXPECT_EQ(closed[0].level, Diagnosis::Level::doubtful);
-  EXPECT_NE(closed[0].what.find("count1/preset, which index_mm of mdofd.toml needs"),
+  EXPECT_NE(closed[0].what.find("count1/preset; the key \"index_mm\" in mdofd.toml needs"),
             std::string::npos);
   EXPECT_NE(closed[0].remedy.find("--subsystem-match=counter"), std::string::npos);
 }

@@ -87,8 +87,9 @@ TEST_F(NetworkAccess, TheDoctorNamesWhatTheServiceMayNotReach) {
   EXPECT_EQ(found({"127.0.0.1", "[::1]"}), "");
   const std::string reported = found({"192.168.0.7", "192.168.1.9"});
   EXPECT_NE(
-      reported.find("WRONG network: the service mdofd may not connect to 192.168.0.7 (device at "
-                    "192.168.0.7)"),
+      reported.find(
+          "WRONG network: the service mdofd has no permission to connect to 192.168.0.7 (device at "
+          "192.168.0.7)"),
       std::string::npos)
       << reported;
   EXPECT_NE(reported.find("sudo mdof setup network 192.168.0.7 && sudo systemctl daemon-reload"),

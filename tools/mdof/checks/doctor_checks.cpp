@@ -134,8 +134,8 @@ std::optional<Diagnosis> check_sysfs_device(const fs::path& device, const driver
   if (closed == files.end()) return Diagnosis{Level::good, what, ""};
   return Diagnosis{
       Level::doubtful,
-      what + ": " + (service ? "the group mdof" : "this user") + " may not write " +
-          closed->string() + ", which " + of.key + " of mdofd.toml needs",
+      what + ": " + (service ? "the group mdof" : "this user") + " has no permission to write " +
+          closed->string() + "; the key \"" + of.key + "\" in mdofd.toml needs this permission",
       std::string(
           "install the udev rules (60-mdof.rules, above), which give the file to the group mdof; "
           "if the device was connected before, then run: sudo udevadm control --reload && sudo "
@@ -152,8 +152,8 @@ Diagnosis check_clock(const Machine& machine) {
   for (const char* slow : {"hpet", "acpi_pm", "jiffies", "pit"}) {
     if (source == slow)
       return {Level::doubtful, "clock source: " + source + ", slow to read and coarse",
-              "if the processor has a constant TSC, add tsc=reliable clocksource=tsc to the "
-              "command line of the kernel"};
+              "if the processor has a constant TSC, add \"tsc=reliable clocksource=tsc\" to the "
+              "kernel command line"};
   }
   return {Level::good, "clock source: " + source, ""};
 }
@@ -177,7 +177,7 @@ Diagnosis check_storage(const daemon::Config& config) {
   const std::string what = "storage: " + config.database.string();
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     return {
-        Level::doubtful, what + ": this user may not write in " + folder.string(),
+        Level::doubtful, what + ": this user has no permission to write in " + folder.string(),
         "only the user of mdofd needs this permission; run mdof doctor as that user to check it"};
   const auto room = fs::space(folder, ec);
   if (!ec && static_cast<double>(room.available) < kLittleRoom)
@@ -237,27 +237,30 @@ std::vector<Diagnosis> check_sysfs_files(const Machine& machine, std::optional<g
 Diagnosis check_set_up(const Rig& rig) {
   const std::string what = "set-up of axis " + std::string(1, letter(rig.axis)) + ": ";
   const char* const remedy =
-      "check the set-up by hand once: push the target towards each probe in turn (only this probe "
-      "may change, with the sign of its direction, by the length of the push); tilt the target by "
-      "a known angle about each axis; move the axis by a known length (the encoder must show this "
-      "length and direction); to find a drift that follows the travel, measure again with other "
-      "dwell times, or with another order of targets";
+      "check the set-up once by hand. Push the target towards each probe in turn: only this probe "
+      "may change, by the length of the push and with the sign of its direction. Tilt the target "
+      "by a known angle about each axis. Move the axis by a known length: the encoder must show "
+      "this length and direction. To find a drift that follows the axis position, measure again "
+      "with other dwell times, or with another order of targets";
   const std::string locked =
-      "a drift that follows the position of the axis (heat of drive or scale, pull of cables) "
-      "repeats in each run: the errors contain it, u does not, and no run can separate it";
+      "A drift that follows the position of the axis (heat of drive or scale, pull of cables) "
+      "repeats in each run. The errors contain this drift, but u does not. One run cannot separate "
+      "the drift from the errors";
   if (rig.probes.size() > 5)
     return {Level::good,
             what + std::to_string(rig.probes.size()) +
-                " probes contradict each other if one is exchanged, turned, or has a wrong gain or "
-                "position, and the run warns; a run does not detect a reversed encoder, a wrong "
-                "sign or gain of all probes, and a common factor of all lengths; " +
+                " probes give redundant readings. If one probe is exchanged or turned, or has a "
+                "wrong gain or position, the readings contradict each other and the run warns. A "
+                "run does not detect a reversed encoder, a wrong sign or gain of all probes, or a "
+                "common factor of all lengths. " +
                 locked,
             remedy};
   return {Level::good,
           what +
-              "five probes never contradict each other: exchanged or turned probes, a wrong sign "
-              "or gain (of one or of all), wrong positions, the rig of another axis and a reversed "
-              "encoder give wrong errors without a warning; " +
+              "five probes give no redundant reading, so they cannot contradict each other. The "
+              "following faults give wrong errors without a warning: exchanged or turned probes, a "
+              "wrong sign or gain (of one probe or of all), wrong positions, the rig of another "
+              "axis, a reversed encoder. " +
               locked,
           remedy};
 }

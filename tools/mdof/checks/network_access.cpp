@@ -145,8 +145,9 @@ std::vector<Diagnosis> check_network(const Machine& machine, const daemon::Confi
       const auto one = parsed(address);
       if (device.of_other_axis || !one || may_reach(words, *one)) continue;
       all.push_back({Level::bad,
-                     "network: the service mdofd may not connect to " + address + " (device " +
-                         device.name + "), because its unit has IPAddressDeny=any",
+                     "network: the service mdofd has no permission to connect to " + address +
+                         " (device " + device.name +
+                         "), because mdofd.service contains IPAddressDeny=any",
                      "sudo mdof setup network " + address +
                          " && sudo systemctl daemon-reload && sudo systemctl restart mdofd"});
     }

@@ -178,7 +178,7 @@ void check_detection(const Result<Run>& run, std::vector<SelfCheck>& checks) {
       missed += !p.errors.valid;
     }
   }
-  checks.push_back({"synthetic log, stops missed or added", missed, 0, "", problem});
+  checks.push_back({"synthetic log, missing, extra or invalid stops", missed, 0, "", problem});
   checks.push_back({"synthetic log, straightness", worst.straightness_um, 1e-6, "um", problem});
   checks.push_back({"synthetic log, angles", worst.angle_urad, 1e-6, "urad", problem});
 }
@@ -225,7 +225,7 @@ Result<double> store_and_read_back(const Run& run) {
 
 void check_store(const Result<Run>& run, std::vector<SelfCheck>& checks) {
   const auto wrong = run ? store_and_read_back(*run) : tl::unexpected(run.error());
-  checks.push_back({"store, rows that differ after reading back", wrong.value_or(1), 0, "",
+  checks.push_back({"store, faults found when a run is read back", wrong.value_or(1), 0, "",
                     wrong ? "" : words::text(wrong.error())});
 }
 

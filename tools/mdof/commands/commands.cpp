@@ -21,9 +21,11 @@ struct Group {
   const char *summary, *footer;
 };
 constexpr Group kGroups[] = {
-    {"calibrate", "Calibrate the fixture on the machine; a rig refers to the records", ""},
+    {"calibrate", "Calibrate the fixture on the machine; write calibration records for the rig",
+     ""},
     {"compensation", "Build, show and activate compensation tables", ""},
-    {"machine", "Errors at the tool from the kinematic chain of a machine; maps, tests", ""},
+    {"machine", "Calculate errors at the tool from a machine's kinematic chain; maps and tests",
+     ""},
     {"form", "Height maps of a surface: clamping, cutting, path of a fast tool servo", ""},
     {"separate", "Separate the machine's error from the shape of the target", ""},
     {"encoder", "Set the position of an axis with an incremental encoder", ""},
@@ -31,7 +33,7 @@ constexpr Group kGroups[] = {
      "Examples:\n"
      "  mdof device list\n"
      "  mdof device probe capa-1 --config mdofd.toml\n"
-     "The commands probe and monitor open the device themselves; stop mdofd first."},
+     "The commands \"probe\" and \"monitor\" open the device themselves; stop mdofd first."},
     {"setup", "Set up the service on this machine", ""},
 };
 

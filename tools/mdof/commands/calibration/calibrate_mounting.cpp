@@ -66,8 +66,8 @@ Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& 
   const auto same = [&](const auto& file) { return file.sha256 == found.sha256; };
   const auto again = std::find_if(sources.files.begin(), sources.files.end(), same);
   if (again != sources.files.end())
-    return bad_input(log.file + ": is the same log as " + again->file +
-                     "; give each traverse of each clamping once");
+    return bad_input(log.file + ": this log is the same as " + again->file +
+                     "; give the log of each traverse only once");
   sources.files.push_back({log.file, found.sha256});
   sources.started_utc = std::max(sources.started_utc, found.started_utc);
   algo::Traverse traverse{log.axis, {}};
@@ -75,7 +75,7 @@ Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& 
   for (const Point& stop : found.stops)
     traverse.stops.push_back({sign * stop.position_m, stop.probe_m, stop.probe_u_m});
   if (traverse.stops.size() < 2)
-    return bad_input(log.file + ": has only one stop, from which no slope follows. " +
+    return bad_input(log.file + ": the log has only one stop, but a slope needs two. " +
                      hazard_of(rig, log.axis) +
                      "Stop at two or more positions, as far apart as the clearance allows");
   return traverse;
@@ -130,9 +130,10 @@ void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig
 Status check_not_calibrated(const Rig& rig) {
   for (const CalibrationRecord& record : rig.records)
     if (record.kind == "mounting")
-      return bad_input(rig.source + ": already uses the calibration \"" + record.id +
-                       "\" of the mounting; remove it from calibration = ..., calibrate, then add "
-                       "the new record");
+      return bad_input(rig.source + ": the rig already uses the mounting calibration \"" +
+                       record.id +
+                       "\"; remove this record from the key \"calibration\", calibrate, and then "
+                       "add the new record");
   return {};
 }
 
@@ -171,9 +172,9 @@ Action declare_mounting(CLI::App& command) {
       ->required()
       ->type_name("RIG.toml");
   command
-      .add_option("--reversed", o->reversed,
-                  "Axes on which the target moves opposite to the direction that the rig and the "
-                  "encoder give")
+      .add_option(
+          "--reversed", o->reversed,
+          "Axes on which the target moves against the direction given by the rig and the encoder")
       ->delimiter(',')
       ->type_name("X,Y,Z")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
@@ -185,22 +186,24 @@ Action declare_mounting(CLI::App& command) {
 }  // namespace
 
 Command calibrate_mounting_command() {
-  return {.name = "calibrate mounting",
-          .summary = "Find positions and directions of the probes with a target at several tilts",
-          .footer =
-              "HAZARD: a traverse along the measuring direction of a probe drives the target into\n"
-              "the probe. On a rig of X, a traverse of Y drives it into D and E, whose range may\n"
-              "end after 100 um. A tilt of 1 mrad reduces a gap by 1 um for each mm of distance.\n"
-              "First run mdof clearance RIG.toml for each rig. Retract the probes that it names,\n"
-              "or leave out that traverse.\n"
-              "Clamp the target at three or more tilts of some mrad about different axes, each\n"
-              "tilt also in the opposite direction. At each tilt, move the axes that do not\n"
-              "approach a probe by some mm with five or more stops. Record each traverse as a log\n"
-              "of its own.\n"
-              "Example:\n"
-              "  mdof calibrate mounting X=x1.csv,Y=y1.csv X=x2.csv,Y=y2.csv X=x3.csv,Y=y3.csv \\\n"
-              "    --rig rig_X.toml --out mounting.toml",
-          .declare = declare_mounting};
+  return {
+      .name = "calibrate mounting",
+      .summary = "Find positions and directions of the probes with a target at several tilts",
+      .footer =
+          "HAZARD: a traverse along the measuring direction of a probe drives the target into\n"
+          "the probe. On a rig for X, a traverse of Y drives the target into D and E; their\n"
+          "range may end after 100 um. A tilt of 1 mrad reduces a gap by 1 um for each mm of\n"
+          "distance.\n"
+          "First run mdof clearance RIG.toml for each rig. Retract the probes that\n"
+          "this command lists, or leave out the traverse.\n"
+          "Clamp the target at three or more tilts of some mrad about different axes, each\n"
+          "tilt also in the opposite direction. At each tilt, traverse each axis that does not\n"
+          "move the target towards a probe: some mm, with five or more stops. Record each\n"
+          "traverse as a separate log.\n"
+          "Example:\n"
+          "  mdof calibrate mounting X=x1.csv,Y=y1.csv X=x2.csv,Y=y2.csv X=x3.csv,Y=y3.csv \\\n"
+          "    --rig rig_X.toml --out mounting.toml",
+      .declare = declare_mounting};
 }
 
 }  // namespace mdof::tools

@@ -100,7 +100,7 @@ Status calibrate(const SensitivityCommand& command) {
   MDOF_TRY(Rig rig, load_rig(command.rig));
   const auto at = rig.probe_index(command.probe);
   if (!at)
-    return fail(ErrorCode::usage, command.rig + ": has no probe \"" + command.probe +
+    return fail(ErrorCode::usage, command.rig + ": the rig has no probe \"" + command.probe +
                                       "\"; its probes are " + ids_of(rig));
   Calibration& calibration = rig.probes[*at].calibration;
   calibration.linearity.clear();  // found anew
@@ -130,13 +130,13 @@ Action declare_sensitivity(CLI::App& command) {
   command
       .add_option(
           "LOG", o->log,
-          "Log of the axis that moves the target along the measuring direction of the probe")
+          "Log recorded while an axis moved the target along the measuring direction of the probe")
       ->required()
       ->type_name("");
   command.add_option("--rig", o->rig, "Rig file of the fixture")->required()->type_name("RIG.toml");
   command.add_option("--probe", o->probe, "Probe to calibrate")->required()->type_name("ID");
   command.add_flag("--reversed", o->reversed,
-                   "The target moves opposite to the direction that the rig and the encoder give");
+                   "The target moves against the direction given by the rig and the encoder");
   add_record_options(command, o->record);
   add_json_flag(command, o->json);
   return [o] { return calibrate(*o); };
@@ -146,7 +146,7 @@ Action declare_sensitivity(CLI::App& command) {
 
 Command calibrate_sensitivity_command() {
   return {.name = "calibrate sensitivity",
-          .summary = "Find a probe's sensitivity against the encoder of the approaching axis",
+          .summary = "Calibrate the sensitivity of a probe against the encoder of an axis",
           .footer =
               "HAZARD: the target moves towards the probe. First see with mdof clearance RIG.toml\n"
               "and mdof live where the range of the probe ends. Use small steps and stay within\n"

@@ -40,11 +40,11 @@ std::string text_of(std::chrono::sys_days day) {
 void add_record_options(CLI::App& command, RecordOptions& options) {
   command
       .add_option("--out", options.out,
-                  "Write the calibration record to this file, to which a rig refers")
+                  "Write the calibration record to this file, for use by a rig")
       ->type_name("FILE.toml");
   command
       .add_option("--date", options.date,
-                  "Date of the calibration [default: date of the log, or today]")
+                  "Date of the calibration [default: date of the log, else today]")
       ->type_name("YYYY-MM-DD");
   command
       .add_option("--valid-days", options.valid_days,
@@ -71,9 +71,9 @@ Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
 Status write_record(const std::string& file, const std::string& text) {
   std::error_code ec;
   if (std::filesystem::exists(std::filesystem::symlink_status(file, ec)))
-    return fail(
-        ErrorCode::usage,
-        file + ": exists already, and a record is never changed; give another name with --out");
+    return fail(ErrorCode::usage, file +
+                                      ": the file exists already, and a record is never "
+                                      "overwritten; give another name with --out");
   return write_file(file, text, Existing::refuse);
 }
 

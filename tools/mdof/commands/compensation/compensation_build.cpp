@@ -119,12 +119,13 @@ Status build(const BuildCommand& asked) {
 Action declare_build(CLI::App& command) {
   const auto o = std::make_shared<BuildCommand>();
   add_database_option(command, o->database);
-  add_run_arguments(command, o->words, "Runs of one axis with the same targets, or latest")
+  add_run_arguments(command, o->words,
+                    "Numbers of runs of one axis with the same targets, or \"latest\"")
       ->required(false);
   add_axis_of_latest(command, o->axis);
   command.add_flag("--keep-slope", o->keep_slope,
                    "Keep the slope of straightness; do not subtract the least-squares line");
-  command.add_flag("--partial", o->partial, "Take partial runs as well");
+  command.add_flag("--partial", o->partial, "Also accept partial runs");
   add_reference_option(command, o->reference)
       ->description(
           "Point at which straightness is stated: fixture, carriage or tool [default: tool point "

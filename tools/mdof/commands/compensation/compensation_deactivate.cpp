@@ -49,8 +49,9 @@ Action declare_deactivate(CLI::App& command) {
   const auto o = std::make_shared<DeactivateCommand>();
   add_database_option(command, o->database);
   command
-      .add_option("--axis", o->axis,
-                  "Deactivate the table of this axis (X, Y, Z) or the volumetric table (volume)")
+      .add_option(
+          "--axis", o->axis,
+          "Axis whose table is deactivated (X, Y or Z), or \"volume\" for the volumetric table")
       ->required()
       ->check(CLI::IsMember({"X", "Y", "Z", kVolume}));
   command.add_option("--reason", o->reason, "Reason of the change, stored in the history");

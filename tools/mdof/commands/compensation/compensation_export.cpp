@@ -46,12 +46,12 @@ std::string formats_text(std::size_t width) {
   std::string text;
   for (const controllers::Format& f : controllers::formats()) {
     text += std::string(f.name) + ": " + f.of + "\n";
-    for (const auto& [label, what] : {std::pair{"holds   ", f.holds},
-                                      {"limits  ", f.limits},
-                                      {"sense   ", f.sense},
-                                      {"source  ", f.source}})
-      text += "  " + wrapped(std::string(label) + what, width - 2, 10) + "\n";
-    if (!f.sign_confirmed) text += "  SIGN NOT CONFIRMED: needs --unverified-sign\n";
+    for (const auto& [label, what] : {std::pair{"contents  ", f.holds},
+                                      {"limits    ", f.limits},
+                                      {"sign      ", f.sense},
+                                      {"source    ", f.source}})
+      text += "  " + wrapped(std::string(label) + what, width - 2, 12) + "\n";
+    if (!f.sign_confirmed) text += "  SIGN NOT CONFIRMED: an export needs --unverified-sign\n";
   }
   return text;
 }
@@ -66,8 +66,10 @@ Status check_free(const std::vector<fs::path>& files) {
   std::error_code ec;
   for (const fs::path& file : files)
     if (fs::exists(fs::symlink_status(file, ec)))
-      return fail(ErrorCode::usage,
-                  file.string() + ": exists already; give another --out, or --overwrite");
+      return fail(
+          ErrorCode::usage,
+          file.string() +
+              ": the file exists already; give another folder with --out, or give --overwrite");
   return {};
 }
 
@@ -130,17 +132,19 @@ std::string exported_text(const ExportedTables& exported, const std::vector<std:
   std::string text;
   for (const auto& name : names) text += name + "\n";
   if (exported.squareness > 0) text += exported.files.files.front().text;  // the line to paste
-  text += std::string("sense: ") + exported.format->sense + "\n";
+  text += std::string("sign convention: ") + exported.format->sense + "\n";
   if (exported.squareness > 0)
     text += "EC0Y: " + urad_to_place(exported.angle.value, exported.angle.U) + " µrad (U " +
             urad_to_place(exported.angle.U, exported.angle.U) +
             " µrad, 95 %), one angle for all positions\n";
   for (const auto& written : exported.files.written)
     text += written.error + ": " + std::to_string(written.points) + " of " +
-            std::to_string(written.points_before) + " points kept, largest deviation " +
+            std::to_string(written.points_before) +
+            " points kept, largest deviation from the full table " +
             fixed(written.largest_deviation * 1e6, 4) +
             (is_angle(written.error) ? " µrad\n" : " µm\n");
-  return text + "read back and applied to a simulated axis:\n" + check_text(exported.check);
+  return text + "check: mdof read the files back and applied them to a simulated axis\n" +
+         check_text(exported.check);
 }
 
 Status export_tables(const ExportTablesCommand& command) {

@@ -52,7 +52,7 @@ std::string live_text(const LiveCompensation& live, const std::string& file) {
          "largest velocity of the correction " +
          plain_number(live.max_velocity) + unit + "/s (" + live.velocity_reason +
          ")\n"
-         "after a change of tables the correction fades at " +
+         "after a change of tables the correction changes by at most " +
          plain_number(live.fade_velocity) + unit + "/s\n";
 }
 
@@ -90,10 +90,9 @@ Action declare_linuxcnc(CLI::App& command) {
       ->check(positive_number())
       ->capture_default_str();
   add_consent_flags(command, o->consent, "a table");
-  command.add_flag(
-      "--one-approach", o->request.one_approach,
-      "Use a table of one approach (forward or reverse) for both; the reversal error is not "
-      "corrected");
+  command.add_flag("--one-approach", o->request.one_approach,
+                   "Use a table of one approach (forward or reverse) for both approaches; the "
+                   "reversal error is not corrected");
   add_socket_option(command, o->request.socket);
   add_json_flag(command, o->json);
   return [o] { return write_lines(*o); };
@@ -105,8 +104,8 @@ Command compensation_linuxcnc_command() {
   return {.name = "compensation linuxcnc",
           .summary = "Write the HAL lines for live compensation in LinuxCNC",
           .footer =
-              "If the INI file does not allow a safe compensation, the error names its section and "
-              "key.\n"
+              "If the INI file does not allow a safe compensation, the error message gives the "
+              "section and key of the INI file.\n"
               "Example:\n"
               "  mdof compensation linuxcnc --ini mill.ini --out .",
           .declare = declare_linuxcnc};

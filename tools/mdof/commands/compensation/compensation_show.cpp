@@ -48,8 +48,9 @@ Result<std::int64_t> choose_table(store::Store& store, const ShowTableCommand& c
   MDOF_TRY(const auto tables, store.list_tables(0, 1, axis_from(command.axis)));
   if (!tables.empty()) newest = std::max(newest, tables.front().id);
   if (newest > 0) return newest;
-  return fail(ErrorCode::not_found, store.file().string() + ": has no compensation table" +
-                                        (command.axis.empty() ? "" : " of " + command.axis) +
+  return fail(ErrorCode::not_found, store.file().string() +
+                                        ": the database has no compensation table" +
+                                        (command.axis.empty() ? "" : " of axis " + command.axis) +
                                         "; build one with mdof compensation build RUN");
 }
 

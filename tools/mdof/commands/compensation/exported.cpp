@@ -34,9 +34,10 @@ Status check_request(const ExportRequest& request) {
   if (!std::isfinite(request.tolerance_um) || !std::isfinite(request.home_mm))
     return fail(ErrorCode::usage, "--tolerance-um and --home-mm must be finite numbers");
   if (request.tolerance_um > kMostTolerance_um)
-    return fail(ErrorCode::usage, "--tolerance-um " + plain_number(request.tolerance_um, 3) +
-                                      " would thin out the errors themselves; give at most " +
-                                      plain_number(kMostTolerance_um, 3));
+    return fail(ErrorCode::usage,
+                "--tolerance-um " + plain_number(request.tolerance_um, 3) +
+                    " is so large that the thinned table would lose the errors; give at most " +
+                    plain_number(kMostTolerance_um, 3));
   if (!(request.residual_um > 0 && request.residual_um <= 1000))
     return fail(ErrorCode::usage, "--residual-um must be above 0 and at most 1000");
   if (!(request.residual_percent > 0 && request.residual_percent <= 100))
@@ -97,7 +98,8 @@ Status take_joints(const ExportRequest& request, ExportedTables& out) {
   if ((!request.joints.empty() || request.units != "mm") && !out.format->takes_joints)
     return fail(
         ErrorCode::usage,
-        request.format + " takes neither --joint nor --units; only linuxcnc has these options");
+        request.format +
+            " takes neither --joint nor --units; only the format linuxcnc has these options");
   out.options.inch = request.units == "inch";
   auto& joints = out.options.joints;
   std::istringstream words(request.joints);
@@ -113,7 +115,8 @@ Status take_joints(const ExportRequest& request, ExportedTables& out) {
                                         "X=0,Z=1; a gantry has two joints, such as Y=1,Y=3");
     for (const auto& joint : joints)
       if (joint.number == number)
-        return fail(ErrorCode::usage, "--joint names joint " + std::to_string(number) + " twice");
+        return fail(ErrorCode::usage, "--joint names joint " + std::to_string(number) +
+                                          " twice; give each joint once");
     joints.push_back({word[0], number});
   }
   return {};
@@ -148,8 +151,8 @@ Result<std::int64_t> squareness_number(const std::string& word) {
   std::int64_t number = 0;
   const char* const end = word.data() + word.size();
   if (std::from_chars(word.data(), end, number).ptr == end && number > 0) return number;
-  return fail(ErrorCode::usage,
-              "--squareness \"" + word + "\" must be the number of a squareness, or latest");
+  return fail(ErrorCode::usage, "--squareness \"" + word +
+                                    "\" must be the number of a stored squareness, or \"latest\"");
 }
 
 }  // namespace
@@ -158,8 +161,9 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
   command.add_option("TABLE", request.tables, "Numbers of tables, one for each axis")
       ->type_name("");
   command
-      .add_option("--squareness", request.squareness,
-                  "Number of a squareness, or latest; for formats that correct squareness")
+      .add_option(
+          "--squareness", request.squareness,
+          "Number of a stored squareness, or \"latest\"; for formats that correct squareness")
       ->type_name("NUMBER");
   command
       .add_option("--format", request.format,
@@ -172,7 +176,7 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
   command
       .add_option(
           "--residual-um", request.residual_um,
-          "Largest permitted residual of an error in addition to --tolerance-um (angles: urad)")
+          "Largest permitted residual of an error, in addition to --tolerance-um (angles: urad)")
       ->check(finite_number())
       ->capture_default_str();
   command
@@ -181,26 +185,27 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
       ->check(finite_number())
       ->capture_default_str();
   add_limit_options(command, request.limits);
-  auto* home =
-      command.add_option("--home-mm", request.home_mm,
-                         "Home position of the axis; the correction is shifted to 0 there");
+  auto* home = command.add_option(
+      "--home-mm", request.home_mm,
+      "Home position of the axis; mdof shifts the table so that the correction is 0 there");
   home->each([&request](const std::string&) { request.home_given = true; });
   command.add_flag("--cut-range", request.cut_range,
                    "If values are missing, export the longest range without a gap");
   command.add_flag("--one-approach", request.one_approach,
-                   "Use values that were measured in one approach only for both approaches");
+                   "If values exist for one approach only, use them for both approaches");
   command
       .add_option("--joint", request.joints,
                   "linuxcnc: joints of the axes, such as X=0,Z=1; two for a gantry, such as "
                   "Y=1,Y=3 [default: X=0,Y=1,Z=2]")
       ->type_name("AXIS=N,…");
   command
-      .add_option("--units", request.units, "linuxcnc: unit of the rows, as in [TRAJ] LINEAR_UNITS")
+      .add_option("--units", request.units,
+                  "linuxcnc: length unit in the files, the same as [TRAJ] LINEAR_UNITS")
       ->check(CLI::IsMember({"mm", "inch"}))
       ->capture_default_str();
   add_consent_flags(command, request.consent, "a table; the files are marked");
   command.add_flag("--not-in-force", request.not_in_force,
-                   "Also export a table that is not active; the files are marked");
+                   "Export even a table that is not active; the files are marked");
   command.add_flag("--unverified-sign", request.unverified_sign,
                    "Export although the sign convention of the controller is not confirmed");
   add_database_option(command, request.database);
@@ -215,8 +220,8 @@ Status export_axes(store::Store& store, const ExportRequest& request,
     MDOF_TRY(const bool volume, store.is_volumetric(id));
     if (volume)
       return fail(ErrorCode::usage, "table " + std::to_string(id) +
-                                        " is a table of a volume, but " + out.format->name +
-                                        " holds " + out.format->holds);
+                                        " is a table of a volume, but the format " +
+                                        out.format->name + " holds " + out.format->holds);
     MDOF_TRY(CompensationTable table, store.table(id));
     MDOF_CHECK(judge_table(store, table, request, out));
     MDOF_CHECK(algo::check_limits(table, limits));
@@ -241,10 +246,9 @@ Status export_volume(store::Store& store, const ExportRequest& request,
   const std::int64_t id = request.tables.front();
   MDOF_TRY(const bool volume, store.is_volumetric(id));
   if (!volume || request.tables.size() > 1)
-    return fail(
-        ErrorCode::usage,
-        std::string(out.format->name) +
-            " takes exactly one volumetric table; build it with mdof compensation build --machine");
+    return fail(ErrorCode::usage, std::string(out.format->name) +
+                                      " takes exactly one volumetric table; build this table with "
+                                      "mdof compensation build --machine");
   MDOF_TRY(const VolumetricTable table, store.volumetric(id));
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
   MDOF_CHECK(judge(judged, request, out));
@@ -281,7 +285,7 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
   if (!(x == y))
     return bad_input(name + ": the rigs of its runs " + std::to_string(stored.run_a) + " and " +
                      std::to_string(stored.run_b) +
-                     " have different machines; measure both runs on one machine");
+                     " describe different machines; measure both runs on one machine");
   const controllers::SquareAxes axes{stored.id, fitted.squareness.error_rad, fitted.budgets.front(),
                                      x};
   out.squareness = stored.id;
@@ -299,9 +303,9 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   MDOF_TRY(out.format, controllers::format_named(request.format));
   const bool square = out.format->square.write != nullptr;
   if (square && (request.squareness.empty() || !request.tables.empty()))
-    return fail(ErrorCode::usage,
-                request.format +
-                    " holds the squareness only; give --squareness NUMBER or latest, and no table");
+    return fail(ErrorCode::usage, request.format +
+                                      " holds the squareness only; give --squareness with a number "
+                                      "or \"latest\", and give no table");
   if (!square && !request.squareness.empty())
     return fail(ErrorCode::usage, request.format + " takes tables; leave out --squareness");
   if (!square && request.tables.empty())
@@ -378,7 +382,7 @@ std::string check_text(const controllers::Check& check) {
   std::string text = table.text() + "allowed: at most " +
                      plain_number(check.most_residual_m * 1e6) + " µm (µrad) and " +
                      plain_number(check.share * 100) +
-                     " % of the error before; see --residual-um and --residual-percent\n";
+                     " % of the value \"before\"; see --residual-um and --residual-percent\n";
   for (const std::string& error : check.not_judged)
     text += error + ": not checked, because the sign of its correction is unknown\n";
   return text;

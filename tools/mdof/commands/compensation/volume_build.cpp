@@ -111,7 +111,7 @@ void add_volume_options(CLI::App& command, VolumeOptions& o) {
   command
       .add_option(
           "--machine", o.machine,
-          "MACHINE.toml; builds corrections of its measured errors over a plane or a volume")
+          "MACHINE.toml: build a table over a plane or a volume from the errors in this file")
       ->type_name("FILE");
   command.add_option("--plane", o.plane, "The two axes of the grid")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}));
@@ -127,7 +127,7 @@ void add_volume_options(CLI::App& command, VolumeOptions& o) {
       ->check(CLI::IsMember({"mean", "forward", "reverse"}));
   command.add_flag(
       "--incomplete", o.incomplete,
-      "Build the table although it lacks errors that were not measured; the table lists them");
+      "Build the table although some errors were not measured; the table lists these errors");
 }
 
 Status build_volume(const VolumeBuild& command) {

@@ -44,7 +44,7 @@ Status check_plate(const FormClampCommand& o) {
         std::string((is_given ? given : missing).empty() ? "" : ", ") + name;
   if (o.yield_MPa) given += given.empty() ? "--yield-MPa" : ", --yield-MPa";
   if (!given.empty() && !missing.empty())
-    return fail(ErrorCode::usage, "missing option " + missing + " beside " + given +
+    return fail(ErrorCode::usage, "missing option " + missing + " (needed with " + given + ")" +
                                       ": the stress needs thickness, modulus and Poisson's ratio");
   return {};
 }
@@ -134,7 +134,8 @@ std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
           in_mm(found.stress->y_m) + " mm; curvature fitted over squares of " +
           plain_number(o.smooth_mm) + " mm\n";
   if (found.is_elastic)
-    text += std::string(*found.is_elastic ? "elastic: below" : "NOT ELASTIC: not below") +
+    text += std::string(*found.is_elastic ? "elastic: the largest stress is below"
+                                          : "NOT ELASTIC: the largest stress is not below") +
             " the yield limit of " + plain_number(*o.yield_MPa) + " MPa\n";
   return text;
 }
@@ -142,7 +143,7 @@ std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
 Status form_clamp(const FormClampCommand& o) {
   MDOF_CHECK(check_plate(o));
   if (o.K && !o.released.empty())
-    return fail(ErrorCode::usage, "RELEASED measures K; leave out RELEASED or --K");
+    return fail(ErrorCode::usage, "K is calculated from RELEASED; leave out RELEASED or --K");
   MDOF_TRY(const Clamped found, clamped(o));
   if (o.released.empty() && !o.K)
     warn(
@@ -167,7 +168,8 @@ Action declare_form_clamp(CLI::App& command) {
   command.add_option("AFTER", o->after, "Height map of the clamped part")
       ->required()
       ->type_name("");
-  command.add_option("RELEASED", o->released, "Height map after release; measures K")
+  command
+      .add_option("RELEASED", o->released, "Height map after release, from which mdof calculates K")
       ->type_name("");
   command.add_option("--K", o->K, "Ratio of plastic to elastic deformation [default: 0]")
       ->check(finite_number());
@@ -183,8 +185,8 @@ Action declare_form_clamp(CLI::App& command) {
       ->check(positive_number());
   command
       .add_option("--smooth-mm", o->smooth_mm,
-                  "Side of the squares over which curvature is fitted; noise of pixels in small "
-                  "squares adds stress")
+                  "Side of the squares over which the curvature is fitted; in small squares, pixel "
+                  "noise increases the stress")
       ->check(positive_number())
       ->capture_default_str();
   command.add_option("--out", o->out, "Write the elastic part as a map (CSV)")->type_name("FILE");

@@ -62,8 +62,9 @@ Status form_compare(const FormCompareCommand& o) {
   MDOF_TRY(const SurfaceMap b, load_map(o.b, o.maps));
   MDOF_TRY(const algo::Comparison found, algo::compare(a, b, register_from(o.register_how)));
   if (found.undetermined > 0)
-    warn(o.a + ": its shape does not determine " + std::to_string(found.undetermined) +
-         " of shift x, shift y and turn; these are taken as 0");
+    warn(o.a + ": the shape of the surface does not determine " +
+         std::to_string(found.undetermined) +
+         " of the 3 values shift x, shift y and turn; mdof sets the undetermined values to 0");
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
   MDOF_CHECK(plot_maps({{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
   return o.json ? write_line(compare_json(found, o)) : write_out(compare_text(found, o));

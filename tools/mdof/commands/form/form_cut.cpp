@@ -17,7 +17,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kOnePass =
-    "one pass: the repeatable part of its error is unknown; cut once more with the same path";
+    "only one pass: the repeatable part of the error is unknown; cut once more with the same path";
 
 struct FormCutCommand {
   std::string wanted, gain = "1", out, plots;
@@ -89,8 +89,8 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
       in_um(*found.floor_gain_one_m) + " µm (gain 1), " + in_um(*found.floor_mean_m) +
       " µm (mean of all passes)" +
       (found.floor_optimal_m ? ", " + in_um(*found.floor_optimal_m) + " µm (optimal gain)" : "") +
-      "\n" + (*found.converges ? "converges" : "DOES NOT CONVERGE") + "\nnext path: " + o.out +
-      "\n";
+      "\n" + (*found.converges ? "the passes converge" : "THE PASSES DO NOT CONVERGE") +
+      "\nnext path: " + o.out + "\n";
   return text;
 }
 
@@ -130,13 +130,12 @@ Action declare_form_cut(CLI::App& command) {
       ->required()
       ->type_name("");
   command.add_flag("--repeated", o->repeated,
-                   "All passes used the path of the first pass [default: each pass used the path "
-                   "corrected for it]");
+                   "All passes used the path of the first pass [default: each pass used its own "
+                   "corrected path]");
   command
-      .add_option(
-          "--gain", o->gain,
-          "Correct by the error of the last pass (1), by the mean of all passes (mean), or by "
-          "the repeatable share of the mean (optimal)")
+      .add_option("--gain", o->gain,
+                  "Correct by the error of the last pass (\"1\"), by the mean error of all passes "
+                  "(\"mean\"), or by the repeatable share of this mean (\"optimal\")")
       ->check(CLI::IsMember({"1", "mean", "optimal"}))
       ->capture_default_str();
   command
@@ -165,8 +164,8 @@ Command form_cut_command() {
   return {.name = "form cut",
           .summary = "Path of the next pass from the errors of the previous passes",
           .footer =
-              "Without --repeated, mdof assumes that each pass was cut with the path that this "
-              "command wrote for it with the same --gain, --random-um and --smooth-mm.\n"
+              "Without --repeated, mdof assumes that this command wrote the path of each pass, "
+              "with the same --gain, --random-um and --smooth-mm.\n"
               "Example:\n"
               "  mdof form cut wanted.csv cut1.csv --out path2.csv",
           .declare = declare_form_cut};

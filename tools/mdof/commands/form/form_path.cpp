@@ -78,13 +78,13 @@ Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, doubl
   const auto mm = [](double x_m) { return plain_number(to_mm(x_m), 7); };
   const double angle_deg =
       std::atan2(pixel.y_m - y_centre_m, pixel.x_m - x_centre_m) * 180 / std::numbers::pi;
-  return bad_input(map.name +
-                   ": no pixel at the edge of the map has a height, so the part may be larger than "
-                   "the measured area; the farthest measured pixel is at radius " +
-                   mm(pixel.radius_m) + " mm, " + plain_number(angle_deg) +
-                   " degrees; measure the edge, or give the radius at which the path begins with "
-                   "--outer-radius-mm " +
-                   mm(pixel.radius_m));
+  return bad_input(
+      map.name +
+      ": no pixel at the edge of the map has a height, so the part may be larger than the measured "
+      "area. The farthest measured pixel is at radius " +
+      mm(pixel.radius_m) + " mm, " + plain_number(angle_deg) +
+      " degrees. Measure the edge, or set the start radius of the path: --outer-radius-mm " +
+      mm(pixel.radius_m));
 }
 
 Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMap& map) {
@@ -143,7 +143,7 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   found.duration_s = rates.t_s(found.counts.points - 1);
   if (o.bandwidth_hz) found.left_out = spectrum.left_out();
   if (spectrum.turns() == 0)
-    warn(o.out + ": has less than one turn, so the undulations are unknown");
+    warn(o.out + ": the path has less than one turn, so the undulations are unknown");
   if (found.counts.too_sharp > 0)
     warn(o.map + ": at " + std::to_string(found.counts.too_sharp) +
          " points the surface is curved more than the tool; the tool leaves material there");
@@ -195,7 +195,7 @@ std::string path_text(const FoundPath& found, const FormPathCommand& o) {
                      mm(found.request.outer_radius_m) +
                      " mm inwards, centre x = " + mm(found.request.x_centre_m) +
                      " mm, y = " + mm(found.request.y_centre_m) + " mm; duration " +
-                     plain_number(found.duration_s / 60) + " min\n" + "measured " +
+                     plain_number(found.duration_s / 60) + " min\n" + "points: measured " +
                      std::to_string(found.counts.measured) + ", extended " +
                      std::to_string(found.counts.extended) + ", bridged " +
                      std::to_string(found.counts.bridged) + "\n";
@@ -203,7 +203,7 @@ std::string path_text(const FoundPath& found, const FormPathCommand& o) {
           plain_number(found.frequency_hz) + " Hz; stroke " + in_um(found.stroke_m) +
           " µm; acceleration up to " + plain_number(found.acceleration_m_s2) + " m/s²\n";
   if (found.left_out)
-    text += "a low pass of " + plain_number(*o.bandwidth_hz) + " Hz removes: PV " +
+    text += "a low-pass filter of " + plain_number(*o.bandwidth_hz) + " Hz removes: PV " +
             in_um(found.left_out->pv) + " µm, RMS " + in_um(found.left_out->rms) + " µm\n";
   if (found.request.tool_radius_m > 0) {
     const auto rough = algo::feed_roughness(found.request.tool_radius_m, found.request.feed_m);
@@ -231,7 +231,7 @@ Status form_path(const FormPathCommand& o) {
 
 Action declare_form_path(CLI::App& command) {
   const auto o = std::make_shared<FormPathCommand>();
-  command.add_option("MAP", o->map, "Height map that is cut")->required()->type_name("");
+  command.add_option("MAP", o->map, "Height map of the surface to cut")->required()->type_name("");
   command.add_option("--speed-rpm", o->speed_rpm, "Speed of the spindle")
       ->required()
       ->check(positive_number());
@@ -240,8 +240,8 @@ Action declare_form_path(CLI::App& command) {
       ->check(positive_number());
   command
       .add_option("--out", o->out,
-                  "Write t_s,rho_mm,theta_deg,z_um,on_part (1 measured, 2 extended, 0 bridged); "
-                  "G-code if the name ends in .ngc, .nc, .gcode or .tap")
+                  "Write the path as CSV: t_s,rho_mm,theta_deg,z_um,on_part (1 measured, 2 "
+                  "extended, 0 bridged); as G-code if the name ends in .ngc, .nc, .gcode or .tap")
       ->required()
       ->type_name("FILE");
   command
@@ -265,8 +265,9 @@ Action declare_form_path(CLI::App& command) {
       ->check(whole_number_in(0, 100))
       ->capture_default_str();
   command
-      .add_option("--undulation-share", o->undulation_share,
-                  "Smallest amplitude that counts as an undulation, as a share of the largest")
+      .add_option(
+          "--undulation-share", o->undulation_share,
+          "Smallest amplitude that counts as an undulation, as a share of the largest amplitude")
       ->check(number_in(1e-9, 1))
       ->capture_default_str();
   command

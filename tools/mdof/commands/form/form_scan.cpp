@@ -15,9 +15,9 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kScanU =
-    "noise between neighbouring heights, and u of the subtracted errors of the axis; without the "
-    "probe's calibration, encoder and angle, errors of the spindle, and noise that neighbours "
-    "share";
+    "the noise between neighbouring heights and u of the subtracted axis errors, but not: "
+    "calibration of the probe, encoder, spindle angle, spindle errors, noise common to "
+    "neighbouring heights";
 
 struct FormScanCommand {
   std::vector<std::string> runs;
@@ -80,7 +80,8 @@ Status form_scan(const FormScanCommand& o) {
 
 Action declare_form_scan(CLI::App& command) {
   const auto o = std::make_shared<FormScanCommand>();
-  add_run_arguments(command, o->runs, "Runs of one part: numbers, see mdof runs, or latest");
+  add_run_arguments(command, o->runs,
+                    "Numbers of the runs of one part (see mdof runs), or \"latest\"");
   command
       .add_option("--pixel-mm", o->pixel_mm,
                   "Pixel size of the map [default: a hundredth of the diameter]")
@@ -98,8 +99,8 @@ Command form_scan_command() {
   return {.name = "form scan",
           .summary = "Height map of a part on a spindle, from a probe beside the fixture",
           .footer =
-              "[scan] in the rig of the run gives the probe, its position, and the column of the "
-              "spindle angle.\n"
+              "The table [scan] in the rig of the run gives the probe, the probe position, and the "
+              "column of the spindle angle.\n"
               "The other form commands also accept the number of such a run.\n"
               "Examples:\n"
               "  mdof form scan 12 --out before.csv\n"

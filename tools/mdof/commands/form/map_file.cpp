@@ -34,12 +34,15 @@ class MapReader {
       is_reported_ = true;
       is_complete_ = is_sdf(piece) || is_zygo_dat(piece);
       if (piece.starts_with("PK\x03\x04"))
-        return bad_input(file_ + ": is an archive, such as .x3p; export it as .sdf or x, y, z");
+        return bad_input(file_ +
+                         ": the file is an archive, such as .x3p; export the map as .sdf or as "
+                         "text with x, y, z");
     }
     if (!is_complete_) return text_.feed(piece);
     if (whole_.size() + piece.size() > kMostBytes)
-      return bad_input(
-          file_ + ": larger than 2 GiB, the limit of a height map; check the name of the file");
+      return bad_input(file_ +
+                       ": the file is larger than 2 GiB, the limit for a height map; check the "
+                       "name of the file");
     whole_.append(piece);
     return {};
   }
@@ -70,8 +73,8 @@ std::optional<std::int64_t> run_of(const std::string& name) {
 void add_map_options(CLI::App& command, MapOptions& options) {
   command
       .add_option("--unit", options.unit,
-                  "Units of maps without header (XYZ): m, mm, um or nm for all columns, or two: x "
-                  "and y, z [default: mm,um]")
+                  "Unit of maps without header (XYZ): m, mm, um or nm; or two units, for x and y, "
+                  "and for z [default: mm,um]")
       ->type_name("NAME");
   add_database_option(command, options.database);
 }
@@ -123,7 +126,7 @@ Status plot_maps(const std::vector<DrawnMap>& maps, const std::string& folder) {
       drawn.push_back(
           {of.file + ".svg", charts::height_map_svg(of.map, of.title, output::Language::english)});
     else
-      warn(of.title + ": not drawn, since no pixel has a height");
+      warn(of.title + ": not drawn, because no pixel has a height");
   return write_plots(drawn, folder);
 }
 

@@ -170,8 +170,8 @@ std::string measured_text(const FoundMachineBudget& found) {
                e.has_design ? fixed(e.measured_effect_m / e.designed_effect_m, 2) : "-"});
   std::string text = "\n" + table.text(terminal_columns()) +
                      wrapped(
-                         "Values are the RMS effect of each error at the tool, over its error "
-                         "table. Rework the error in the first row first.",
+                         "Each value is the RMS effect of the error at the tool, over the "
+                         "positions of its error table. First rework the error in the first row.",
                          terminal_columns()) +
                      "\n";
   if (!found.now.model.replaced.empty())

@@ -45,7 +45,8 @@ Status name_runs(Machine& machine, const MachineBudgetCommand& o) {
     const auto frame = std::find_if(machine.frames.begin(), machine.frames.end(),
                                     [&](const MachineFrame& f) { return f.id == axis; });
     if (frame == machine.frames.end())
-      return bad_input("--run: the chain " + machine.chain.text + " has no axis " + axis);
+      return bad_input("--run: the chain " + machine.chain.text + " has no axis " + axis +
+                       "; give runs of axes of this chain");
     frame->runs.ids.push_back(id);
   }
   return {};
@@ -77,7 +78,8 @@ Status machine_budget(const MachineBudgetCommand& o) {
 
 Action declare_machine_budget(CLI::App& command) {
   const auto o = std::make_shared<MachineBudgetCommand>();
-  command.add_option("MACHINE", o->file, "MACHINE.toml with [[source]] tables, or measured errors")
+  command
+      .add_option("MACHINE", o->file, "MACHINE.toml with [[source]] tables or with measured errors")
       ->type_name("");
   command.add_option("--preset", o->preset, "Machine of Wang, Ye and Gunawan (2021)")
       ->check(CLI::IsMember({"co-planar"}));
@@ -88,9 +90,9 @@ Action declare_machine_budget(CLI::App& command) {
       ->type_name("X=…,Y=…");
   add_approach_option(command, o->approach);
   command
-      .add_option(
-          "--run", o->runs,
-          "Stored runs (numbers or latest) whose errors replace the sources of these errors")
+      .add_option("--run", o->runs,
+                  "Stored run (number, or \"latest\"); its errors replace the declared sources of "
+                  "these errors")
       ->check(run_word_error)
       ->type_name("RUN");
   add_database_option(command, o->database);
@@ -100,12 +102,12 @@ Action declare_machine_budget(CLI::App& command) {
   command.add_option("--seed", o->seed, "Seed of the random numbers")
       ->check(number_in(0, kMostSeed))
       ->capture_default_str();
-  command.add_option("--threads", o->threads, "Number of threads; the figures do not depend on it")
+  command.add_option("--threads", o->threads, "Number of threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command
-      .add_option(
-          "--target-um", o->target_um,
-          "Also print the tolerances with which 95 % of the error vectors are shorter than this")
+      .add_option("--target-um", o->target_um,
+                  "Also print the tolerances with which 95 % of the error vectors are shorter than "
+                  "this length")
       ->check(positive_number());
   add_json_flag(command, o->json);
   return [o] { return machine_budget(*o); };

@@ -156,7 +156,7 @@ std::string circle_text(const MachineCircleCommand& o, const FoundCircles& found
   add("G, clockwise", [](const Figures& f) { return f.G_cw_m; });
   add("G(b), both directions", [](const Figures& f) { return f.Gb_m; });
   add("H, hysteresis", [](const Figures& f) { return f.H_m; });
-  add("D, mean radius", [](const Figures& f) { return f.D_m; });
+  add("D, mean radial deviation", [](const Figures& f) { return f.D_m; });
   add("F max, counter-clockwise", [](const Figures& f) { return f.F_ccw_m[0]; });
   add("F min, counter-clockwise", [](const Figures& f) { return f.F_ccw_m[1]; });
   add("F max, clockwise", [](const Figures& f) { return f.F_cw_m[0]; });
@@ -167,15 +167,15 @@ std::string circle_text(const MachineCircleCommand& o, const FoundCircles& found
                      (o.radius_mm ? ", radius " + in_mm(from_mm(*o.radius_mm)) + " mm" : "") +
                      "\n" + table.text(terminal_columns()) +
                      wrapped(
-                         "G refers to the least-squares circle of each path, the other figures to "
-                         "the circle of all paths; no uncertainty is stated",
+                         "G refers to the least-squares circle of each path, the other values to "
+                         "the circle of all paths. No uncertainty is stated",
                          terminal_columns()) +
                      "\n";
   if (found.largest_difference_m)
     text += "largest difference, measured - predicted: " +
             fixed(to_um(*found.largest_difference_m), 3) + " µm\n";
   return text + missing_text(found.not_measured, {}, terminal_columns()) +
-         "Values at each angle: --csv or --json\n";
+         "For the values at each angle, give --csv or --json\n";
 }
 
 Status predict(const MachineCircleCommand& o, Machine& machine, FoundCircles& found) {
@@ -217,7 +217,8 @@ Status machine_circle(const MachineCircleCommand& o) {
     found.largest_difference_m = largest_difference(*found.measured, *found.predicted);
   warn_beyond(found.beyond);
   if (o.csv && !found.not_measured.empty())
-    warn("not measured, so not contained in these figures: " + joined(found.not_measured));
+    warn("these errors were not measured, so the values do not contain them: " +
+         joined(found.not_measured));
   return o.csv    ? write_out(circle_csv(found))
          : o.json ? write_line(circle_json(o, found))
                   : write_out(circle_text(o, found));

@@ -101,7 +101,7 @@ std::string diagonals_json(const Machine& machine, const std::vector<algo::Diago
 
 std::string diagonals_text(const Machine& machine, const std::vector<algo::Diagonal>& diagonals,
                            const std::vector<Compared>& measured) {
-  TextTable table({"diagonal", "", "length/mm", "range/µm", "measured/µm", "difference/µm"}, 2);
+  TextTable table({"diagonal", "", "length/mm", "predicted/µm", "measured/µm", "difference/µm"}, 2);
   for (std::size_t i = 0; i < diagonals.size(); ++i) {
     const bool there = !measured.empty() && measured[i].readings > 0;
     table.add({std::to_string(i + 1), diagonals[i].name, in_mm(diagonals[i].position_m.back()),
@@ -111,8 +111,8 @@ std::string diagonals_text(const Machine& machine, const std::vector<algo::Diago
   return simulated_notice(machine.simulated) + machine.name +
          ": diagonals predicted from its errors; deviation of the tool along the diagonal\n" +
          table.text(terminal_columns()) +
-         "range: largest minus smallest deviation (ISO 230-6); difference: largest measured - "
-         "predicted\n" +
+         "predicted, measured: range, that is largest minus smallest deviation (ISO 230-6)\n"
+         "difference: the largest difference of a deviation, measured - predicted\n" +
          missing_text(diagonals.front().not_measured, {}, terminal_columns());
 }
 
@@ -130,7 +130,7 @@ Status predict(const MachineDiagonalCommand& o) {
       measured.push_back(c);
     }
     if (measured[0].readings + measured[1].readings < csv.rows())
-      return bad_input(csv.source + ": column diagonal must be 1 (" + diagonals[0].name +
+      return bad_input(csv.source + ": column \"diagonal\" must be 1 (" + diagonals[0].name +
                        ") or 2 (" + diagonals[1].name + ")");
   }
   for (const auto& d : diagonals) warn_beyond(d.beyond);
@@ -146,7 +146,7 @@ Result<algo::DiagonalLines> lines_of(const drivers::CsvTable& csv, double u_um) 
     const double line = csv.columns[0][i];
     if (!(line == 1 || line == 2 || line == 3 || line == 4))
       return bad_input(csv.where(i) +
-                       "column line must be 1 or 2 (along the first and the second axis), 3 "
+                       "column \"line\" must be 1 or 2 (along the first and the second axis), 3 "
                        "(diagonal along which both axes increase) or 4 (other diagonal)");
     of[static_cast<std::size_t>(line) - 1]->length_m.push_back(from_mm(csv.columns[1][i]) +
                                                                from_um(csv.columns[2][i]));
@@ -211,8 +211,8 @@ Action declare_machine_diagonal(CLI::App& command) {
   command
       .add_option(
           "FILE", o->file,
-          "MACHINE.toml, or a CSV of measured lines: line (1 first axis, 2 second, 3 "
-          "diagonal, 4 other diagonal), length_mm, deviation_um; repeated lines as further rows")
+          "MACHINE.toml, or a CSV of measured lines: line (1 first axis, 2 second, 3 diagonal, 4 "
+          "other diagonal), length_mm, deviation_um; repeated measurements are further rows")
       ->required()
       ->type_name("");
   command.add_option("--plane", o->plane, "The two axes (with MACHINE.toml)")

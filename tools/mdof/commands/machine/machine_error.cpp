@@ -130,7 +130,10 @@ Status machine_error(const MachineErrorCommand& o) {
 Action declare_machine_error(CLI::App& command) {
   const auto o = std::make_shared<MachineErrorCommand>();
   add_machine_argument(command, o->file);
-  command.add_option("--at", o->at, "Commands of X, Y and Z in mm, or X=10,C=90 (rotary: degrees)")
+  command
+      .add_option(
+          "--at", o->at,
+          "Commanded positions of X, Y and Z in mm, or such as X=10,C=90 (rotary axes: degrees)")
       ->required()
       ->type_name("X,Y,Z");
   add_approach_option(command, o->approach);

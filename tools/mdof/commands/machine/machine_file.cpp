@@ -128,12 +128,17 @@ std::string missing_text(const std::vector<std::string>& not_measured,
                          const std::vector<std::string>& no_u, std::size_t width) {
   std::string text;
   if (!not_measured.empty())
-    text +=
-        wrapped("not measured, so not contained in these figures: " + joined(not_measured), width) +
-        "\n";
-  text += no_u.empty()
-              ? ""
-              : wrapped("no u is declared, so u does not include: " + joined(no_u), width) + "\n";
+    text += wrapped("these errors were not measured, so the values do not contain them: " +
+                        joined(not_measured),
+                    width) +
+            "\n";
+  text += no_u.empty() ? ""
+                       : wrapped(
+                             "u of the result does not include these errors, because no u is "
+                             "declared for them: " +
+                                 joined(no_u),
+                             width) +
+                             "\n";
   return text;
 }
 

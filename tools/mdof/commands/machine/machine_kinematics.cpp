@@ -60,7 +60,7 @@ Result<Four> values(const Side& side, const std::string& option, const std::stri
                                         side.letters[0] + "=1,…," + side.letters[3] + "=2" +
                                         (side.last_turns ? " (mm, B in degrees)" : " (mm)"));
     if (seen.find(word[0]) != std::string::npos)
-      return fail(ErrorCode::usage, option + ": " + word[0] + " is given twice");
+      return fail(ErrorCode::usage, option + ": " + word[0] + " is given twice; give it once");
     seen += word[0];
     values[i] = x * side.unit(i);
   }
@@ -92,15 +92,14 @@ Status check_options(const KinematicsCommand& o) {
   const auto refuse = [](const char* option, const std::string& limits) {
     return fail(ErrorCode::usage, std::string(option) + " must be " + limits);
   };
-  if (!(o.tilt_deg > 0 && o.tilt_deg < 90))
-    return refuse("--tilt-deg", "between 0 and 90, both excluded");
-  if (!(o.arm_mm > 0 && o.arm_mm < 1e6)) return refuse("--arm-mm", "above 0 and finite");
+  if (!(o.tilt_deg > 0 && o.tilt_deg < 90)) return refuse("--tilt-deg", "above 0 and below 90");
+  if (!(o.arm_mm > 0 && o.arm_mm < 1e6)) return refuse("--arm-mm", "above 0 and below 1000000");
   if (!(o.screw_resolution_nm > 0 && o.screw_resolution_nm < 1e9))
-    return refuse("--screw-resolution-nm", "above 0 and finite");
-  if (!std::isfinite(o.screw_error_um)) return refuse("--screw-error-um", "finite");
+    return refuse("--screw-resolution-nm", "above 0 and below 1000000000");
+  if (!std::isfinite(o.screw_error_um)) return refuse("--screw-error-um", "a finite number");
   if (!(std::abs(o.tilt_error_deg) < 5)) return refuse("--tilt-error-deg", "between -5 and 5");
   if (!o.platform.empty() && !o.screws.empty())
-    return fail(ErrorCode::usage, "--platform and --screws exclude each other");
+    return fail(ErrorCode::usage, "give either --platform or --screws, not both");
   if (o.platform.empty() && o.screws.empty() && !(o.velocity.empty() && o.acceleration.empty()))
     return fail(ErrorCode::usage, "--velocity and --acceleration need --platform or --screws");
   return {};
@@ -254,10 +253,11 @@ Action declare_machine_kinematics(CLI::App& command) {
   const auto values = [&](const char* name, std::string& value, const char* help) {
     command.add_option(name, value, help)->type_name("");
   };
-  values("--platform", o->platform,
-         "Position of the platform, X=…,Y=…,Z=…,B=… (mm, degrees); prints the screw positions");
+  values(
+      "--platform", o->platform,
+      "Position of the platform, X=…,Y=…,Z=…,B=… (mm, degrees); mdof prints the screw positions");
   values("--screws", o->screws,
-         "Positions of the screws, A=…,B=…,C=…,D=… (mm); prints the position of the platform");
+         "Positions of the screws, A=…,B=…,C=…,D=… (mm); mdof prints the position of the platform");
   values("--velocity", o->velocity,
          "Velocity of the platform (with --platform) or of the screws (with --screws), in mm/s and "
          "degrees/s");
@@ -274,7 +274,7 @@ Command machine_kinematics_command() {
   return {.name = "machine kinematics",
           .summary = "Steps, errors and motion of a co-planar tilt drive",
           .footer =
-              "Axes or screws that --platform or --screws do not name are at 0.\n"
+              "Axes and screws that are not given with --platform or --screws are at 0.\n"
               "Examples:\n"
               "  mdof machine kinematics --preset co-planar --tilt-deg 25.84\n"
               "  mdof machine kinematics --platform X=10,Y=5,Z=-10,B=30 --velocity B=10",

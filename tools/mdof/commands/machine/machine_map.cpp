@@ -187,11 +187,11 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
          std::to_string(first.first_m.size() * first.second_m.size()) + " points of the plane " +
          o.plane + ", error of the tool relative to the workpiece\n" +
          table.text(terminal_columns()) +
-         (o.without_angles ? "the figures contain positioning, straightness and squareness, but no "
+         (o.without_angles ? "the values contain positioning, straightness and squareness, but no "
                              "angular errors\n"
                            : "") +
          missing_text(first.not_measured, first.no_u, terminal_columns()) +
-         "All points: --csv or --json\n";
+         "For all points, give --csv or --json\n";
 }
 
 Status draw_maps(const Machine& machine, const MachineMapCommand& o,
@@ -239,7 +239,7 @@ Status machine_map(const MachineMapCommand& o) {
   MDOF_CHECK(draw_maps(machine, o, maps));
   if (o.csv || o.json) {
     if (o.csv && !maps.front().map.not_measured.empty())
-      warn("not measured, so not contained in these figures: " +
+      warn("these errors were not measured, so the values do not contain them: " +
            joined(maps.front().map.not_measured));
     return o.csv ? write_csv(machine, maps) : write_line(map_json(machine, o, maps));
   }

@@ -44,8 +44,9 @@ std::string counted_text(const algo::Perpendicularity& p) {
         "is not given.\n";
   if (!p.drift_fitted)
     text +=
-        "Each spot was read once: EA0C and EB0C contain the drift of the height, and u does not. "
-        "To separate the drift, measure at least two turns, in the order of time.\n";
+        "Each spot was read only once: EA0C and EB0C contain the drift of the height, but u does "
+        "not. To separate the drift, measure at least two turns, with the readings in the order of "
+        "time.\n";
   return text;
 }
 
@@ -96,7 +97,7 @@ std::string perpendicularity_text(const algo::Perpendicularity& p, bool simulate
   const std::string drift = p.drift_fitted ? "drift from the first reading to the last " +
                                                  with_u(um_to_place(p.drift_m, p.u_drift_m),
                                                         um_to_place(p.u_drift_m, p.u_drift_m)) +
-                                                 " µm, taken away\n"
+                                                 " µm, subtracted\n"
                                            : "";
   const auto tilt = [&p](double tilt_rad) {
     return with_u(urad_to_place(tilt_rad, p.U_rad), urad_to_place(p.u_rad, p.u_rad));
@@ -137,11 +138,12 @@ Status machine_perpendicularity(const PerpendicularityCommand& o) {
 Action declare_machine_perpendicularity(CLI::App& command) {
   const auto o = std::make_shared<PerpendicularityCommand>();
   command
-      .add_option("FILE", o->file,
-                  "CSV: angle_deg of the spot about the table axis from +X to +Y, height_um of the "
-                  "table, + towards +Z; if known EAC_urad, EBC_urad (tilt error motion of the "
-                  "table), axes_um (height error of X and Y), time_s. Readings in the order of "
-                  "time; from two turns on a linear drift is removed")
+      .add_option(
+          "FILE", o->file,
+          "CSV with angle_deg (of the spot about the table axis, from +X to +Y) and height_um (of "
+          "the table, positive towards +Z). Optional: EAC_urad, EBC_urad (tilt error motion of the "
+          "table), axes_um (height error of X and Y), time_s. Rows in the order of time; with two "
+          "or more turns, mdof subtracts a linear drift")
       ->required()
       ->type_name("");
   command.add_option("--radius-mm", o->radius_mm, "Radius of the circle")

@@ -157,7 +157,7 @@ std::string grooving_plane_text(const algo::GroovingStudy& s) {
 }
 
 std::string grooving_square_text(const algo::GroovingStudy& s) {
-  TextTable table({"angle of the axes - 90°/µrad", "before", "after"});
+  TextTable table({"angle between X and Y - 90°/µrad", "before", "after"});
   const auto both = [](const algo::SquarenessOfDiagonals& q) {
     return with_u(urad_to_place(q.angle_error_rad, q.u_rad), urad_to_place(q.u_rad, q.u_rad));
   };
@@ -165,10 +165,11 @@ std::string grooving_square_text(const algo::GroovingStudy& s) {
     return with_u(urad_to_place(g.angle_error_rad, g.u_angle_rad),
                   urad_to_place(g.u_angle_rad, g.u_angle_rad));
   };
-  table.add({"straightness and optical square", in_the_middle(s.before), in_the_middle(s.after)});
-  table.add({"Eq. 2, one diagonal", angle_urad(s.before.angle_of_one_diagonal_rad),
+  table.add(
+      {"from straightness and optical square", in_the_middle(s.before), in_the_middle(s.after)});
+  table.add({"from one diagonal (Eq. 2)", angle_urad(s.before.angle_of_one_diagonal_rad),
              angle_urad(s.after.angle_of_one_diagonal_rad)});
-  table.add({"Eq. 2, both diagonals", both(s.before.square), both(s.after.square)});
+  table.add({"from both diagonals (Eq. 2)", both(s.before.square), both(s.after.square)});
   return table.text(terminal_columns());
 }
 
@@ -177,15 +178,16 @@ std::string grooving_rotary_text(const algo::GroovingTable& t) {
   const auto add = [&](const char* name, const algo::Perpendicularity& p) {
     table.add({name, angle_urad(p.EA0C_rad), angle_urad(p.EB0C_rad), angle_urad(p.u_rad)});
   };
-  add("readings alone", t.raw);
+  add("readings as they are", t.raw);
   add("tilt of the table removed", t.without_tilt);
-  add("errors of X and Y removed too", t.without_both);
+  add("tilt and errors of X, Y removed", t.without_both);
   table.add({"true value (simulated machine)", angle_urad(t.EA0C_rad), angle_urad(t.EB0C_rad), ""});
   return table.text(terminal_columns()) +
-         wrapped("height over a turn at " + in_mm(t.radius_m) + " mm: range " +
-                     range_um(t.range_m) + " µm; without the tilt of the table " +
-                     range_um(t.range_without_tilt_m) + " µm; without the perpendicularity " +
-                     range_um(t.range_left_m) + " µm (remaining errors of X and Y)",
+         wrapped("height over one turn at radius " + in_mm(t.radius_m) + " mm: range " +
+                     range_um(t.range_m) + " µm; after removal of the table tilt " +
+                     range_um(t.range_without_tilt_m) +
+                     " µm; after removal of the perpendicularity as well " +
+                     range_um(t.range_left_m) + " µm (what remains are errors of X and Y)",
                  terminal_columns()) +
          "\n";
 }
@@ -195,22 +197,22 @@ std::string grooving_text(const algo::GroovingStudy& s) {
   return simulated_notice(true) + "Hwang, Song and Park, 400 mm x 400 mm; seed " +
          std::to_string(s.seed) + "\n" +
          wrapped("noise of one reading: laser " + fixed(to_um(by.position_m), 3) +
-                     " µm along an axis, square " + fixed(to_urad(by.square_rad), 2) + " µrad, " +
-                     fixed(to_um(by.line_m), 3) + " µm along a line, indicator " +
+                     " µm along an axis, optical square " + fixed(to_urad(by.square_rad), 2) +
+                     " µrad, " + fixed(to_um(by.line_m), 3) + " µm along a line, indicator " +
                      fixed(to_um(by.height_m), 3) + " µm, level " + fixed(to_urad(by.tilt_rad), 2) +
                      " µrad; " + std::to_string(by.repeats) + " repeats",
                  terminal_columns()) +
          "\n\n" + grooving_plane_text(s) + "\n" + grooving_square_text(s) +
          wrapped(
              "± is the standard uncertainty u. The diagonals go through the corners, the "
-             "straightness lines through the middle; the yaw of Y makes their results differ.",
+             "straightness lines through the middle. The results differ because of the yaw of Y.",
              terminal_columns()) +
          "\n\n" + grooving_rotary_text(s.table) +
          wrapped(
              "A range is the largest minus the smallest value. The errors of the simulated "
-             "machine, also the yaw of Y, are chosen so that the ranges before the correction are "
-             "near those of the paper; the study shows the method, not the machine of the paper. "
-             "Corrections: " +
+             "machine, including the yaw of Y, are chosen so that the ranges before the correction "
+             "are near those of the paper. The study shows the method, not the machine of the "
+             "paper. Corrections: " +
                  std::to_string(s.corrections.nodes()) +
                  " nodes; --out writes the corrections and the measured errors.",
              terminal_columns()) +
@@ -278,7 +280,7 @@ Status write_grooving_files(const algo::GroovingStudy& study, const std::string&
   MDOF_CHECK(out.write(corrections, corrections_csv(study.corrections)));
   MDOF_CHECK(out.publish());
   say((to / "machine.toml").string() +
-      ": the measured errors; build a table for a controller with: " +
+      ": file of the measured errors; build a table for a controller with: " +
       "mdof compensation build --machine " + (to / "machine.toml").string() +
       " --plane XY --step-mm 20 --incomplete");
   return {};
@@ -294,7 +296,9 @@ Status machine_study(const MachineStudyCommand& o) {
 Action declare_machine_study(CLI::App& command) {
   const auto o = std::make_shared<MachineStudyCommand>();
   command
-      .add_option("NAME", o->name, "grooving: Hwang, Song and Park, a planar machine with a table")
+      .add_option(
+          "NAME", o->name,
+          "Name of the study: grooving (Hwang, Song and Park; planar machine with a rotary table)")
       ->required()
       ->type_name("")
       ->check(CLI::IsMember({"grooving"}));

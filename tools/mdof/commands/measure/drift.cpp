@@ -79,7 +79,8 @@ Action declare_drift(CLI::App& command) {
       ->check(positive_number());
   command
       .add_option("--window-s", o->window_s,
-                  "Length of the window of each drift rate [default: a twelfth of the log]")
+                  "Length of the window over which each drift rate is calculated [default: a "
+                  "twelfth of the log]")
       ->check(positive_number());
   add_all_warnings_flag(command, o->all_warnings);
   add_json_flag(command, o->json);

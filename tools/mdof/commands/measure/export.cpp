@@ -78,8 +78,8 @@ class Export {
     const bool to_standard_output = command_.csv == kStandardOutput;
     if (!one && to_standard_output)
       return fail(ErrorCode::usage, command_.recording +
-                                        ": has several devices, and each device needs a CSV file "
-                                        "of its own; give --csv OUT.csv");
+                                        ": the recording has several devices, and each device "
+                                        "needs its own CSV file; give --csv OUT.csv");
     std::size_t file = kToStandardOutput;
     if (!to_standard_output) {
       const std::string name = one ? command_.csv : file_of(command_.csv, block.device);
@@ -105,10 +105,10 @@ class Export {
            " values are over range, suspect or stale; the CSV file does not mark them");
     if (lost_ > 0)
       warn(std::to_string(lost_) +
-           " scans were lost during the recording; the times have gaps there");
+           " scans were lost during the recording; the times in the CSV file have gaps there");
     if (file_of_.size() > 1)
-      say("one file for each device, with times of a common clock; for mdof replay use the "
-          "recording");
+      say("mdof wrote one file for each device, with times of a common clock; for mdof replay, use "
+          "the recording, not these files");
   }
 
   const ExportCommand& command_;
@@ -156,8 +156,9 @@ Status export_samples(ExportCommand& command) {
 Action declare_export(CLI::App& command) {
   const auto o = std::make_shared<ExportCommand>();
   command
-      .add_option("SOURCE", o->sources,
-                  "Recording FILE.mdofrec; with --format dcc or qif the numbers of runs, or latest")
+      .add_option(
+          "SOURCE", o->sources,
+          "Recording FILE.mdofrec; with --format dcc or qif: numbers of runs, or \"latest\"")
       ->required()
       ->type_name("");
   command
@@ -166,14 +167,15 @@ Action declare_export(CLI::App& command) {
                   "(QIF 3.0): results of runs [csv]")
       ->check(CLI::IsMember({"csv", "dcc", "qif"}))
       ->type_name("TEXT:{csv,dcc,qif}");
-  auto* out =
-      command.add_option("--out", o->out, "File of the document; an existing file is replaced")
-          ->type_name("FILE");
+  auto* out = command
+                  .add_option("--out", o->out,
+                              "Document file to write (dcc, qif); an existing file is replaced")
+                  ->type_name("FILE");
   add_report_options(command, o->request);
   command
       .add_option("--csv", o->csv,
-                  "CSV file to write; several devices give one file each, OUT-device.csv [default: "
-                  "standard output]")
+                  "CSV file to write; with several devices, one file OUT-device.csv for each "
+                  "[default: standard output]")
       ->type_name("OUT.csv");
   command
       .add_option("--rig", o->rig, "Write the rig of the recording to this file, for mdof replay")

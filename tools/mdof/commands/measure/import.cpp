@@ -78,8 +78,8 @@ Status import(ImportCommand command) {
   show_notices(run.header.notices, true);
   if (run.header.provenance.model == positioning_name(run.header.axis) && command.sense.empty())
     say(run.header.provenance.model +
-        " is read as actual - commanded position in the controller's coordinates (default of the "
-        "format); give --sense body if the file states errors along + of the machine");
+        " is read as actual - commanded position in the coordinates of the controller (the default "
+        "of the format). If the file states errors along + of the machine axis, give --sense body");
   say("stored; build a compensation table with: mdof compensation build " +
       std::to_string(run.header.id));
   if (command.json) return write_line(stored_json(run));
@@ -105,17 +105,17 @@ Action declare_import(CLI::App& command) {
       ->check(CLI::IsMember({"csv", "iso230-2", "rtl"}));
   command
       .add_option("--sense", o->sense,
-                  "Sign of positioning: command (actual - commanded position, as in ISO 230-2; "
-                  "default) or body (along + of the machine)")
+                  "Sign of positioning errors: \"command\" (actual - commanded position, ISO "
+                  "230-2; the default) or \"body\" (positive along + of the machine axis)")
       ->check(CLI::IsMember({"command", "body"}));
   command
       .add_option("--travel", o->travel,
-                  "Motion of the body for a growing command: + or - along the machine axis "
-                  "[default: unknown]")
+                  "Direction in which the body moves when the command increases: + or - along the "
+                  "machine axis [default: unknown]")
       ->check(CLI::IsMember({"+", "-"}));
   command
       .add_option("--u-um", o->request.u_um,
-                  "Standard uncertainty of each deviation (the laser, its alignment, temperature)")
+                  "Standard uncertainty of each deviation (laser, alignment, temperature)")
       ->check(not_negative_number());
   command
       .add_option("--u-urad", o->request.u_urad,
@@ -128,7 +128,7 @@ Action declare_import(CLI::App& command) {
       });
   add_limit_options(command, o->limits);
   command.add_flag("--despite-warnings", o->request.despite_warnings,
-                   "Also import a file with doubtful notices");
+                   "Import the file although it has doubtful notices");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
@@ -139,7 +139,7 @@ Action declare_import(CLI::App& command) {
 
 Command import_command() {
   return {.name = "import",
-          .summary = "Store errors that another instrument measured as a run",
+          .summary = "Import errors from another instrument and store them as a run",
           .footer =
               "Columns of CSV: position_mm, deviation_um (or deviation_urad) and, if known, "
               "direction (1 or -1) and run. Columns of an ISO 230-2 series: target_mm, direction, "

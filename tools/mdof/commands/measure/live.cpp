@@ -34,8 +34,9 @@ Status check_axis(rpc::Client& client, const std::string& axis) {
   std::vector<std::string> names;
   for (const auto known : axes) names.push_back(text(known, "axis"));
   if (names.empty())
-    return fail(ErrorCode::not_found,
-                "live: mdofd measures no axis; its configuration needs an [[axis]]");
+    return fail(
+        ErrorCode::not_found,
+        "live: mdofd measures no axis; add an [[axis]] table to the configuration of mdofd");
   if (axis.empty() || std::find(names.begin(), names.end(), axis) != names.end()) return {};
   return fail(ErrorCode::not_found,
               "live: mdofd does not measure axis " + axis + "; it measures " + joined(names));
@@ -72,7 +73,7 @@ Result<LiveUpdate> next_update(rpc::Client& client, const LiveCommand& command) 
     if (!update) MDOF_CHECK(report(*line, command));
   }
   return io_error("mdofd sends no readings" +
-                  (command.axis.empty() ? std::string() : " of the axis " + command.axis) +
+                  (command.axis.empty() ? std::string() : " of axis " + command.axis) +
                   "; see mdof device list for the state of its devices");
 }
 

@@ -63,7 +63,7 @@ std::vector<std::string> errors_of(const LiveUpdate& u) {
     words.push_back(key.substr(0, key.find('_')) + " " + fixed(x, angle ? 3 : 4) +
                     (angle ? " µrad" : " µm"));
   }
-  if (words.empty()) words.emplace_back("errors not solved");
+  if (words.empty()) words.emplace_back("errors unknown");
   return words;
 }
 

@@ -196,8 +196,8 @@ Action declare_record(CLI::App& command) {
       ->check(not_negative_number())
       ->capture_default_str();
   command.add_option("--scale-period-um", o->scale_period_um,
-                     "Signal period of the scale; warns if the target interval hides the periodic "
-                     "error of the scale");
+                     "Signal period of the scale; mdof warns if the target interval hides the "
+                     "periodic error of the scale");
   command.add_option("--resume", o->resume, "Continue this run, which ended early")
       ->check(positive_number())
       ->excludes(axis);

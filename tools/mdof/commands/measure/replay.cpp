@@ -125,7 +125,7 @@ Action declare_replay(CLI::App& command) {
   const auto o = std::make_shared<ReplayCommand>();
   command
       .add_option("LOG", o->request.log,
-                  "Probe log (CSV, CSV.gz, - for standard input) or .mdofrec")
+                  "Probe log (CSV, CSV.gz, - for standard input) or recording (.mdofrec)")
       ->required()
       ->type_name("");
   command
@@ -143,8 +143,9 @@ Action declare_replay(CLI::App& command) {
       });
   command.add_flag("--no-store", o->keep_out, "Show the result without storing it");
   command
-      .add_option("--targets-mm", o->request.targets_mm,
-                  "Nominal positions [default: as recorded, else recognised]")
+      .add_option(
+          "--targets-mm", o->request.targets_mm,
+          "Target positions [default: those of the recording, else recognised from the dwells]")
       ->delimiter(',');
   for (const ReplayOption& option : daemon::replay_options())
     add_option(command, option, o->request);

@@ -51,12 +51,12 @@ void warn_of_missing(const drivers::CsvRows& frames, const FrameSolver& solver) 
 Status judge(const FrameSolver& solver) {
   if (solver.over_range() > 0) {
     warn(std::to_string(solver.over_range()) + " of " + std::to_string(solver.rows()) +
-         " rows have a probe at the end of its range; their errors may be wrong");
+         " rows have a probe at the end of its range; the errors of these rows may be wrong");
   }
   if (solver.unsolved() == 0) return {};
   return fail(ErrorCode::check, std::to_string(solver.unsolved()) + " of " +
-                                    std::to_string(solver.rows()) + " rows are not solved; first " +
-                                    solver.why_unsolved());
+                                    std::to_string(solver.rows()) +
+                                    " rows have no result; first: " + solver.why_unsolved());
 }
 
 Status solve(const SolveCommand& command) {
@@ -80,9 +80,9 @@ Status solve(const SolveCommand& command) {
 Action declare_solve(CLI::App& command) {
   const auto o = std::make_shared<SolveCommand>();
   command
-      .add_option(
-          "FRAMES", o->frames,
-          "File with the columns encoder_mm and probes: CSV, CSV.gz, or - for standard input")
+      .add_option("FRAMES", o->frames,
+                  "File with the column encoder_mm and a column for each probe: CSV, CSV.gz, or - "
+                  "for standard input")
       ->required()
       ->type_name("");
   command.add_option("--rig", o->rig, "Rig file of the fixture")->required()->type_name("RIG.toml");
@@ -97,7 +97,7 @@ Action declare_solve(CLI::App& command) {
 Command solve_command() {
   return {
       .name = "solve",
-      .summary = "Solve each row of a frames file for five errors",
+      .summary = "Calculate five errors from each row of a file",
       .footer = "Example:\n  mdof solve frames_X.csv --rig rig_X.toml --model exact > errors.csv",
       .declare = declare_solve};
 }

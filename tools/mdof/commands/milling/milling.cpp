@@ -76,8 +76,8 @@ void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
   json.field("wear_offset_sense", "added to the radius of the tool; the same sign for G41 and G42")
       .field("wear_offset_line", line_to_type(offset))
       .field("wear_offset_line_of",
-             "Fanuc, mm; P: number of the offset; G90 sets the wear of the radius, G91 adds to it; "
-             "give twice R if the control uses diameters");
+             "Fanuc, mm; P: number of the offset; with G90, R replaces the radius wear, with G91, "
+             "R is added; double R if the control uses diameters");
 }
 
 void write_members(JsonWriter& json, const Milled& milled, const MillingCommand& o) {
@@ -145,12 +145,12 @@ std::string offset_text(const Milled& milled) {
       "  to type (Fanuc, mm): " +
       line_to_type(offset) +
       "\n"
-      "  G90 sets the wear of the radius, G91 adds to it; give twice R if the control uses "
-      "diameters\n";
+      "  With G90, R replaces the radius wear; with G91, R is added.\n"
+      "  Double R if the control uses diameters.\n";
   if (offset.parts.empty())
     text += "  u is unknown: the plan declares no uncertainty, such as u_Kt_N_per_mm2\n";
   for (const auto& part : offset.parts)
-    text += "  " + std::string(part.input->table) + "." + part.input->key + ": " +
+    text += "  u from " + std::string(part.input->table) + "." + part.input->key + ": " +
             um_to_place(part.contribution_m, part.contribution_m) + " µm\n";
   return text;
 }
@@ -182,8 +182,8 @@ std::string milling_text(const std::vector<Milled>& all) {
   std::string text = all.front().plan.name;
   text += (text.empty() ? "" : "\n") + table.text(terminal_columns()) +
           wrapped(
-              "force on the tool: x against the feed, y towards the wall of an up cut; wall "
-              "offset: + is an overcut; deflection by bending only, shear would add " +
+              "Force on the tool: x points against the feed, y towards the wall of an up cut. Wall "
+              "offset: + is an overcut. The deflection contains bending only; shear would add " +
                   fixed(100 * algo::shear_share(all.front().plan.sections), 1) + " %",
               terminal_columns()) +
           "\n";
@@ -228,12 +228,12 @@ Action declare_milling(CLI::App& command) {
   command.add_flag("--offset", o->offset,
                    "Also print the radius wear offset, with u if the plan declares uncertainties");
   auto* sensitivity = command.add_flag("--sensitivity", o->sensitivity,
-                                       "Also print the effect of each input on force and wall, for "
-                                       "a change by its u (1 % if not declared)");
+                                       "Also print the effect of each input on force and wall when "
+                                       "the input changes by its u (1 % if no u is declared)");
   command
-      .add_option(
-          "--trials", o->trials,
-          "Trials of the sensitivity; each solves the cut 2 times, and once more for each input")
+      .add_option("--trials", o->trials,
+                  "Number of trials for the sensitivity; each calculates the cut twice, and once "
+                  "more for each input")
       ->needs(sensitivity)
       ->check(number_in(16, 1e6))
       ->capture_default_str();
@@ -241,7 +241,7 @@ Action declare_milling(CLI::App& command) {
       ->needs(sensitivity)
       ->check(number_in(0, 9e15))
       ->capture_default_str();
-  command.add_option("--threads", o->threads, "Number of threads; the figures do not depend on it")
+  command.add_option("--threads", o->threads, "Number of threads; the results do not depend on it")
       ->needs(sensitivity)
       ->check(CLI::Range(1, 1024));
   add_json_flag(command, o->json);

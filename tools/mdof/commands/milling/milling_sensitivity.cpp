@@ -121,7 +121,7 @@ void write_milling_sensitivity(JsonWriter& json, const MillingSensitivityRequest
 }
 
 std::string milling_sensitivity_text(const MillingSensitivity& found) {
-  std::vector<std::string> head = {"effect of u of", "u"};
+  std::vector<std::string> head = {"effect of the u of", "u"};
   for (const std::string& key : algo::milling_outputs()) head.push_back(key);
   TextTable effects(head);
   for (std::size_t i = 0; i < found.inputs.size(); ++i) {
@@ -148,7 +148,7 @@ std::string milling_sensitivity_text(const MillingSensitivity& found) {
   std::string text = "\n" + effects.text(terminal_columns());
   if (std::any_of(found.inputs.begin(), found.inputs.end(),
                   [](const algo::VaryingInput& input) { return !input.declared; }))
-    text += "* u is taken as 1 %, because the plan declares none\n";
+    text += "* u is taken as 1 %, because the plan declares no u\n";
   return text + "\n" + shares.text(terminal_columns()) +
          "share: total index (Sobol), with interactions\n";
 }

@@ -110,9 +110,10 @@ std::string part_text(const FoundPart& found) {
       ", over " + std::to_string(part.path.at_m.size()) +
       " points\n"
       "95 % of the points have an error below " +
-      in_um(found.error.p95_m) + " µm (U = " + in_um(found.error.U_p95_m) + "), largest " +
-      in_um(found.error.max_m) + " µm (U = " + in_um(found.error.U_max_m) + ") at x " +
-      in_mm(worst(0)) + ", y " + in_mm(worst(1)) + ", z " + in_mm(worst(2)) + " mm\n";
+      in_um(found.error.p95_m) + " µm (U = " + in_um(found.error.U_p95_m) +
+      "); the largest error is " + in_um(found.error.max_m) +
+      " µm (U = " + in_um(found.error.U_max_m) + ") at x " + in_mm(worst(0)) + ", y " +
+      in_mm(worst(1)) + ", z " + in_mm(worst(2)) + " mm\n";
   TextTable layers({"layer", "share/%", "U/%", "RMS/µm", "U/µm", "left/µm", "corrected by"});
   for (const std::size_t k : found.layers) {
     const algo::PartShare& share = found.error.layers[k];
@@ -126,7 +127,7 @@ std::string part_text(const FoundPart& found) {
                 fixed(100 * found.error.causes[k].share, 1),
                 fixed(100 * found.error.causes[k].U_share, 1), in_um(found.error.causes[k].rms_m)});
   return text + "\n" + layers.text(terminal_columns()) + "\n" + causes.text(terminal_columns()) +
-         "share: of the sum of the mean squares; left: RMS after compensation of the layer\n" +
+         "share: part of the sum of the mean squares; left: RMS after compensation of the layer\n" +
          missing_text(part.not_measured, part.no_u, terminal_columns());
 }
 
@@ -147,7 +148,7 @@ Action declare_part(CLI::App& command) {
   const auto o = std::make_shared<PartCommand>();
   command
       .add_option("PART", o->file,
-                  "PART.toml: machine, path, and layers: axes, budget, form, milling")
+                  "PART.toml with machine, path and layers (axes, budget, form, milling)")
       ->required()
       ->type_name("");
   add_database_option(command, o->database);

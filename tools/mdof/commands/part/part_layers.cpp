@@ -35,7 +35,7 @@ Result<algo::PartPath> load_path(const std::string& file) {
       return bad_input(csv.source +
                        ": only some of the columns nx, ny, nz exist; give all three or none");
   if (csv.rows() < 2)
-    return bad_input(csv.source + ": has fewer than two points; a path needs at least two");
+    return bad_input(csv.source + ": the path has fewer than two points; give two or more points");
   for (std::size_t k = 0; k < csv.rows(); ++k) {
     path.at_m.emplace_back(from_mm(csv.columns[0][k]), from_mm(csv.columns[1][k]),
                            from_mm(csv.columns[2][k]));
@@ -62,7 +62,7 @@ Status add_table(Machine& machine, const CompensationTable& table, const std::st
       ErrorFunction& f = frame.error[k];
       if (f.known())
         return bad_input(from + ": " + error_name(frame, k) +
-                         " is also in the machine file; give it only once");
+                         " is also in the machine file; give this error only once");
       for (std::size_t row = 0; row < table.position_m.size(); ++row) {
         const double forward = table.forward[named][row], reverse = table.reverse[named][row];
         const double value = std::isnan(reverse)   ? forward
@@ -80,8 +80,9 @@ Status add_table(Machine& machine, const CompensationTable& table, const std::st
     machine.noise_only = machine.noise_only || table.noise_only();
     return {};
   }
-  return bad_input(from + ": is a table of axis " + std::string(1, letter(table.axis)) +
-                   ", which the chain " + machine.chain.text + " does not contain");
+  return bad_input(from + ": this is a table of axis " + std::string(1, letter(table.axis)) +
+                   ", but the chain " + machine.chain.text +
+                   " does not contain this axis; give tables of axes of the chain");
 }
 
 Status add_tables(LoadedPart& part, const PartLayer& layer, const std::string& database) {
@@ -92,8 +93,9 @@ Status add_tables(LoadedPart& part, const PartLayer& layer, const std::string& d
     MDOF_CHECK(add_table(part.machine, table, from));
     if (table.slope_removed)
       warn(from +
-           ": its straightness has no slope (a line was subtracted), so the error of the part does "
-           "not contain squareness; build the table with --keep-slope to include it");
+           ": the straightness in this table has no slope (a line was subtracted), so the error of "
+           "the part does not contain squareness; to include squareness, build the table with "
+           "--keep-slope");
   }
   return {};
 }
@@ -194,12 +196,13 @@ Status add_machine_layers(LoadedPart& part, const std::string& database) {
   if (!axes && !budget) return {};
   const algo::MachineCauses found = algo::machine_causes(part.machine, part.path.at_m);
   if (axes && found.axes.empty())
+    return bad_input(part.plan.machine +
+                     ": the machine file has no measured errors; the layer \"axes\" needs measured "
+                     "errors, or in the part file axes = \"table:N\"");
+  if (budget && found.budget.empty())
     return bad_input(
         part.plan.machine +
-        ": has no measured errors; the layer axes needs measured errors, or axes = \"table:N\"");
-  if (budget && found.budget.empty())
-    return bad_input(part.plan.machine +
-                     ": has no [[source]]; the layer budget needs at least one");
+        ": the machine file has no [[source]]; the layer \"budget\" needs one or more");
   part.not_measured = found.not_measured;
   warn_beyond(found.beyond);
   if (axes) {
@@ -209,9 +212,9 @@ Status add_machine_layers(LoadedPart& part, const std::string& database) {
   }
   if (budget) {
     if (budget->compensated)
-      return bad_input(
-          part.plan.machine +
-          ": the layer budget cannot be compensated, because its sources were not measured");
+      return bad_input(part.plan.machine +
+                       ": the layer \"budget\" cannot be compensated, because its sources were not "
+                       "measured; remove \"compensated\" from this layer in the part file");
     add_layer(part, *budget, "", found.budget);
   }
   return {};

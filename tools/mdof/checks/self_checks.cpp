@@ -209,7 +209,7 @@ Result<double> store_and_read_back(const Run& run) {
   const TemporaryFolder folder;
   if (folder.path().empty())
     return io_error(
-        "a temporary folder cannot be created; set TMPDIR to a folder that you may write to");
+        "a temporary folder cannot be created; set TMPDIR to a folder in which you can write");
   const auto file = folder.path() / "mdof.db";
   std::int64_t id = 0;
   {

@@ -84,7 +84,7 @@ Action declare_analyse(CLI::App& command) {
 
 Command analyse_command() {
   return {.name = "analyse",
-          .summary = "Show straightness by each reference line, angles, and drift",
+          .summary = "Show straightness (for each reference line), angles and drift of a run",
           .footer =
               "Examples:\n"
               "  mdof analyse latest\n"

@@ -35,20 +35,20 @@ Status check_options(const BudgetCommand& command) {
   if (command.run_b.empty() &&
       (command.artefact_urad || command.u_artefact_urad || command.partial))
     return fail(ErrorCode::usage,
-                "--artefact-urad, --u-artefact-urad and --partial are for the squareness of two "
-                "runs; give the second run, or leave them out");
+                "--artefact-urad, --u-artefact-urad and --partial need two runs (squareness); give "
+                "RUN_B, or leave out these options");
   if (command.tolerance && command.run_b.empty() && command.figure.empty())
     return fail(ErrorCode::usage, "--tolerance applies to one figure; give --figure NAME");
   if (!command.run_b.empty() && (!command.figure.empty() || command.at_mm))
     return fail(ErrorCode::usage,
-                "with two runs, mdof budget shows their squareness only; leave out --figure and "
-                "--at, or RUN_B");
+                "with two runs, mdof budget shows only the squareness of these runs; leave out "
+                "--figure and --at, or leave out RUN_B");
   if (!command.run_b.empty() && command.reference != "fixture")
     return fail(ErrorCode::usage, "squareness is stated at the fixture; leave out --reference");
   if (!command.figure.empty() && command.at_mm)
     return fail(ErrorCode::usage,
                 "--at shows the five errors at a target, --figure one figure of the whole run; "
-                "leave out one of them");
+                "leave out --at or --figure");
   return {};
 }
 
@@ -154,9 +154,11 @@ Status budget(const BudgetCommand& command) {
 Action declare_budget(CLI::App& command) {
   const auto o = std::make_shared<BudgetCommand>();
   add_run_argument(command, "RUN", o->run,
-                   "Run number or latest; with RUN_B the run along the first axis");
+                   "Number of the run, or \"latest\"; with RUN_B: run along the first axis");
   command
-      .add_option("RUN_B", o->run_b, "Run along another axis; shows the budget of the squareness")
+      .add_option("RUN_B", o->run_b,
+                  "Number of a run along a second axis, or \"latest\"; mdof then shows the budget "
+                  "of the squareness")
       ->type_name("")
       ->check(run_word_error);
   add_axis_of_latest(command, o->axis);
@@ -170,14 +172,14 @@ Action declare_budget(CLI::App& command) {
       ->check(finite_number())
       ->type_name("MM");
   command
-      .add_option(
-          "--tolerance", o->tolerance,
-          "Largest permitted value of the figure, in its unit. Prints conform, not conform or "
-          "undecided (ISO 14253-1:2017); undecided if the rig does not declare every uncertainty")
+      .add_option("--tolerance", o->tolerance,
+                  "Largest permitted value of the figure, in its unit. mdof prints \"conform\", "
+                  "\"not conform\" or \"undecided\" (ISO 14253-1:2017); \"undecided\" if the rig "
+                  "does not declare every uncertainty")
       ->check(not_negative_number());
   command
       .add_option("--trials", o->trials.trials,
-                  "Number of Monte Carlo trials to compare with the budget (JCGM 101)")
+                  "Number of Monte Carlo trials for a comparison with the budget (JCGM 101)")
       ->check(CLI::Range(std::uint64_t{2}, kMostTrials));
   command.add_option("--seed", o->trials.seed, "Seed of the trials")
       ->check(not_negative_number())
@@ -189,7 +191,7 @@ Action declare_budget(CLI::App& command) {
       .add_option("--u-artefact-urad", o->u_artefact_urad,
                   "Standard uncertainty of the angle error of the square")
       ->check(not_negative_number());
-  command.add_flag("--partial", o->partial, "Take partial runs as well");
+  command.add_flag("--partial", o->partial, "Also accept partial runs");
   add_database_option(command, o->database);
   add_all_warnings_flag(command, o->all_warnings);
   add_plot_option(command, o->plots);

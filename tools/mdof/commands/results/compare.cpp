@@ -33,8 +33,8 @@ std::string effect_text(const daemon::ComparedFigure& figure) {
   std::string text = daemon::to_string(figure.effect);
   if (figure.effect != daemon::Effect::reduced) return text;
   const double left = std::abs(figure.after.value), before = std::abs(figure.before.value);
-  return left > figure.after.U ? text + ", to 1/" + fixed(before / left, 1)
-                               : text + ", to a value within its U";
+  return left > figure.after.U ? text + " to 1/" + fixed(before / left, 1)
+                               : text + " to a value within its U";
 }
 
 std::string comparison_text(const daemon::Comparison& c) {
@@ -52,8 +52,9 @@ std::string comparison_text(const daemon::Comparison& c) {
     text += wrapped("note: " + note, terminal_columns()) + "\n";
   return text +
          wrapped("± is the expanded uncertainty U (95 %). u contains " + covers_text(changes) +
-                     ". The change is |after| - |before|. Its U treats the runs as independent; "
-                     "uncertainties that both runs share cancel, so U tends to be too large.",
+                     ". The change is |after| - |before|. U of the change treats the runs as "
+                     "independent. Uncertainties that both runs share cancel, so this U tends to "
+                     "be too large.",
                  terminal_columns()) +
          "\n";
 }
@@ -75,9 +76,10 @@ Status compare(const CompareCommand& command) {
 
 Action declare_compare(CLI::App& command) {
   const auto o = std::make_shared<CompareCommand>();
-  add_run_argument(command, "RUN_BEFORE", o->before, "Run before the change, or latest");
+  add_run_argument(command, "RUN_BEFORE", o->before,
+                   "Number of the run before the change, or \"latest\"");
   add_run_argument(command, "RUN_AFTER", o->after,
-                   "Run of the same axis after the change, or latest");
+                   "Number of the run after the change (same axis), or \"latest\"");
   add_reference_option(command, o->reference)->capture_default_str();
   add_database_option(command, o->database);
   add_json_flag(command, o->json);

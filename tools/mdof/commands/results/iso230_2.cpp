@@ -45,11 +45,12 @@ std::optional<PositioningUncertainty> uncertainty_of(const Iso230Command& comman
 }
 
 std::string uncertainty_text(const std::optional<PositioningUncertainty>& U) {
-  if (!U) return "uncertainty: not declared (--device-limit-um, --drift-um)\n";
+  if (!U) return "uncertainty: not declared; give --device-limit-um and --drift-um\n";
   return "U (k = 2): " + um_to_place(U->E_M_A, U->E_M_A) + " µm for E, M and A, " +
          um_to_place(U->B, U->B) +
          " µm for B\n"
-         "U contains measuring device and drift, but not machine temperature and alignment\n";
+         "U contains the measuring device and the drift, but not the machine temperature and the "
+         "alignment\n";
 }
 
 Status iso230_of_file(const Iso230Command& command) {
@@ -80,7 +81,8 @@ Status iso230_of_run(const Iso230Command& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
   MDOF_TRY(const Run run, daemon::run_stated_at(store, id, reference));
-  MDOF_CHECK(check_measured(run.header, "--run (for imported data give the file instead)"));
+  MDOF_CHECK(
+      check_measured(run.header, "--run (for imported data, give the file and leave out --run)"));
   MDOF_TRY(const RunPositioning found,
            run_positioning(run, command.of_run, from_mm(command.scale_period_mm)));
   show_notices(found.notices, command.all_warnings);
@@ -98,14 +100,15 @@ Action declare_iso230_2(CLI::App& command) {
   const auto o = std::make_shared<Iso230Command>();
   auto* file = command
                    .add_option("FILE", o->file,
-                               "CSV, CSV.gz, or - for standard input: target_mm, direction (1 or "
-                               "-1), run, deviation_um")
+                               "CSV, CSV.gz, or - for standard input, with the columns target_mm, "
+                               "direction (1 or -1), run, deviation_um")
                    ->type_name("");
-  auto* run =
-      command.add_option("--run", o->run, "Evaluate the errors of this stored run, or of latest")
-          ->type_name("RUN")
-          ->check(run_word_error)
-          ->excludes(file);
+  auto* run = command
+                  .add_option("--run", o->run,
+                              "Evaluate the errors of this stored run (number, or \"latest\")")
+                  ->type_name("RUN")
+                  ->check(run_word_error)
+                  ->excludes(file);
   command
       .add_option("--error", o->of_run.errors,
                   "Evaluate this error of the run, such as EYX [default: all five]")
@@ -119,15 +122,14 @@ Action declare_iso230_2(CLI::App& command) {
           "--keep-slope", o->of_run.keep_slope,
           "Keep the slope of straightness errors, which depends on the alignment of the target")
       ->needs(run);
-  command.add_flag("--partial", o->of_run.partial, "Take a partial run as well")->needs(run);
+  command.add_flag("--partial", o->of_run.partial, "Also accept a partial run")->needs(run);
   command
       .add_option("--scale-period-mm", o->scale_period_mm,
-                  "Signal period of the scale; warns if all intervals are whole periods")
+                  "Signal period of the scale; mdof warns if all intervals are whole periods")
       ->check(positive_number());
   command
-      .add_option(
-          "--device-limit-um", o->device_limit_um,
-          "Limit (±) of the measuring device's error over the travel, for U by ISO/TR 230-9")
+      .add_option("--device-limit-um", o->device_limit_um,
+                  "Error limit (±) of the measuring device over the travel, for U by ISO/TR 230-9")
       ->check(not_negative_number())
       ->excludes(run);
   command

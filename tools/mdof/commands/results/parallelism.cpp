@@ -60,8 +60,8 @@ std::string parallelism_text(const Parallelism& found) {
              "The result is valid only if neither the target nor the fixture was moved relative to "
              "the machine between the runs. ± is the standard uncertainty u. It contains " +
                  covers_text(found.planes.front().budget) +
-                 ". The declared uncertainties of the two runs are taken as independent. Slopes "
-                 "are least-squares slopes at the fixture.",
+                 ". The declared uncertainties of the two runs are taken as independent. The "
+                 "result uses the least-squares slopes. All slopes are stated at the fixture.",
              terminal_columns()) +
          "\n";
 }
@@ -83,10 +83,11 @@ Status parallelism(const ParallelismCommand& command) {
 
 Action declare_parallelism(CLI::App& command) {
   const auto o = std::make_shared<ParallelismCommand>();
-  add_run_argument(command, "RUN_A", o->word_a, "Run that is the datum, or latest");
+  add_run_argument(command, "RUN_A", o->word_a,
+                   "Number of the run that is the datum, or \"latest\"");
   add_run_argument(command, "RUN_B", o->word_b,
-                   "Run along the same axis that is compared with RUN_A, or latest");
-  command.add_flag("--partial", o->partial, "Take partial runs as well");
+                   "Number of the run that is compared with RUN_A (same axis), or \"latest\"");
+  command.add_flag("--partial", o->partial, "Also accept partial runs");
   add_database_option(command, o->database);
   add_json_flag(command, o->json);
   add_all_warnings_flag(command, o->all_warnings);

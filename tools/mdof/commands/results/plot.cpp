@@ -65,7 +65,7 @@ Status draw_table(store::Store& store, std::int64_t number, output::Language lan
     plotted.charts.push_back(
         {name + ".svg", charts::table_svg(table, daemon::marks_of(judged), language)});
   else
-    plotted.left_out.push_back("table " + std::to_string(number) + ": has no values");
+    plotted.left_out.push_back("table " + std::to_string(number) + " has no values");
   return {};
 }
 
@@ -116,7 +116,8 @@ Status plot(const PlotCommand& command) {
 
 Action declare_plot(CLI::App& command) {
   const auto o = std::make_shared<PlotCommand>();
-  auto* runs = add_run_arguments(command, o->runs, "Numbers of runs, see mdof runs; or latest");
+  auto* runs =
+      add_run_arguments(command, o->runs, "Numbers of the runs (see mdof runs), or \"latest\"");
   runs->required(false);
   command
       .add_option("--table", o->tables,
@@ -125,9 +126,9 @@ Action declare_plot(CLI::App& command) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
-      .add_option(
-          "--point", o->points,
-          "Also draw the raw readings of this point (points are numbered from 0 as measured)")
+      .add_option("--point", o->points,
+                  "Also draw the raw readings of this point. Points are numbered in the order of "
+                  "measurement; the first is 0")
       ->type_name("NUMBER")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -152,10 +153,14 @@ Command plot_command() {
           "Writes run-N-five-errors.svg, -straightness.svg, -repeatability.svg, -drift.svg and a\n"
           "-budget-FIGURE.svg for each figure. --point adds run-N-point-K.svg with the raw "
           "readings\n"
-          "of a stop. Two axes with one run each add squareness-A-B.svg (numbers of the runs),\n"
-          "--table adds table-N.svg. If one file cannot be written, none is. The values are data-\n"
-          "attributes of the drawing, in the units of mdof show --json. The same results give the\n"
-          "same bytes.\n\n"
+          "of a stop. If two axes have one run each, mdof adds squareness-A-B.svg (A and B are "
+          "the\n"
+          "numbers of the runs). --table adds table-N.svg. If one file cannot be written, mdof "
+          "writes\n"
+          "no file. Each drawing contains its values as data- attributes, in the units of mdof "
+          "show\n"
+          "--json. The same results give the same bytes.\n"
+          "\n"
           "Examples:\n"
           "  mdof plot 12 --out plots\n"
           "  mdof plot 1 2 --table 1 --out plots\n"

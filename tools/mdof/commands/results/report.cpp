@@ -36,8 +36,8 @@ Result<std::string> company_head(const std::string& file) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const char* refused : {"<script", "<!--", "<style", "<body", "</body", "</html", "<html"})
     if (lower.find(refused) != std::string::npos)
-      return bad_input(file + ": contains \"" + refused +
-                       "\", which the HTML of a letterhead must not contain; an example: "
+      return bad_input(file + ": the HTML of a letterhead must not contain \"" + refused +
+                       "\"; an example of a letterhead: "
                        "<img src=\"data:image/png;base64,...\"><p>Muster AG</p>");
   return head + "\n";
 }
@@ -48,7 +48,7 @@ void attach_certificate(report::Report& report) {
   if (dcc)
     report.attachments.push_back({"certificate.xml", "application/xml", *dcc});
   else
-    say("no certificate (DCC) is inside: " + words::text(dcc.error()));
+    say("the report contains no certificate (DCC): " + words::text(dcc.error()));
 }
 
 Status write_report(const ReportCommand& command) {
@@ -71,7 +71,7 @@ Status write_report(const ReportCommand& command) {
 
 Action declare_report(CLI::App& command) {
   const auto o = std::make_shared<ReportCommand>();
-  add_run_arguments(command, o->request.runs, "Numbers of runs, see mdof runs; or latest");
+  add_run_arguments(command, o->request.runs, "Numbers of the runs (see mdof runs), or \"latest\"");
   command.add_option("--out", o->out, "File of the report; an existing file is replaced")
       ->required()
       ->type_name("FILE.html");
@@ -80,8 +80,9 @@ Action declare_report(CLI::App& command) {
       .add_option("--template", o->head,
                   "HTML file with the company letterhead, placed at the top of the report")
       ->type_name("FILE.html");
-  command.add_flag("--before-after", o->request.before_after,
-                   "Add what changed between two runs of each axis (the run before first), with U");
+  command.add_flag(
+      "--before-after", o->request.before_after,
+      "Add the change between two runs of each axis, with U; give the run before the change first");
   command.add_flag("--pdf", o->pdf,
                    "Also write the report as FILE.pdf (needs chromium or weasyprint)");
   add_language_option(command, o->language);
@@ -98,8 +99,9 @@ Command report_command() {
       .footer =
           "The file needs no other file and has no script. It contains title, results with u, U\n"
           "and k, decisions, conditions, fixture, calibrations, notices, charts, points, and how\n"
-          "to replay the recording, and the DCC of mdof export where the laboratory's country is\n"
-          "stated. The same results give the same bytes.\n\n"
+          "to replay the recording. If the country of the laboratory is stated, the file also\n"
+          "contains the DCC of mdof export. The same results give the same bytes.\n"
+          "\n"
           "Examples:\n"
           "  mdof report 12 --out report.html --set customer=\"Muster AG\" --set serial_number=17\n"
           "  mdof report 1 2 --out bericht.html --language de\n"

@@ -163,9 +163,10 @@ Status squareness(SquarenessCommand command) {
 
 Action declare_squareness(CLI::App& command) {
   const auto o = std::make_shared<SquarenessCommand>();
-  add_run_argument(command, "RUN_A", o->words[0], "Run along the first axis, or latest");
+  add_run_argument(command, "RUN_A", o->words[0],
+                   "Number of the run along the first axis, or \"latest\"");
   add_run_argument(command, "RUN_B", o->words[1],
-                   "Run along the second axis, with the same square, or latest");
+                   "Number of the run along the second axis (same square), or \"latest\"");
   add_axes_option(command, o->axes);
   command.add_option("--artefact-urad", o->artefact_urad,
                      "Angle error of the square [default: from the rigs]");
@@ -173,7 +174,7 @@ Action declare_squareness(CLI::App& command) {
       .add_option("--u-artefact-urad", o->u_artefact_urad,
                   "Standard uncertainty of the angle error of the square")
       ->check(not_negative_number());
-  command.add_flag("--partial", o->partial, "Take partial runs as well");
+  command.add_flag("--partial", o->partial, "Also accept partial runs");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);
   add_plot_option(command, o->plots);
@@ -188,8 +189,10 @@ Command squareness_command() {
   return {.name = "squareness",
           .summary = "Find the angle between two axes from a run along each axis",
           .footer =
-              "Give the runs in the order X, Y, Z. X and Y give EC0Y, X and Z EB0Z, Y and Z EA0Z.\n"
-              "Examples:\n  mdof squareness 1 2 --artefact-urad -1.3 --u-artefact-urad 0.4\n"
+              "Give the runs in the order X, Y, Z. X and Y give EC0Y; X and Z give EB0Z;\n"
+              "Y and Z give EA0Z.\n"
+              "Examples:\n"
+              "  mdof squareness 1 2 --artefact-urad -1.3 --u-artefact-urad 0.4\n"
               "  mdof squareness latest latest --axes XZ",
           .declare = declare_squareness};
 }

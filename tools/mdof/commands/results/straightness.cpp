@@ -55,7 +55,9 @@ std::string straightness_table(const ReferenceLines& lines) {
   add("minimum zone", lines.minimum_zone);
   return std::to_string(lines.readings) + " readings at " + std::to_string(lines.positions) +
          " positions from " + in_mm(lines.first_m) + " to " + in_mm(lines.last_m) + " mm\n" +
-         table.text() + "zone: peak to valley about the line; residual: root mean square\n";
+         table.text() +
+         "at 0: value of the line at position 0\n"
+         "zone: peak to valley about the line; residual: root mean square\n";
 }
 
 Status straightness(const StraightnessCommand& command) {
@@ -73,8 +75,9 @@ Status straightness(const StraightnessCommand& command) {
 Action declare_straightness(CLI::App& command) {
   const auto o = std::make_shared<StraightnessCommand>();
   command
-      .add_option("FILE", o->file,
-                  "CSV, CSV.gz, or - for standard input: position_mm, deviation_um")
+      .add_option(
+          "FILE", o->file,
+          "CSV, CSV.gz, or - for standard input, with the columns position_mm, deviation_um")
       ->required()
       ->type_name("");
   add_json_flag(command, o->json);
@@ -85,7 +88,7 @@ Action declare_straightness(CLI::App& command) {
 
 Command straightness_command() {
   return {.name = "straightness",
-          .summary = "Calculate straightness from a file by each reference line",
+          .summary = "Calculate straightness from a file, for each reference line",
           .footer = "Example:\n  mdof straightness deviations.csv --json",
           .declare = declare_straightness};
 }

@@ -87,7 +87,8 @@ std::string sentence_of(const daemon::Trend& trend) {
 }
 
 std::string text_of(const daemon::Trend& trend) {
-  TextTable table({"runs", "started", "value/" + unit_of(trend), "low", "high", "signal"});
+  TextTable table(
+      {"runs", "started", "value/" + unit_of(trend), "lower limit", "upper limit", "signal"});
   for (std::size_t i = 0; i < trend.values.size(); ++i) {
     const auto& v = trend.values[i];
     const bool has = trend.chart.has_value();
@@ -224,7 +225,9 @@ Status trend(const TrendCommand& command) {
 Action declare_trend(CLI::App& command) {
   const auto o = std::make_shared<TrendCommand>();
   add_only_axis_option(command, o->axis);
-  command.add_option("--figure", o->figure, "One figure, such as EYX_straightness_um or EC0Y_urad")
+  command
+      .add_option("--figure", o->figure,
+                  "Show only this figure, such as EYX_straightness_um or EC0Y_urad")
       ->type_name("NAME");
   command
       .add_option("--baseline", o->baseline,

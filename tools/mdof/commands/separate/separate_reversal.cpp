@@ -62,8 +62,8 @@ Action declare_separate_reversal(CLI::App& command) {
       ->type_name("");
   add_source_options(command, o->of);
   command.add_option("--turned-at-mm", o->turned_at_mm,
-                     "Position of the axis of an end-for-end turn along the moving axis, in "
-                     "carriage coordinates [default: middle of the readings]");
+                     "For an end-for-end turn: position of the turning axis along the moving axis, "
+                     "in carriage coordinates [default: middle of the readings]");
   add_output_options(command, o->output);
   return [o] { return reversal(*o); };
 }

@@ -22,7 +22,7 @@ Status check(const ShiftCommand& command) {
   if (command.shift_mm.size() != set_ups)
     return fail(ErrorCode::usage, "--shift-mm has " + std::to_string(command.shift_mm.size()) +
                                       " numbers for " + std::to_string(set_ups) +
-                                      " set-ups; give one for each, 0 for the first");
+                                      " set-ups; give one number for each set-up, 0 for the first");
   for (const double mm : command.shift_mm)
     if (!std::isfinite(mm))
       return fail(ErrorCode::usage, "--shift-mm must be finite lengths in mm");
@@ -65,8 +65,8 @@ Action declare_separate_shift(CLI::App& command) {
       ->type_name("");
   command
       .add_option("--shift-mm", o->shift_mm,
-                  "Shift of the target along + of the axis, one number for each set-up, 0 for the "
-                  "first; if turned end for end, position of its zero")
+                  "Shift of the target along + of the axis: one number for each set-up, 0 for the "
+                  "first. For a target turned end for end: position of the zero of the target")
       ->required()
       ->expected(2, 64)
       ->type_name("MM");
@@ -86,13 +86,13 @@ Command separate_shift_command() {
           .summary = "Use set-ups in which the target was shifted, or shifted and turned",
           .footer =
               "Positions must be equally spaced, and each shift must be a whole number of steps. "
-              "Shifts alone cannot separate a parabola, nor periods that divide all shifts. With "
-              "one set-up turned about the moving axis and not shifted, only offset and slope "
-              "cannot be separated.\n"
+              "Shifts alone cannot separate a parabola or a period that divides all shifts. If one "
+              "set-up is turned about the moving axis and not shifted, everything but offset and "
+              "slope can be separated.\n"
               "Examples:\n"
               "  mdof separate shift 4 5 6 --shift-mm 0 5 15 --surface top\n"
-              "  mdof separate shift a.csv b.csv c.csv --shift-mm 0 5 0 --turned 3 "
-              "--moves target --surface side --json",
+              "  mdof separate shift a.csv b.csv c.csv --shift-mm 0 5 0 --turned 3 --moves target "
+              "--surface side --json",
           .declare = declare_separate_shift};
 }
 

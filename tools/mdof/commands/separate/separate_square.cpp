@@ -65,10 +65,10 @@ std::string text_of(const SquareReversal& s, bool simulated) {
          ", 95 %)\n"
          "the angle from +X to +Y is 90° + EC0Y\n"
          "the angle of the square is 90° + " +
-         angle(s.square_rad) + " µrad (artefact_angle_error_urad of a rig)\n" +
+         angle(s.square_rad) + " µrad (key artefact_angle_error_urad of a rig)\n" +
          wrapped("± is the standard uncertainty u. It contains " + covers_of(s) +
-                     ". Slopes are given at the fixture. The angle of the square is taken as equal "
-                     "in both set-ups.",
+                     ". Slopes are given at the fixture. The angle of the square is assumed to be "
+                     "equal in both set-ups.",
                  terminal_columns()) +
          "\n";
 }
@@ -92,11 +92,13 @@ Status square(const SquareCommand& command) {
 
 Action declare_separate_square(CLI::App& command) {
   const auto o = std::make_shared<SquareCommand>();
-  add_run_argument(command, "RUN_X", o->word[0], "Run along X, first set-up");
-  add_run_argument(command, "RUN_Y", o->word[1], "Run along Y, first set-up");
-  add_run_argument(command, "RUN_X2", o->word[2], "Run along X, the square turned over");
-  add_run_argument(command, "RUN_Y2", o->word[3], "Run along Y, the square turned over");
-  command.add_flag("--partial", o->partial, "Take partial runs as well");
+  add_run_argument(command, "RUN_X", o->word[0], "Number of the run along X, first set-up");
+  add_run_argument(command, "RUN_Y", o->word[1], "Number of the run along Y, first set-up");
+  add_run_argument(command, "RUN_X2", o->word[2],
+                   "Number of the run along X, after the square was turned over");
+  add_run_argument(command, "RUN_Y2", o->word[3],
+                   "Number of the run along Y, after the square was turned over");
+  command.add_flag("--partial", o->partial, "Also accept partial runs");
   add_database_option(command, o->database);
   add_json_flag(command, o->json);
   add_all_warnings_flag(command, o->all_warnings);

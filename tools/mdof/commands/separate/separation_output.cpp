@@ -25,11 +25,12 @@ Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
     return passed;
   }
   if (options.despite_unseen || record.result.target.whole()) return {};
-  return fail(ErrorCode::check,
-              "these set-ups do not determine the whole height of the target (" +
-                  unseen_text(record.result.target) +
-                  "), and a map would contain 0 for the missing part; measure once more with the "
-                  "target turned about the moving axis, or give --despite-unseen");
+  return fail(
+      ErrorCode::check,
+      "these set-ups do not determine the complete height map of the target (not determined: " +
+          unseen_text(record.result.target) +
+          "). The map would contain 0 for the missing part. Measure once more with the target "
+          "turned about the moving axis, or give --despite-unseen");
 }
 
 // "set-up 2" is what the algorithm knows; people know their files and runs.
@@ -46,13 +47,14 @@ Error with_names(Error error, const SeparationRecord& record) {
 void add_output_options(CLI::App& command, OutputOptions& o) {
   add_all_warnings_flag(command, o.all_warnings);
   add_csv_and_json_flags(command, o.csv, o.json);
-  auto* toml = command.add_flag("--rig-toml", o.rig_toml,
-                                "Print the height of the target as a [[plane]] of a rig");
+  auto* toml =
+      command.add_flag("--rig-toml", o.rig_toml,
+                       "Print the height of the target as a [[plane]] table for a rig file");
   toml->excludes(command.get_option("--csv"))->excludes(command.get_option("--json"));
   add_consent_flags(command, o.consent, "a map");
   command
       .add_flag("--despite-unseen", o.despite_unseen,
-                "Print the height map although more than offset and slope is undetermined")
+                "Print the height map although more than the offset and the slope is undetermined")
       ->needs(toml);
 }
 

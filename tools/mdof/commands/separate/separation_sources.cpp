@@ -41,7 +41,8 @@ LoadedSources nothing_yet(const SourceOptions& options, const MovingAxis& moving
 Status check_numbers(const SourceOptions& options) {
   if (!(options.match_mm > 0 && options.match_mm <= 1))
     return fail(ErrorCode::usage, "--match-mm must be above 0 and at most 1");
-  if (!std::isfinite(options.at_mm)) return fail(ErrorCode::usage, "--at-mm must be a number");
+  if (!std::isfinite(options.at_mm))
+    return fail(ErrorCode::usage, "--at-mm must be a finite number");
   if (options.u_um && !(*options.u_um > 0 && std::isfinite(*options.u_um)))
     return fail(ErrorCode::usage, "--u-um must be a finite number above 0");
   return {};
@@ -50,14 +51,16 @@ Status check_numbers(const SourceOptions& options) {
 // ---- files ----
 
 Status add_file(const SourceOptions& options, const std::string& file, LoadedSources& loaded) {
-  if (file == "-") return fail(ErrorCode::usage, "a set-up is a run or a file, not standard input");
+  if (file == "-")
+    return fail(ErrorCode::usage,
+                "a set-up must be a run or a file, not standard input; write the data to a file");
   MDOF_TRY(const auto csv,
            drivers::read_csv_table(file, {"position_mm", "deviation_um"}, {"u_um"}));
   MDOF_TRY(const std::string bytes, read_text_file(file, kMostBytes));
   SeparationSource source{file, sha256_hex(bytes)};
   for (const SeparationSource& before : loaded.record.sources)
     if (before.sha256 == source.sha256)
-      return bad_input(file + ": is identical to " + before.name +
+      return bad_input(file + ": this file is identical to " + before.name +
                        "; give each set-up its own file");
   algo::SetUp set_up;
   for (const double x : csv.columns[0]) set_up.position_m.push_back(from_mm(x));
@@ -76,9 +79,10 @@ Result<LoadedSources> load_files(const SourceOptions& options) {
     return fail(ErrorCode::usage,
                 "--probe applies to runs only, because a file has one series; leave out --probe");
   if (options.moves.empty())
-    return fail(ErrorCode::usage,
-                "missing option --moves: a file does not say which body the axis moves, target or "
-                "fixture, and the sign of the target's height depends on it");
+    return fail(
+        ErrorCode::usage,
+        "missing option --moves: the sign of the target height depends on the body that the axis "
+        "moves, and a file does not state this body; give --moves target or --moves fixture");
   const Sides sides{options.moves == "fixture", options.travel == "-"};
   LoadedSources loaded = nothing_yet(options, {*axis_from(options.axis), sides});
   loaded.request.at.place_m = from_mm(options.at_mm);
@@ -92,8 +96,8 @@ Status check_alike(const Run& first, const Run& run) {
   if (first.header.axis == run.header.axis && first.header.sides == run.header.sides) return {};
   return bad_input("runs " + std::to_string(first.header.id) + " and " +
                    std::to_string(run.header.id) +
-                   " have different axes, or rigs that differ in moves or travel; give runs of one "
-                   "axis of one machine");
+                   " have different axes, or their rigs differ in the keys \"moves\" or "
+                   "\"travel\"; give runs of one axis of one machine");
 }
 
 Status check_without_map(const Run& run, const Rig& rig) {
@@ -101,9 +105,9 @@ Status check_without_map(const Run& run, const Rig& rig) {
     if (!plane.flatness.empty())
       return bad_input(
           "run " + std::to_string(run.header.id) +
-          ": its rig already subtracts the height map of plane \"" + plane.id +
-          "\", so the run no longer contains the shape of the target; replay its log with a rig "
-          "without flatness_um, or use the readings of one probe with --probe");
+          ": the rig of this run already subtracts the height map of plane \"" + plane.id +
+          "\", so the run no longer contains the shape of the target; replay the log of the run "
+          "with a rig without flatness_um, or use the readings of one probe with --probe");
   return {};
 }
 
@@ -125,7 +129,7 @@ Status check_places(const std::vector<Vec3>& at, const SourceOptions& options,
                                  " in " + loaded.record.sources[0].name + " and at " +
                                  at_text(at[k]) + " in " + loaded.record.sources[k].name;
       if (i == static_cast<std::size_t>(loaded.record.axis))
-        return bad_input(differ + "; its position must be the same along " +
+        return bad_input(differ + "; the position of this probe must be the same along " +
                          letter(loaded.record.axis) +
                          ", otherwise the probe reads another place of the target");
       loaded.notices.push_back(notice(NoticeCode::places_differ, "", {{"difference", differ}}));
@@ -171,8 +175,8 @@ Result<std::vector<Run>> runs_of(store::Store& store, const SourceOptions& optio
 Result<LoadedSources> load_runs(const SourceOptions& options) {
   if (options.sides_given)
     return fail(ErrorCode::usage,
-                "--moves, --travel, --at-mm and --u-um apply to files only; a run takes these "
-                "values from its rig");
+                "--moves, --travel, --at-mm and --u-um apply to files only; leave out these "
+                "options, because a run takes the values from its rig");
   MDOF_TRY(store::Store store, open_to_read(options.database));
   MDOF_TRY(const auto runs, runs_of(store, options));
   LoadedSources loaded = nothing_yet(options, runs.front().header.moving());
@@ -197,8 +201,8 @@ Result<LoadedSources> load_runs(const SourceOptions& options) {
 void add_source_options(CLI::App& command, SourceOptions& o) {
   command
       .add_option("--surface", o.surface,
-                  "Measured surface of the target: side (height along y of the axis' local frame) "
-                  "or top (along z)")
+                  "Measured surface of the target: \"side\" (height along y of the local frame of "
+                  "the axis) or \"top\" (along z)")
       ->required()
       ->check(CLI::IsMember({"side", "top"}));
   command
@@ -206,11 +210,11 @@ void add_source_options(CLI::App& command, SourceOptions& o) {
           "--turned-about", o.turned_about,
           "Machine axis about which the target was turned by 180° [default: the moving axis]")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
-  command.add_option("--probe", o.probe, "Use only the readings of this probe (for runs)")
+  command.add_option("--probe", o.probe, "For runs: use only the readings of this probe")
       ->type_name("ID");
   command
       .add_option("--axis", o.axis,
-                  "For files: the moving axis [default: X]; for latest: axis of the run")
+                  "For files: the moving axis [default: X]; for \"latest\": axis of the run")
       ->check(CLI::IsMember({"X", "Y", "Z"}))
       ->each([&o](const std::string&) { o.axis_given = true; });
   const auto of_files = [&o](CLI::Option* option) {
@@ -219,19 +223,21 @@ void add_source_options(CLI::App& command, SourceOptions& o) {
   of_files(command.add_option("--moves", o.moves,
                               "For files: the body that the axis moves, target or fixture"))
       ->check(CLI::IsMember({"target", "fixture"}));
-  of_files(command.add_option("--travel", o.travel, "For files: travel as in a rig, + or -"))
+  of_files(
+      command.add_option("--travel", o.travel,
+                         "For files: direction of travel (+ or -), as the key \"travel\" of a rig"))
       ->check(CLI::IsMember({"+", "-"}))
       ->capture_default_str();
   of_files(
       command.add_option("--at-mm", o.at_mm, "For files: position of the indicator along the axis"))
       ->capture_default_str();
-  of_files(command.add_option("--u-um", o.u_um,
-                              "Standard uncertainty of each reading of a file without u_um"));
+  of_files(command.add_option(
+      "--u-um", o.u_um, "For files without the column u_um: standard uncertainty of each reading"));
   command
       .add_option("--match-mm", o.match_mm,
-                  "Positions that differ by at most this are the same position")
+                  "Positions that differ by this length or less count as the same position")
       ->capture_default_str();
-  command.add_flag("--partial", o.partial, "Take partial runs as well");
+  command.add_flag("--partial", o.partial, "Also accept partial runs");
   add_database_option(command, o.database);
 }
 

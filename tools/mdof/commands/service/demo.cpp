@@ -40,7 +40,7 @@ class DemoFolder {
     std::string made = (place / "mdof-demo-XXXXXX").string();
     if (!::mkdtemp(made.data()))
       return io_error(place.string() + ": cannot create a folder there: " + std::strerror(errno) +
-                      "; set TMPDIR to a folder that you may write to");
+                      "; set TMPDIR to a folder in which you can write");
     return DemoFolder(made, true);
   }
   ~DemoFolder() {
@@ -74,7 +74,7 @@ Result<std::string> welcome(rpc::Client& mdofd, const DemoFolder& folder) {
   simdjson::dom::parser parser;
   simdjson::dom::element page;
   if (parser.parse(simdjson::padded_string(info))["http"].get(page))
-    return io_error("this mdofd serves no page");
+    return io_error("mdofd serves no web page");
   return "page    " + text(page, "url") + "\ntoken   " + token_in(text(page, "token_file")) +
          "\nfolder  " + folder.path().string() +
          (folder.is_temporary() ? " (removed at the end)" : "") + "\n";
@@ -90,20 +90,25 @@ Status demo(const DemoCommand& command) {
   MDOF_CHECK(write_out(where));
   MDOF_CHECK(mdofd.call("run.start", kRun));
   MDOF_CHECK(write_line(
-      "\nA simulated axis X is measured: open the page in a browser, and Capture there. The "
-      "page\nasks for the token before it changes anything. Ctrl-C ends the demo."));
+      "\n"
+      "mdofd measures a simulated axis X. Open the page in a browser and select \"Capture\". The\n"
+      "page asks for the token before it changes anything. Ctrl-C ends the demo."));
   while (!Interrupt::requested() && !daemon.has_ended()) std::this_thread::sleep_for(kLook);
-  return Interrupt::requested() ? Status() : io_error("mdofd has ended by itself");
+  return Interrupt::requested() ? Status() : io_error("mdofd ended unexpectedly");
 }
 
 Action declare_demo(CLI::App& command) {
   const auto o = std::make_shared<DemoCommand>();
-  command.add_option("--folder", o->folder, "Keep everything here [default: a temporary one]")
+  command
+      .add_option("--folder", o->folder,
+                  "Folder for all files of the demo [default: a temporary folder]")
       ->type_name("DIR");
-  command.add_option("--http", o->http, "Where the page is served; port 0: any")
+  command.add_option("--http", o->http, "Address and port of the web page; port 0: any free port")
       ->type_name("ADDRESS:PORT")
       ->capture_default_str();
-  command.add_option("--mdofd", o->mdofd, "The program [default: beside mdof, else on PATH]")
+  command
+      .add_option("--mdofd", o->mdofd,
+                  "Program mdofd to start [default: beside mdof, else on PATH]")
       ->type_name("FILE");
   return [o] { return demo(*o); };
 }
@@ -112,7 +117,7 @@ Action declare_demo(CLI::App& command) {
 
 Command demo_command() {
   return {.name = "demo",
-          .summary = "Measure a simulated machine, with the page in a browser; needs no hardware",
+          .summary = "Measure a simulated machine and serve the web page; needs no hardware",
           .footer =
               "Examples:\n"
               "  mdof demo\n"

@@ -35,7 +35,7 @@ constexpr const char* kMachine = "\n[machine]\nchain = \"w-Y-X-b-Z-t\"\n";
 Status write_configuration(const fs::path& folder, const std::string& http) {
   std::error_code ec;
   fs::create_directories(folder, ec);
-  if (ec) return io_error(folder.string() + ": cannot be made: " + ec.message());
+  if (ec) return io_error(folder.string() + ": cannot be created: " + ec.message());
   MDOF_CHECK(write_file(folder / "rig_X.toml", k_rig_X_toml, Existing::replace));
   MDOF_CHECK(write_file(folder / "rig_Y.toml", k_rig_Y_toml, Existing::replace));
   return write_file(folder / "mdofd.toml",
@@ -83,9 +83,10 @@ Result<DemoDaemon> DemoDaemon::start(const fs::path& program, const fs::path& fo
     auto client = rpc::Client::connect(daemon.socket());
     if (client && client->call("server.info")) return daemon;
     if (daemon.has_ended())
-      return io_error(program.string() + ": has ended: " + last_line(folder / "mdofd.log"));
+      return io_error(program.string() + ": the program ended: " + last_line(folder / "mdofd.log"));
     if (Interrupt::requested() || std::chrono::steady_clock::now() > last)
-      return io_error(program.string() + ": does not answer at " + daemon.socket());
+      return io_error(program.string() + ": the program does not answer at the socket " +
+                      daemon.socket());
     std::this_thread::sleep_for(kPoll);
   }
 }
@@ -111,7 +112,8 @@ Result<fs::path> find_mdofd(const std::string& asked) {
   const fs::path beside = fs::read_symlink("/proc/self/exe", ec).parent_path() / "mdofd";
   if (!ec && ::access(beside.c_str(), X_OK) == 0) return beside;
   if (const auto found = find_program("mdofd")) return *found;
-  return io_error("mdofd is neither beside this program nor on PATH; name it by --mdofd FILE");
+  return io_error(
+      "mdofd is neither beside this program nor on PATH; give the path of mdofd with --mdofd FILE");
 }
 
 }  // namespace mdof::tools

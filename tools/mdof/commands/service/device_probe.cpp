@@ -39,7 +39,7 @@ Status probe(const ProbeCommand& command) {
 Action declare_probe(CLI::App& command) {
   const auto o = std::make_shared<ProbeCommand>();
   add_device_choice(command, o->choice);
-  command.add_option("--for-s", o->for_s, "Seconds to read")
+  command.add_option("--for-s", o->for_s, "Number of seconds for which each device is read")
       ->check(number_in(0.1, 3600))
       ->capture_default_str();
   add_json_flag(command, o->json);

@@ -44,7 +44,8 @@ Diagnosis diagnose(const drivers::DriverSpec& device) {
       return {Level::bad,
               what + ": channel " + channel.id +
                   " gives no usable value (worst quality: " + channel.worst + ")",
-              "check the sensor and its wiring; show its values with: mdof device monitor " +
+              "check the sensor and its wiring; show the values of the device with: mdof device "
+              "monitor " +
                   device.name};
   }
   return {
@@ -68,7 +69,7 @@ Diagnosis diagnosis_from(const simdjson::dom::element& device) {
 // A running mdofd holds its devices: it is asked.
 std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::string& socket) {
   std::vector<Diagnosis> all = {
-      {Level::good, "mdofd is running (" + socket + ") and holds the devices", ""}};
+      {Level::good, "mdofd is running (" + socket + ") and uses the devices", ""}};
   auto client = rpc::Client::connect(socket);
   const auto list = client ? client->call("device.list") : tl::unexpected(client.error());
   simdjson::dom::parser parser;
@@ -86,9 +87,9 @@ std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::strin
   for (const auto& axis : config.axes)
     for (const auto& device : axis.devices)
       if (!known.contains(device.name))
-        all.push_back({Level::doubtful,
-                       "device " + device.name + " is not a device of the running mdofd",
-                       "mdofd runs with another configuration; restart mdofd with this one"});
+        all.push_back(
+            {Level::doubtful, "device " + device.name + " is not a device of the running mdofd",
+             "mdofd runs with another configuration; restart mdofd with this configuration"});
   return all;
 }
 
@@ -129,8 +130,9 @@ std::vector<Diagnosis> examine(const DoctorCommand& command) {
   add(check_class_devices(machine));
   add(check_sysfs_files(machine, service_group()));
   if (!config) {
-    all.push_back({Level::bad, "configuration: " + words::text(config.error()),
-                   "mdofd --check-config --config " + command.config});
+    all.push_back(
+        {Level::bad, "configuration: " + words::text(config.error()),
+         "to check the configuration, run: mdofd --check-config --config " + command.config});
     return all;
   }
   all.push_back({Level::good, "configuration: " + command.config, ""});

@@ -25,7 +25,9 @@ Status help(CLI::App* app, const std::vector<std::string>& words) {
 
 Action declare_help(CLI::App& command) {
   const auto words = std::make_shared<std::vector<std::string>>();
-  command.add_option("COMMAND", *words, "Name of a command, such as replay or compensation export")
+  command
+      .add_option("COMMAND", *words,
+                  "Name of a command, such as \"replay\" or \"compensation export\"")
       ->type_name("");
   return [app = command.get_parent(), words] { return help(app, *words); };
 }

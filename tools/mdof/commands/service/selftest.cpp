@@ -35,7 +35,7 @@ std::string checks_json(const std::vector<SelfCheck>& checks) {
 }
 
 std::string checks_text(const std::vector<SelfCheck>& checks) {
-  TextTable table({"check", "figure", "bound", "unit", "result"});
+  TextTable table({"check", "value", "limit", "unit", "result"});
   for (const auto& c : checks) {
     table.add({c.what, figure_text(c.figure), figure_text(c.bound), c.unit,
                c.passed() ? "ok" : "FAILED " + c.problem});

@@ -21,7 +21,7 @@ Status network(const SetupCommand& command) {
   MDOF_TRY(const std::string address, network_address(command.address));
   MDOF_TRY(const auto file, allow_address(command.units, address));
   if (!command.json)
-    return write_line("wrote " + file.string() + ": mdofd may reach " + address +
+    return write_line("wrote " + file.string() + ", which allows mdofd to connect to " + address +
                       ". To apply the change, run: " + kNext);
   JsonWriter json;
   json.begin_object()
@@ -38,7 +38,7 @@ Action declare_setup_network(CLI::App& command) {
       .add_option("ADDRESS", o->address,
                   "Address of the device, or of its network, such as 192.168.0.0/24")
       ->required();
-  command.add_option("--units", o->units, "Folder of systemd's units")
+  command.add_option("--units", o->units, "Folder of the systemd units")
       ->capture_default_str()
       ->type_name("FOLDER");
   add_json_flag(command, o->json);

@@ -57,7 +57,7 @@ std::string compensation_text(const element& status, std::size_t columns) {
   simdjson::dom::object axes;
   if (status["axes"].get_object().get(axes) || axes.size() == 0)
     return head + "no table is active\n";
-  TextTable table({"axis", "table", "from/mm", "to/mm", "since", "simulated"});
+  TextTable table({"axis", "table", "from/mm", "to/mm", "active since", "simulated"});
   for (const auto [axis, of] : axes)
     table.add({std::string(axis), or_dash(integer(of, "table")), fixed(number(of, "first_mm"), 3),
                fixed(number(of, "last_mm"), 3), text(of, "activated_utc"),
@@ -68,7 +68,7 @@ std::string compensation_text(const element& status, std::size_t columns) {
 std::string runs_text(const element& list, std::size_t columns) {
   array runs;
   if (list["runs"].get_array().get(runs) || runs.size() == 0) return "none\n";
-  TextTable table({"run", "axis", "state", "started", "lost", "notices", "note"});
+  TextTable table({"run", "axis", "state", "started", "lost scans", "notices", "note"});
   for (const element run : runs)
     table.add({or_dash(integer(run, "run")), text(run, "axis"), text(run, "state"),
                text(run, "started_utc").substr(0, 19), or_dash(integer(run, "scans_lost")),

@@ -24,13 +24,15 @@ Status print_token(const TokenCommand& command) {
   const auto http = parsed["http"];
   if (parsed.error() || http.error() || http.is_null())
     return fail(ErrorCode::usage,
-                "mdofd serves no web page: start it with --http, or give its configuration [http]");
+                "mdofd serves no web page; start mdofd with --http, or add [http] to the "
+                "configuration of mdofd");
   auto token = rpc::read_token(text(http.value_unsafe(), "token_file"));
   if (!token) {
-    token.error().message += "; read it as mdofd's user, such as sudo -u mdof mdof token";
+    token.error().message +=
+        "; run this command as the user of mdofd, for example: sudo -u mdof mdof token";
     return tl::unexpected(std::move(token.error()));
   }
-  std::fprintf(stderr, "For %s, where it asks for the token; who has it may change everything:\n",
+  std::fprintf(stderr, "Token for %s. Everybody who has this token can change everything there:\n",
                text(http.value_unsafe(), "url").c_str());
   return write_line(*token);
 }
@@ -45,7 +47,7 @@ Action declare_token(CLI::App& command) {
 
 Command token_command() {
   return {.name = "token",
-          .summary = "The token with which the web page of mdofd may change something",
+          .summary = "Print the token that the web page of mdofd needs before it changes something",
           .footer = "Example:\n  sudo -u mdof mdof token",
           .declare = declare_token};
 }

@@ -85,11 +85,9 @@ std::string verify_json(const SourceCheck& check) {
 
 Status verify(const VerifyCommand& command) {
   if (!command.head.empty() && !is_sha256(command.head))
-    return fail(
-        ErrorCode::usage,
-        "verify: --head \"" + command.head +
-            "\" is not a SHA-256 of 64 digits 0-9 a-f; mdofd reports it in its journal and in "
-            "server.info");
+    return fail(ErrorCode::usage, "verify: --head \"" + command.head +
+                                      "\" is not a SHA-256 hash (64 digits 0-9 a-f); mdofd reports "
+                                      "the hash in its journal and in server.info");
   SourceCheck check;
   store::ChainHead head;
   if (!command.recording.empty()) MDOF_CHECK(verify_recording(command.recording, check));
@@ -103,7 +101,7 @@ Status verify(const VerifyCommand& command) {
                                       " finding(s); restore the items named above from a backup");
   if (command.json) return {};
   if (head.link > 0) say("head of the chain of hashes: " + head_text(head));
-  return write_line("sound: every checksum and reference is correct");
+  return write_line("no fault found: every checksum and reference is correct");
 }
 
 Action declare_verify(CLI::App& command) {

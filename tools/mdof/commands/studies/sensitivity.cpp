@@ -106,7 +106,7 @@ std::string unsolved_output(const StudyResult& result) {
 Status not_solved(const Study& study, const std::string& key, std::uint64_t trials) {
   const Status first = study.slow() ? check_run_trial(*study.plan, 0) : Status();
   return fail(ErrorCode::check, key + ": none of the " + std::to_string(trials) +
-                                    " trials could be solved, so there are no figures; " +
+                                    " trials gave a result, so there is nothing to show; " +
                                     (first ? "show a trial with --trial 0"
                                            : "trial 0: " + words::text(first.error())));
 }

@@ -47,7 +47,7 @@ std::string rows_json(const std::vector<Row>& rows, std::int64_t total) {
 }
 
 std::string rows_text(const std::vector<Row>& rows, std::int64_t total) {
-  TextTable table({"study", "state", "trials", "requested", "seed", "started", "name"});
+  TextTable table({"study", "state", "trials", "requested trials", "seed", "started", "name"});
   for (const Row& row : rows) {
     const auto& wanted = row.record.trials_wanted;
     table.add({std::to_string(row.record.id), row.state, std::to_string(row.trials),

@@ -24,8 +24,8 @@ Status show_study(const ShowStudyCommand& command) {
   const std::string id = std::to_string(command.study);
   if (!outcome)
     return fail(ErrorCode::not_found, "study " + id +
-                                          ": has no result yet; if the study is not running, "
-                                          "continue it with: mdof sensitivity --continue " +
+                                          ": there is no result yet; if the study is not running, "
+                                          "continue the study with: mdof sensitivity --continue " +
                                           id);
   StudyResult result;
   MDOF_CHECK(read_study_figures(outcome->figures_json, "study " + id, result));

@@ -191,8 +191,8 @@ class Holder(CommandLine):
         crossed = ("--db", self.daemon.database, "--socket", self.other.socket)
         code, _, err = mdof("replay", LOG["X"], "--rig", RIG["X"], *crossed)
         self.assertEqual(code, 4)
-        self.assertIn(f"{self.daemon.database}: is being written by mdofd (process {self.daemon.process.pid})", err)
-        self.assertIn(f"holds {self.other.database}", err)
+        self.assertIn(f"{self.daemon.database}: mdofd (process {self.daemon.process.pid}) is writing to this database", err)
+        self.assertIn(f"uses {self.other.database}", err)
         for client in (self.client, self.client_of_other):
             self.assertEqual(client.call("run.list")["total"], 0)
 

@@ -20,7 +20,7 @@ std::string known_kinds() {
 void check_inputs(TomlTable& table, const std::vector<std::string>& inputs, std::size_t most_inputs,
                   const Rig& rig) {
   if (inputs.size() > most_inputs)
-    table.reject("inputs", "has more entries than the device has inputs (" +
+    table.reject("inputs", "the list has more entries than the device has inputs (" +
                                std::to_string(most_inputs) + ")");
   for (const auto& input : inputs) {
     if (!input.empty() && input != kEncoderChannel && !rig.probe_index(input))

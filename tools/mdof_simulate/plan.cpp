@@ -49,7 +49,8 @@ Result<std::vector<Served>> load_plan(const std::filesystem::path& file) {
     MDOF_TRY(Served served, read_device(table, wiring));
     devices.push_back(std::move(served));
   }
-  if (devices.empty()) root.reject("device", "is missing; add [[device]] with name and kind");
+  if (devices.empty())
+    root.reject("device", "there is no device; add [[device]] with \"name\" and \"kind\"");
   MDOF_CHECK(root.finish());
   return devices;
 }

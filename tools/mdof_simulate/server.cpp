@@ -87,7 +87,7 @@ Result<Listener> listen_on(const std::string& host, int tcp_port) {
   address.sin_port = htons(static_cast<std::uint16_t>(tcp_port));
   const std::string place = host + ":" + std::to_string(tcp_port);
   if (::inet_pton(AF_INET, host.c_str(), &address.sin_addr) != 1)
-    return bad_input(host + ": is not an IPv4 address");
+    return bad_input(host + ": this is not an IPv4 address; give an address such as 127.0.0.1");
   const int yes = 1;
   ::setsockopt(listener.socket.get(), SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   socklen_t size = sizeof address;

@@ -111,7 +111,8 @@ class UhidPort final : public UsbPort {
 
 Result<std::unique_ptr<UsbPort>> plug_into_uhid(drivers::usb::SimulatedUsb& device) {
   const auto pipes = pipes_of(device.identity().configuration);
-  if (!pipes) return bad_input("has no HID interface that accepts reports; set bus = \"usb\"");
+  if (!pipes)
+    return bad_input("the device has no HID interface that accepts reports; set bus = \"usb\"");
   Descriptor file(::open(kPath, O_RDWR | O_NONBLOCK | O_CLOEXEC));
   if (file.get() < 0)
     return io_error(

@@ -22,8 +22,8 @@ Result<int> free_port() {
   std::ifstream status(kController + "status");
   if (!status)
     return io_error(kController +
-                    "status: does not exist; load the module as root with: modprobe vhci-hcd "
-                    "(needs a kernel with CONFIG_USBIP_VHCI_HCD)");
+                    "status: the file does not exist; load the module as root with: modprobe "
+                    "vhci-hcd (the kernel must have CONFIG_USBIP_VHCI_HCD)");
   std::string line, hub;
   while (std::getline(status, line)) {
     std::istringstream words(line);

@@ -31,13 +31,14 @@ std::vector<std::string> joined_lines(const std::string& text) {
 Status read_ini_line(LinuxCncIni& ini, std::string_view line, int number, std::string& section) {
   const std::string place = ini.file.string() + ":" + std::to_string(number) + ": ";
   if (line.starts_with("#INCLUDE"))
-    return bad_input(place + "#INCLUDE is not supported; name a file that contains all lines");
+    return bad_input(place + "#INCLUDE is not supported; give an INI file that contains all lines");
   if (line.empty() || line.front() == '#' || line.front() == ';') return {};
   const std::size_t equals = line.find('=');
   if (line.front() == '[' && line.back() == ']') {
     section = trimmed(line.substr(1, line.size() - 2));
   } else if (equals == line.npos || equals == 0) {
-    return bad_input(place + "is neither [SECTION], KEY = VALUE nor a comment");
+    return bad_input(place +
+                     "the line is neither [SECTION], KEY = VALUE nor a comment; correct this line");
   } else {
     ini.entries.push_back({section, std::string(trimmed(line.substr(0, equals))),
                            std::string(trimmed(line.substr(equals + 1))), number});
@@ -57,8 +58,9 @@ class HalReader {
     }
     const fs::path file = folder_ / name;
     if (depth > kMostNestedFiles)
-      return bad_input(file.string() + ": more than " + std::to_string(kMostNestedFiles) +
-                       " nested files; check whether files source each other");
+      return bad_input(
+          file.string() + ": more than " + std::to_string(kMostNestedFiles) +
+          " nested files; check that no HAL file sources itself, directly or through another file");
     MDOF_TRY(const std::string text, read_text_file(file));
     int number = 0;
     for (const std::string& line : joined_lines(text)) {
@@ -108,7 +110,9 @@ class HalReader {
       if (error != std::errc() || last != end || place == 0 || place > count + 1 ||
           place < -count - 1)
         return bad_input("addf: \"" + std::string(words[3]) +
-                         "\" is not a position in the thread " + thread);
+                         "\" is not a position in the thread " + thread +
+                         "; give a number from 1 to " + std::to_string(count + 1) +
+                         ", or from -1 to -" + std::to_string(count + 1));
     }
     const auto before = static_cast<std::size_t>(place > 0 ? place - 1 : count + 1 + place);
     const std::size_t at = before < of_thread.size() ? of_thread[before] : wiring_.functions.size();

@@ -90,12 +90,12 @@ class Judge {
       if (joints.size() > 2)
         refuse(std::string("[KINS]KINEMATICS: axis ") + axis + " has " +
                std::to_string(joints.size()) +
-               " joints; the component moves at most two of an axis");
+               " joints; live compensation supports at most two joints of an axis");
       for (const LiveJoint& joint : joints) check_joint(section_of(joint));
       if (joints.size() == 2) check_pair(section_of(joints[0]), section_of(joints[1]), axis);
       live_.joints.insert(live_.joints.end(), joints.begin(), joints.end());
     }
-    if (live_.joints.empty()) refuse("[KINS]KINEMATICS: has no axis X, Y or Z");
+    if (live_.joints.empty()) refuse("[KINS]KINEMATICS: there is no axis X, Y or Z");
   }
 
   // Both joints have the same offset at the same position, in machine units. A motor that is
@@ -105,8 +105,9 @@ class Judge {
     const auto differ = [&](const char* key, double of_first, double of_second) {
       if (of_first == of_second) return;
       refuse("[" + second + "]" + key + " = " + plain_number(of_second) + " and [" + first + "]" +
-             key + " = " + plain_number(of_first) + ": both joints of axis " + axis +
-             " get one offset, so they must be alike");
+             key + " = " + plain_number(of_first) +
+             ": the two values must be equal, because both joints of axis " + axis +
+             " get the same offset");
     };
     for (const char* key : {"HOME", "MIN_LIMIT", "MAX_LIMIT", "MAX_VELOCITY", "MAX_ACCELERATION"})
       differ(key, number(first, key).value_or(0), number(second, key).value_or(0));
@@ -129,7 +130,7 @@ class Judge {
 
   void check_joint(const std::string& section) {
     const std::string type = ini_.value(section, "TYPE");
-    if (type != "LINEAR") refuse("[" + section + "]TYPE = \"" + type + "\" is not LINEAR");
+    if (type != "LINEAR") refuse("[" + section + "]TYPE = \"" + type + "\" must be LINEAR");
     if (ini_.find(section, "COMP_FILE"))
       refuse("[" + section +
              "]COMP_FILE: LinuxCNC would apply this file and the live table; remove COMP_FILE");
@@ -187,7 +188,7 @@ class Judge {
       const double most = number(section, drive).value_or(0), least = needed(section, axis) + more;
       if (most != 0 && most < least)
         refuse("[" + section + "]" + drive + " = " + plain_number(most) + " must be at least " +
-               plain_number(least) + " (" + axis + " plus the share of the offset)");
+               plain_number(least) + " (" + axis + " plus the share of the correction)");
     }
   }
 
@@ -218,16 +219,17 @@ class Judge {
     const auto moves = place_of("motion-controller", other);
     if (!reads || !moves || thread != other || *moves < *reads)
       return refuse(
-          "[HAL]HALFILE: needs addf of motion-command-handler and then of motion-controller to one "
-          "thread" +
+          "[HAL]HALFILE: the HAL files must add (addf) motion-command-handler, and after it "
+          "motion-controller, to the same thread" +
           unseen);
     if (wiring_.signal_of.contains("motion.homing-inhibit"))
       refuse(
-          "[HAL]HALFILE: connects motion.homing-inhibit, but the component must set this pin while "
-          "its offset is not 0");
+          "[HAL]HALFILE: a HAL file connects motion.homing-inhibit, but the mdof component must "
+          "set this pin while its offset is not 0; remove this connection");
     const std::string at = " " + thread + " ";
     live_.hal =
-        "# Live compensation by mdof. The last HALFILE of [HAL].\nloadrt mdof_compensation\n"
+        "# Live compensation by mdof. This file must be the last HALFILE of [HAL].\n"
+        "loadrt mdof_compensation\n"
         "addf mdof-compensation.feedback" +
         at + std::to_string(*reads) + "\naddf mdof-compensation.command" + at +
         std::to_string(*moves + 2) + "\n";
@@ -254,7 +256,7 @@ class Judge {
     const std::string feedback = wiring_.signal(of + "motor-pos-fb", "");
     for (const auto& [pin, signal] :
          {std::pair{"motor-pos-cmd", command}, {"motor-pos-fb", feedback}})
-      if (signal.empty()) refuse("[HAL]HALFILE: nothing nets " + of + pin + unseen);
+      if (signal.empty()) refuse("[HAL]HALFILE: no HAL file connects (net) " + of + pin + unseen);
     live_.hal += std::string("# ") + joint.axis + (joint.second ? ", second joint" : "") +
                  "\nunlinkp " + of + "motor-pos-cmd\nunlinkp " + of + "motor-pos-fb\nnet " + name +
                  "-command " + of + "motor-pos-cmd => mdof-compensation.pos-in-" + k + "\nnet " +

@@ -29,11 +29,11 @@ Result<bool> daemon_runs(const std::string& socket) {
 Status refuse_beside_daemon(const std::string& command, const std::string& socket) {
   const auto runs = daemon_runs(socket);
   if (!runs)
-    return in_context(command + ": cannot find out whether mdofd holds the devices", runs.error());
+    return in_context(command + ": cannot find out whether mdofd uses the devices", runs.error());
   if (!*runs) return {};
   return io_error(command + ": mdofd runs (" + socket +
-                  ") and holds the devices, but this command must open them itself; see mdof "
-                  "device list and mdof live, or stop mdofd first");
+                  ") and uses the devices, but this command must open the devices itself; stop "
+                  "mdofd first, or use mdof device list or mdof live");
 }
 
 }  // namespace mdof::tools

@@ -16,9 +16,9 @@ Result<std::filesystem::path> database_file(const std::string& option) {
   MDOF_TRY(auto file, database_path(option));
   std::error_code ec;
   if (std::filesystem::exists(file, ec) && !std::filesystem::is_regular_file(file, ec))
-    return bad_input(file.string() + ": is a " +
+    return bad_input(file.string() + ": this is a " +
                      (std::filesystem::is_directory(file, ec) ? "folder" : "pipe or device") +
-                     ", not a database; name a database file");
+                     ", not a database; give the name of a database file");
   return file;
 }
 

@@ -51,8 +51,8 @@ std::string writer_of(const fs::path& database) {
 }
 
 tl::unexpected<Error> held(const fs::path& database, const std::string& but) {
-  return io_error(database.string() + ": is being written by " + writer_of(database) + ", but " +
-                  but);
+  return io_error(database.string() + ": " + writer_of(database) +
+                  " is writing to this database, but " + but);
 }
 
 }  // namespace
@@ -65,15 +65,15 @@ Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database
   auto client = rpc::Client::connect(socket);
   if (!client)
     return held(file, "no mdofd answers at " + socket +
-                          "; wait until that program ends, or give the socket of the mdofd that "
-                          "holds the database with --socket");
+                          "; wait for the end of the writing program, or use --socket to give the "
+                          "socket of the mdofd that uses the database");
   MDOF_TRY(const std::string info, client->call("server.info"));
   simdjson::dom::parser parser;
   const std::string theirs = text(parser.parse(simdjson::padded_string(info)), "database");
   std::error_code ec;
   if (fs::equivalent(theirs, file, ec) && !ec) return std::optional(std::move(*client));
-  return held(file, "the mdofd at " + socket + " holds " + theirs +
-                        "; give the socket of the mdofd that holds this database with --socket");
+  return held(file, "the mdofd at " + socket + " uses " + theirs +
+                        "; use --socket to give the socket of the mdofd that uses this database");
 }
 
 std::string canonical_path(const std::string& file) {

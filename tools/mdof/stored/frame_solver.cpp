@@ -115,9 +115,9 @@ bool FrameSolver::correct(const algo::ReadingCorrection& correction, const Sampl
   std::optional<Air> air = Air{};
   if (rig_.physics->dielectric) air = air_of(block, row);
   if (!air) {
-    leave_unsolved(
-        row,
-        "the ambient conditions for [corrections] dielectric are unknown; give it in each row");
+    leave_unsolved(row,
+                   "the ambient conditions for [corrections] dielectric are unknown or out of "
+                   "range; give permitted values in each row");
     return false;
   }
   const auto corrected = correction.correct(rig_.sides.target_travel_m(block.value[encoder_][row]),

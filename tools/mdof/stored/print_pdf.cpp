@@ -48,8 +48,8 @@ Result<int> run_program(const std::vector<std::string>& words) {
     if (std::chrono::steady_clock::now() > last) {
       ::kill(child, SIGKILL);
       ::waitpid(child, &status, 0);
-      return io_error(words.front() + ": did not finish printing within " +
-                      std::to_string(kLongestPrint.count()) + " s, so mdof ended it");
+      return io_error(words.front() + ": the program did not finish within " +
+                      std::to_string(kLongestPrint.count()) + " s, so mdof stopped this program");
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
@@ -89,7 +89,7 @@ Result<std::vector<std::string>> command_for(const fs::path& html, const fs::pat
   return io_error(
       "no program that prints PDF is installed; install one (sudo apt install chromium, or "
       "weasyprint), or open " +
-      html.string() + " in a browser and print it");
+      html.string() + " in a browser and print the report there");
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ Status print_pdf(const fs::path& html, const fs::path& pdf) {
   if (status == 0 && fs::file_size(pdf, ec) > 0 && !ec) return {};
   return io_error(pdf.string() + ": " + words.front() + " did not write this file (exit status " +
                   std::to_string(status) + "); open " + html.string() +
-                  " in a browser and print it");
+                  " in a browser and print the report there");
 }
 
 }  // namespace mdof::tools

@@ -46,15 +46,15 @@ class Window {
 Result<std::vector<charts::RawSeries>> raw_stop(const Run& run, std::size_t row) {
   const std::string name = "run " + std::to_string(run.header.id);
   if (row >= run.points.size())
-    return fail(ErrorCode::usage, name + " has no point " + std::to_string(row) + "; it has " +
+    return fail(ErrorCode::usage, name + " has no point " + std::to_string(row) + "; the run has " +
                                       std::to_string(run.points.size()) +
-                                      " points, counted from 0 in the order measured");
+                                      " points, numbered from 0 in the order of measurement");
   const Point& point = run.points[row].point;
   const std::int64_t around = std::max(kLeastAround_ns, (point.end_ns - point.begin_ns) / 2);
   Window window(point.begin_ns - around, point.end_ns + around);
   const std::string& path = run.header.provenance.recording_path;
   auto log = daemon::ReplayLog::open(path);
-  if (!log) return in_context(name + ", whose raw readings are in its recording", log.error());
+  if (!log) return in_context(name + ": recording of the raw readings", log.error());
   SampleBlock block;
   for (;;) {
     MDOF_TRY(const auto state, log->driver().read(block, {}));
@@ -62,12 +62,12 @@ Result<std::vector<charts::RawSeries>> raw_stop(const Run& run, std::size_t row)
     if (state == drivers::ReadState::end) break;
   }
   if (log->sha256() != run.header.provenance.recording_sha256)
-    return bad_input(path + ": is not the recording of " + name +
-                     " (its SHA-256 differs); restore the recording");
+    return bad_input(path + ": this file is not the recording of " + name +
+                     " (the SHA-256 differs); restore the recording");
   auto found = window.found();
   if (found.empty())
-    return bad_input(path + ": has no scans at the time of point " + std::to_string(row) + " of " +
-                     name);
+    return bad_input(path + ": the recording has no scans at the time of point " +
+                     std::to_string(row) + " of " + name);
   return found;
 }
 

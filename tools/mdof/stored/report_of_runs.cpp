@@ -83,10 +83,11 @@ Result<std::vector<daemon::Comparison>> compare_pairs(store::Store& store,
   std::vector<daemon::Comparison> found;
   for (const auto& [axis, pair] : numbers) {
     if (pair.size() != 2)
-      return fail(ErrorCode::usage, std::string("--before-after: axis ") + letter(axis) + " has " +
-                                        std::to_string(pair.size()) +
-                                        " runs in this report; give two runs of each axis, the "
-                                        "run before first");
+      return fail(
+          ErrorCode::usage,
+          std::string("--before-after: axis ") + letter(axis) + " has " +
+              std::to_string(pair.size()) +
+              " runs in this report; give two runs of each axis, the run before the change first");
     MDOF_TRY(auto comparison, daemon::compare_runs(store, {pair[0], pair[1], reference}));
     found.push_back(std::move(comparison));
   }
@@ -119,14 +120,14 @@ void add_report_options(CLI::App& command, ReportRequest& request) {
   command
       .add_option(
           "--set", request.set,
-          "Statement for the report, instead of [report] of the rig; KEY is one of: " + keys)
+          "Entry of the report; replaces the entry in [report] of the rig. KEY is one of: " + keys)
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--tolerance", request.tolerances,
-                  "Tolerance: largest permitted value of a figure, in its unit (ISO 14253-1:2017): "
-                  "EYX_straightness_um=0.5")
+                  "Tolerance (largest permitted value) of a figure, in its unit (ISO "
+                  "14253-1:2017), such as EYX_straightness_um=0.5")
       ->type_name("NAME=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -18,7 +18,7 @@ std::int64_t number_of(const std::string& word) {
 }
 
 tl::unexpected<Error> no_run(const store::Store& store, std::optional<Axis> axis) {
-  return fail(ErrorCode::not_found, store.file().string() + ": has no run" +
+  return fail(ErrorCode::not_found, store.file().string() + ": the database has no run" +
                                         (axis ? std::string(" of axis ") + letter(*axis) : "") +
                                         " that has ended; see mdof runs");
 }
@@ -36,7 +36,7 @@ Result<std::int64_t> latest(store::Store& store, std::optional<Axis> axis) {
 
 std::string run_word_error(const std::string& word) {
   if (word == kLatest || number_of(word) > 0) return "";
-  return "\"" + word + "\" is not a run; give the number of a run (see mdof runs), or latest";
+  return "\"" + word + "\" is not a run; give the number of a run (see mdof runs), or \"latest\"";
 }
 
 CLI::Option* add_run_argument(CLI::App& command, const char* name, std::string& run,
@@ -50,7 +50,7 @@ CLI::Option* add_run_arguments(CLI::App& command, std::vector<std::string>& runs
 }
 
 void add_axis_of_latest(CLI::App& command, std::string& axis) {
-  command.add_option("--axis", axis, "Axis of the latest run")
+  command.add_option("--axis", axis, "For \"latest\": axis of the run")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
 }
 
@@ -62,7 +62,7 @@ Result<std::int64_t> run_number(store::Store& store, const std::string& run,
     MDOF_TRY(const RunHeader header, store.run_header(id));
     if (header.axis != *axis)
       return bad_input("run " + run + " measures axis " + letter(header.axis) + ", not axis " +
-                       letter(*axis) + "; give a run of that axis (mdof runs --axis " +
+                       letter(*axis) + "; give a run of the wanted axis (mdof runs --axis " +
                        letter(*axis) + ")");
   }
   return id;
@@ -93,7 +93,7 @@ Result<std::array<std::int64_t, 2>> run_pair(const std::string& database,
 void add_axes_option(CLI::App& command, std::string& axes) {
   command
       .add_option("--axes", axes,
-                  "Axes of the two runs [default: as the runs are; with latest: X, then Y]")
+                  "Axes of the two runs [default: from the runs; for \"latest\": X, then Y]")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}));
 }
 

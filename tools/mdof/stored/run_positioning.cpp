@@ -73,8 +73,8 @@ Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
 }
 
 const char* const kNotInR =
-    "R is calculated from these visits only; U does not include how well so few visits represent "
-    "the axis";
+    "R is calculated from these visits only. U does not include the uncertainty that comes from "
+    "the small number of visits";
 
 }  // namespace
 

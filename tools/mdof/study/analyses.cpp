@@ -57,7 +57,7 @@ void warn_of_few(const char* what, std::uint64_t blocks, StudyResult& result) {
   const double uncertain = 1 / std::sqrt(2 * (static_cast<double>(blocks) - 1));
   result.warnings.push_back(std::string(what) + ": the standard errors come from only " +
                             std::to_string(blocks) + " trials and are uncertain by " +
-                            std::to_string(std::lround(100 * uncertain)) + " %; take " +
+                            std::to_string(std::lround(100 * uncertain)) + " %; use " +
                             std::to_string(algo::kFewSumBlocks) + " trials or more");
 }
 

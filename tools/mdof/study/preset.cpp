@@ -12,9 +12,9 @@ using Options = algo::SimulationOptions;
 
 constexpr std::array kNumbers = {
     PresetNumber{"angle_range_urad", &Options::angle_range_urad,
-                 "Limit (±) of true roll, pitch and yaw, which are uniform"},
+                 "Limit (±) of the true roll, pitch and yaw (uniform distribution)"},
     PresetNumber{"offset_range_um", &Options::offset_range_um,
-                 "Limit (±) of true straightness errors, which are uniform"},
+                 "Limit (±) of the true straightness errors (uniform distribution)"},
     PresetNumber{"l_mm", &Options::l_mm, "Distance l of A, B, C and E from the origin"},
     PresetNumber{"side_plane_mm", &Options::side_plane_mm,
                  "Coordinate y of the side target surface"},

@@ -154,7 +154,7 @@ Status read_study_figures(std::string_view json, const std::string& source, Stud
   const simdjson::padded_string text_of(json);
   if (parser.parse(text_of).get(root) || !root.is_object())
     return bad_input(source +
-                     ": the stored figures are not JSON; restore the database from a backup");
+                     ": the stored results are not JSON; restore the database from a backup");
   result.name = text(root, "name");
   result.trials = natural(root, "trials");
   result.seed = natural(root, "seed");

@@ -12,7 +12,7 @@ void warn_of_unsolved(StudyResult& result) {
     if (s.unsolved == 0) continue;
     result.warnings.push_back(s.key + ": " + std::to_string(s.unsolved) + " of " +
                               std::to_string(result.trials) +
-                              " trials could not be solved and are not in the figures");
+                              " trials gave no result; the statistics do not contain these trials");
   }
 }
 

@@ -38,8 +38,9 @@ std::string overall(const StudyResult& result) {
   const std::size_t width = terminal_columns();
   return table.text(width) +
          wrapped(
-             "se: standard error. Symmetric and shortest coverage intervals (JCGM 101 7.7, 5.3.4) "
-             "and quantiles agree with those of all trials sorted, within the resolution.",
+             "sd: standard deviation; se: standard error. The coverage intervals (JCGM 101 7.7, "
+             "5.3.4) and the quantiles differ from those of all sorted trials by at most the "
+             "resolution.",
              width) +
          "\n";
 }
@@ -67,8 +68,7 @@ std::string indices(const OutputIndices& output) {
 }
 
 std::string tolerance(const AllocatedTolerance& t) {
-  if (std::isnan(t.value) || std::isinf(t.value))
-    return t.tolerance + ": has no effect on this output";
+  if (std::isnan(t.value) || std::isinf(t.value)) return t.tolerance + ": no effect on this output";
   const int d = decimals_for(t.value);
   if (std::isnan(t.low)) return t.tolerance + " " + fixed(t.value, d);
   return t.tolerance + " " + fixed(t.value, d) + " (" + fixed(t.low, d) + " ... " +
@@ -78,8 +78,8 @@ std::string tolerance(const AllocatedTolerance& t) {
 std::string allocation(const Allocation& a) {
   std::string text = "\nTolerances for |" + with_unit(a.output) +
                      "| <= " + fixed(a.limit, decimals_for(a.limit)) + " with probability " +
-                     percent(a.probability) + "; with the planned values: " + percent(a.reached) +
-                     "\n";
+                     percent(a.probability) +
+                     "; probability with the planned values: " + percent(a.reached) + "\n";
   for (const AllocatedTolerance& t : a.alone) text += "  alone     " + tolerance(t) + "\n";
   text += "  together  the planned values times " + fixed(a.common_factor, 4) + "\n";
   for (const auto& pair : a.frontier) {
@@ -91,13 +91,15 @@ std::string allocation(const Allocation& a) {
 }
 
 std::string comparison(const std::vector<ComparedOutput>& compared) {
-  TextTable table({"", "sd of this", "sd of the other", "other / this"});
+  TextTable table({"", "sd, this fixture", "sd, other fixture", "other / this"});
   for (const ComparedOutput& c : compared) {
     const int d = decimals_for(c.sd_this) + 1;
     table.add({with_unit(c.key), fixed(c.sd_this, d), fixed(c.sd_other, d),
                with_u(fixed(c.ratio, 4), fixed(c.ratio_se, 4))});
   }
-  return "\nThe other fixture, with the same random numbers\n" + table.text(terminal_columns());
+  return "\n"
+         "Comparison with the other fixture (same random numbers)\n" +
+         table.text(terminal_columns());
 }
 
 std::string head(const StudyResult& result) {

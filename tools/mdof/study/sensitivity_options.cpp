@@ -39,14 +39,18 @@ void declare_preset(CLI::App& command, SensitivityCommand& o) {
       ->expected(2)
       ->group(group)
       ->type_name("FROM TO");
-  command.add_option("--bins", o.bins, "Number of equal parts of the travel that also get results")
+  command
+      .add_option("--bins", o.bins,
+                  "Number of equal parts of the travel for which mdof also prints results")
       ->check(CLI::Range(1, static_cast<int>(kMostStudyBins)))
       ->group(group)
       ->type_name("N");
 }
 
 void declare_trials(CLI::App& command, SensitivityCommand& o) {
-  command.add_option("--trials", o.trials, "Number of trials; with --adaptive the largest number")
+  command
+      .add_option("--trials", o.trials,
+                  "Number of trials; with --adaptive: largest number of trials")
       ->type_name("N");
   command
       .add_option("--seed", o.seed, "Seed of the random numbers [default: 1, or as in the plan]")
@@ -60,7 +64,7 @@ void declare_trials(CLI::App& command, SensitivityCommand& o) {
                                     "Run trials until the tolerance is reached (JCGM 101 7.9)");
   command
       .add_option("--digits", o.digits,
-                  "Tolerance: number of significant digits of each sd [default: 2]")
+                  "Tolerance: number of significant digits of each standard deviation [default: 2]")
       ->needs(adaptive)
       ->type_name("N");
   command.add_option("--tolerance", o.tolerances, "Tolerance of one output, such as EBX_urad=0.01")
@@ -71,7 +75,7 @@ void declare_trials(CLI::App& command, SensitivityCommand& o) {
       ->check(number_in(0, kMostTrials))
       ->type_name("INDEX");
   o.threads = default_threads();
-  command.add_option("--threads", o.threads, "Number of threads; the figures do not depend on it")
+  command.add_option("--threads", o.threads, "Number of threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str()
       ->type_name("T");
@@ -80,7 +84,7 @@ void declare_trials(CLI::App& command, SensitivityCommand& o) {
 void declare_results(CLI::App& command, SensitivityCommand& o) {
   command
       .add_option("--db", o.database,
-                  "Store the study in this database, so that it can be continued")
+                  "Store the study in this database, so that the study can be continued later")
       ->type_name("FILE");
   command.add_option("--plot", o.plots, "Draw histograms and other charts as SVG in this folder")
       ->type_name("DIR");
@@ -96,17 +100,17 @@ struct Limit {
 };
 
 constexpr std::array kLimits = {
-    Limit{"-um", " µm", kLongest_m * 1e6, "is longer than 10 m"},
-    Limit{"-mm", " mm", kLongest_m * 1e3, "is longer than 10 m"},
-    Limit{"-mrad", " mrad", kWidest_mrad, "is more than 0.25 rad, not a small angle"},
-    Limit{"-urad", " µrad", kWidest_mrad * 1e3, "is more than 0.25 rad, not a small angle"},
+    Limit{"-um", " µm", kLongest_m * 1e6, "the length exceeds 10 m"},
+    Limit{"-mm", " mm", kLongest_m * 1e3, "the length exceeds 10 m"},
+    Limit{"-mrad", " mrad", kWidest_mrad, "the angle exceeds 0.25 rad and is not small"},
+    Limit{"-urad", " µrad", kWidest_mrad * 1e3, "the angle exceeds 0.25 rad and is not small"},
 };
 
 Status check_number(const std::string& option, double x) {
   if (!std::isfinite(x)) return fail(ErrorCode::usage, option + ": must be a finite number");
   for (const Limit& limit : kLimits) {
     if (!option.ends_with(limit.ending) || std::abs(x) <= limit.most) continue;
-    return fail(ErrorCode::usage, option + ": " + limit.why + "; must be within ±" +
+    return fail(ErrorCode::usage, option + ": " + limit.why + "; give a value within ±" +
                                       std::to_string(std::llround(limit.most)) + limit.unit);
   }
   return {};
@@ -169,11 +173,13 @@ Result<StudySettings> settings_of(const SensitivityCommand& command) {
 void declare_options(CLI::App& command, SensitivityCommand& o) {
   command
       .add_option("--preset", o.preset,
-                  "simulation-1 or simulation-2 as published by Kweon, Liu and Yang")
+                  "Simulation published by Kweon, Liu and Yang: simulation-1 or simulation-2")
       ->type_name("NAME");
   command.add_option("--plan", o.plan, "Plan of your own study; see algo/sensitivity/PLAN.md")
       ->type_name("PLAN.toml");
-  command.add_option("--continue", o.continued, "Continue this study; see mdof studies")
+  command
+      .add_option("--continue", o.continued,
+                  "Number of the stored study to continue; see mdof studies")
       ->type_name("STUDY");
   declare_trials(command, o);
   declare_results(command, o);
@@ -184,16 +190,18 @@ Status check_usage(SensitivityCommand& command) {
   const int sources = (command.preset.empty() ? 0 : 1) + (command.plan.empty() ? 0 : 1) +
                       (command.continued ? 1 : 0);
   if (sources != 1)
-    return fail(ErrorCode::usage, "sensitivity: give one of --preset, --plan and --continue");
+    return fail(ErrorCode::usage,
+                "sensitivity: give exactly one of --preset, --plan and --continue");
   if (command.preset.empty() && any_of_preset(command))
     return fail(ErrorCode::usage,
-                "sensitivity: parameters such as --radius-um belong to --preset; a plan or a "
-                "stored study has its own");
+                "sensitivity: options such as --radius-um need --preset; leave out these options, "
+                "because a plan or a stored study has its own parameters");
   if (command.continued && any_setting(command))
     return fail(ErrorCode::usage,
-                "sensitivity: a continued study keeps its trials, seed, coverage and rule");
+                "sensitivity: a continued study keeps its trials, seed, coverage and adaptive "
+                "rule; leave out the options for these settings");
   if (command.json && command.csv)
-    return fail(ErrorCode::usage, "sensitivity: --json or --csv, not both");
+    return fail(ErrorCode::usage, "sensitivity: give --json or --csv, not both");
   command.form = command.json ? StudyForm::json : command.csv ? StudyForm::csv : StudyForm::text;
   MDOF_CHECK(check_coverage(command.coverage));
   return check_trials(command.trials);

@@ -113,12 +113,12 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
   if (t.has_positioning()) return table_of_positioning_text(t);
   return noise_only_notice(t.noise_only()) + simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) + ", " +
-                     state_of(generation) + ", of the runs " + runs_of(t.runs) + ", " +
+                     state_of(generation) + ", from the runs " + runs_of(t.runs) + ", " +
                      t.created_utc,
                  terminal_columns()) +
          "\nerrors: actual - nominal, of the moving " + t.sides.moves() + "\nstraightness " +
          (t.slope_removed ? "about its least-squares line" : "as measured") +
-         ", angles from the first target\n" + stated_text(t.stated) +
+         ", angles relative to the first target\n" + stated_text(t.stated) +
          corrections_text(t, terminal_columns()) + "\nforward\n" +
          side_text(t, t.forward, t.u_forward) + "\nreverse\n" +
          side_text(t, t.reverse, t.u_reverse) +

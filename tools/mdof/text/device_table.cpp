@@ -42,7 +42,7 @@ std::string remarks(const element& device, std::size_t columns) {
   const std::string recovered = text(device, "last_error");
   if (lines.empty() && !recovered.empty())
     lines = wrapped("device \"" + text(device, "device") + "\": recovered at " +
-                        readable_utc(text(device, "mended_utc")) + ": " + recovered,
+                        readable_utc(text(device, "mended_utc")) + "; last error: " + recovered,
                     columns, 2) +
             "\n";
   return lines;

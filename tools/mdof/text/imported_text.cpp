@@ -34,8 +34,8 @@ bool is_positioning(const Run& run) {
 std::string sense_text(const Run& run) {
   if (!is_positioning(run)) return "";
   return imported_sense(run.header).sense == PositioningSense::body
-             ? ", positive if the body is too far along + of the machine"
-             : ", positive along + of the controller's coordinates";
+             ? ", positive if the moving body is too far along + of the machine axis"
+             : ", positive along + of the coordinates of the controller";
 }
 
 void write_reading(JsonWriter& json, const MeasuredPoint& p, const std::string& key) {

@@ -47,7 +47,7 @@ std::string datum_of(const Options& options) {
 // The scans of a CSV log have no number: whether some are lost is not known.
 std::string lost_of(const RunHeader& h) {
   const bool unknown = h.provenance.recording_kind == "csv" && h.scans_lost == 0;
-  return unknown ? "lost unknown" : "lost " + std::to_string(h.scans_lost);
+  return unknown ? "lost: unknown" : "lost: " + std::to_string(h.scans_lost);
 }
 
 std::string flags_of(const MeasuredPoint& p) {
@@ -91,7 +91,7 @@ std::string error_label(const std::string& key) {
 std::string stated_text(const StatedAt& at) {
   switch (at.reference) {
     case Reference::carriage:
-      return "straightness of the carriage's origin, which travels with the target (Eq. 2-12)\n";
+      return "straightness of the carriage origin, which travels with the target (Eq. 2-12)\n";
     case Reference::tool: {
       std::string text = "straightness at the tool point of the fixture,";
       for (const double x : at.point_m) text += " " + in_mm(x);
@@ -224,7 +224,7 @@ std::string angles_text(const std::vector<AngleFigure>& figures, std::size_t wid
     table.add({f.error_key.substr(0, 3), f.approach, in_urad(f.start_rad), in_urad(f.min_rad),
                in_urad(f.max_rad), in_urad(f.max_rad - f.min_rad)});
   }
-  return "angles, referred to the first target\n" + table.text(width);
+  return "angles, relative to the first target\n" + table.text(width);
 }
 
 }  // namespace mdof::tools

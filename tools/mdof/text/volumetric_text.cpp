@@ -32,7 +32,8 @@ std::string grid_text(const VolumetricTable& t) {
     const auto& commands = t.command_m[k];
     text += (text.empty() ? "" : ", ") + std::string(1, kAxes[k]) + " " + in_mm(commands.front());
     if (commands.size() > 1)
-      text += " to " + in_mm(commands.back()) + " in " + std::to_string(commands.size());
+      text +=
+          " to " + in_mm(commands.back()) + " (" + std::to_string(commands.size()) + " positions)";
   }
   return text + " mm";
 }
@@ -107,11 +108,11 @@ std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
                  fixed(to_urad(t.turn_left_rad), 2) + " µrad (angle)",
              terminal_columns()) +
          "\n" + names_text("not measured and not corrected: ", t.not_measured) +
-         names_text("the grid extends beyond the tables of: ", t.beyond_tables) +
-         names_text("u does not include: ", t.u_not_declared) +
+         names_text("the grid extends beyond the error tables of: ", t.beyond_tables) +
+         names_text("u does not include these errors: ", t.u_not_declared) +
          wrapped("u is the standard uncertainty. It contains " + covers_text(t),
                  terminal_columns()) +
-         "\n" + "The nodes are listed with --csv or --json\n";
+         "\n" + "For all nodes, give --csv or --json\n";
 }
 
 std::string volumetric_csv(const VolumetricTable& t) {

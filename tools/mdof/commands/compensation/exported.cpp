@@ -382,7 +382,8 @@ std::string check_text(const controllers::Check& check) {
   std::string text = table.text() + "allowed: at most " +
                      plain_number(check.most_residual_m * 1e6) + " µm (µrad) and " +
                      plain_number(check.share * 100) +
-                     " % of the value \"before\"; see --residual-um and --residual-percent\n";
+                     " % of the error before;\n"
+                     "see --residual-um and --residual-percent\n";
   for (const std::string& error : check.not_judged)
     text += error + ": not checked, because the sign of its correction is unknown\n";
   return text;

@@ -187,9 +187,9 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
          std::to_string(first.first_m.size() * first.second_m.size()) + " points of the plane " +
          o.plane + ", error of the tool relative to the workpiece\n" +
          table.text(terminal_columns()) +
-         (o.without_angles ? "the values contain positioning, straightness and squareness, but no "
-                             "angular errors\n"
-                           : "") +
+         (o.without_angles
+              ? "the values contain positioning, straightness and squareness, no angular errors\n"
+              : "") +
          missing_text(first.not_measured, first.no_u, terminal_columns()) +
          "For all points, give --csv or --json\n";
 }

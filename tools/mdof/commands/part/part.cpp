@@ -127,7 +127,8 @@ std::string part_text(const FoundPart& found) {
                 fixed(100 * found.error.causes[k].share, 1),
                 fixed(100 * found.error.causes[k].U_share, 1), in_um(found.error.causes[k].rms_m)});
   return text + "\n" + layers.text(terminal_columns()) + "\n" + causes.text(terminal_columns()) +
-         "share: part of the sum of the mean squares; left: RMS after compensation of the layer\n" +
+         "share: part of the sum of the mean squares\n"
+         "left: RMS after compensation of the layer\n" +
          missing_text(part.not_measured, part.no_u, terminal_columns());
 }
 

@@ -49,8 +49,8 @@ std::string uncertainty_text(const std::optional<PositioningUncertainty>& U) {
   return "U (k = 2): " + um_to_place(U->E_M_A, U->E_M_A) + " µm for E, M and A, " +
          um_to_place(U->B, U->B) +
          " µm for B\n"
-         "U contains the measuring device and the drift, but not the machine temperature and the "
-         "alignment\n";
+         "U contains the measuring device and the drift, but not the temperature of the\n"
+         "machine and the alignment\n";
 }
 
 Status iso230_of_file(const Iso230Command& command) {

@@ -91,8 +91,9 @@ Status demo(const DemoCommand& command) {
   MDOF_CHECK(mdofd.call("run.start", kRun));
   MDOF_CHECK(write_line(
       "\n"
-      "mdofd measures a simulated axis X. Open the page in a browser and select \"Capture\". The\n"
-      "page asks for the token before it changes anything. Ctrl-C ends the demo."));
+      "mdofd measures a simulated axis X. Open the page in a browser and select\n"
+      "\"Capture\". The page asks for the token before it changes anything. Ctrl-C ends\n"
+      "the demo."));
   while (!Interrupt::requested() && !daemon.has_ended()) std::this_thread::sleep_for(kLook);
   return Interrupt::requested() ? Status() : io_error("mdofd ended unexpectedly");
 }

@@ -51,7 +51,8 @@ Result<Processes> Processes::join() {
   if (!started_by_mpi()) return processes;
   MDOF_TRY(const Start start, load_module());
   processes.mpi_.reset(start());
-  if (!processes.mpi_) return io_error("MPI cannot be started; try mpirun -n 1 hostname");
+  if (!processes.mpi_)
+    return io_error("MPI cannot be started; check that this command works: mpirun -n 1 hostname");
   return processes;
 }
 

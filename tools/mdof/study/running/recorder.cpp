@@ -42,10 +42,11 @@ Result<StoredStudy> study_to_continue(const std::string& database, std::int64_t 
   MDOF_TRY(auto checkpoint, store.study_checkpoint(id));
   if (!checkpoint) {
     MDOF_TRY(const auto outcome, store.study_outcome(id));
-    return fail(ErrorCode::conflict,
-                "study " + std::to_string(id) +
-                    (outcome ? ": is complete; see mdof study " + std::to_string(id)
-                             : ": ended before its first checkpoint; run the study again"));
+    return fail(
+        ErrorCode::conflict,
+        "study " + std::to_string(id) +
+            (outcome ? ": the study is complete; see mdof study " + std::to_string(id)
+                     : ": the study ended before its first checkpoint; run the study again"));
   }
   stored.checkpoint = std::move(*checkpoint);
   MDOF_TRY(const StudySettings settings, parse_settings(stored.record.settings_toml));
@@ -65,7 +66,7 @@ Result<StudyWork> continued_work(const StoredStudy& stored, const Study& study) 
   if (!changed.empty())
     return bad_input(
         place + ": " + changed +
-        " has changed since the study was started; restore it, or run the study again");
+        " has changed after the start of the study; restore this file, or run the study again");
   auto state = parse_checkpoint(stored.checkpoint.bytes, *study.experiment);
   if (!state) return in_context(place, state.error());
   return state;

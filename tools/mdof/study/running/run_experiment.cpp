@@ -180,9 +180,10 @@ class RunExperiment final : public algo::PlanExperimentBase {
       return in_context(plan.source, distinct.error());
     for (const auto& q : e->axis_->draws().drawn()) {
       if (is_noise(q.target.effect) && q.group != algo::kNoCause)
-        return bad_input(plan.quantities[q.quantity].where +
-                         ": in a whole run the noise of each sample is independent; remove " +
-                         q.target.name + " from its [[correlation]], or use output_of = \"point\"");
+        return bad_input(
+            plan.quantities[q.quantity].where +
+            ": for output_of = \"run\", the noise of each sample is independent; remove " +
+            q.target.name + " from its [[correlation]], or use output_of = \"point\"");
     }
     return std::unique_ptr<algo::ScalableExperiment>(std::move(e));
   }

@@ -106,12 +106,12 @@ bool StudyRunner::rule_ended() const {
 
 std::string StudyRunner::not_settled() const {
   if (!rule_ || rule_->settled()) return "";
-  const std::string what = "the adaptive rule has not settled";
+  const std::string what = "the requested tolerance was not reached";
   const auto output = rule_->output_that_never_settles();
-  if (!output) return what + " within the permitted number of trials";
+  if (!output) return what + " within the permitted number of trials; give a larger --trials";
   return what + ": a block of " + std::to_string(batch_trials_) +
          " trials gave fewer than two values of " + experiment_->outputs()[*output] +
-         "; with --trials N and without the adaptive rule the other outputs are calculated";
+         "; to calculate the other outputs, give --trials N without --adaptive";
 }
 
 // Of slow trials a batch for each process, as one that is cut short is lost. The adaptive rule may

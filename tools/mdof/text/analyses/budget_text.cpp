@@ -61,7 +61,8 @@ std::string improve_text(const Budget& b) {
   const BudgetLine& first = b.lines.front();
   const double without = b.U * std::sqrt(std::max(0.0, 1 - first.share));
   return "Improve first: " + first.name + ", " + percent(first.share) +
-         " of u²; without it U would be " + shown_u(b, without) + " " + unit_of(b) + ".\n";
+         " of u². Without this contribution, U would be " + shown_u(b, without) + " " + unit_of(b) +
+         ".\n";
 }
 
 std::string decision_text(const Budget& b, const Decision& decision, std::size_t width) {

@@ -41,7 +41,7 @@ std::string closures_text(const Run& run, const std::vector<algo::Closure>& clos
 }
 
 std::string changes_table(const Run& run, const algo::RunDrift& drift, std::size_t width) {
-  TextTable table({"error", "drift", "first to last point", "highest - lowest", "seen from"});
+  TextTable table({"error", "drift", "first to last point", "highest - lowest", "detectable from"});
   const Errors5 signs = named_from_local(run.header.moving(), Errors5{1, 1, 1, 1, 1});
   const auto& names = error_names(run.header.axis);
   for (std::size_t k = 0; k < kErrorCount; ++k) {
@@ -114,9 +114,9 @@ std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_
   std::string text;
   if (!changes.empty())
     text += wrapped("drift: " + changes +
-                        ". The drift is in all errors of one approach and in all errors relative "
-                        "to the start. Let the system warm up (mdof drift shows when it is ready), "
-                        "or replay the log with --remove-drift",
+                        ". All errors of a single approach and all errors relative to the start "
+                        "contain this drift. Let the system warm up (mdof drift shows when the "
+                        "system is ready), or replay the log with --remove-drift",
                     width) +
             "\n";
   if (!steps.empty())
@@ -131,7 +131,7 @@ std::string drift_text(const Run& run, const DriftOfStored& drift, std::size_t w
   std::string text;
   if (!drift.found.closures.empty()) text = closures_text(run, drift.found.closures, width) + "\n";
   if (!drift.found.not_seen.empty())
-    return text + wrapped("no drift can be estimated: " + drift.found.not_seen, width) + "\n";
+    return text + wrapped("the drift cannot be estimated: " + drift.found.not_seen, width) + "\n";
   text += changes_table(run, drift.found, width);
   if (!drift.without.empty()) text += "\n" + without_text(run, drift.without, width);
   const std::string notice = drift_notice(run, drift.found, width);

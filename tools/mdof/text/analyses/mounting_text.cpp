@@ -46,7 +46,8 @@ std::string mounting_text(const MountingCalibration& found, const Rig& rig, std:
           plain_number(found.tilt_rad * 1e3, 3) + " mrad apart, " + std::to_string(found.readings) +
           " readings\nchi-square " + plain_number(found.chi_square, 4) + " of " +
           std::to_string(found.freedom) + " degrees of freedom" +
-          (found.explained ? "" : ": more than noise explains, so u was increased") + "\n";
+          (found.explained ? "" : "; this is more than the noise explains, so u was increased") +
+          "\n";
   if (!found.not_seen.empty()) text += "Not determined:\n";
   for (const auto& what : found.not_seen) text += "- " + wrapped(what, width - 2, 2) + "\n";
   return text +

@@ -59,8 +59,8 @@ std::string rates_text(const daemon::ParkedLog& log, const algo::WarmUp& found, 
 std::string temperature_text(const daemon::ParkedLog& log, const algo::WarmUp& found,
                              std::size_t width) {
   if (found.with_temperature.empty())
-    return "the log has no temperature_C, so drift with temperature is unknown\n";
-  TextTable table({"with temperature", "per °C", "correlation"});
+    return "the log has no \"temperature_C\", so the drift with temperature is unknown\n";
+  TextTable table({"drift with temperature", "per °C", "correlation"});
   for (std::size_t s = 0; s < found.with_temperature.size(); ++s) {
     const auto& with = found.with_temperature[s];
     const std::string& name = log.readings.series[s].name;
@@ -82,7 +82,7 @@ std::string limiting_cause(const daemon::ParkedLog& log, const algo::WarmUp& fou
     const algo::DriftWindow& last = found.windows[s].back();
     if (last.verdict == algo::DriftVerdict::below) continue;
     if (std::isnan(last.rate_per_s))
-      return "in the last window " + log.readings.series[s].name + " has no readings";
+      return log.readings.series[s].name + " has no readings in the last window";
     if (last.verdict == algo::DriftVerdict::unknown)
       return log.readings.series[s].name +
              " never changes in the whole log; check the probe, its cable and its resolution";
@@ -110,11 +110,12 @@ std::string parked_verdict(const daemon::ParkedLog& log, const algo::WarmUp& fou
     return "ready after " + minutes(*found.ready_after_s) +
            " min: from then on every window is below its limit";
   const std::string what = limiting_cause(log, found);
-  return "not ready yet: " + (what.empty()
-                                  ? "at the end fewer than " + std::to_string(algo::kFewestBelow) +
-                                        " windows are below the limit, or they last less than " +
-                                        minutes(algo::kShortestBelow_s) + " min; record for longer"
-                                  : what);
+  return "not ready yet: " +
+         (what.empty()
+              ? "the log must end with " + std::to_string(algo::kFewestBelow) +
+                    " or more windows below the limit that last " +
+                    minutes(algo::kShortestBelow_s) + " min or more in total; record for longer"
+              : what);
 }
 
 std::string parked_text(const daemon::ParkedLog& log, const algo::WarmUp& found,
@@ -125,7 +126,7 @@ std::string parked_text(const daemon::ParkedLog& log, const algo::WarmUp& found,
   if (log.limit_m_per_s) out += ", limit " + fixed(*log.limit_m_per_s * kPerHour, 1) + " nm/h";
   out += "\n\n" + rates_text(log, found, 0, log.probes, width) + "\n" +
          rates_text(log, found, log.probes, log.readings.series.size(), width);
-  if (found.limited) out += "! above the limit, ? within two standard uncertainties of it\n";
+  if (found.limited) out += "! above the limit, ? within two standard uncertainties of the limit\n";
   return out + "\n" + temperature_text(log, found, width) + "\n" +
          wrapped(parked_verdict(log, found), width) + "\n";
 }

@@ -26,7 +26,7 @@ std::string turned_text(const SeparationSource& source) {
 }
 
 std::string sources_text(const SeparationRecord& record, std::size_t width) {
-  TextTable table({"set-up", "of", "target", "zero at/mm"});
+  TextTable table({"set-up", "source", "target", "target zero at/mm"});
   for (std::size_t k = 0; k < record.sources.size(); ++k) {
     const SeparationSource& s = record.sources[k];
     table.add({std::to_string(k + 1), s.name, turned_text(s), in_mm(s.shift_m)});
@@ -151,8 +151,9 @@ std::string separation_plane_toml(const SeparationRecord& record) {
   const double u_m = mean_u(target);
   std::string text =
       noise_only_comment(record.result.noise_only) + provenance_comment(record) +
-      "# A rig with a [[plane]] needs one for each surface that its probes look at.\n"
-      "[[plane]]\nid = \"" +
+      "# If a rig has a [[plane]], it needs a [[plane]] for each surface that its probes measure.\n"
+      "[[plane]]\n"
+      "id = \"" +
       to_string(record.surface) + "\"\nnormal = \"" + along(record) +
       "\"\nflatness_first_mm = " + list(target.place_m, to_mm) +
       "\nflatness_second_mm = [0]\nflatness_um = " + heights(target.seen_m) + "\n";

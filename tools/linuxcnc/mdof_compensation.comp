@@ -2,50 +2,50 @@
 component mdof_compensation "Compensation of X, Y and Z by the volumetric table that mdofd serves";
 
 description """
-Stands after motion and before the drives. Adds to the commands of three linear joints the correction of the
-table at the commanded position, and takes it off the feedback again, so that planner and display do not see
-it. The position always passes: a fault holds the offset, then lets it fade. A second joint of an axis, as of a
-gantry, has the same offset: the pins 3 to 5.
+The component works between motion and the drives. It adds the correction that the table has at the commanded
+position to the commands of three linear joints, and subtracts this correction from the feedback, so that planner
+and display do not show it. The position is always passed on: after a fault, the offset is held and then reduced
+to 0. A second joint of an axis, as of a gantry, gets the same offset through the pins 3 to 5.
 
 The table comes from mdof_compensation_loader. See tools/linuxcnc/README.md of mdof.""";
 
-pin in float pos_in_#[6] "Of X, Y, Z, then of their second joints: joint.N.motor-pos-cmd";
-pin out float pos_out_#[6] "To the drive";
-pin in float fb_in_#[6] "From the drive";
-pin out float fb_out_#[6] "joint.N.motor-pos-fb";
-pin in float joint_pos_#[3] "joint.N.pos-cmd of X, Y, Z: where the table is looked up";
-pin out float offset_#[3] "What is added, to X, Y, Z";
+pin in float pos_in_#[6] "joint.N.motor-pos-cmd of X, Y, Z (pins 0 to 2) and of their second joints (pins 3 to 5)";
+pin out float pos_out_#[6] "Position command to the drive";
+pin in float fb_in_#[6] "Position feedback from the drive";
+pin out float fb_out_#[6] "Feedback without the offset, for joint.N.motor-pos-fb";
+pin in float joint_pos_#[3] "joint.N.pos-cmd of X, Y, Z: the position at which the table is read";
+pin out float offset_#[3] "Offset that is added to X, Y, Z";
 pin in bit homing_#[6] "joint.N.homing";
 pin in bit all_homed "motion.is-all-homed";
-pin in bit machine_on "motion.motion-enabled: while it is off the offset stands";
-pin in bit enable = 1 "Off: the offset fades to 0";
-pin out bit homing_inhibit "motion.homing-inhibit: while the offset is not 0, homing would keep it for good";
+pin in bit machine_on "motion.motion-enabled; while FALSE, the offset does not change";
+pin in bit enable = 1 "FALSE: the offset is reduced to 0";
+pin out bit homing_inhibit "For motion.homing-inhibit; TRUE while the offset is not 0, because homing would make the offset permanent";
 pin out bit active "A table is applied";
-pin out u32 generation "Of the table in force; 0: none";
-pin out float max_abs_offset "Largest correction of the table in force";
-pin out bit simulated "The table in force is of simulated data";
-pin out bit inside "The commanded position is inside the table; outside, that of its end is applied";
-pin out bit limited "The offset is not yet what the table asks";
+pin out u32 generation "Generation of the table in use; 0: no table";
+pin out float max_abs_offset "Largest correction of the table in use";
+pin out bit simulated "The table in use contains simulated data";
+pin out bit inside "The commanded position is inside the table; outside, the correction at the end of the table is applied";
+pin out bit limited "The offset has not yet reached the correction of the table";
 pin out bit connected "mdofd answers the loader";
-pin out float age_s "Since mdofd last confirmed that the table in force is the active one";
-pin out bit fault "Something is wrong: fault-code; the offset stands for hold-s, then fades to 0";
-pin out u32 fault_code "0 none, 1 the loader is silent, 2 age-s is too large, 3 a position is not a number";
-pin out u32 refused "Tables that were refused since the start";
-pin out u32 refused_code "Of the last one: 2 out of order, 3 too large, 4 a number is bad, 5 beyond max-offset";
+pin out float age_s "Time since mdofd last confirmed that the table in use is the active table";
+pin out bit fault "A fault is present, see fault-code; the offset is held for hold-s, then reduced to 0";
+pin out u32 fault_code "0 no fault, 1 the loader sends nothing, 2 age-s is too large, 3 a position is not a number";
+pin out u32 refused "Number of tables that were refused after the start";
+pin out u32 refused_code "Reason of the last refusal: 2 records out of order, 3 too many nodes, 4 invalid number, 5 correction above max-offset";
 
-param rw float fade_velocity = 0.04 "Of the offset after a change of tables, machine units/s";
-param rw float max_velocity = 1 "Of the offset, machine units/s";
-param rw float max_acceleration = 50 "Of the offset, machine units/s^2";
-param rw float max_offset = 0.1 "Largest correction of a table, machine units";
-param rw float loader_timeout_s = 5 "How long the loader may be silent before that is a fault";
-param rw float max_age_s = 3600 "age-s beyond which a table is no longer applied";
-param rw float hold_s = 10 "How long the offset stands after a fault before it fades";
+param rw float fade_velocity = 0.04 "Velocity of the offset after a change of tables, machine units/s";
+param rw float max_velocity = 1 "Largest velocity of the offset, machine units/s";
+param rw float max_acceleration = 50 "Largest acceleration of the offset, machine units/s^2";
+param rw float max_offset = 0.1 "Largest permitted correction of a table, machine units";
+param rw float loader_timeout_s = 5 "Longest time for which the loader may send nothing";
+param rw float max_age_s = 3600 "Largest permitted age-s; above it, the table is no longer applied";
+param rw float hold_s = 10 "Time for which the offset is held after a fault";
 
-modparam int most_nodes = 100000 "Nodes of the largest table";
-modparam int key = 0x6d646f66 "Of the stream from the loader";
+modparam int most_nodes = 100000 "Largest number of nodes of a table";
+modparam int key = 0x6d646f66 "Key of the stream from the loader";
 
-function feedback fp "Before motion-controller";
-function command fp "After motion-controller";
+function feedback fp "Must run before motion-controller";
+function command fp "Must run after motion-controller";
 
 option singleton yes;
 option extra_setup yes;

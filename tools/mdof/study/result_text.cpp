@@ -97,8 +97,7 @@ std::string comparison(const std::vector<ComparedOutput>& compared) {
     table.add({with_unit(c.key), fixed(c.sd_this, d), fixed(c.sd_other, d),
                with_u(fixed(c.ratio, 4), fixed(c.ratio_se, 4))});
   }
-  return "\n"
-         "Comparison with the other fixture (same random numbers)\n" +
+  return "\nComparison with the other fixture (same random numbers)\n" +
          table.text(terminal_columns());
 }
 

@@ -137,9 +137,9 @@ std::optional<Diagnosis> check_sysfs_device(const fs::path& device, const driver
       what + ": " + (service ? "the group mdof" : "this user") + " has no permission to write " +
           closed->string() + "; the key \"" + of.key + "\" in mdofd.toml needs this permission",
       std::string(
-          "install the udev rules (60-mdof.rules, above), which give the file to the group mdof; "
-          "if the device was connected before, then run: sudo udevadm control --reload && sudo "
-          "udevadm trigger --action=add --subsystem-match=") +
+          "install the udev rules (60-mdof.rules, above), which give the file to the group mdof. "
+          "If the device was connected before the installation, also run: sudo udevadm control "
+          "--reload && sudo udevadm trigger --action=add --subsystem-match=") +
           of.subsystem};
 }
 
@@ -164,10 +164,9 @@ Diagnosis check_udev_rules(const Machine& machine, bool wanted) {
     if (fs::exists(machine.at(folder) / "60-mdof.rules"))
       return {Level::good, "udev rules: installed in /" + std::string(folder), ""};
   }
-  return {
-      wanted ? Level::bad : Level::doubtful, "udev rules: not installed",
-      "sudo cp daemon/systemd/60-mdof.rules /etc/udev/rules.d/ && sudo udevadm control --reload "
-      "&& sudo udevadm trigger"};
+  return {wanted ? Level::bad : Level::doubtful, "udev rules: not installed",
+          "run: sudo cp daemon/systemd/60-mdof.rules /etc/udev/rules.d/ && sudo udevadm control "
+          "--reload && sudo udevadm trigger"};
 }
 
 Diagnosis check_storage(const daemon::Config& config) {

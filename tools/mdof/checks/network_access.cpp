@@ -148,7 +148,7 @@ std::vector<Diagnosis> check_network(const Machine& machine, const daemon::Confi
                      "network: the service mdofd has no permission to connect to " + address +
                          " (device " + device.name +
                          "), because mdofd.service contains IPAddressDeny=any",
-                     "sudo mdof setup network " + address +
+                     "run: sudo mdof setup network " + address +
                          " && sudo systemctl daemon-reload && sudo systemctl restart mdofd"});
     }
   return all;

@@ -136,8 +136,8 @@ class Judge {
              "]COMP_FILE: LinuxCNC would apply this file and the live table; remove COMP_FILE");
     if (number(section, "BACKLASH").value_or(0) != 0)
       refuse("[" + section +
-             "]BACKLASH: the table contains the mean of both approaches, which must be measured "
-             "without BACKLASH; remove BACKLASH and measure again");
+             "]BACKLASH: the errors in the table must be measured without BACKLASH; remove "
+             "BACKLASH and measure again");
     const double least = needed(section, "MIN_LIMIT", false);
     if (needed(section, "MAX_LIMIT", false) <= least)
       refuse("[" + section + "]MAX_LIMIT is not above MIN_LIMIT");

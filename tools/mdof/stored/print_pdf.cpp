@@ -87,8 +87,8 @@ Result<std::vector<std::string>> command_for(const fs::path& html, const fs::pat
     return std::vector<std::string>{weasyprint->string(), file_url(html),
                                     fs::absolute(pdf).string()};
   return io_error(
-      "no program that prints PDF is installed; install one (sudo apt install chromium, or "
-      "weasyprint), or open " +
+      "no program that prints PDF is installed; install one (sudo apt install chromium, or sudo "
+      "apt install weasyprint), or open " +
       html.string() + " in a browser and print the report there");
 }
 

@@ -73,7 +73,7 @@ std::string targets_text(const Plausibility& p) {
   out += ", " + std::string(odd == 0 ? "each" : "most") + " measured " + times(sum(most.first)) +
          " forward, " + times(sum(most.second)) + " in reverse\n";
   if (odd == 0) return out;
-  out += "n_ij       " + std::to_string(odd) +
+  out += "visits     " + std::to_string(odd) +
          (odd == 1 ? " target differs:\n" : " targets differ:\n") + table.text();
   if (odd > kMostRows) out += "... and " + std::to_string(odd - kMostRows) + " more, see --json\n";
   return out;
@@ -116,7 +116,8 @@ std::string plausibility_text(const Plausibility& p) {
   out += targets_text(p) + left_out_text(p);
   if (p.short_stops > 0)
     out += "no point   " + std::to_string(p.short_stops) +
-           (p.short_stops == 1 ? " stop" : " stops") + " at targets, too short or creeping\n";
+           (p.short_stops == 1 ? " stop" : " stops") +
+           " at targets: too short, or the axis moved slowly\n";
   return out + probes_text(p.probes);
 }
 

@@ -202,8 +202,8 @@ std::string straightness_text(const std::vector<StraightnessFigure>& figures,
   }
   return "straightness, peak to valley about each reference line\n" + table.text(width) +
          wrapped(
-             "± is the standard uncertainty u of the mean of both approaches. form: how well a "
-             "line describes the axis",
+             "± is the standard uncertainty u of the mean of both approaches. form: standard "
+             "deviation of the slope, from the residuals about the line",
              width) +
          "\n";
 }

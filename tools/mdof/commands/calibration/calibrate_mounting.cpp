@@ -157,8 +157,9 @@ Status calibrate(const MountingCommand& command) {
   MDOF_CHECK(write_out(mounting_text(found, rig, terminal_columns())));
   return command.record.out.empty()
              ? Status()
-             : write_line(command.record.out + " is written; add calibration = \"" +
-                          command.record.out + "\" to the rig");
+             : write_line(command.record.out +
+                          " is written; add this line to the rig file: calibration = \"" +
+                          command.record.out + "\"");
 }
 
 Action declare_mounting(CLI::App& command) {

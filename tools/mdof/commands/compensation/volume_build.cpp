@@ -29,7 +29,7 @@ std::string axes_of(const VolumeOptions& o) {
 
 Status check_options(const VolumeOptions& o) {
   if (o.volume == !o.plane.empty())
-    return fail(ErrorCode::usage, "--machine needs either --plane XY or --volume");
+    return fail(ErrorCode::usage, "--machine needs either --plane (XY, XZ or YZ) or --volume");
   if (!o.step_mm)
     return fail(ErrorCode::usage, "missing option --step-mm (distance between two nodes)");
   return {};
@@ -111,7 +111,7 @@ void add_volume_options(CLI::App& command, VolumeOptions& o) {
   command
       .add_option(
           "--machine", o.machine,
-          "MACHINE.toml: build a table over a plane or a volume from the errors in this file")
+          "MACHINE.toml: build a table over a plane or a volume from the errors of this machine")
       ->type_name("FILE");
   command.add_option("--plane", o.plane, "The two axes of the grid")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}));

@@ -237,13 +237,14 @@ Action declare_machine_diagonal(CLI::App& command) {
 }  // namespace
 
 Command machine_diagonal_command() {
-  return {.name = "machine diagonal",
-          .summary = "Predict the diagonals of a machine, or find squareness from measured ones",
-          .footer =
-              "Examples:\n"
-              "  mdof machine diagonal machine.toml --measured diagonals.csv\n"
-              "  mdof machine diagonal lines.csv --u-um 0.2",
-          .declare = declare_machine_diagonal};
+  return {
+      .name = "machine diagonal",
+      .summary = "Predict the diagonals of a machine, or find squareness from measured diagonals",
+      .footer =
+          "Examples:\n"
+          "  mdof machine diagonal machine.toml --measured diagonals.csv\n"
+          "  mdof machine diagonal lines.csv --u-um 0.2",
+      .declare = declare_machine_diagonal};
 }
 
 }  // namespace mdof::tools

@@ -76,7 +76,7 @@ std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::strin
   simdjson::dom::array devices;
   if (!list || parser.parse(simdjson::padded_string(*list))["devices"].get_array().get(devices)) {
     all.push_back({Level::bad, "mdofd does not report the state of its devices",
-                   "see the message of: mdof device list"});
+                   "to see the reason, run: mdof device list"});
     return all;
   }
   std::set<std::string> known;

@@ -197,8 +197,8 @@ Status add_machine_layers(LoadedPart& part, const std::string& database) {
   const algo::MachineCauses found = algo::machine_causes(part.machine, part.path.at_m);
   if (axes && found.axes.empty())
     return bad_input(part.plan.machine +
-                     ": the machine file has no measured errors; the layer \"axes\" needs measured "
-                     "errors, or in the part file axes = \"table:N\"");
+                     ": the machine file has no measured errors, which the layer \"axes\" needs; "
+                     "add measured errors, or set axes = \"table:N\" in the part file");
   if (budget && found.budget.empty())
     return bad_input(
         part.plan.machine +

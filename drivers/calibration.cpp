@@ -98,8 +98,8 @@ Status reject_encoder(const SampleBlock& block, const Channel& encoder, const st
   return bad_input((block.device.empty() ? "" : "device \"" + block.device + "\": ") +
                    "channel \"encoder\" " + (unit.empty() ? "has no unit" : "is in " + unit) +
                    ", but an axis position must be a length; " + scale +
-                   "choose an input that counts (with um_per_count) or gives um or mm; a script "
-                   "must name the column encoder_mm or encoder_um");
+                   "choose an input that gives counts (with um_per_count), um or mm; in CSV rows, "
+                   "name the column encoder_mm or encoder_um");
 }
 
 }  // namespace
@@ -129,8 +129,9 @@ Status Calibrator::apply_probe(const Probe& probe, std::size_t channel, SampleBl
   double um_per_unit = 1.0;
   if (unit == Unit::volt) {
     if (!c.um_per_V) {
-      return bad_input(rig_source_ + ": probe \"" + probe.id +
-                       "\" is logged in volts; give um_per_V of the probe");
+      return bad_input(
+          rig_source_ + ": probe \"" + probe.id +
+          "\" gives volts, but um_per_V is missing; add um_per_V to the [[probe]] of this probe");
     }
     um_per_unit = *c.um_per_V;
   } else if (unit == Unit::mm) {

@@ -36,14 +36,14 @@ void read_index(TomlTable& table, ChannelInput& channel) {
   channel.index_where = table.where("index_mm");
   if (channel.id != kEncoderChannel)
     table.reject("index_mm",
-                 "applies to the encoder only (axis position at its reference mark); remove it");
+                 "applies to the encoder only (axis position at the reference mark); remove "
+                 "index_mm from this channel");
   if (table.has("offset_mm"))
-    table.reject(
-        "index_mm",
-        "contradicts offset_mm: positions are counted from the reference mark; give one or the "
-        "other");
+    table.reject("index_mm",
+                 "contradicts offset_mm, because positions are counted from the reference mark; "
+                 "give only one of the two keys");
   if (!(std::abs(*channel.index_mm) <= kMostOffset_mm))
-    table.reject("index_mm", "must be a position of the axis in mm");
+    table.reject("index_mm", "must be a position of the axis, from -1000000 to 1000000 mm");
 }
 
 void read_offset(TomlTable& table, ChannelInput& channel) {
@@ -53,7 +53,7 @@ void read_offset(TomlTable& table, ChannelInput& channel) {
     table.reject("offset_mm",
                  "applies to the encoder only; give the offset of a probe as offset_um in the rig");
   if (!(std::abs(*channel.offset_mm) <= kMostOffset_mm))
-    table.reject("offset_mm", "must be a position of the axis in mm");
+    table.reject("offset_mm", "must be a position of the axis, from -1000000 to 1000000 mm");
 }
 
 Result<ChannelInput> read_channel(TomlTable& table, const Rig& rig, const ChannelKeys& more) {
@@ -62,7 +62,7 @@ Result<ChannelInput> read_channel(TomlTable& table, const Rig& rig, const Channe
   channel.id = table.string("id");
   channel.input = table.string("input");
   channel.um_per_count = table.number("um_per_count", 0);
-  if (!std::isfinite(channel.um_per_count)) table.reject("um_per_count", "must be finite");
+  if (!std::isfinite(channel.um_per_count)) table.reject("um_per_count", "must be a finite number");
   read_offset(table, channel);
   read_index(table, channel);
   if (more) more(table);
@@ -155,8 +155,8 @@ tl::unexpected<Error> no_such_input(const ChannelInput& channel,
 Status check_um_per_count(const ChannelInput& channel) {
   if (channel.um_per_count != 0) return {};
   return bad_input(channel.where +
-                   ": a counting encoder needs um_per_count (negative if the count "
-                   "decreases as the axis position d grows)");
+                   ": a counting encoder needs um_per_count, the motion per count in um (negative "
+                   "if the count decreases when the axis position increases)");
 }
 
 }  // namespace mdof::drivers

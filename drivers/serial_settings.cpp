@@ -10,7 +10,7 @@ void read_serial_settings(TomlTable& table, SerialSettings& line) {
       parity == "O")
     line.parity = static_cast<char>(parity[0] & ~0x20);
   else
-    table.reject("parity", "must be none, even or odd");
+    table.reject("parity", "must be \"none\", \"even\" or \"odd\"");
   line.stop_bits = static_cast<int>(table.integer("stop_bits", line.stop_bits));
   if (line.stop_bits != 1 && line.stop_bits != 2) table.reject("stop_bits", "must be 1 or 2");
 }

@@ -32,7 +32,8 @@ Result<Welcome> CommandPort::welcome() {
 
 Result<std::string> CommandPort::ask(const std::string& command) {
   MDOF_TRY(auto reply, exchange(command));
-  if (reply.refused) return io_error("the controller refuses " + command + ": " + reply.text);
+  if (reply.refused)
+    return io_error("the controller refuses the command " + command + ": " + reply.text);
   return std::move(reply.text);
 }
 
@@ -48,9 +49,9 @@ Result<Reply> CommandPort::exchange(const std::string& command) {
     MDOF_TRY(auto reply, try_once(command));
     if (reply) return std::move(*reply);
   }
-  return io_error(
-      "no answer to " + command +
-      "; check that this is the command port of a capaNCDT controller, and end its other clients");
+  return io_error("no answer to " + command +
+                  "; check that this is the command port of a capaNCDT controller, and end any "
+                  "other program that uses this port");
 }
 
 Result<std::optional<Reply>> CommandPort::try_once(const std::string& command) {

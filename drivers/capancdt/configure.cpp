@@ -47,7 +47,9 @@ std::optional<Averaging> read_averaging(TomlTable& table) {
 
 void read_address(TomlTable& table, Options& options) {
   const std::string address = table.string("address");
-  if (address.empty()) return table.reject("address", "must name the controller");
+  if (address.empty())
+    return table.reject("address",
+                        "must be the address of the controller, such as \"192.168.0.5\"");
   auto endpoint = parse_endpoint(address, capancdt::kCommandPort);
   if (!endpoint) return table.reject("address", endpoint.error().message);
   options.command = std::move(*endpoint);
@@ -90,7 +92,7 @@ Status read_channel_table(TomlTable& table, const DriverContext& context, Option
           channel.reject("range_um", "must be greater than 0 and at most 1000000");
         if (channel.has("um_per_count"))
           channel.reject("um_per_count",
-                         "applies to encoders that count, not to probes; remove it");
+                         "applies to encoders that count, not to probes; remove um_per_count");
       }));
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     MDOF_TRY(const int number, channel_number(inputs[i]));

@@ -30,7 +30,8 @@ Status identify(CommandPort& port, const Options& options, Setup& setup) {
   if (!setup.serial.empty()) setup.description += ", serial " + setup.serial;
   if (!rest.empty()) setup.description += ", " + rest.substr(0, rest.find(';'));
   if (options.serial.empty() || options.serial == setup.serial) return {};
-  return wrong("the controller is \"" + setup.description + "\", but serial is " + options.serial,
+  return wrong("the controller is \"" + setup.description +
+                   "\", but the configuration has serial = " + options.serial,
                "correct serial or address");
 }
 
@@ -61,7 +62,8 @@ Status check(const char* key, std::optional<int> wanted, std::optional<int> is) 
   if (!wanted || !is || *wanted == *is) return {};
   return wrong(std::string(key) + " is " + std::to_string(*is) + " on the controller, but " +
                    std::to_string(*wanted) + " in the configuration",
-               "correct one of them, or let the driver set it with configure = true");
+               "correct one of the two values, or give configure = true, so that the driver "
+               "changes the controller");
 }
 
 Status read_averaging(CommandPort& port, const Options& options, Setup& setup) {
@@ -113,8 +115,8 @@ Status read_settings(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_CHECK(read_averaging(port, options, setup));
   MDOF_TRY(const auto time_us, setting(port, "$STI?"));
   if (!time_us)
-    return wrong("the controller does not know $STI?",
-                 "this driver needs the 6200 family, not the 6500");
+    return wrong("the controller does not know the command \"$STI?\"",
+                 "this driver needs a controller of the family 6200, not 6500");
   if (*time_us < 1 || *time_us > kMostSample_us)
     return io_error("the controller reports a sample time of " + std::to_string(*time_us) +
                     " us, which is not from 1 to " + std::to_string(kMostSample_us));
@@ -150,7 +152,7 @@ Result<Setup::Input> read_input(CommandPort& port, const Options::Channel& chann
     return wrong(where + ": range_um is " + plain_number(range_um) +
                      ", but the controller reports " + plain_number(*stated_um) + " for channel " +
                      channel.input.input,
-                 "correct range_um or leave it out");
+                 "correct or remove range_um");
   return Setup::Input{range_um, false};
 }
 
@@ -202,8 +204,8 @@ Status check_filter(double sample_time_us, int averaged_values, double settle_s)
   const double filter_s = sample_time_us * 1e-6 * averaged_values;
   if (settle_s <= 0 || averaged_values < 2 || filter_s <= settle_s) return {};
   return wrong("the averaging takes " + plain_number(filter_s) +
-                   " s, longer than settle_s = " + plain_number(settle_s) +
-                   " s, so a stop would begin with readings of the motion to it",
+                   " s, which is longer than settle_s = " + plain_number(settle_s) +
+                   " s, so the first readings of a stop would contain the motion before the stop",
                "lower averaged_values or sample_time_us, or raise [measure] settle_s to " +
                    plain_number(filter_s));
 }

@@ -18,7 +18,7 @@ std::int32_t moved(const Packet& a, const Packet& b) {
 }
 
 tl::unexpected<Error> jumped(const Packet& last, const Packet& packet) {
-  return io_error("the counter of the data jumped from " + std::to_string(last.counter) + " to " +
+  return io_error("the counter in the data jumped from " + std::to_string(last.counter) + " to " +
                   std::to_string(packet.counter) +
                   "; the controller was restarted or its settings were changed");
 }
@@ -69,8 +69,8 @@ Status FrameCounter::hold(Packet packet, std::deque<PlacedPacket>& placed) {
   if (*best < kVotes) {
     if (held_.size() < kMostHeld) return {};
     return io_error(
-        "the counter of the data counts neither frames nor values nor packets; check the "
-        "averaging of the controller");
+        "the counter in the data counts neither frames nor values nor packets; check the averaging "
+        "of the controller");
   }
   unit_ = static_cast<CounterUnit>(best - votes_.begin());
   votes_ = {};

@@ -32,7 +32,7 @@ Result<int> open_descriptor(const std::string& path, int given) {
   const bool is_input = errno == ENOENT || errno == EINVAL;
   return fail(is_input ? ErrorCode::bad_input : ErrorCode::io,
               path + ": cannot be opened: " + sqlite::foreign_error_text(errno) +
-                  (errno == EINVAL ? ", or - for the standard input" : ""));
+                  (errno == EINVAL ? ", or give \"-\" for the standard input" : ""));
 }
 
 }  // namespace
@@ -47,8 +47,7 @@ Result<std::unique_ptr<ByteSource>> ByteSource::open(const std::string& path, bo
   const std::uint64_t size =
       known && S_ISREG(state.st_mode) ? static_cast<std::uint64_t>(state.st_size) : 0;
   std::unique_ptr<ByteSource> source(new ByteSource(descriptor, name, size));
-  if (known && S_ISDIR(state.st_mode))
-    return bad_input(name + ": is a directory; name the CSV file in it");
+  if (known && S_ISDIR(state.st_mode)) return bad_input(name + ": is a folder; name a CSV file");
   ::posix_fadvise(descriptor, 0, 0, POSIX_FADV_SEQUENTIAL);
   MDOF_CHECK(source->look_for_gzip(hash));
   return source;

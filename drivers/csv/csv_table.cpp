@@ -17,12 +17,13 @@ tl::unexpected<Error> no_column(const CsvHeader& header, const std::string& name
   std::string found;
   for (const std::string& column : header.columns) {
     if (stem_of(column) == stem_of(name))
-      return bad_input(place + "column " + column + " has another unit; convert the values and " +
+      return bad_input(place + "column " + column +
+                       " does not have the expected unit; convert the values and " +
                        "name the column " + name);
     found += (found.empty() ? "" : ", ") + column;
   }
   return bad_input(place + "no column " + name + " (columns: " + found +
-                   "); add it, or rename the column that contains it");
+                   "); add this column, or rename the column that contains these values");
 }
 
 // Channel of each of the columns.
@@ -74,7 +75,7 @@ Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::
     table.columns[k].insert(table.columns[k].end(), value.begin(), value.end());
   }
   if (table.rows() <= most_rows) return {};
-  return bad_input(table.source + ": more than " + std::to_string(most_rows) +
+  return bad_input(table.source + ": has more than " + std::to_string(most_rows) +
                    " rows, the limit of a series of targets");
 }
 

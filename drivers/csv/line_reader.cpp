@@ -33,7 +33,7 @@ Status LineReader::read(LineChunk& chunk) {
     const std::size_t lines = std::string_view(text, size).rfind('\n') + 1;
     if (lines == 0)
       return bad_input(source_.name() + ": a line is longer than " + std::to_string(chunk_bytes_) +
-                       " bytes; this is not a CSV text file");
+                       " bytes, so this is not a CSV text file; check the name of the file");
     carry_.assign(text + lines, text + size);
     size = lines;
   }

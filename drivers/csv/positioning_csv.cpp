@@ -35,7 +35,7 @@ Result<PositioningReading> reading_of(const CsvTable& table, std::size_t row) {
 Status check_new(const CsvTable& table, std::size_t row, const PositioningReading& r, Seen& seen) {
   const auto [first, is_new] = seen.try_emplace({r.target_m, r.direction, r.run}, row);
   if (is_new) return {};
-  return bad_input(table.where(row) + "the target, direction and run are those of line " +
+  return bad_input(table.where(row) + "the line has the same target, direction and run as line " +
                    std::to_string(table.header_line + 1 + first->second) +
                    "; number the runs 1, 2, 3 ... or delete one line");
 }

@@ -132,8 +132,9 @@ Status CsvStream::check_columns() const {
   for (const auto& id : ids) wanted += (wanted.empty() ? "" : ", ") + id;
   return no_header(
       {ErrorCode::bad_input,
-       source_ + ": no column of the header belongs to the rig (channels of the header: " + found +
-           "; of the rig: " + wanted + "); name columns such as A_um, A_V, encoder_mm"});
+       source_ + ": no column of the header is a channel of the rig (channels in the header: " +
+           found + "; channels of the rig: " + wanted +
+           "); name the columns after channels of the rig, such as A_um, A_V or encoder_mm"});
 }
 
 Status CsvStream::check_units() const {
@@ -197,8 +198,9 @@ tl::unexpected<Error> CsvStream::ended(const Error& why) {
       stream_ = std::move(*again);
       waits_for_writer_ = true;
     }
-    return io_error(source_ +
-                    ": the program that wrote to the FIFO has closed it; start the program again");
+    return io_error(
+        source_ +
+        ": the program that wrote to the FIFO has closed the FIFO; start the program again");
   }
   return io_error((options_.server ? "tcp://" : "serial:") + why.message +
                   (options_.server ? "; check that the script still runs" : ""));
@@ -240,7 +242,8 @@ Status CsvStream::check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t
   const bool slow = host_ns > kPaceOver_ns && device_ns < host_ns / 2;
   if (fast || slow)
     return bad_input(source_ + ": column time_s advanced by " + seconds(device_ns) + " in " +
-                     seconds(host_ns) + " of real time; time_s must be live and in seconds");
+                     seconds(host_ns) +
+                     " of real time; time_s must be in seconds and keep pace with real time");
   if (host_ns > kPaceOver_ns) pace_from_ = {rows.back().time_ns, received_ns};
   return {};
 }

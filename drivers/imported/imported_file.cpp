@@ -62,7 +62,8 @@ Result<ImportedSeries> read(const std::string& path, const std::string& text,
                             int descriptor) {
   if (angle && format != "csv")
     return fail(ErrorCode::usage,
-                "an angle is imported from CSV with columns position_mm and deviation_urad");
+                "angles can be imported only from a CSV file with the columns position_mm and "
+                "deviation_urad");
   if (format == "rtl") return parse_rtl(text, source);
   return format == "iso230-2" ? series_of_positioning(path, descriptor)
                               : series_of_csv(path, angle, descriptor);

@@ -127,7 +127,8 @@ class Rtl {
   Status take_target_line(std::string_view line) {
     const auto [key, value] = key_and_value(line);
     if (key == "Target-count") {
-      if (target_count_ > 0) return wrong("a second Target-count; a file has one list of targets");
+      if (target_count_ > 0)
+        return wrong("Target-count is given twice, but a file has one list of targets");
       target_count_ = count_from(value, kMostTargets);
       return target_count_ > 0 ? Status()
                                : wrong("Target-count must be a whole number from 1 to " +
@@ -153,7 +154,7 @@ class Rtl {
   Status take_run_count(std::string_view line) {
     const auto [key, value] = key_and_value(line);
     if (key != "Run-count") return {};
-    if (run_count_ > 0) return wrong("a second Run-count; a file has one set of runs");
+    if (run_count_ > 0) return wrong("Run-count is given twice, but a file has one set of runs");
     run_count_ = count_from(value, kMostRtlRuns);
     return run_count_ > 0 ? Status()
                           : wrong("Run-count must be a whole number from 1 to " +
@@ -173,14 +174,15 @@ class Rtl {
                       target = count_from(words[1], target_count_);
     const auto deviation_um = number_from(words[2]);
     if (run == 0 || target == 0 || !deviation_um)
-      return wrong("a run from 1 to " + std::to_string(run_count_) + ", a target from 1 to " +
-                   std::to_string(target_count_) + " and a deviation in µm are expected");
+      return wrong("the line must contain a run from 1 to " + std::to_string(run_count_) +
+                   ", a target from 1 to " + std::to_string(target_count_) +
+                   " and a deviation in µm");
     MDOF_CHECK(check_way(run, target));
     if (seen_.size() == kMostImportedReadings)
       return wrong("more than " + std::to_string(kMostImportedReadings) + " deviations");
     if (!seen_.insert({run, target}).second)
-      return wrong("run " + std::to_string(run) + " has a deviation at target " +
-                   std::to_string(target) + " already");
+      return wrong("run " + std::to_string(run) + " already has a deviation at target " +
+                   std::to_string(target));
     const bool forward = run % 2 == 1;
     series_.readings.push_back({static_cast<double>(target - 1), forward ? 1 : -1,
                                 static_cast<int>((run + 1) / 2), from_um(*deviation_um)});

@@ -146,12 +146,14 @@ std::string ChildProcess::how_it_ended() {
 
 Result<ByteStream> open_fifo(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  const std::string remedy = "; create it with mkfifo " + path;
-  if (fd < 0) return io_error(path + ": " + std::strerror(errno) + remedy);
+  if (fd < 0)
+    return io_error(path + ": " + std::strerror(errno) +
+                    (errno == ENOENT ? "; create the FIFO with mkfifo " + path : ""));
   ByteStream stream(fd, path);
   struct stat what {};
   if (::fstat(fd, &what) != 0 || !S_ISFIFO(what.st_mode))
-    return io_error(path + ": is not a FIFO" + remedy);
+    return io_error(path +
+                    ": is not a FIFO; name another path and create a FIFO there with mkfifo");
   return stream;
 }
 

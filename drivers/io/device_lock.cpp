@@ -55,12 +55,13 @@ pid_t holder_of(Name& name) {
 tl::unexpected<Error> in_use_by(pid_t pid) {
   if (pid == ::getpid())
     return io_error("two devices of the configuration use this device; remove one of them");
-  if (pid == 0) return io_error("it is in use by another program", Remedy::ask_daemon_for_device);
+  if (pid == 0)
+    return io_error("the device is in use by another program", Remedy::ask_daemon_for_device);
   std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
   std::string program;
   std::getline(file, program);
   if (program.empty()) program = "another program";
-  return io_error("it is in use by " + program + " (process " + std::to_string(pid) + ")",
+  return io_error("the device is in use by " + program + " (process " + std::to_string(pid) + ")",
                   Remedy::ask_daemon_for_device);
 }
 

@@ -34,7 +34,7 @@ tl::unexpected<Error> not_opened(const std::string& path) {
   if (error == EACCES || error == EPERM)
     return io_error(path + ": no permission", Remedy::install_udev_rules);
   if (error == ENOENT || error == ENODEV || error == ENXIO)
-    return io_error(path + ": was unplugged just now");
+    return io_error(path + ": the device was unplugged; plug the device in again");
   return io_error(path + ": " + narrow(::hid_error(nullptr)));
 }
 

@@ -62,7 +62,8 @@ void set_line(int fd, int line, bool on) {
 Result<ByteStream> open_serial(const std::string& path, const SerialSettings& settings) {
   const Rate* rate = find_rate(settings.baud);
   if (!rate)
-    return bad_input(path + ": baud = " + std::to_string(settings.baud) + " is not supported");
+    return bad_input(path + ": baud = " + std::to_string(settings.baud) +
+                     " is not supported; give a standard rate, such as 9600, 19200 or 115200");
   const int fd = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) return not_opened(path, errno);
   ByteStream port(fd, path);

@@ -14,7 +14,8 @@ double read_most_counts_per_s(TomlTable& channel) {
 
 std::string speed_text(double most_counts_per_s, double um_per_count) {
   if (most_counts_per_s <= 0) return "";
-  return "counts to " + plain_number(most_counts_per_s * std::abs(um_per_count) * 1e-3) + " mm/s";
+  return "counts up to " + plain_number(most_counts_per_s * std::abs(um_per_count) * 1e-3) +
+         " mm/s";
 }
 
 }  // namespace mdof::drivers::labjack

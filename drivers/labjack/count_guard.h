@@ -56,10 +56,10 @@ class CountGuard {
 
 // `most_counts_per_s` of a channel; 0: not given. Rejects what is not above 0.
 double read_most_counts_per_s(TomlTable& channel);
-// For people: "counts to 3.5 mm/s", the speed of the axis that a counter can follow; "" for 0.
+// For people: "counts up to 3.5 mm/s", the speed of the axis that a counter can follow; "" for 0.
 std::string speed_text(double most_counts_per_s, double um_per_count);
 inline constexpr const char* kCountsLost =
-    "the encoder moved faster than most_counts_per_s, so counts may be lost; move the axis more "
-    "slowly from now on";
+    "the encoder moved faster than most_counts_per_s, so counts may have been lost; move the axis "
+    "more slowly";
 
 }  // namespace mdof::drivers::labjack

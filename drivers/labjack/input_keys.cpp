@@ -31,7 +31,7 @@ Result<int> negative_of(const std::string& device, const ChannelInput& channel, 
   if (ain % 2 == 0 && negative == partner) return ain + 1;
   return bad_input(
       channel.where + ": negative = \"" + negative + "\" is not possible; a " + device +
-      " measures an even AIN against the next AIN; give " +
+      " measures an even AIN only against the next AIN; give " +
       (ain % 2 == 0 ? "negative = \"" + partner + "\" with " + channel.input
                     : "negative = \"" + channel.input + "\" with AIN" + std::to_string(ain - 1)));
 }
@@ -42,12 +42,12 @@ Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<I
     if (uses[i].ain < 0) {
       const auto [other, fresh] = counters.emplace(channels[i].further, channels[i].input);
       if (!fresh)
-        return bad_input(
-            channels[i].where + ": " + other->second +
-            " counts already, and an axis can use only one counter of a device; count \"" +
-            channels[i].id +
-            "\" with another device, or, if it is the encoder of another "
-            "axis, give it in [axis.device] of that axis with same_as");
+        return bad_input(channels[i].where + ": " + other->second +
+                         " is a counter of this axis already, and an axis can use only one counter "
+                         "of a device; connect \"" +
+                         channels[i].id +
+                         "\" to another device, or, if this is the encoder of another axis, "
+                         "declare the channel in the [axis.device] of that axis with same_as");
     }
     for (std::size_t other = 0; other < uses.size(); ++other)
       if (uses[i].ain >= 0 && uses[other].negative == uses[i].ain)

@@ -45,7 +45,7 @@ Status ScanSplitter::take(std::span<const std::uint16_t> samples,
   }
   if (!gap_ || candidates_ > 0) return {};
   return io_error("the stream dropped " + std::to_string(*gap_) +
-                  " scans without marking the place, so the times after it are unknown");
+                  " scans without marking the place, so the times of later scans are unknown");
 }
 
 void ScanSplitter::end_scan(std::vector<Scan>& scans) {

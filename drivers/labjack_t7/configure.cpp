@@ -40,7 +40,9 @@ void read_converter(TomlTable& table, Settings& settings) {
   if (!(settings.settling_us >= 0 && settings.settling_us <= kMostSettling_us))
     table.reject("settling_us", "must be from 0 (automatic) to 4400");
   const std::int64_t serial = table.integer("serial", 0);
-  if (serial < 0 || serial > UINT32_MAX) table.reject("serial", "is not a serial number of a T7");
+  if (serial < 0 || serial > UINT32_MAX)
+    table.reject("serial",
+                 "must be the serial number of a T7, a whole number from 1 to 4294967295");
   settings.serial = static_cast<std::uint32_t>(serial);
 }
 
@@ -82,7 +84,8 @@ std::vector<std::string> known_inputs() {
 Result<Input> counter_of(const ChannelInput& channel, const labjack::InputKeys& keys, int line) {
   if (!keys.negative.empty() || keys.range_v > 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " is a counter; negative and range_v apply to an AIN; remove them");
+                     " is a counter; the keys \"negative\" and \"range_v\" apply to an AIN only; "
+                     "remove these keys");
   MDOF_CHECK(check_um_per_count(channel));
   Input input;
   input.channel = {channel.id, Unit::um};
@@ -100,8 +103,8 @@ Result<Input> input_of(const ChannelInput& channel, const labjack::InputKeys& ke
   if (at == known.end()) return no_such_input(channel, known);
   if (channel.um_per_count != 0 || keys.most_counts_per_s > 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " gives volts, not counts; remove um_per_count and most_counts_per_s "
-                     "(the rig gives um_per_V)");
+                     " gives volts, not counts; remove um_per_count and most_counts_per_s (the "
+                     "scale is um_per_V in the rig)");
   Input input;
   input.channel = {channel.id, Unit::volt};
   input.ain = static_cast<int>(at - known.begin());

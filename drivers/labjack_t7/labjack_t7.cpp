@@ -198,8 +198,8 @@ Status LabjackT7::receive(milliseconds timeout) {
     const double packet_ns = 1e9 / rate_hz_ * static_cast<double>(settings_.samples_per_packet);
     if (static_cast<double>(received_ns - last_packet_ns_ - kSilence_ns) > packet_ns)
       return io_error("no packet for 2 s on port " + std::to_string(settings_.stream.port) +
-                      "; the T7 lost power or network, or another program has stopped the stream "
-                      "or receives it");
+                      "; check the power and the network of the T7, and end any other program that "
+                      "uses the T7");
   } while (scans_.empty() && steady_clock::now() < until);
   return {};
 }

@@ -22,7 +22,8 @@ constexpr CodeText kErrors[] = {
     {status::recovering, "the stream's buffer was full and is being emptied"},
     {status::recovered, "the stream continues after dropped scans"},
     {status::scan_overlap,
-     "a scan began before the last had ended: lower rate_hz, resolution_index or settling_us"},
+     "a scan began before the previous scan had ended: lower rate_hz, resolution_index or "
+     "settling_us"},
     {status::recovery_overflow,
      "more scans were dropped than the device can count: check network and load, lower rate_hz"},
     {status::burst_complete, "the device ended the stream like a burst, which was not requested"},

@@ -18,9 +18,10 @@ Status check_words(std::uint32_t test) {
   if (test == kTestValue) return {};
   if (test == kTestSwapped)
     return io_error(
-        "TEST reads 0x22330011, not 0x00112233; a gateway or proxy swaps the two words of each "
-        "number; connect the T7 directly, or set the gateway to the order high word, low word");
-  return io_error("TEST does not read 0x00112233, so this is not a LabJack; check the address");
+        "the register TEST is 0x22330011, not 0x00112233; a gateway or proxy swaps the two words "
+        "of each number; connect the T7 directly, or set the gateway to send the high word first");
+  return io_error(
+      "the register TEST is not 0x00112233, so this device is not a LabJack; check the address");
 }
 
 Status check_product(float product) {
@@ -60,8 +61,9 @@ Result<Identity> identify(Registers& registers, const Settings& settings) {
   MDOF_CHECK(check_product(product));
   MDOF_TRY(const std::uint32_t serial, registers.u32(reg::serial));
   if (settings.serial != 0 && serial != settings.serial)
-    return io_error("the serial number is " + std::to_string(serial) + ", but serial is " +
-                    std::to_string(settings.serial) + "; correct address or serial");
+    return io_error("the serial number of the device is " + std::to_string(serial) +
+                    ", but the configuration has serial = " + std::to_string(settings.serial) +
+                    "; correct address or serial");
   MDOF_TRY(const float firmware, registers.f32(reg::firmware));
   MDOF_CHECK(check_firmware(firmware));
   MDOF_CHECK(check_wire(registers));

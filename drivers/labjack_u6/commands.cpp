@@ -44,7 +44,8 @@ std::string error_text(int code) {
       {49, "the stream's configuration is invalid"},
       {50, "the stream's configuration is invalid"},
       {kNotRunning, "no stream was running"},
-      {kScanOverlap, "a scan began before the last had ended: lower rate_hz or resolution_index"},
+      {kScanOverlap,
+       "a scan began before the previous scan had ended: lower rate_hz or resolution_index"},
       {56, "the number of samples in a packet is invalid"},
       {kRateInvalid, "the scan rate is invalid: change rate_hz"},
       {kRecovering, "the stream's buffer was full and is being emptied"},
@@ -78,7 +79,8 @@ std::string read_calibration(int block) {
 
 // Fixed point: 32 bits of fraction, then 32 of a signed whole number.
 Result<CalibrationBlock> read_calibration_reply(std::string_view reply) {
-  MDOF_TRY(const std::string body, accepted("reading calibration", reply, kReadCalibration, 40));
+  MDOF_TRY(const std::string body,
+           accepted("the command that reads the calibration", reply, kReadCalibration, 40));
   CalibrationBlock block{};
   for (std::size_t i = 0; i < block.size(); ++i) {
     const double fraction = u32_at(reply, 8 + 8 * i);

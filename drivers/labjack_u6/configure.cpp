@@ -21,7 +21,9 @@ constexpr int kMostResolution = 8, kMostSettling_us = 2550;
 
 void read_serial(TomlTable& table, Settings& settings) {
   const std::int64_t serial = table.integer("serial", 0);
-  if (serial < 0 || serial > UINT32_MAX) table.reject("serial", "is not a serial number of a U6");
+  if (serial < 0 || serial > UINT32_MAX)
+    table.reject("serial",
+                 "must be the serial number of a U6, a whole number from 1 to 4294967295");
   if (serial > 0) settings.serial = std::to_string(serial);
 }
 
@@ -73,7 +75,8 @@ std::vector<std::string> known_inputs() {
 Result<Input> counter_of(const ChannelInput& channel, const labjack::InputKeys& keys, int line) {
   if (!keys.negative.empty() || keys.range_v > 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " is a counter; negative and range_v apply to an AIN; remove them");
+                     " is a counter; the keys \"negative\" and \"range_v\" apply to an AIN only; "
+                     "remove these keys");
   MDOF_CHECK(check_um_per_count(channel));
   Input input;
   input.channel = {channel.id, Unit::um};
@@ -91,8 +94,8 @@ Result<Input> input_of(const ChannelInput& channel, const labjack::InputKeys& ke
   if (at == known.end()) return no_such_input(channel, known);
   if (channel.um_per_count != 0 || keys.most_counts_per_s > 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " gives volts, not counts; remove um_per_count and most_counts_per_s "
-                     "(the rig gives um_per_V)");
+                     " gives volts, not counts; remove um_per_count and most_counts_per_s (the "
+                     "scale is um_per_V in the rig)");
   Input input;
   input.channel = {channel.id, Unit::volt};
   input.ain = static_cast<int>(at - known.begin());

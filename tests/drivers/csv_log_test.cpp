@@ -158,7 +158,7 @@ TEST_F(CsvLogTest, SaysHowFarATruncatedGzipGot) {
   for (const std::size_t cut : {std::size_t{5}, packed.size() / 2, packed.size() - 1}) {
     const Replay r = replay(file(packed.substr(0, cut)));
     EXPECT_NE(r.error.find("truncated"), r.error.npos) << r.error;
-    EXPECT_NE(r.error.find("bytes of text"), r.error.npos) << r.error;
+    EXPECT_NE(r.error.find("bytes of unpacked text"), r.error.npos) << r.error;
     EXPECT_EQ(r.sha256, "");
   }
 }

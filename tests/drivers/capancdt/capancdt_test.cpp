@@ -285,7 +285,7 @@ TEST(Capancdt, ACounterThatStartsAnewIsAnError) {
   ASSERT_EQ(error_of(driver.open()), "");
   const Collected got = collect(driver, 1000);
   EXPECT_EQ(got.all.scans(), 40u);  // all before are handed out
-  expect_has(got.error, "the counter of the data jumped from 1000039 to 0");
+  expect_has(got.error, "the counter in the data jumped from 1000039 to 0");
 }
 
 TEST(Capancdt, GarbageAloneIsAnError) {

@@ -56,7 +56,8 @@ TEST(CapancdtConfigure, AveragingLongerThanAStopSettles) {
   const std::string text =
       "address = \"box\"\nsample_time_us = 32768\naveraging = \"moving\"\naveraged_values = 4\n" +
       kChannel;
-  expect_error(text, "mdofd.toml:4: averaged_values: the averaging takes 0.1311 s, longer than");
+  expect_error(text,
+               "mdofd.toml:4: averaged_values: the averaging takes 0.1311 s, which is longer than");
   EXPECT_TRUE(configure(text, 0.2));
   EXPECT_TRUE(configure(text, 0));
 }
@@ -75,7 +76,8 @@ TEST(CapancdtConfigure, Everything) {
 
 TEST(CapancdtConfigure, BadAddress) {
   expect_error(kChannel, "mdofd.toml:1: address: is missing");
-  expect_error("address = \"\"\n" + kChannel, "mdofd.toml:1: address: must name the controller");
+  expect_error("address = \"\"\n" + kChannel,
+               "mdofd.toml:1: address: must be the address of the controller");
   expect_error("address = \"box:x\"\n" + kChannel,
                "mdofd.toml:1: address: \"box:x\" is not an address");
 }

@@ -10,7 +10,8 @@ TEST(CapancdtSetup, IdentityIsChecked) {
   rack.options.serial = "1001";
   EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
   rack.options.serial = "1002";
-  expect_has(error_of(Capancdt(rack.options).open()), "but serial is 1002; correct serial");
+  expect_has(error_of(Capancdt(rack.options).open()),
+             "but the configuration has serial = 1002; correct serial");
 }
 
 TEST(CapancdtSetup, AChannelThatIsNotThere) {
@@ -78,7 +79,7 @@ TEST(CapancdtSetup, AveragingLongerThanAStopSettlesIsRefused) {
     rack.options.sample_time_us.reset();
     rack.options.settle_s = 1;
     expect_has(error_of(Capancdt(rack.options).open()),
-               "the averaging takes 1.049 s, longer than settle_s = 1 s");
+               "the averaging takes 1.049 s, which is longer than settle_s = 1 s");
     rack.options.settle_s = 1.05;
     EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
   }

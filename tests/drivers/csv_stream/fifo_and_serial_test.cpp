@@ -51,7 +51,7 @@ TEST_F(CsvStreamFifo, WaitsForItsWriterAndForTheNext) {
     writer.join();
     ASSERT_TRUE(opened);
     EXPECT_EQ(all.scans.size(), 2u);
-    EXPECT_NE(all.error.find("has closed it"), std::string::npos) << all.error;
+    EXPECT_NE(all.error.find("has closed the FIFO"), std::string::npos) << all.error;
   }
 }
 
@@ -65,7 +65,7 @@ TEST_F(CsvStreamFifo, AWriterThatComesBeforeTheReopenIsNotLost) {
   std::thread first([&] { write("A_um\n1\n"); });
   ASSERT_TRUE(stream.open());
   first.join();
-  EXPECT_NE(collect(stream, 10).error.find("has closed it"), std::string::npos);
+  EXPECT_NE(collect(stream, 10).error.find("has closed the FIFO"), std::string::npos);
   write("A_um\n2\n3\n");
   ASSERT_TRUE(stream.open());
   const Collected all = collect(stream, 10);

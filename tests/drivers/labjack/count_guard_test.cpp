@@ -56,8 +56,8 @@ TEST(LabjackCountGuard, WithoutALimitNothingIsWatched) {
 }
 
 TEST(LabjackCountGuard, SaysTheSpeedThatTheResolutionAllows) {
-  EXPECT_EQ(speed_text(30'000, -0.05), "counts to 1.5 mm/s");
-  EXPECT_EQ(speed_text(70'000, 1), "counts to 70 mm/s");
+  EXPECT_EQ(speed_text(30'000, -0.05), "counts up to 1.5 mm/s");
+  EXPECT_EQ(speed_text(70'000, 1), "counts up to 70 mm/s");
   EXPECT_EQ(speed_text(0, 0.05), "");
 }
 

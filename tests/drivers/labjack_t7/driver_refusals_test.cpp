@@ -22,7 +22,7 @@ TEST_F(LabjackT7Driver, OtherDevicesAreRefused) {
   made.reset();
   served.reset();
   serve({});
-  EXPECT_TRUE(has(refusal(), "serial number is 470012345"));
+  EXPECT_TRUE(has(refusal(), "serial number of the device is 470012345"));
 }
 
 TEST_F(LabjackT7Driver, AStampOfAnotherStreamIsRefused) {

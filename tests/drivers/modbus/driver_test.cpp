@@ -350,7 +350,8 @@ TEST(ModbusConfiguration, WhatIsWrongIsNamedWithItsKey) {
   says("profile = \"adam-6017\"\n" + channel("A", "AI0"), "address: is missing");
   says("profile = \"adam-6017\"\naddress = \"a:b\"\n" + channel("A", "AI0"), "is not an address");
   says(smax + "baud = 0\n" + kPosition, "mdofd.toml:3: baud");
-  says(smax + "parity = \"mark\"\n" + kPosition, "mdofd.toml:3: parity: must be none, even or odd");
+  says(smax + "parity = \"mark\"\n" + kPosition,
+       "mdofd.toml:3: parity: must be \"none\", \"even\" or \"odd\"");
   says(smax + "stop_bits = 3\n" + kPosition, "mdofd.toml:3: stop_bits");
   says(smax + "unit = 250\n" + kPosition, "mdofd.toml:3: unit");
   says(smax + "poll_ms = 0\n" + kPosition, "mdofd.toml:3: poll_ms");

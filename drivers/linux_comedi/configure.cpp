@@ -30,7 +30,7 @@ void read_range(TomlTable& table, Wiring& wiring) {
     if (ends.size() != 2 || !(ends[0] < ends[1]) || !std::isfinite(ends[1] - ends[0]))
       return table.reject(
           "range_v",
-          "must be both ends in volts, such as [0, 10], or one number: 10 for -10 to 10");
+          "must be both limits in volts, such as [0, 10], or one number (10 means -10 to 10 V)");
     wiring.low_v = ends[0];
     wiring.high_v = ends[1];
     return;
@@ -38,7 +38,7 @@ void read_range(TomlTable& table, Wiring& wiring) {
   wiring.high_v = table.number("range_v");
   wiring.low_v = -wiring.high_v;
   if (!(wiring.high_v > 0 && std::isfinite(wiring.high_v)))
-    table.reject("range_v", "must be more than 0: 10 is a range from -10 to 10 V");
+    table.reject("range_v", "must be greater than 0 (10 means -10 to 10 V)");
 }
 
 Wiring read_wiring(TomlTable& table, Wiring wiring) {
@@ -56,8 +56,9 @@ void read_board(TomlTable& table, Settings& settings) {
   if (!table.has("subdevice")) return;
   const std::int64_t subdevice = table.integer("subdevice");
   if (subdevice < 0 || subdevice > kMostSubdevice)
-    return table.reject("subdevice",
-                        "must be the number of a subdevice; comedi_board_info lists them");
+    return table.reject(
+        "subdevice",
+        "must be the number of a subdevice; to list the numbers, run: comedi_board_info");
   settings.subdevice = static_cast<unsigned>(subdevice);
 }
 
@@ -78,7 +79,8 @@ Result<unsigned> number_of(const ChannelInput& channel) {
   for (unsigned n = 0; n <= kMostNumber; ++n)
     if (channel.input == "CH" + std::to_string(n)) return n;
   return bad_input(channel.where + ": input \"" + channel.input +
-                   "\" is not an input of a board; channel 0 of the subdevice is \"CH0\"");
+                   "\" is not an input of a board; give \"CH0\" for channel 0 of the subdevice, "
+                   "\"CH1\" for channel 1 and so on");
 }
 
 Result<InputSetting> input_of(const ChannelInput& channel, const Wiring& wiring) {

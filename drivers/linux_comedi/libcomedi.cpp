@@ -52,12 +52,13 @@ std::string open_error(const std::string& device, int error) {
            "an ISA board with comedi_config";
   if (error == ENODEV || error == ENXIO)
     return what +
-           "; no board is attached to this file; the board is unplugged or has another number";
+           "; no board is attached to this file, because the board is unplugged or has another "
+           "number; correct device";
   if (error == EACCES || error == EPERM)
     return what +
            "; this user is not in the group iocard, which may use Comedi boards on Debian; run "
            "sudo usermod -aG iocard $USER, then log in again";
-  if (error == ENOTTY) return what + "; this is not a Comedi device";
+  if (error == ENOTTY) return what + "; this is not a Comedi device; correct device";
   return what;
 }
 
@@ -247,8 +248,8 @@ Status LibraryBoard::start(const Command& command) {
   comedi_cmd raw = raw_command(command, inputs);
   if (comedi_command(device_.get(), &raw) < 0) {
     const bool busy = comedi_errno() == EBUSY;
-    return io_error("the command is refused: " + last_error() +
-                    (busy ? "; end the program that reads the board" : ""));
+    return io_error("the board refuses the command: " + last_error() +
+                    (busy ? "; end the other program that reads the board" : ""));
   }
   subdevice_ = command.subdevice;
   return {};

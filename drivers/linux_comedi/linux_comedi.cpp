@@ -110,17 +110,17 @@ void LinuxComedi::take(std::size_t bytes) {
 
 Status LinuxComedi::check(StreamState stream) {
   if (stream == StreamState::overran)
-    return io_error(
-        "the buffer of the board, or of the kernel (" + plain_number(setup_.buffer_s) +
-        " s), has overflowed; lower rate_hz, find what keeps this computer from reading, or "
-        "enlarge the buffer of the kernel (comedi_config --read-buffer)");
+    return io_error("the buffer of the board, or of the kernel (" + plain_number(setup_.buffer_s) +
+                    " s), has overflowed; lower rate_hz, end programs that load this computer, or "
+                    "enlarge the buffer of the kernel (comedi_config --read-buffer)");
   if (stream == StreamState::ended)
-    return io_error("the board has ended the command by itself; see dmesg");
+    return io_error("the board has stopped scanning without a request; dmesg may show the reason");
   const double silent_s = static_cast<double>(monotonic_ns() - received_ns_) * 1e-9;
   const double kept_s = kBoardKeeps / rate_hz_ / static_cast<double>(channels_.size());
   if (silent_s > kSilence_s + kept_s)
     return io_error("no data for " + plain_number(kSilence_s + kept_s) +
-                    " s although the board scans; its interrupts do not arrive; see dmesg");
+                    " s although the board scans, because the interrupts of the board do not "
+                    "arrive; dmesg may show the reason");
   return {};
 }
 

@@ -27,7 +27,8 @@ Result<Event> conversion(const Command& sources, std::size_t inputs, const ScanT
   if (!can(sources.convert, kTimer)) {
     if (can(sources.convert, kNow))
       return bad_input("the board converts all inputs of a scan at once; remove convert_us");
-    return bad_input("the board cannot time its conversions by itself");
+    return bad_input(
+        "the board cannot time its conversions by itself, so this driver cannot read the board");
   }
   const double scan_us = 1e6 / timing.rate_hz;
   const double each_us =
@@ -39,7 +40,8 @@ Result<Event> conversion(const Command& sources, std::size_t inputs, const ScanT
 Result<Command> without_pause(Command command, const Command& sources, double rate_hz) {
   if (!can(sources.scan_begin, kFollow) || !can(sources.convert, kTimer))
     return bad_input(
-        "the board has no timer for scans, and this driver cannot use an external timer");
+        "the board has no timer for scans, and this driver cannot use an external timer, so it "
+        "cannot read the board");
   command.scan_begin = {kFollow, 0};
   command.convert = {kTimer, period_ns(1 / rate_hz / static_cast<double>(command.inputs.size()))};
   return command;
@@ -78,7 +80,9 @@ Result<Command> timed_command(const Command& sources, unsigned subdevice,
   command.subdevice = subdevice;
   command.inputs = inputs;
   command.flags = timing.rate_hz <= kWakeEach_Hz ? kWakeEachScan : 0;
-  if (!can(sources.start, kNow)) return bad_input("the board cannot be started by a program");
+  if (!can(sources.start, kNow))
+    return bad_input(
+        "the board cannot be started by a program, so this driver cannot read the board");
   command.start = {kNow, 0};
   command.scan_end = {kCount, static_cast<unsigned>(inputs.size())};
   command.stop = can(sources.stop, kNone) ? Event{kNone, 0} : Event{kCount, UINT32_MAX};

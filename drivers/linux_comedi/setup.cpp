@@ -26,8 +26,8 @@ Result<unsigned> find_subdevice(const std::vector<Subdevice>& all, const Setting
   }
   if (known.empty())
     return bad_input(
-        "the board has no analogue inputs that stream (asynchronous commands); see "
-        "comedi_board_info");
+        "the board has no analogue inputs that stream (asynchronous commands); to list its "
+        "subdevices, run: comedi_board_info");
   return bad_input("subdevice " + std::to_string(*settings.subdevice) +
                    " has no analogue inputs that stream; possible subdevices: " + known);
 }
@@ -123,7 +123,7 @@ void describe(Board& board, const Settings& settings, Setup& setup) {
   const double each_us = convert_us(setup.command);
   setup.description = "Comedi " + board.driver() + " " + board.name() + " at " + settings.device +
                       ", subdevice " + std::to_string(setup.command.subdevice) + ", inputs " +
-                      (each_us > 0 ? plain_number(each_us) + " us apart" : "at once") +
+                      (each_us > 0 ? plain_number(each_us) + " us apart" : "at the same time") +
                       ", a buffer of " + plain_number(setup.buffer_s) + " s";
 }
 
@@ -133,7 +133,7 @@ Result<Setup> set_up(Board& board, const Settings& settings) {
   if (!settings.board.empty() && settings.board != board.name())
     return bad_input("the board is \"" + board.name() + "\" (driver " + board.driver() +
                      "), but the configuration wants \"" + settings.board +
-                     "\"; boards are numbered in the order of detection; correct device");
+                     "\"; Linux numbers boards in the order of detection; correct device");
   Setup setup;
   const auto subdevices = board.subdevices();
   MDOF_TRY(const unsigned subdevice, find_subdevice(subdevices, settings));

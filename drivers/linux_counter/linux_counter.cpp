@@ -27,7 +27,8 @@ Result<std::int64_t> counts_now(Count& count) {
   const auto counts = count.unwrap(static_cast<std::uint64_t>(raw));
   if (counts) return *counts;
   return io_error(count.file.path() + ": " + std::to_string(raw) +
-                  " is greater than the ceiling; the counter may have been reconfigured");
+                  " is greater than the ceiling (the greatest count); another program may have "
+                  "changed the settings of the counter");
 }
 
 // The reading with which the mark turns out to be passed has no place yet; the next ones have.
@@ -106,12 +107,12 @@ Result<SysfsDevice> open_counter(const LinuxCounterOptions& options) {
   MDOF_TRY(const auto chip, read_sysfs(folder + "/name"));
   std::error_code ec;
   if (!chip && !std::filesystem::exists(folder, ec))
-    return io_error(folder + ": " + sysfs_error(ENODEV) + "; ls " + options.sysfs_root +
-                    "/bus/counter/devices lists the counters");
+    return io_error(folder + ": " + sysfs_error(ENODEV) + "; to list the counters, run: ls " +
+                    options.sysfs_root + "/bus/counter/devices");
   if (!options.chip.empty() && chip.value_or("") != options.chip)
     return io_error(folder + "/name: is \"" + chip.value_or("") +
                     "\", but the configuration wants chip \"" + options.chip +
-                    "\"; counters are numbered in the order of detection; correct device");
+                    "\"; Linux numbers counters in the order of detection; correct device");
   SysfsDevice device;
   device.datum_lost = "the device was disconnected, and may have stopped counting in the meantime";
   device.datum_remedy = has_mark(options) ? Remedy::pass_reference_mark : Remedy::set_encoder;

@@ -14,10 +14,10 @@ constexpr int kFirstIndexSignal = 16;         // of quad8_signals: that of count
 Status check_quad8(const std::string& folder, const std::string& count, std::uint64_t ceiling) {
   const std::string path = folder + "/" + count;
   if (ceiling != kCeiling)
-    return io_error(
-        path + "/ceiling: is " + std::to_string(ceiling) + ", not " + std::to_string(kCeiling) +
-        ", so the count that is loaded at the mark is unknown; set count_mode to normal; some "
-        "old kernels use one bit too many, so install a newer kernel");
+    return io_error(path + "/ceiling: is " + std::to_string(ceiling) + ", not " +
+                    std::to_string(kCeiling) +
+                    ", so the count that is loaded at the mark is unknown; set count_mode to "
+                    "normal, or install a newer kernel (some old kernels use one bit too many)");
   const std::string number = count.substr(std::string("count").size());
   const auto n = parse_sysfs_integer(number);
   if (!n || *n < 0 || *n > 7) return io_error(path + ": is not a count of a " + kQuad8);
@@ -50,7 +50,8 @@ Result<Quad8Mark::State> Quad8Mark::take(std::int64_t count) {
   const State now = mark_.take(count);
   if (now == State::astray)
     return io_error(path_ + "/count: " + std::to_string(count) +
-                    " results neither from motion nor from the reference mark");
+                    " results neither from a motion nor from the reference mark; check the cable "
+                    "of the encoder");
   if (now == State::passed && !off_) {
     MDOF_CHECK(enable(false));
     off_ = true;

@@ -6,7 +6,8 @@ namespace mdof::drivers {
 
 tl::unexpected<Error> to_be_written(const std::string& file, const std::string& why,
                                     const std::string& value) {
-  return io_error(file + ": " + why + "; set it (udev rule): echo " + value + " > " + file);
+  return io_error(file + ": " + why + "; set the value by a udev rule that runs: echo " + value +
+                  " > " + file);
 }
 
 std::optional<std::int64_t> CountUnwrap::operator()(std::uint64_t raw) {
@@ -28,7 +29,8 @@ Result<std::uint64_t> check_count(const CountFiles& files, const std::string& pa
     return to_be_written(path + "/function", "is \"" + *files.function + "\"",
                          "\"" + function + "\"");
   if (!function.empty() && !files.function)
-    return io_error(path + "/function: does not exist; remove function from the configuration");
+    return io_error(
+        path + "/function: does not exist; remove the key \"function\" from the configuration");
   if (files.count_mode && *files.count_mode != "normal" && *files.count_mode != "modulo-n")
     return to_be_written(path + "/count_mode",
                          "\"" + *files.count_mode + "\" stops counting at a limit", "normal");
@@ -37,13 +39,13 @@ Result<std::uint64_t> check_count(const CountFiles& files, const std::string& pa
                          "0");
   if (!files.ceiling && ceiling == 0)
     return io_error(path +
-                    "/ceiling: does not exist; give ceiling in the configuration as in the "
-                    "data sheet (65535 for 16 bits)");
+                    "/ceiling: does not exist; give the key \"ceiling\" in the configuration, the "
+                    "greatest count in the data sheet (65535 for 16 bits)");
   if (!files.ceiling) return ceiling;
   const auto value = parse_sysfs_integer(*files.ceiling);
   if (!value || *value == 0)
     return io_error(path + "/ceiling: \"" + *files.ceiling +
-                    "\" is not a ceiling; configure the counter");
+                    "\" is not a whole number above 0; configure the counter");
   return static_cast<std::uint64_t>(*value);
 }
 

@@ -10,7 +10,7 @@ namespace {
 void read_table(TomlTable& channel, GapLaw& law) {
   for (const auto& row : channel.matrix("gap_table")) {
     if (row.size() != 2 || (!law.table.empty() && !(row[0] > law.table.back()[0])))
-      return channel.reject("gap_table", "must be rows [pF, um], pF ascending");
+      return channel.reject("gap_table", "must be rows [pF, um] in the order of increasing pF");
     law.table.push_back({row[0], row[1]});
   }
   if (law.table.size() < 2) channel.reject("gap_table", "must have at least two rows");
@@ -21,7 +21,8 @@ GapLaw read_law(TomlTable& channel) {
   if (channel.has("gap_table")) {
     read_table(channel, law);
     for (const char* key : {"area_mm2", "stray_pF"})
-      if (channel.has(key)) channel.reject(key, "contradicts gap_table: give one or the other");
+      if (channel.has(key))
+        channel.reject(key, "contradicts gap_table; give only one of the two keys");
     return law;
   }
   law.area_mm2 = channel.number("area_mm2");
@@ -45,7 +46,7 @@ Result<DriverSpec> configure_linux_iio(TomlTable& table, const DriverContext& co
   const auto& rates = ad7746_sampling_hz();
   if (table.has("sampling_hz") &&
       std::find(rates.begin(), rates.end(), options.sampling_hz) == rates.end())
-    table.reject("sampling_hz", "must be one of 91 84 50 26 16 13 11 9");
+    table.reject("sampling_hz", "must be one of 91, 84, 50, 26, 16, 13, 11 and 9");
   MDOF_TRY(options.channels, read_channels(table, context.rig, [&options](TomlTable& channel) {
              options.laws.push_back(read_law(channel));
            }));

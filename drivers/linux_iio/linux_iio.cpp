@@ -24,8 +24,8 @@ Result<std::string> check_chip(const std::string& folder) {
                     "; to list the devices, run: grep . /sys/bus/iio/devices/*/name");
   if (*chip != "ad7745" && *chip != "ad7746")
     return io_error(folder + "/name: is \"" + *chip +
-                    "\", but must be ad7745 or ad7746; devices are numbered in the order of "
-                    "detection; correct device");
+                    "\", but must be \"ad7745\" or \"ad7746\"; Linux numbers devices in the order "
+                    "of detection; correct device");
   MDOF_TRY(const auto scale, read_sysfs(folder + "/in_capacitance_scale"));
   const double pF = std::strtod(scale.value_or("").c_str(), nullptr);
   if (!(std::abs(pF / kAd7746_pF_per_count - 1) < 0.002))
@@ -50,9 +50,10 @@ Status set_sampling(const LinuxIioOptions& options, const std::string& folder) {
   const double scan_s = static_cast<double>(options.channels.size()) *
                         (1 / static_cast<double>(*value) + kOverhead_s);
   if (options.rate_hz * scan_s <= 1) return {};
-  return bad_input(file + ": " + std::to_string(options.channels.size()) + " channels at " +
-                   std::to_string(*value) + " Hz take " + plain_number(scan_s) +
-                   " s; lower rate_hz or raise sampling_hz");
+  return bad_input(file + ": a scan of " + std::to_string(options.channels.size()) +
+                   " channels at " + std::to_string(*value) + " Hz takes " + plain_number(scan_s) +
+                   " s, too long for rate_hz = " + plain_number(options.rate_hz) +
+                   "; lower rate_hz or raise sampling_hz");
 }
 
 // Counts that the converter's own capacitors take off: one at each of its two inputs.

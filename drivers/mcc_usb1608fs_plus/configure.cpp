@@ -34,8 +34,8 @@ Result<Input> input_of(const ChannelInput& channel) {
   if (at == known.end()) return no_such_input(channel, known);
   if (channel.um_per_count != 0)
     return bad_input(channel.where + ": " + channel.input +
-                     " gives volts, not counts; remove um_per_count (the rig gives um_per_V, "
-                     "also for the encoder)");
+                     " gives volts, not counts; remove um_per_count (the scale is um_per_V in the "
+                     "rig, also for the encoder)");
   return Input{{channel.id, Unit::volt}, static_cast<std::size_t>(at - known.begin())};
 }
 

@@ -28,7 +28,8 @@ std::vector<std::size_t> words_of(const std::vector<Input>& inputs) {
 
 const char* const kOverrun =
     "the FIFO of the device has overflowed, so an unknown number of scans is missing and later "
-    "times are unknown; lower rate_hz, or find what keeps this computer from USB for 80 ms";
+    "times are unknown; lower rate_hz, or end programs that load this computer (it did not read "
+    "the USB for 80 ms)";
 
 }  // namespace
 
@@ -150,7 +151,8 @@ Status MccUsb1608fsPlus::check_status() {
   if (status.overrun) return io_error(kOverrun);
   if (!status.running)
     return io_error(
-        "the scan has stopped; another program has stopped it, or the device was reset");
+        "the scan has stopped, because another program has stopped the scan or the device was "
+        "reset");
   const double silent_s = static_cast<double>(monotonic_ns() - last_chunk_ns_) * 1e-9;
   if (silent_s > kSilence_s + static_cast<double>(kPacket) / 2 / rate_hz_)
     return io_error(

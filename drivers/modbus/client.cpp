@@ -189,11 +189,12 @@ void ModbusClient::Impl::distrust() {
 std::string ModbusClient::Impl::why_no_reply(int rc) const {
   const int error = errno;
   if (rc == 0)
-    return "the reply came from another unit; check that no two devices share an address";
+    return "the reply came from another unit; check that no two devices have the same address";
   if (error == ETIMEDOUT)
     return "no complete reply within " + std::to_string(options.response_timeout.count()) +
-           " ms; check that the device is on, and check unit" +
-           (framing == Framing::rtu ? ", baud, parity and wiring" : " and address");
+           " ms; check that the device is switched on, and check the unit" +
+           (framing == Framing::rtu ? ", the baud rate, the parity and the wiring"
+                                    : " and the address");
   if (error == ECONNRESET) return "the device has closed the connection";
   return std::string("no valid reply: ") + ::modbus_strerror(error);
 }

@@ -32,7 +32,7 @@ void read_ring(TomlTable& table, Profile& profile) {
   }
   if (!any)
     table.reject("ring_bits",
-                 "profile " + profile.name + " has no value with ring_bits; remove it");
+                 "profile " + profile.name + " has no value with ring_bits; remove ring_bits here");
 }
 
 void read_where(TomlTable& table, ModbusSettings& settings) {
@@ -69,8 +69,9 @@ Status read_uses(TomlTable& table, const Rig& rig, ModbusSettings& settings) {
     if (counts)
       MDOF_CHECK(check_um_per_count(input));
     else if (input.um_per_count != 0)
-      return bad_input(input.where + ": um_per_count applies to counts, but \"" + input.input +
-                       "\" is in " + suffix(value->unit) + "; remove it");
+      return bad_input(input.where + ": um_per_count applies to counts, but the value \"" +
+                       input.input + "\" is in " + suffix(value->unit) +
+                       "; remove um_per_count from the channel or from the profile");
     if (input.id == kEncoderChannel) settings.encoder = encoder_origin({input}, value->incremental);
     settings.channels.push_back({input.id, counts ? Unit::um : value->unit});
     settings.uses.push_back({*value, input.um_per_count});

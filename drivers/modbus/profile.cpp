@@ -85,10 +85,10 @@ Value read_value(TomlTable& table) {
   if (table.has("over_range")) value.over_range = table.numbers("over_range");
   if (auto check = table.table("check")) value.check = read_check(*check);
   if (value.ring_bits > 0 && value.type == Type::f32)
-    table.reject("ring_bits", "applies to counters, not to f32");
+    table.reject("ring_bits", "applies to counters, not to the type \"f32\"; remove ring_bits");
   if (value.ring_bits > 16 * registers_of(value.type))
-    table.reject("ring_bits", "is more than the " + std::to_string(16 * registers_of(value.type)) +
-                                  " bits of the register");
+    table.reject("ring_bits", "must be at most " + std::to_string(16 * registers_of(value.type)) +
+                                  ", the bits of the register");
   if (value.at.address + registers_of(value.type) - 1 > kLastAddress)
     table.reject("address", "the value ends beyond register 65535");
   return value;
@@ -101,7 +101,9 @@ void append_values(TomlTable& table, std::vector<Value>& values) {
   const int first = whole(table, "first", 1, 0, 1000);
   const auto hash = one.name.find('#');
   if (count > 1 && hash == std::string::npos)
-    table.reject("name", "needs a # for the number of each value, because count is given");
+    table.reject("name",
+                 "must contain \"#\" (the place of the number of each value), because the key "
+                 "\"count\" is given");
   for (int i = 0; i < count; ++i) {
     Value value = one;
     if (hash != std::string::npos) value.name.replace(hash, 1, std::to_string(first + i));
@@ -120,7 +122,7 @@ StatusBits read_status(TomlTable& table, const std::vector<Value>& values) {
   StatusBits status;
   status.at = read_register(table, kReadHolding);
   status.mask = static_cast<std::uint16_t>(whole(table, "mask", 0, 0, 0xFFFF));
-  if (status.mask == 0) table.reject("mask", "must have a bit set");
+  if (status.mask == 0) table.reject("mask", "must have at least one bit set");
   status.makes = choice(table, "makes", kQualities);
   status.values = table.strings("values");
   for (const auto& name : status.values)
@@ -158,7 +160,8 @@ Result<Profile> parse_profile(std::string_view text, const std::string& source_n
   for (std::size_t i = 0; i < profile.values.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (profile.values[i].name == profile.values[k].name)
-        table.reject("value", "\"" + profile.values[i].name + "\" is given twice");
+        table.reject("value", "\"" + profile.values[i].name +
+                                  "\" is given twice; give each value a name of its own");
   MDOF_CHECK(table.finish());
   return profile;
 }
@@ -175,7 +178,8 @@ Result<Profile> load_profile(const std::string& name_or_path, const std::string&
     const std::string nearest = nearest_of(name_or_path, names);
     return bad_input("there is no profile \"" + name_or_path + "\"" +
                      (nearest.empty() ? "." : "; did you mean \"" + nearest + "\"?") +
-                     " Known profiles are " + known + "; give the path of a profile of your own");
+                     " Known profiles are " + known +
+                     "; give one of these, or the path of your own profile");
   }
   const auto path = std::filesystem::path(base_path) / name_or_path;
   MDOF_TRY(const std::string text, read_text_file(path));

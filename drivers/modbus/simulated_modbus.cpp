@@ -181,7 +181,8 @@ Result<std::unique_ptr<SimulatedDevice>> make_simulated_modbus(SimulatedWiring& 
   const auto& inputs = wiring.inputs();
   MDOF_TRY(auto profile, modbus::load_profile(wiring.table().string("profile"), wiring.folder()));
   if (inputs.size() > profile.values.size())
-    wiring.table().reject("inputs", "are more than the " + std::to_string(profile.values.size()) +
+    wiring.table().reject("inputs", "has more entries than the " +
+                                        std::to_string(profile.values.size()) +
                                         " values of the profile");
   std::vector<SensedInput> sensed;
   for (std::size_t i = 0; i < std::min(inputs.size(), profile.values.size()); ++i) {

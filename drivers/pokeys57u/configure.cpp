@@ -53,7 +53,9 @@ Result<Input> make_input(const ChannelInput& channel, const ChannelOptions& more
   input.channel = {channel.id, input.counts() ? Unit::um : Unit::volt};
   if (input.counts()) MDOF_CHECK(check_um_per_count(channel));
   if (more.options && input.index >= kEncoders)
-    return bad_input(channel.where + ": counting applies to encoder1 to encoder25 only; remove it");
+    return bad_input(
+        channel.where +
+        ": the key \"counting\" applies to encoder1 to encoder25 only; remove this key");
   input.um_per_count = channel.um_per_count;
   input.options = more.options;
   input.most_counts_per_s =
@@ -65,7 +67,8 @@ Settings read_settings(TomlTable& table, const std::string& name) {
   Settings settings;
   settings.name = name;
   const std::int64_t serial = table.integer("serial", 0);
-  if (serial < 0 || serial > UINT32_MAX) table.reject("serial", "is not a serial number");
+  if (serial < 0 || serial > UINT32_MAX)
+    table.reject("serial", "must be a serial number, a whole number from 1 to 4294967295");
   settings.serial = static_cast<std::uint32_t>(serial);
   settings.poll_ms = table.number("poll_ms", settings.poll_ms);
   if (!(settings.poll_ms >= 1 && settings.poll_ms <= 10'000))

@@ -88,7 +88,7 @@ Status PoKeys57u::connect() {
     for (const auto& entry : found) others.push_back(entry.serial);
     return io_error(place() + ": " + std::to_string(found.size()) +
                     " PoKeys are plugged in (serial numbers on the USB: " + joined(others) +
-                    "); choose one with serial");
+                    "); give the number of one of them as serial");
   }
   for (const auto& entry : found) {
     const bool may_be = settings_.serial == 0 || entry.serial.empty() ||
@@ -149,10 +149,9 @@ Status PoKeys57u::set_up_encoders() {
   MDOF_TRY(const Frame now, need(request(kEncoderOptions), "query for the encoder settings"));
   for (const Input& input : settings_.inputs) {
     if (input.options && (now.data[input.index] & 7) != *input.options)
-      return io_error(
-          place() + ": " + input.name +
-          " does not accept the counting that is given; set the encoder with the program of the "
-          "manufacturer, and remove counting");
+      return io_error(place() + ": " + input.name +
+                      " does not accept the value of the key \"counting\"; set the encoder with "
+                      "the program of the manufacturer, and remove this key");
   }
   return check_enabled(now);
 }
@@ -163,8 +162,8 @@ Status PoKeys57u::check_enabled(const Frame& options) const {
     if (input.index < 3 || input.index >= kEncoders) continue;
     if ((options.data[input.index] & kEnabled) == 0)
       return io_error(place() + ": " + input.name +
-                      " is switched off; give counting in its channel, such as \"x4\", and set "
-                      "its pins with the program of the manufacturer");
+                      " is switched off; give counting = \"x4\" in the channel of this encoder, "
+                      "and set the pins of the encoder with the program of the manufacturer");
   }
   return {};
 }
@@ -300,7 +299,7 @@ double PoKeys57u::value_of(std::size_t i, Time time, Quality& quality) {
   if (counter.sure && std::abs(step) > most + kStepSlack_counts) {
     counter.sure = false;
     zero_problem_ = input.name + " jumped by " + std::to_string(std::llround(step)) +
-                    " counts, faster than the input can count";
+                    " counts, which is faster than the input can count";
   }
   counter.last = count;
   counter.at = time;

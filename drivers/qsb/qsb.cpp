@@ -36,7 +36,7 @@ DeviceInfo Qsb::info() const {
   std::string text = "US Digital " + (identity_.model.empty() ? "QSB" : identity_.model);
   if (!identity_.serial.empty())
     text += " " + identity_.serial + ", firmware " + std::to_string(identity_.firmware);
-  if (power_was_lost_) text += "; lost power, so its count began at 0";
+  if (power_was_lost_) text += "; the QSB lost power, so its count began at 0";
   const double rate_hz = 1e9 / (tick_.ns() * options_.interval);
   DeviceInfo info{name_,   "qsb", text,          {{options_.channel.id, Unit::um}},
                   rate_hz, false, clock_.state()};
@@ -116,8 +116,9 @@ Status Qsb::make_it_answer() {
 
 Status Qsb::check_identity() {
   if (options_.serial.empty() || options_.serial == identity_.serial) return {};
-  return io_error(place() + ": the serial number is " + identity_.serial + ", but serial is " +
-                  options_.serial + "; another device has this port; use /dev/serial/by-id");
+  return io_error(place() + ": the serial number of the device is " + identity_.serial +
+                  ", but the configuration has serial = " + options_.serial +
+                  "; this port belongs to another device; give a port in /dev/serial/by-id");
 }
 
 // A reset takes with the count what was set up before.

@@ -45,7 +45,8 @@ Result<DriverSpec> configure_replay(TomlTable& table, const DriverContext& conte
   const auto path = std::filesystem::path(context.base_path) / file;
   std::error_code ec;  // not even to be looked at: the same to the user
   if (!std::filesystem::is_regular_file(path, ec)) {
-    return bad_input(table.where("file") + ": " + path.string() + " is not a readable file");
+    return bad_input(table.where("file") + ": " + path.string() +
+                     " is not a readable file; give the path of a recording or of a probe log");
   }
   return log_driver(context.name, path.string());
 }

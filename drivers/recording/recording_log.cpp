@@ -71,8 +71,8 @@ Status RecordingLog::check_kind() {
   MDOF_TRY(const std::int64_t format, connection_->integer("PRAGMA user_version"));
   if (format > kRecordingFormat)
     return bad_input(file_.string() + ": has recording format " + std::to_string(format) +
-                     ", this program reads up to " + std::to_string(kRecordingFormat) +
-                     "; use the newer mdof that wrote it");
+                     ", but this program reads formats up to " + std::to_string(kRecordingFormat) +
+                     "; use the newer mdof that wrote the recording");
   header_.format = static_cast<int>(format);
   return {};
 }

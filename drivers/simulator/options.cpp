@@ -53,16 +53,18 @@ void read_spaced_targets(TomlTable& table, SimulatorOptions& options) {
 void read_targets(TomlTable& table, SimulatorOptions& options) {
   if (!table.has("targets_mm")) return read_spaced_targets(table, options);
   for (const char* key : {"from_mm", "to_mm", "interval_mm", "jitter_mm"})
-    if (table.has(key)) return table.reject(key, "contradicts targets_mm: give one or the other");
+    if (table.has(key))
+      return table.reject(key, "contradicts targets_mm; give only one of the two keys");
   auto& targets_mm = options.targets_mm = table.numbers("targets_mm");
   if (targets_mm.empty() || targets_mm.size() > kMostTargets)
     return table.reject("targets_mm",
                         "must list from 1 to " + text_of(kMostTargets) + " positions");
   for (std::size_t i = 0; i < targets_mm.size(); ++i) {
     if (!(std::abs(targets_mm[i]) <= kLongest_mm))
-      return table.reject("targets_mm", "must lie within ±" + text_of(kLongest_mm));
+      return table.reject("targets_mm", "must contain positions with a magnitude of at most " +
+                                            text_of(kLongest_mm));
     if (i > 0 && !(targets_mm[i] > targets_mm[i - 1]))
-      return table.reject("targets_mm", "must ascend");
+      return table.reject("targets_mm", "must contain increasing positions");
   }
 }
 
@@ -105,7 +107,7 @@ Interval read_interval(TomlTable& table) {
   Interval interval;
   interval.from_s = table.number("from_s");
   interval.to_s = table.number("to_s");
-  if (!(interval.from_s >= 0)) table.reject("from_s", "must not be negative");
+  if (!(interval.from_s >= 0)) table.reject("from_s", "must be 0 or greater");
   if (!(interval.to_s > interval.from_s && interval.to_s <= kLongest_s))
     table.reject("to_s", "must be greater than from_s and at most " + text_of(kLongest_s));
   return interval;
@@ -149,7 +151,7 @@ Result<std::vector<NamedError>> in_order(const std::vector<NamedError>& given, A
                                    [&](const ErrorName& n) { return n.name == error.name; });
     if (name == names.end())
       return bad_input("[[error]] name \"" + error.name + "\" is not an error of axis " +
-                       letter(axis) + "; its errors are" + names_of(axis));
+                       letter(axis) + "; the errors of this axis are" + names_of(axis));
     NamedError& place = ordered[static_cast<std::size_t>(name - names.begin())];
     if (!place.name.empty())
       return bad_input("[[error]] name \"" + error.name + "\" is given twice; give it once");

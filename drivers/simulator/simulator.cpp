@@ -51,9 +51,9 @@ Status Simulator::open() {
   if (!gone_) return {};
   const bool over = !options_.real_time || now() >= gone_->to_ns();
   if (!over)
-    return io_error("device \"" + name_ +
-                    "\": disconnected by [[disconnect]] of its configuration until " +
-                    plain_number(gone_->to_s, 9) + " s after its start (to_s); wait until then");
+    return io_error(
+        "device \"" + name_ + "\": is disconnected until " + plain_number(gone_->to_s, 9) +
+        " s after its start (to_s of [[disconnect]] in its configuration); wait until then");
   const std::int64_t resume_ns =
       options_.real_time ? std::max(gone_->to_ns(), now()) : gone_->to_ns();
   const std::uint64_t resume = first_scan_at(resume_ns);
@@ -79,8 +79,9 @@ Result<ReadState> Simulator::read(SampleBlock& block, std::chrono::milliseconds 
     if (ended(t_ns)) return ReadState::end;
     if (gone) {
       gone_ = gone;
-      return io_error("device \"" + name_ + "\": disconnected by [[disconnect]] of its " +
-                      "configuration; open it again");
+      return io_error(
+          "device \"" + name_ +
+          "\": is disconnected by [[disconnect]] of its configuration; open the device again");
     }
     gap ? void(++lost_) : append(block, t_ns);
   }

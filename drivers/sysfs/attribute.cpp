@@ -43,15 +43,16 @@ std::string sysfs_write_error(int error) {
     case EACCES:
     case EPERM:
       return std::string(std::strerror(error)) +
-             "; install the udev rules of mdof (60-mdof.rules), which let the group mdof write the "
-             "file, run sudo udevadm control --reload && sudo udevadm trigger --action=add "
-             "--subsystem-match=iio, and use a member of the group mdof; or remove the key of this "
-             "value, so that the value stays as it is";
+             "; members of the group mdof can write this file when the udev rules of mdof "
+             "(60-mdof.rules) are installed. Install these rules and run \"sudo udevadm control "
+             "--reload && sudo udevadm trigger --action=add --subsystem-match=iio "
+             "--subsystem-match=counter\". Or remove the key that sets this value; then the value "
+             "is not changed";
     case EROFS:
       return std::string(std::strerror(error)) +
-             "; the service mdofd may write this file only with ReadWritePaths=-/sys/devices; "
-             "install the unit of mdof, which contains this line, or add the line to [Service] "
-             "with sudo systemctl edit mdofd; in a container, make /sys writable";
+             "; the service mdofd needs the line ReadWritePaths=-/sys/devices to write this file. "
+             "Install the unit file of mdof, which contains this line, or add the line to "
+             "[Service] with \"sudo systemctl edit mdofd\". In a container, make /sys writable";
     default:
       return sysfs_error(error);
   }
@@ -125,7 +126,7 @@ Status write_sysfs(const std::string& path, const std::string& text) {
   const int error = errno;
   ::close(fd);
   if (n == static_cast<ssize_t>(line.size())) return {};
-  return io_error(path + ": writing " + text + ": " + sysfs_write_error(error));
+  return io_error(path + ": cannot write " + text + ": " + sysfs_write_error(error));
 }
 
 }  // namespace mdof::drivers

@@ -105,7 +105,7 @@ Status SysfsPoller::count_failure(const Error& why) {
   if (++failures_ <= kFailuresAllowed) return {};
   is_open_ = false;
   return io_error("device \"" + name_ + "\": " + std::to_string(failures_) +
-                  " readings in a row failed; the last: " + why.message);
+                  " readings in a row failed; the last error: " + why.message);
 }
 
 // The next poll on the even grid that can still be met.

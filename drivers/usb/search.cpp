@@ -133,9 +133,10 @@ class Search {
 
   Result<Handle> chosen() {
     if (wanted_.serial.empty() && count_ > 1)
-      return io_error(std::to_string(count_) + " devices " + ids(wanted_) +
-                      " are on the USB, and serial is missing; give serial as one of " +
-                      all_seen());
+      return io_error(
+          std::to_string(count_) + " devices " + ids(wanted_) +
+          " are on the USB, and the key \"serial\" is missing; give one of these serial numbers: " +
+          all_seen());
     if (fitting_) return std::move(*fitting_);
     if (!failure_) return tl::unexpected(failure_.error());
     if (count_ == 0)

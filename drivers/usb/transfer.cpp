@@ -116,8 +116,8 @@ std::string text_of_error(int code) {
     case LIBUSB_ERROR_PIPE:
       return "the device has refused the request (stall)";
     case LIBUSB_ERROR_NO_MEM:
-      return "there is no memory for USB transfers; raise "
-             "/sys/module/usbcore/parameters/usbfs_memory_mb, the limit of all programs";
+      return "there is no memory for USB transfers; write a larger number to "
+             "/sys/module/usbcore/parameters/usbfs_memory_mb (the limit of all programs together)";
     default:
       return std::string("libusb: ") + libusb_strerror(code);
   }

@@ -309,7 +309,7 @@ TEST_F(PoKeys57uOnHid, SetsTheCountingThatIsAskedForAndChecksIt) {
   expect_error(settings, "encoder5 is switched off");
   settings.inputs[0].options = kEnabled | kCounts_x2;
   bus->change([&] { device.set_faults({.deaf_to_options = true}); });
-  expect_error(settings, "encoder5 does not accept the counting");
+  expect_error(settings, "encoder5 does not accept the value of the key \"counting\"");
   bus->change([&] { device.set_faults({}); });
   EXPECT_TRUE(PoKeys57u(settings).open());
   settings.inputs[0].options.reset();

@@ -149,7 +149,7 @@ TEST_F(ComediBoard, ABoardThatLeavesOrEndsIsAnError) {
   ASSERT_TRUE(driver.open());
   const Collected all = collect(driver, 10'000);
   EXPECT_EQ(all.scans.size(), 50U);
-  EXPECT_NE(all.error.find("has ended the command by itself"), std::string::npos);
+  EXPECT_NE(all.error.find("has stopped scanning without a request"), std::string::npos);
 }
 
 TEST_F(ComediBoard, SilenceIsAnError) {
@@ -211,7 +211,7 @@ TEST_F(ComediBoard, ACommandThatItDoesNotTake) {
       "together with these ranges "
       "and references");
   board_->refuses_inputs = false;
-  board_->start_error = "the command is refused: Device or resource busy";
+  board_->start_error = "the board refuses the command: Device or resource busy";
   expect_refused("Device or resource busy");
 }
 

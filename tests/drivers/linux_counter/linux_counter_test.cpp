@@ -68,9 +68,10 @@ TEST(CheckCount, SaysWhatToWriteWhere) {
       {refused([](auto& f) { f.function.reset(); }, "quadrature x4"), "does not exist"},
       {refused([](auto& f) { f.count_mode = "range limit"; }), "stops counting at a limit"},
       {refused([](auto& f) { f.floor = "5"; }), "echo 0 > count0/floor"},
-      {refused([](auto& f) { f.ceiling.reset(); }), "give ceiling in the configuration"},
-      {refused([](auto& f) { f.ceiling = "0"; }), "is not a ceiling"},
-      {refused([](auto& f) { f.ceiling = "many"; }), "is not a ceiling"},
+      {refused([](auto& f) { f.ceiling.reset(); }),
+       "give the key \"ceiling\" in the configuration"},
+      {refused([](auto& f) { f.ceiling = "0"; }), "is not a whole number above 0"},
+      {refused([](auto& f) { f.ceiling = "many"; }), "is not a whole number above 0"},
   };
   for (const auto& [message, part] : cases)
     EXPECT_NE(message.find(part), std::string::npos) << message;
@@ -226,7 +227,7 @@ TEST_F(LinuxCounter, WhatIsNotThereIsSaid) {
   options_.chip = "104-quad-8";
   expect_refused("is \"simulated-counter\", but the configuration wants chip \"104-quad-8\"");
   options_.device = "counter3";
-  expect_refused("bus/counter/devices lists the counters");
+  expect_refused("to list the counters, run: ls ");
 }
 
 std::string configured(const std::string& toml) {

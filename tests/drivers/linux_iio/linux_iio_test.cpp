@@ -142,7 +142,7 @@ TEST_F(LinuxIio, ARateThatMayNotBeWrittenIsRefusedWithTheRule) {
   constexpr uid_t kNobody = 65534;
   EXPECT_EQ(
       exit_of_child(options_,
-                    file.string() + ": Permission denied; install the udev rules of mdof (60-mdof",
+                    file.string() + ": Permission denied; members of the group mdof can write",
                     [] { return ::geteuid() != 0 || ::seteuid(kNobody) == 0; }),
       0);
 }
@@ -186,7 +186,7 @@ TEST_F(LinuxIio, WhatIsNoAd7746IsRefused) {
   ASSERT_TRUE(tree_->set("in_capacitance_scale", "0.488"));
   expect_refused("expects 0.000000488 pF");
   ASSERT_TRUE(tree_->set("name", "bme280"));
-  expect_refused("is \"bme280\", but must be ad7745 or ad7746");
+  expect_refused("is \"bme280\", but must be \"ad7745\" or \"ad7746\"");
   options_.device = "iio:device9";
   expect_refused("to list the devices, run: grep");
 }
@@ -219,7 +219,7 @@ TEST(LinuxIioConfiguration, KeysAndTheirErrors) {
       {channel, "area_mm2: is missing"},
       {channel + "area_mm2 = 0", "must be the area"},
       {channel + "gap_table = [[1, 90]]", "at least two rows"},
-      {channel + "gap_table = [[2, 90], [1, 45]]", "pF ascending"},
+      {channel + "gap_table = [[2, 90], [1, 45]]", "increasing pF"},
       {channel + "gap_table = [[1, 90], [2, 45]]\narea_mm2 = 5", "contradicts gap_table"},
       {"rate_hz = 1000" + channel + "area_mm2 = 5", "rate_hz: must be from 0.01 to 91"},
       {"sampling_hz = 90" + channel + "area_mm2 = 5", "must be one of 91"},

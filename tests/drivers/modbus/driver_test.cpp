@@ -363,7 +363,7 @@ TEST(ModbusConfiguration, WhatIsWrongIsNamedWithItsKey) {
   says("profile = \"pokeys57e\"\naddress = \"box\"\n" + channel("encoder", "encoder1"),
        "a counting encoder needs um_per_count");
   says("profile = \"adam-6017\"\naddress = \"box\"\n" + channel("A", "AI0", "um_per_count = 1\n"),
-       "um_per_count applies to counts, but \"AI0\" is in V");
+       "um_per_count applies to counts, but the value \"AI0\" is in V");
   says("profile = \"adam-6017\"\naddress = \"box\"\nring_bits = 3\n" + channel("A", "AI0"),
        "profile Advantech ADAM-6017 has no value with ring_bits");
 }

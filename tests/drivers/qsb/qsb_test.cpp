@@ -161,7 +161,8 @@ TEST(Qsb, AnotherDeviceOrNoneIsRefused) {
   options.serial = "00002";
   auto status = Qsb("scale", options).open();
   ASSERT_FALSE(status);
-  EXPECT_NE(status.error().message.find("the serial number is 00001"), std::string::npos);
+  EXPECT_NE(status.error().message.find("the serial number of the device is 00001"),
+            std::string::npos);
   options.port = "/dev/no-such-port";
   status = Qsb("scale", options).open();
   ASSERT_FALSE(status);

@@ -65,8 +65,9 @@ class Fit {
       if (size < kStepDone) return {};
     }
     return fail(ErrorCode::check,
-                "no mounting and no target tilts explain these readings; check that each log holds "
-                "one clamping and the stated axis, and check in which direction the target moves",
+                "no mounting of the probes and no tilts of the target explain these readings; "
+                "check that each log contains one clamping only and the stated axis, and check in "
+                "which direction the target moves",
                 Remedy::reverse_target);
   }
 
@@ -258,8 +259,8 @@ Status check_places(const Rig& rig, const MountingFit& fit) {
                 rig.source + ": probe \"" + rig.probes[k].id + "\" would be " +
                     plain_number(to_mm(away_m), 3) + " mm from its position_mm (limit " +
                     plain_number(to_mm(kFarthest_m), 3) +
-                    " mm); check position_mm, whether probes are exchanged, and in which direction "
-                    "the target moves",
+                    " mm); check position_mm, check that no probes are exchanged, and check in "
+                    "which direction the target moves",
                 Remedy::reverse_target);
   }
   return {};
@@ -283,7 +284,8 @@ Result<MountingFit> fit_mounting(const Rig& rig, const std::vector<Clamping>& cl
   MDOF_TRY(MountingModel model, MountingModel::create(rig, clampings));
   if (model.readings().empty())
     return fail(ErrorCode::check,
-                "no probe has a usable reading at any stop; check range_um and the zeros");
+                "no probe has a usable reading at any stop; check the keys \"range_um\" and "
+                "\"offset_um\" of the probes");
   Fit fit(std::move(model));
   MDOF_CHECK(fit.run(rig.uncertainty.encoder.u));
   MountingFit result = fit.result(rig, clampings);

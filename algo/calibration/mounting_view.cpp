@@ -100,9 +100,9 @@ class Naming {
     out_.sentences.push_back(
         "the common position of " + ids_of(model_, group) + " along " +
         std::string(1, "XYZ"[axis]) +
-        " (clamping moves the target too): the mean position of the rig is kept; " +
-        (declared ? "its u is " + plain_number(to_um(u_m), 3) + " um"
-                  : "the rig does not declare its u (u_position_mm)"));
+        " (each clamping shifts the target too): the mean of position_mm in the rig is kept; " +
+        (declared ? "the u of this mean is " + plain_number(to_um(u_m), 3) + " um"
+                  : "the rig does not declare the u of this mean (u_position_mm)"));
   }
 
   void together_zero(const Group& group) {
@@ -115,7 +115,7 @@ class Naming {
     double length = 0;
     if (is_unseen(zero, length))
       out_.sentences.push_back("the common zero of " + ids_of(model_, group) +
-                               ": the mean zero of the rig is kept");
+                               ": the mean zero (offset_um) in the rig is kept");
   }
 
   void find_apart() {
@@ -139,14 +139,16 @@ class Naming {
         out_.sentences.push_back(
             "the position of " + id + " along " +
             std::string(1, "XYZ"[largest(machine(model_, model_.along(k, j)))]) +
-            " relative to the other probes: clamp the target at more tilts, which differ more");
+            " relative to the other probes: clamp the target at more tilts, with larger "
+            "differences");
     if (unseen(unknown_of(k, kZero)))
       out_.sentences.push_back("the zero of " + id + " relative to the other probes");
     if (unseen(unknown_of(k, kTowards1)) || unseen(unknown_of(k, kTowards2)))
       out_.sentences.push_back("the direction of " + id + ": the tilts and readings are too small");
     if (unseen(unknown_of(k, kScale)))
-      out_.sentences.push_back("the sensitivity of " + id +
-                               ": it needs a calibration of the sensitivity");
+      out_.sentences.push_back(
+          "the sensitivity of " + id +
+          ": only a calibration of the sensitivity can determine the sensitivity");
   }
 
   const MountingModel& model_;

@@ -85,13 +85,13 @@ SlopeUncertainty slope_uncertainty(const std::vector<std::vector<Reading>>& plac
 
 std::vector<std::string> blind_to(const Rig& rig) {
   std::vector<std::string> sentences = {
-      "the scale error of the encoder: the sensitivity contains all of it",
-      "the squareness of the axis to the plane together with the tilt of the target: 1 mrad and 5 "
-      "mrad change the sensitivity by 5 ppm"};
+      "the scale error of the encoder: the sensitivity contains the whole scale error",
+      "the product of two angles, the squareness of the axis to the plane and the tilt of the "
+      "target: 1 mrad and 5 mrad change the sensitivity by 5 ppm"};
   if (!rig.uncertainty.encoder.declared())
     sentences.insert(sentences.begin(),
-                     "encoder errors that repeat at each place, except those that the residuals of "
-                     "the line show: the rig does not declare [encoder] u_um");
+                     "encoder errors that repeat at the same position, apart from the part in the "
+                     "residuals of the line: the rig does not declare [encoder] u_um");
   return sentences;
 }
 
@@ -120,9 +120,10 @@ Status check(const Probe& probe, const Line& line) {
                             " um for 1 um of travel (limits " + plain_number(kLeast, 3) + " and " +
                             plain_number(kMost, 3) + ")";
   if (line.slope < 0)
-    return fail(ErrorCode::check, wrong + "; check reads and measures of this probe in the rig",
+    return fail(ErrorCode::check,
+                wrong + "; check the keys \"reads\" and \"measures\" of this probe in the rig",
                 Remedy::reverse_target);
-  return fail(ErrorCode::check, wrong + "; check the rig's um_per_V and the unit of the encoder");
+  return fail(ErrorCode::check, wrong + "; check um_per_V in the rig and the unit of the encoder");
 }
 
 // Where the probe is in volts its scale takes the sensitivity; the rest is a table.
@@ -169,8 +170,8 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
     return fail(ErrorCode::check,
                 "probe \"" + own.id + "\" was read at " + std::to_string(places.size()) +
                     " places over " + plain_number(to_um(way_m)) +
-                    " um; stop at three or more places, over all of its range of " +
-                    plain_number(to_um(own.range_m)) + " um that is used");
+                    " um; measure stops at three or more places that cover the used range of " +
+                    plain_number(to_um(own.range_m)) + " um");
   std::vector<double> x, y;
   for (const Reading& reading : all) {
     x.push_back(reading.true_m - all.front().true_m);

@@ -40,10 +40,10 @@ Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
         return std::abs(a - p.point.position_m) < std::abs(b - p.point.position_m);
       });
       if (std::abs(*near - p.point.position_m) > window) {
-        return bad_input("run " + std::to_string(run.header.id) + " stops at " +
-                         plain_number(to_mm(p.point.position_m), 7) + " mm where run " +
+        return bad_input("run " + std::to_string(run.header.id) + " has a stop at " +
+                         plain_number(to_mm(p.point.position_m), 7) + " mm, but run " +
                          std::to_string(runs.front().header.id) +
-                         " has no target; build one table from runs of the same targets");
+                         " has no target there; build one table from runs of the same targets");
       }
       p.target = static_cast<int>(near - grid.begin()) + 1;
       p.run += before;
@@ -144,13 +144,15 @@ Status add_sources(const std::vector<Run>& runs, CompensationTable& table) {
   for (const Run& run : runs) {
     if (run.header.axis != table.axis) {
       return bad_input("run " + std::to_string(run.header.id) + " measures axis " +
-                       letter(run.header.axis) + ", run " + std::to_string(runs.front().header.id) +
-                       " axis " + letter(table.axis) + "; build a table from runs of one axis");
+                       letter(run.header.axis) + ", but run " +
+                       std::to_string(runs.front().header.id) + " measures axis " +
+                       letter(table.axis) + "; build a table from runs of one axis");
     }
     if (run.header.sides != table.sides) {
-      return bad_input("the rigs of run " + std::to_string(run.header.id) + " and run " +
-                       std::to_string(runs.front().header.id) +
-                       " differ in moves or travel; build a table from runs of one set-up");
+      return bad_input(
+          "the rigs of run " + std::to_string(run.header.id) + " and run " +
+          std::to_string(runs.front().header.id) +
+          " differ in the key \"moves\" or \"travel\"; build a table from runs of one set-up");
     }
     table.runs.push_back(run.header.id);
     table.simulated = table.simulated || run.header.simulated;
@@ -176,9 +178,9 @@ Result<TableOfMeans> table_of_means(const std::vector<Run>& measured, const Tabl
   const MovingAxis moving{table.axis, table.sides};
   const auto first = target_means(moving, runs.front().points, Approach::both);
   if (first.size() < 3 || !can_fit(positions(first))) {
-    return bad_input("run " + std::to_string(runs.front().header.id) + " has " +
-                     std::to_string(first.size()) +
-                     " solved targets; a compensation table needs at least three");
+    return bad_input(
+        "run " + std::to_string(runs.front().header.id) + " has " + std::to_string(first.size()) +
+        " targets with calculated errors, but a compensation table needs at least three");
   }
   MDOF_TRY(out.points, on_one_grid(runs, positions(first)));
   out.grid = target_means(moving, out.points, Approach::both);
@@ -217,8 +219,9 @@ Result<Notices> uneven_visits_of(const std::vector<Run>& runs) {
   MDOF_TRY(const auto points, on_one_grid(runs, positions(first)));
   Notices found;
   for (Notice& each : uneven_visits(points))
-    found.push_back(inherited("all runs together (repetitions are counted on from run to run)",
-                              std::move(each)));
+    found.push_back(
+        inherited("all runs together (the repetitions of all runs are numbered in one sequence)",
+                  std::move(each)));
   return found;
 }
 

@@ -37,13 +37,13 @@ Status check_one(const Run& run, const Run& first) {
                      " is imported; build a separate table from each");
   const std::string& error = run.header.provenance.model;
   if (run.header.axis != axis)
-    return bad_input(name_of(run) + " measures axis " + letter(run.header.axis) + ", " +
-                     name_of(first) + " axis " + letter(axis) +
+    return bad_input(name_of(run) + " measures axis " + letter(run.header.axis) + ", but " +
+                     name_of(first) + " measures axis " + letter(axis) +
                      "; build a table from runs of one axis");
   if (error != positioning_name(axis))
     return bad_input(
         name_of(run) + " is an imported " + error +
-        ", and the point at which it holds is unknown; a table needs imported positioning (" +
+        ", whose reference point is unknown; a table needs the imported positioning error (" +
         positioning_name(axis) + ")");
   if (run.header.simulated != first.header.simulated)
     return bad_input(name_of(run.header.simulated ? run : first) + " is simulated and " +
@@ -74,10 +74,10 @@ Result<std::vector<double>> signs_of(const std::vector<Run>& runs,
     const std::optional<bool> against =
         stated.against_command ? stated.against_command : against_command;
     if (stated.sense == PositioningSense::body && !against)
-      return bad_input(
-          name_of(run) +
-          " was imported with the sense \"body\" but without a travel, so the sign for the command "
-          "is unknown; import the file again with the travel of its axis");
+      return bad_input(name_of(run) +
+                       " was imported with the sense \"body\", but without the travel direction of "
+                       "the axis (\"+\" or \"-\"), so the sign of the correction is unknown; "
+                       "import the file again with the travel direction");
     signs.push_back(stated.sense == PositioningSense::body && *against ? -1 : 1);
   }
   return signs;
@@ -95,8 +95,8 @@ Result<std::vector<std::vector<double>>> readings_of(const std::vector<Run>& run
       const std::size_t i = target_at(grid, p.target_m);
       if (std::abs(grid[i] - p.target_m) > kSamePosition_m)
         return bad_input(name_of(run) + " has a target at " + plain_number(to_mm(p.target_m), 9) +
-                         " mm, and " + name_of(runs.front()) +
-                         " has none there; build a table from runs with the same targets");
+                         " mm, but " + name_of(runs.front()) +
+                         " has no target there; build a table from runs with the same targets");
       if (p.point.direction == direction || p.point.direction == 0)
         at[i].push_back(signs[r] * p.point.probe_m.at(0));
     }
@@ -158,7 +158,7 @@ Status check_travel(const RunHeader& run, bool against_command) {
   return bad_input("run " + std::to_string(run.id) + " was imported with travel \"" +
                    (*stated ? "-" : "+") + "\", but the machine file states travel \"" +
                    (*stated ? "+" : "-") + "\" for axis " + letter(run.axis) +
-                   "; correct the wrong one");
+                   "; correct the wrong value");
 }
 
 Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs,
@@ -200,8 +200,8 @@ std::vector<std::string> positioning_notes(const std::vector<Run>& runs) {
                                      [](const auto& p) { return p.point.direction == 0; });
     if (unknown)
       notes.push_back(name_of(run) +
-                      " does not state from which side its targets were approached: the table is "
-                      "the same for forward and reverse and does not correct a reversal");
+                      " does not state from which side the targets were approached: the table is "
+                      "the same for forward and reverse and does not correct the reversal error");
     one_reading = one_reading || run.points.size() == targets_of(run).size();
   }
   if (runs.size() == 1 && one_reading)

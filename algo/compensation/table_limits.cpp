@@ -63,7 +63,7 @@ Status check_limits(const std::string& name, bool angle, const std::vector<doubl
       if (!(std::abs(slope) <= steepest))
         return bad_input(name + ": changes by " + slope_text(slope, angle) + " from " +
                              mm_of(position_m[before]) + " to " + mm_of(position_m[i]) +
-                             ", the limit is " + slope_text(steepest, angle) +
+                             ", but the limit is " + slope_text(steepest, angle) +
                              "; check the units of values and positions",
                          Remedy::raise_slope_limit);
     }

@@ -27,7 +27,7 @@ Result<std::vector<double>> commands_along(const Machine& machine, std::size_t a
   const MachineFrame* frame = machine.find(name_of(axis));
   if (!frame)
     return bad_input("the chain " + machine.chain.text + " has no axis " + name_of(axis) +
-                     "; name axes of this chain");
+                     "; name only axes of this chain");
   MDOF_TRY(const auto range, range_of(*frame));
   // A step of 0 is refused here as well.
   if (!((range[1] - range[0]) / step_m < static_cast<double>(kMostVolumetricCommands) - 1))

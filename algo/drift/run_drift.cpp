@@ -166,7 +166,8 @@ bool may_be_steps(const Points& points, const DriftFit& fit, std::size_t k) {
 }
 
 std::string why_not_seen(const DriftDesign& design) {
-  if (design.visits().empty()) return "no solved point has a known approach direction";
+  if (design.visits().empty())
+    return "the approach direction is unknown at all points with calculated errors";
   return "too few targets were visited again from the same side, so that a drift cannot be "
          "separated from the form and slope of the axis; measure two runs or more";
 }

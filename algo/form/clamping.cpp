@@ -27,8 +27,8 @@ void keep_common(SurfaceMap& map, const SurfaceMap& other) {
 Result<ClampingParts> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K) {
   if (!(K > -1 && std::isfinite(K)))
     return fail(ErrorCode::usage, "K is " + plain_number(K) +
-                                      "; it must be above -1, as the "
-                                      "elastic part is the clamping divided by 1 + K");
+                                      "; K must be greater than -1, because the elastic part is "
+                                      "the clamping divided by 1 + K");
   ClampingParts result;
   MDOF_TRY(result.clamping, difference(before, after));
   remove_plane(result.clamping);
@@ -60,7 +60,7 @@ Result<ClampingParts> clamping_by_release(const SurfaceMap& before, const Surfac
   }
   if (!(square > 0))
     return bad_input(after.name + " and " + released.name +
-                     " are identical: there is no springback, so K cannot be calculated");
+                     " are identical, so there is no springback and K cannot be calculated");
   result.K = product / square;
   SurfaceMap left = result.plastic;
   for (std::size_t k = 0; k < left.z_m.size(); ++k) left.z_m[k] -= result.K * result.elastic.z_m[k];

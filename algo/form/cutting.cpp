@@ -29,7 +29,8 @@ Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
       for (SurfaceMap& error : errors) error.z_m[k] = SurfaceMap::kMissing;
   if (errors.front().measured() < 2)
     return bad_input(passes.wanted.name +
-                     ": no pixel in common with the cuts; give all maps in the same coordinates");
+                     ": has no pixel in common with the maps of the cuts; give all maps in the "
+                     "same coordinates");
   return errors;
 }
 
@@ -147,16 +148,17 @@ bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
 Result<CuttingResult> next_cut(const CuttingPasses& passes) {
   CuttingResult result;
   if (passes.smooth_m > 0 && !LocalParabola(passes.wanted, passes.smooth_m, 1).is_large_enough())
-    return fail(ErrorCode::usage,
-                "the smoothing length of " + plain_number(to_mm(passes.smooth_m)) +
-                    " mm is less than two pixels (" + plain_number(to_mm(passes.wanted.dx_m)) +
-                    " x " + plain_number(to_mm(passes.wanted.dy_m)) +
-                    " mm); give a larger one, or 0 for no smoothing");
+    return fail(
+        ErrorCode::usage,
+        "the smoothing length of " + plain_number(to_mm(passes.smooth_m)) +
+            " mm is less than two pixels (one pixel: " + plain_number(to_mm(passes.wanted.dx_m)) +
+            " x " + plain_number(to_mm(passes.wanted.dy_m)) +
+            " mm); give a larger length, or 0 for no smoothing");
   if (passes.gain == CuttingGain::optimal && !passes.random_rms_m &&
       (!passes.repeated || passes.cuts.size() < 2))
     return fail(ErrorCode::usage,
-                "the optimal gain needs the RMS of the random share of a pass; state it, or give "
-                "two or more passes with the same path");
+                "the optimal gain needs the RMS of the random share of a pass; state this RMS, or "
+                "give two or more passes with the same path");
   MDOF_TRY(std::vector<SurfaceMap> errors, errors_of(passes));
   for (const SurfaceMap& error : errors) result.error.push_back(figures_of(error));
   result.pixels = result.error.front().pixels;

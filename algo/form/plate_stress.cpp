@@ -25,11 +25,11 @@ double von_mises_Pa(const Parabola& c, const Plate& plate) {
 Result<PlateStress> plate_stress(const SurfaceMap& form, const Plate& plate, double smooth_m) {
   const LocalParabola square(form, smooth_m, kLeastOfSquare);
   if (!square.is_large_enough())
-    return fail(ErrorCode::usage, "the smoothing length of " + plain_number(to_mm(smooth_m)) +
-                                      " mm is less than two pixels (" +
-                                      plain_number(to_mm(form.dx_m)) + " x " +
-                                      plain_number(to_mm(form.dy_m)) +
-                                      " mm); a curvature needs at least 3 x 3 pixels");
+    return fail(ErrorCode::usage,
+                "the smoothing length of " + plain_number(to_mm(smooth_m)) +
+                    " mm is less than two pixels (one pixel: " + plain_number(to_mm(form.dx_m)) +
+                    " x " + plain_number(to_mm(form.dy_m)) +
+                    " mm), but a curvature needs at least 3 x 3 pixels; give a larger length");
   PlateStress stress;
   for (std::size_t j = 0; j < form.ny; ++j)
     for (std::size_t i = 0; i < form.nx; ++i) {
@@ -44,8 +44,8 @@ Result<PlateStress> plate_stress(const SurfaceMap& form, const Plate& plate, dou
     }
   if (stress.pixels > 0) return stress;
   return bad_input(form.name +
-                   ": no pixel has a smoothing square around it that is measured to one half; take "
-                   "a smaller smoothing length");
+                   ": at every pixel, less than half of the smoothing square around the pixel is "
+                   "measured; give a smaller smoothing length");
 }
 
 }  // namespace mdof::algo

@@ -268,9 +268,8 @@ Status check_overlap(const SurfaceMap& a, const SurfaceMap& b, std::size_t pixel
     return {};
   return bad_input(a.name + " and " + b.name + ": only " + std::to_string(pixels) + " of " +
                    std::to_string(measured) +
-                   " pixels of the first have a counterpart in the "
-                   "second (" +
-                   extent(a) + "; " + extent(b) + "); give both maps in the same coordinates");
+                   " pixels of the first map have a counterpart in the second map (" + extent(a) +
+                   "; " + extent(b) + "); give both maps in the same coordinates");
 }
 
 }  // namespace

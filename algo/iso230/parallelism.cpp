@@ -52,8 +52,8 @@ Status common_travel(const ReferenceLines& a, const ReferenceLines& b, Paralleli
   return bad_input("run " + std::to_string(found.run_a) + " covers " +
                    in_mm_text(a.first_m, a.last_m) + " and run " + std::to_string(found.run_b) +
                    " covers " + in_mm_text(b.first_m, b.last_m) +
-                   "; the travel in common is less than half of the longer one: measure both over "
-                   "the same travel");
+                   "; the common travel is less than half of the longer travel; measure both runs "
+                   "over the same travel");
 }
 
 }  // namespace
@@ -62,10 +62,10 @@ Result<Parallelism> parallelism(const Run& run_a, const Run& run_b, bool take_pa
   if (run_a.header.axis != run_b.header.axis)
     return bad_input("run " + std::to_string(run_a.header.id) + " measures axis " +
                          letter(run_a.header.axis) + " and run " + std::to_string(run_b.header.id) +
-                         " axis " + letter(run_b.header.axis) +
+                         " measures axis " + letter(run_b.header.axis) +
                          ", but parallelism compares two motions along one axis",
                      Remedy::compare_two_axes);
-  MDOF_CHECK(check_usable({&run_a, &run_b}, take_partial, "a parallelism"));
+  MDOF_CHECK(check_usable({&run_a, &run_b}, take_partial, "parallelism"));
   Parallelism found;
   found.run_a = run_a.header.id;
   found.run_b = run_b.header.id;

@@ -31,7 +31,7 @@ Status check_reading(const PositioningReading& reading) {
   if (reading.direction == 1 || reading.direction == -1) return {};
   return bad_input(place_of(reading.target_m) + ", run " + std::to_string(reading.run) +
                    ": the direction is " + std::to_string(reading.direction) +
-                   "; it must be 1 (target approached in the + sense) or -1");
+                   "; give 1 (target approached in the + direction) or -1 (in the - direction)");
 }
 
 Result<ByTarget> by_target(const std::vector<PositioningReading>& readings) {
@@ -43,8 +43,8 @@ Result<ByTarget> by_target(const std::vector<PositioningReading>& readings) {
   }
   if (targets.size() >= 2) return targets;
   return bad_input(std::to_string(targets.size()) +
-                   " targets: the parameters of ISO 230-2 need at least two targets, and its test "
-                   "plan needs five");
+                   " targets: the parameters of ISO 230-2 need at least two targets (the test plan "
+                   "of ISO 230-2 needs five); measure at more targets");
 }
 
 // One reading has no standard deviation; one everywhere is a single run, which has means.
@@ -54,10 +54,10 @@ Status check_count(double target_m, const char* approach, std::size_t count, boo
   const std::string place = place_of(target_m) + ": ";
   if (count == 0)
     return bad_input(place + "no reading in " + approach +
-                     " direction, although other targets have one; measure it, or leave out the "
-                     "target or that direction");
-  return bad_input(place + "one reading in " + approach +
-                   " direction: repeatability needs at least two runs, and ISO 230-2 needs five; "
+                     " direction, but other targets have readings in this direction; measure this "
+                     "reading, or leave out the target or the whole direction");
+  return bad_input(place + "only one reading in " + approach +
+                   " direction, but repeatability needs at least two runs (ISO 230-2 needs five); "
                    "measure more runs, or leave out this target");
 }
 

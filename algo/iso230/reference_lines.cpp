@@ -72,9 +72,9 @@ constexpr double kMost_m = 1e6;  // products of two stay far from overflow
 Status check_size(std::span<const double> values, const char* what) {
   if (std::all_of(values.begin(), values.end(), [](double v) { return std::abs(v) <= kMost_m; }))
     return {};
-  return bad_input(std::string("a ") + what +
-                   " is not a finite number below 1000 km; check its unit or leave its reading "
-                   "out");
+  return bad_input(
+      std::string("a ") + what +
+      " is not a finite number below 1000 km; check the unit, or leave out the reading");
 }
 
 }  // namespace
@@ -91,8 +91,8 @@ Result<ReferenceLines> reference_lines(std::span<const double> positions_m,
   if (lines.positions < 3)
     return bad_input(std::to_string(lines.readings) + " readings at " +
                      std::to_string(lines.positions) +
-                     " different positions: straightness needs at least three positions; measure "
-                     "at more positions");
+                     " different positions, but straightness needs at least three positions; "
+                     "measure at more positions");
   lines.first_m = series.x.front();
   lines.last_m = series.x.back();
   lines.end_point = stated(through_ends(series), series);

@@ -53,7 +53,7 @@ tl::unexpected<Error> contradiction(const Rig& x, const Rig& y, const char* key,
                                     double of_y, Remedy remedy) {
   return bad_input(std::string(key) + " is " + in_urad(of_x) + " in " + x.source + " and " +
                        in_urad(of_y) + " in " + y.source +
-                       ", although both runs measure one square",
+                       ", but both runs measure the same square",
                    remedy);
 }
 
@@ -139,7 +139,8 @@ Result<AxisPair> pair_of(const Run& a, const Run& b) {
     return "run " + std::to_string(run.header.id) + " measures axis " + letter(run.header.axis);
   };
   return bad_input(of(a) + " and " + of(b) +
-                   "; squareness needs runs of two axes, in the order X, Y, Z");
+                   "; squareness needs runs of two different axes; give the runs in the order X, "
+                   "Y, Z of their axes");
 }
 
 Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t named,
@@ -148,9 +149,9 @@ Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t na
   const auto series = target_means(run.header.moving(), run.points, Approach::both);
   const auto x = own_travels(run.header.sides, series);
   if (series.size() < 3 || !can_fit(x)) {
-    return bad_input("run " + std::to_string(run.header.id) + " has " +
-                     std::to_string(series.size()) +
-                     " solved targets; a line with its uncertainty needs at least three");
+    return bad_input(
+        "run " + std::to_string(run.header.id) + " has " + std::to_string(series.size()) +
+        " targets with calculated errors, but a line with its uncertainty needs at least three");
   }
   StraightnessSlope slope;
   slope.line = least_squares_line(x, column(series, named));
@@ -191,11 +192,12 @@ Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const Art
   artefact.corner = face_a * face_b;
   if (artefact.angle_error_rad == 0 || artefact.corner != 0) return artefact;
   const Rig &unclear = face_a == 0 ? rig_a : rig_b, &other = face_a == 0 ? rig_b : rig_a;
-  return bad_input(unclear.source + ": the side of the fixture on which the " +
-                   "square's face normal to " + letter(other.axis) +
-                   " lies is not stated, so the sign of " + kAngle +
-                   " is unknown; state it by position_mm of the probes at this face, or by "
-                   "offset_mm of its [[plane]]");
+  return bad_input(
+      unclear.source +
+      ": it is unknown on which side of the fixture the face of the square normal to " +
+      letter(other.axis) + " lies, so the sign of " + kAngle +
+      " is unknown; state the side by position_mm of the probes at this face, or by "
+      "offset_mm of the [[plane]] of this face");
 }
 
 Result<Squareness> squareness(const Run& run_a, const Run& run_b, const SquareArtefact& artefact,

@@ -90,7 +90,7 @@ TEST_F(CsvTableTest, NamesTheLineAndTheRemedy) {
 
 TEST_F(CsvTableTest, SaysWhichColumnOrUnitIsMeant) {
   expect_error("position_um,deviation_um\n1,2\n",
-               {":1: column position_um has another unit", "name the column position_mm"});
+               {":1: column position_um does not have the expected unit", "name the column position_mm"});
   expect_error("x_mm,deviation_um\n1,2\n",
                {":1: no column position_mm (columns: x_mm, deviation_um)"});
   expect_error("position_inch,deviation_um\n1,2\n", {":1:", "position_inch", "unknown unit"});

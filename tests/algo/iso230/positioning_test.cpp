@@ -112,7 +112,7 @@ TEST(Positioning, NamesTheTargetThatLacksReadings) {
             std::string::npos);
   readings.erase(readings.begin());
   EXPECT_NE(
-      refused(readings).find("target 1000 mm: no reading in reverse direction, although other"),
+      refused(readings).find("target 1000 mm: no reading in reverse direction, but other"),
       std::string::npos);
 }
 

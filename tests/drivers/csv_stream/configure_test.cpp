@@ -30,7 +30,7 @@ TEST(CsvStreamConfiguration, KeysAndTheirErrors) {
   const std::pair<const char*, const char*> wrong[] = {
       {"", "source: is missing"},
       {"source = \"serial:/dev/ttyS0\"\nbaud = 0", "baud: must be a rate"},
-      {"source = \"serial:/dev/ttyS0\"\nparity = \"mark\"", "parity: must be none"},
+      {"source = \"serial:/dev/ttyS0\"\nparity = \"mark\"", "parity: must be \"none\""},
       {"source = \"serial:/dev/ttyS0\"\nheader = \"1,2\"", "header"},
       {"source = \"serial:ttyS0\"", "source: must be"},
       {"source = \"tcp://127.0.0.1:9000\"\nbaud = 9600", "baud"},

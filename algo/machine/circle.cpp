@@ -103,7 +103,7 @@ Status check_request(const Machine& machine, const CircleRequest& request) {
     const std::string name(1, "XYZ"[axis]);
     if (!machine.find(name))
       return bad_input("the chain " + machine.chain.text + " has no axis " + name +
-                       "; name axes of this chain");
+                       "; name only axes of this chain");
   }
   if (!(request.radius_m > 0 && request.radius_m <= kMostRadius_m))
     return bad_input("the radius of a circle must be above 0 and at most 10 m");

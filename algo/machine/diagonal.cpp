@@ -99,7 +99,8 @@ Result<std::vector<Diagonal>> plane_diagonals(const Machine& machine, std::size_
     const MachineFrame* frame = machine.find(kAxisNames.substr(direction, 1));
     if (!frame)
       return bad_input("the chain " + machine.chain.text + " has no axis " +
-                       std::string(kAxisNames.substr(direction, 1)));
+                       std::string(kAxisNames.substr(direction, 1)) +
+                       "; name only axes of this chain");
     MDOF_TRY((direction == first ? c.first_range : c.second_range), range_of(*frame));
   }
   std::vector<Diagonal> diagonals = {along(machine, c, steps, approach)};
@@ -111,7 +112,8 @@ Result<std::vector<Diagonal>> plane_diagonals(const Machine& machine, std::size_
 Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines) {
   if (lines.first.length_m.empty() || lines.second.length_m.empty() ||
       lines.diagonal.length_m.empty())
-    return bad_input("lines 1 and 2 (along the axes) and line 3 (the diagonal) are needed");
+    return bad_input(
+        "give the lengths of lines 1 and 2 (along the axes) and of line 3 (the diagonal)");
   if (!usable(lines.first) || !usable(lines.second) || !usable(lines.diagonal) ||
       !usable(lines.other))
     return bad_input("every length must be a number above 0");

@@ -50,8 +50,8 @@ Result<Eigen::VectorXd> times_of(const CircleReadings& r) {
     const auto at = static_cast<std::size_t>(i);
     if (i > 0 && !(r.time_s[at] > r.time_s[at - 1]))
       return bad_input("reading " + std::to_string(i + 1) +
-                       " of the circle is not later than the "
-                       "one before; give the readings in the order of their times");
+                       " of the circle is not later than the reading before; give the readings in "
+                       "the order of their times");
     share[i] = (r.time_s[at] - r.time_s.front()) / (r.time_s.back() - r.time_s.front());
   }
   return share;
@@ -61,7 +61,7 @@ Status check(const CircleReadings& r, int highest, bool drift) {
   const std::size_t n = r.angle_rad.size(),
                     unknowns = 2 * static_cast<std::size_t>(highest) + (drift ? 2 : 1);
   if (!(r.radius_m > 0 && r.radius_m < 100))
-    return bad_input("the radius of the circle must be above 0");
+    return bad_input("the radius of the circle must be above 0 and below 100 m");
   if (n < unknowns + 2)
     return bad_input(std::to_string(n) + " readings are too few for " + std::to_string(highest) +
                      " harmonics; give at least " + std::to_string(unknowns + 2) +

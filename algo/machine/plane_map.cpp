@@ -15,7 +15,7 @@ Result<const MachineFrame*> linear_axis(const Machine& machine, std::size_t dire
   const MachineFrame* frame = machine.find(kAxes.substr(direction, 1));
   if (frame) return frame;
   return bad_input("the chain " + machine.chain.text + " has no axis " +
-                   std::string(kAxes.substr(direction, 1)) + "; name axes of this chain");
+                   std::string(kAxes.substr(direction, 1)) + "; name only axes of this chain");
 }
 
 void add_points(const Machine& machine, const PlaneMapRequest& request, PlaneMap& map) {

@@ -24,7 +24,8 @@ Result<Motion> arm_angle(double arm_m, const Motion& end) {
   const double s = end.position / arm_m;
   if (!(std::abs(s) < 1))
     return bad_input("screws A and C: sin B would be " + std::to_string(s) +
-                     " (limit 1); their difference times cos(tilt) must be below twice the arm");
+                     " (limit 1); the difference between the screws A and C, times cos(tilt), must "
+                     "be less than twice the arm");
   const double b = std::asin(s), c = std::cos(b), speed = end.velocity / (arm_m * c);
   return Motion{b, speed, (end.acceleration / arm_m + speed * speed * s) / c};
 }
@@ -69,7 +70,7 @@ Result<double> rotation_step(const CoPlanarDrive& drive, double angle_rad, doubl
   if (!(std::abs(end) <= 1))
     return bad_input(
         "at " + std::to_string(angle_rad * 90 / std::acos(0.0)) +
-        " degrees one more step of the screws is beyond the end of the arm's turn, 90 degrees");
+        " degrees, one more step of the screws would turn the arm beyond the limit of 90 degrees");
   return std::asin(end) - angle_rad;
 }
 

@@ -73,8 +73,8 @@ std::string clearance_text(const MotionClearance& motion) {
                  um(*probe.contact_m);
   }
   return "HAZARD: " + axis + " drives the target's face into the probes " + ids + " (" + senses +
-         "): the range ends after " + um(least_m) + contact +
-         "; do not move further, or remove these probes first";
+         "): the measuring range ends after " + um(least_m) + contact +
+         "; stop the axis, and remove these probes before you move the axis further";
 }
 
 }  // namespace mdof::algo

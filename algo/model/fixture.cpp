@@ -98,11 +98,12 @@ Status check_common_planes(const Rig& rig, const Fixture& fixture,
       if (looks_at[i] != looks_at[j] || std::abs(way) < kSameWay) continue;
       const double of_b = way > 0 ? b.plane_offset_m : -b.plane_offset_m;
       if (std::abs(a.plane_offset_m - of_b) <= kOnPlane_m) continue;
-      return bad_input(rig.source + ": probes \"" + a.id + "\" and \"" + b.id +
-                       "\" look at one plane, but their position_mm place it at " +
-                       in_mm(a.plane_offset_m) + " and at " + in_mm(of_b) +
-                       "; correct position_mm, or declare two [[plane]] tables with offset_mm and "
-                       "state plane = \"...\" in each [[probe]]");
+      return bad_input(
+          rig.source + ": probes \"" + a.id + "\" and \"" + b.id +
+          "\" look at one plane, but the positions of this plane by position_mm differ: " +
+          in_mm(a.plane_offset_m) + " and " + in_mm(of_b) +
+          "; correct position_mm, or declare two [[plane]] tables with offset_mm and "
+          "state plane = \"...\" in each [[probe]]");
     }
   }
   return {};

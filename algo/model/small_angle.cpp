@@ -16,9 +16,9 @@ constexpr double kSamePlane_m = 1e-9;
 
 tl::unexpected<Error> not_of_this_kind(const std::string& why) {
   return bad_input(
-      "the simplified and exact models need three probes along ±z on the plane z = 0 "
-      "and two along ±y on one plane: " +
-      why + "; use the model rigid");
+      "the models \"simplified\" and \"exact\" need three probes along ±z on the plane z = 0 and "
+      "two along ±y on one plane: " +
+      why + "; use the model \"rigid\"");
 }
 
 struct Roles {
@@ -103,7 +103,7 @@ Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture) {
   if (std::abs(fixture.probes[f.probe[4]].p_MP.y() - f.h) > kSamePlane_m) {
     return not_of_this_kind("the two side probes look at different planes");
   }
-  if (!top_weights(f)) return not_of_this_kind("the three top probes are in a line");
+  if (!top_weights(f)) return not_of_this_kind("the three top probes are on one line");
   const double span = f.x[4] - f.x[3];
   if (span < 1e-5)
     return not_of_this_kind("the two side probes are at the same place along the motion");

@@ -71,7 +71,7 @@ std::string describe_unseen(const Fixture& fixture, const std::vector<bool>& use
   for (std::size_t i = 0; i < fixture.probes.size(); ++i) {
     if (use[i]) text += " " + fixture.probes[i].id;
   }
-  text += seen.unseen.size() == 1 ? " cannot see " : " cannot separate ";
+  text += seen.unseen.size() == 1 ? " cannot measure " : " cannot separate ";
   for (std::size_t i = 0; i < seen.unseen.size(); ++i) {
     if (i > 0) text += i + 1 == seen.unseen.size() ? " and " : ", ";
     text += seen.unseen[i];

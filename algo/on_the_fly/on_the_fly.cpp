@@ -143,8 +143,9 @@ Sequence OnTheFly::sequence() const {
     for (const BinPoint& bin : pass.bins) {
       const auto found = number.find(bin.place);
       if (found == number.end()) {
-        sequence.left_out.push_back({bin.point.position_m, bin.point.begin_ns,
-                                     "fewer than half of the passes crossed it at a steady speed"});
+        sequence.left_out.push_back(
+            {bin.point.position_m, bin.point.begin_ns,
+             "fewer than half of the passes crossed this position at a steady speed"});
         continue;
       }
       visits.push_back({found->second, pass.direction});

@@ -33,9 +33,9 @@ Status PassFinder::push(const FrameBlock& frames, std::size_t first, std::size_t
     begin_ = 0;
   }
   if (rows_.size() - begin_ <= kMostScans) return {};
-  return bad_input("one pass, in which the axis moves one way or stands still, has more than " +
+  return bad_input("one pass (motion in one direction, or standstill) has more than " +
                    std::to_string(kMostScans) +
-                   " scans, the limit; cut the log, or record at a lower rate");
+                   " scans, the limit; divide the log, or record at a lower rate");
 }
 
 void PassFinder::follow(std::size_t row, double at_m, const Take& take) {

@@ -49,7 +49,7 @@ Status check_on_the_fly(const OnTheFlyOptions& o, const std::vector<double>& tar
   if (!(o.interval_mm >= 0 && std::isfinite(o.interval_mm)))
     return wrong("interval_mm", "must be greater than zero");
   if (o.interval_mm == 0 && targets_m.empty())
-    return wrong("interval_mm", "must be greater than zero, as no targets are given");
+    return wrong("interval_mm", "must be greater than zero, because no targets are given");
   if (!finite(o.from_mm) || !finite(o.to_mm)) return wrong("from_mm, to_mm", "must be numbers");
   if (o.from_mm && o.to_mm && !(*o.to_mm > *o.from_mm))
     return wrong("to_mm", "must be greater than from_mm");

@@ -134,7 +134,7 @@ Status Aligner::push(SampleBlock& block, FrameBlock& out) {
     return {};
   }
   if (block.time_ns.front() <= encoder_.newest_ns) {
-    return bad_input("device \"" + block.device + "\": time goes backwards, from " +
+    return bad_input("device \"" + block.device + "\": the time does not increase from " +
                      std::to_string(encoder_.newest_ns) + " ns to " +
                      std::to_string(block.time_ns.front()) + " ns");
   }
@@ -160,7 +160,7 @@ Status Aligner::enqueue_channel(const SampleBlock& block, std::size_t channel, T
     const std::int64_t t = block.time_ns[i] - track.delay_ns;
     if (t <= track.newest_ns) {
       return bad_input("device \"" + block.device + "\", channel " + track.id +
-                       ": time goes backwards, from " + std::to_string(track.newest_ns) +
+                       ": the time does not increase from " + std::to_string(track.newest_ns) +
                        " ns to " + std::to_string(t) + " ns");
     }
     track.newest_ns = t;

@@ -22,8 +22,9 @@ std::string closed_text(const std::string& probe, const ProbePhysics& physics, d
       gap_m > 0
           ? "the target is tilted by " + plain_number(1e3 * std::sqrt(tilt_square)) +
                 " mrad, so that an electrode of " + plain_number(to_mm(physics.sensing_radius_m)) +
-                " mm radius would touch it at a gap of " + plain_number(to_um(gap_m)) + " um"
-          : "its gap would be " + plain_number(to_um(gap_m)) + " um";
+                " mm radius would touch the target at a gap of " + plain_number(to_um(gap_m)) +
+                " um"
+          : "the gap would be " + plain_number(to_um(gap_m)) + " um";
   return "probe " + probe + " cannot be corrected: " + what +
          "; correct standoff_um or sensing_radius_mm in the rig";
 }

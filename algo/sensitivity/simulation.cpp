@@ -36,7 +36,8 @@ Status check(const SimulationOptions& o) {
                                                 {"sigma_y_um", o.sigma_y_um},
                                                 {"sigma_z_um", o.sigma_z_um}};
   for (const auto& [name, value] : not_negative) {
-    if (!std::isfinite(value) || value < 0) return refused(name, "must be a number not below 0");
+    if (!std::isfinite(value) || value < 0)
+      return refused(name, "must be a number of 0 or greater");
   }
   for (const auto& [name, value] : any) {
     if (!std::isfinite(value)) return refused(name, "must be a number");
@@ -47,10 +48,10 @@ Status check(const SimulationOptions& o) {
   }
   if (!(o.l_mm > 0)) return refused("l_mm", "must be above 0");
   if (o.travel_to_mm < o.travel_from_mm) {
-    return refused("travel_to_mm", "must not be below travel_from_mm");
+    return refused("travel_to_mm", "must be at least travel_from_mm");
   }
   if (o.travel_bins < 1 || o.travel_bins > kMostStudyBins)
-    return refused("travel_bins", "must be 1 to " + std::to_string(kMostStudyBins));
+    return refused("travel_bins", "must be from 1 to " + std::to_string(kMostStudyBins));
   return {};
 }
 

@@ -71,7 +71,7 @@ Result<long> step_on_target(const ReadAt& at, const SetUp& set_up, std::size_t n
   return bad_input("set-up " + std::to_string(number) + ": its shift of " + in_mm(set_up.shift_m) +
                        " is " + in_mm(std::abs(off)) + " away from a multiple of the step, " +
                        in_mm(grid.step_m) +
-                       ", so it reads other places of the target than the first set-up",
+                       ", so this set-up reads other places of the target than the first set-up",
                    Remedy::shift_by_intervals);
 }
 

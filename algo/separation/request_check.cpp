@@ -19,9 +19,10 @@ Status check_set_up(const SetUp& set_up, std::size_t number) {
   for (const auto* values : {&set_up.position_m, &set_up.error_m, &set_up.u_m})
     if (std::any_of(values->begin(), values->end(), wrong))
       return bad_input(of + "a value is not a finite number below 1000 km; check the units");
-  if (wrong(set_up.shift_m)) return bad_input(of + "its shift is not a finite number");
+  if (wrong(set_up.shift_m))
+    return bad_input(of + "the shift is not a finite number below 1000 km; check the unit");
   if (std::any_of(set_up.u_m.begin(), set_up.u_m.end(), [](double u) { return u < 0; }))
-    return bad_input(of + "a standard uncertainty is negative");
+    return bad_input(of + "a standard uncertainty is negative; give 0 or greater");
   return {};
 }
 
@@ -46,12 +47,13 @@ Status check_request(const SeparationRequest& request) {
   }
   if (readings > kMostReadings)
     return bad_input("these set-ups have " + std::to_string(readings) + " readings, and at most " +
-                     std::to_string(kMostReadings) + " can be separated at once; leave some out");
+                     std::to_string(kMostReadings) +
+                     " can be separated at once; leave some set-ups out");
   if (!all_alike(request)) return {};
   return bad_input(
       "the target has the same place and orientation in all set-ups, so the machine cannot be "
-      "separated from it; state in which set-up it was turned or how far it was shifted, or "
-      "measure such a set-up");
+      "separated from the target; state in which set-up the target was turned or how far the "
+      "target was shifted, or measure a set-up with the target turned or shifted");
 }
 
 Status check_shared(const Grid& grid, const std::vector<SetUp>& set_ups) {
@@ -68,7 +70,7 @@ Status check_shared(const Grid& grid, const std::vector<SetUp>& set_ups) {
     if (!shared)
       return bad_input(std::string("the set-ups have no place of the ") +
                        (at == &grid.at_position ? "machine" : "target") +
-                       " in common, so that nothing can be separated; measure at the same "
+                       " in common, so the errors cannot be separated; measure at the same "
                        "positions, and shift the target by less than the travel");
   }
   return {};

@@ -109,7 +109,8 @@ Result<ProbeSeries> probe_series(const Run& run, const Rig& rig, const std::stri
   if (!index) {
     std::string ids;
     for (const Probe& p : rig.probes) ids += (ids.empty() ? "" : ", ") + p.id;
-    return bad_input(rig.source + ": has no probe \"" + probe + "\"; its probes are " + ids);
+    return bad_input(rig.source + ": has no probe \"" + probe + "\"; the probes of this rig are " +
+                     ids);
   }
   const Probe& found = rig.probes[*index];
   const double along = found.direction[static_cast<std::size_t>(normal)];

@@ -15,10 +15,10 @@ Status check_state(const Run& run, bool take_partial, const std::string& what) {
   if (state == RunState::complete || (take_partial && state == RunState::partial)) return {};
   const std::string is = name_of(run) + " is " + to_string(state);
   if (state == RunState::partial)
-    return bad_input(
-        is + ", but " + what + " needs complete runs; the notices of the run say what is missing",
-        Remedy::take_partial_runs);
-  return bad_input(is + "; build " + what + " from complete runs");
+    return bad_input(is + ", but complete runs are needed for " + what +
+                         "; the notices of the run say what is missing",
+                     Remedy::take_partial_runs);
+  return bad_input(is + "; complete runs are needed for " + what);
 }
 
 bool continues_from(const Run& run, const Run& other) {

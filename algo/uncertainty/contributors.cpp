@@ -339,7 +339,7 @@ Status check_run(const Basis& basis) {
     if (basis.points[j].valid && !is_small(basis.points[j].carriage))
       return bad_input(run + ": at target " + std::to_string(basis.run.points[j].target) +
                        " an angle exceeds 250 mrad, the limit of the mounting model, so no budget "
-                       "can be calculated; check the rig");
+                       "can be calculated; check positions, directions and units in the rig");
   return {};
 }
 

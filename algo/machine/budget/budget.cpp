@@ -106,9 +106,11 @@ Status check_sizes(const BudgetModel& model) {
             if (e.frame != i || e.k != k || e.of_line != of_line) continue;
             most += std::abs(e.per_unit) * cause.u * reach(cause.shape);
             if (most <= (k < 3 ? kMostShift_m : kMostTurn_rad)) continue;
-            return bad_input("source \"" + cause.name + "\": at this command its u makes " +
-                             name_of(model.machine.frames[i], k, of_line) + " larger than " +
-                             (k < 3 ? "10 mm" : "0.1 rad") + "; check u, factor and their units");
+            return bad_input(
+                "source \"" + cause.name + "\": with the standard uncertainty u of this source, " +
+                name_of(model.machine.frames[i], k, of_line) +
+                " at this command can exceed the limit of " + (k < 3 ? "10 mm" : "0.1 rad") +
+                "; check the keys \"u\" and \"factor\" of the source and the units of both values");
           }
       }
   return {};

@@ -94,8 +94,9 @@ Status check_forward(const StudyPlan& plan, const Fixture& fixture) {
                        (fixture_K ? "fixture" : "target") +
                        "_ppm_per_K in [expansion]; add that key");
     if (quantity.name.ends_with("map_percent") && !map)
-      return bad_input(quantity.where + ": the rig has no flatness map for " + quantity.name +
-                       "; add flatness_um to its [[plane]], or use flatness_um here");
+      return bad_input(
+          quantity.where + ": the rig has no flatness map for " + quantity.name +
+          "; add flatness_um to the [[plane]] of the rig, or use a quantity flatness_um instead");
   }
   return {};
 }

@@ -118,10 +118,10 @@ constexpr double kMostAdaptiveBlock = 1e7 + 1;
 tl::unexpected<Error> coverage_too_high(double coverage) {
   std::array<char, 32> digits;  // the shortest that read back to the same coverage
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), coverage);
-  return bad_input(
-      "coverage " + std::string(digits.data(), end.ptr) +
-          ": a block of adaptive trials, 100 / (1 - coverage), would have more than 1e7",
-      Remedy::fix_number_of_trials);
+  return bad_input("coverage " + std::string(digits.data(), end.ptr) +
+                       ": a block of adaptive trials would have 100 / (1 - coverage) trials, more "
+                       "than the limit of 1e7",
+                   Remedy::fix_number_of_trials);
 }
 
 std::vector<BlockFigures> figures_of(Values values, double coverage) {

@@ -126,7 +126,7 @@ Result<StudyStatistics> StudyStatistics::parse(std::string_view bytes, const Exp
   if (const auto version = in.number<std::uint32_t>(); version != kVersion) {
     return bad_input(what + "version " + std::to_string(version) +
                      ", but this program reads version " + std::to_string(kVersion) +
-                     "; continue the study with the program that wrote them");
+                     "; continue the study with the program that wrote these data");
   }
   const auto outputs = in.number<std::uint64_t>(), bins = in.number<std::uint64_t>();
   StudyStatistics s(shape, StudyScale(shape.outputs().size()), set);

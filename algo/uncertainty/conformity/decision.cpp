@@ -28,10 +28,10 @@ Guard guard_of(const Budget& budget, double limit) {
   const double factor = one_end ? one_sided_factor(budget.freedom) : budget.coverage_factor;
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.3f u", factor);
-  return {factor,
-          standard +
-              (one_end ? "one-sided" : "two-sided, as u is large compared with the tolerance") +
-              ", guard band g = " + text.data()};
+  return {factor, standard +
+                      (one_end ? "one-sided"
+                               : "two-sided, because u is large compared with the tolerance") +
+                      ", guard band g = " + text.data()};
 }
 
 // "a, b and c"

@@ -251,7 +251,8 @@ TEST(MachineBudget, AnErrorOfTheLineIsNoneOfTheBody) {
   const auto body = with_source(false, 1e6), line = with_source(true, 1e6);
   ASSERT_FALSE(body);
   ASSERT_FALSE(line);
-  EXPECT_NE(body.error().message.find("makes ECX larger than 0.1 rad"), std::string::npos)
+  EXPECT_NE(body.error().message.find("ECX at this command can exceed the limit of 0.1 rad"),
+            std::string::npos)
       << body.error().message;
   EXPECT_EQ(line.error().message.find("makes ECX larger"), std::string::npos)
       << line.error().message;

@@ -40,9 +40,9 @@ TEST(Clearance, TheSideProbesAreInTheWayOfYAndTheTopOnesOfZ) {
   }
   const std::string y = clearance_text(motions[1]);
   EXPECT_EQ(y.substr(0, 7), "HAZARD:");
-  EXPECT_NE(
-      y.find("D, E (D in both directions, E in both directions): the range ends after 100 um"),
-      std::string::npos)
+  EXPECT_NE(y.find("D, E (D in both directions, E in both directions): the measuring range ends "
+                   "after 100 um"),
+            std::string::npos)
       << y;
   EXPECT_EQ(clearance_text(motions[0]).find("HAZARD"), std::string::npos);
 }

@@ -28,7 +28,7 @@ TEST(TargetGridLimits, EachKeyIsNamed) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusal_of(grid(1)), "");
   EXPECT_NE(refusal_of(grid(-1)).find("interval_mm must be"), std::string::npos);
-  EXPECT_NE(refusal_of(grid(0)).find("as no targets are given"), std::string::npos);
+  EXPECT_NE(refusal_of(grid(0)).find("because no targets are given"), std::string::npos);
   EXPECT_EQ(refusal_of(grid(0), {0, 1e-3}), "");
   for (const double bad : {nan, kInfinity}) {
     EXPECT_NE(refusal_of(grid(1, 0, bad)).find("from_mm, to_mm must be numbers"),

@@ -88,8 +88,9 @@ TEST(RunSeries, RefusesAProbeThatLooksElsewhere) {
   EXPECT_NE(other.error().message.find("probe \"A\" does not look along Y"), std::string::npos);
   const auto none = probe_series(run, test::rig_x(), "Q", Axis::y);
   ASSERT_FALSE(none);
-  EXPECT_NE(none.error().message.find("has no probe \"Q\"; its probes are A, B, C, D, E"),
-            std::string::npos);
+  EXPECT_NE(
+      none.error().message.find("has no probe \"Q\"; the probes of this rig are A, B, C, D, E"),
+      std::string::npos);
 }
 
 // Both are of the probe that is read, and of no other one; a run begins with its drift at 0.

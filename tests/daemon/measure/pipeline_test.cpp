@@ -302,7 +302,7 @@ TEST(Pipeline, TimeThatGoesBackwardsIsRefusedWithTheDevice) {
   ASSERT_TRUE(pipeline.push(late));
   const Status pushed = pipeline.push(early);
   ASSERT_FALSE(pushed);
-  EXPECT_SAYS(pushed.error().message, "device \"daq\": time goes backwards");
+  EXPECT_SAYS(pushed.error().message, "device \"daq\": the time does not increase");
 }
 
 TEST(Pipeline, ARigThatCannotSeeAnErrorIsRefusedByName) {

@@ -108,7 +108,7 @@ Result<Plausibility> read_plausibility_json(const std::string& json) {
   simdjson::dom::parser parser;
   element root;
   if (parser.parse(simdjson::padded_string(json)).get(root) || !root.is_object())
-    return bad_input("it is not a JSON object");
+    return bad_input("the text is not a JSON object");
   std::string wrong;
   const Row row(root, wrong);
   Plausibility p;

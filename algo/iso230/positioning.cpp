@@ -26,8 +26,8 @@ constexpr double kMost = 1e6;  // m, rad: squares stay far from overflow
 Status check_reading(const PositioningReading& reading) {
   if (!(std::abs(reading.target_m) <= kMost && std::abs(reading.deviation) <= kMost))
     return bad_input("run " + std::to_string(reading.run) +
-                     ": a target or deviation is not a finite number below 1000 km; check its unit "
-                     "or leave the reading out");
+                     ": a target or deviation is not a finite number below 1000 km; check the "
+                     "unit, or leave out the reading");
   if (reading.direction == 1 || reading.direction == -1) return {};
   return bad_input(place_of(reading.target_m) + ", run " + std::to_string(reading.run) +
                    ": the direction is " + std::to_string(reading.direction) +

@@ -63,7 +63,7 @@ Result<std::string> read_text_file(const std::filesystem::path& file, std::size_
     text.append(piece.data(), n);
   }
   return bad_input(file.string() + ": is larger than " + std::to_string(limit_bytes) +
-                   " bytes, so it is not the expected file");
+                   " bytes, the limit for this kind of file; check the name of the file");
 }
 
 Status read_in_pieces(const std::filesystem::path& file,

@@ -67,7 +67,7 @@ Status check_instruction_set() {
   for (const InstructionSet set : available_instruction_sets())
     names += (names.empty() ? "" : ", ") + std::string(to_string(set));
   return bad_input(std::string(kVariable) + " is \"" + name + "\", but this processor has " +
-                   names + "; set it to one of these, or unset it");
+                   names + "; set the variable to one of these, or unset the variable");
 }
 
 }  // namespace mdof

@@ -46,21 +46,21 @@ constexpr Advice kAdvice[] = {
     {SQLITE_FULL, "SQLITE_FULL", ErrorCode::io,
      "The disk is full: free some space and try again; what was stored before is unchanged."},
     {SQLITE_READONLY, "SQLITE_READONLY", ErrorCode::io,
-     "The file or its folder cannot be written: check their owner and mode and that the file "
-     "system "
-     "is not mounted read-only, or choose another place."},
+     "The file or its folder cannot be written: check the owner and mode of both, check that the "
+     "file system is not mounted read-only, or choose another place."},
     {SQLITE_CANTOPEN, "SQLITE_CANTOPEN", ErrorCode::io,
-     "Check that the folder exists and that this user may read and write it and the file."},
+     "Check that the folder exists, and that this user may read and write the folder and the "
+     "file."},
     {SQLITE_NOTADB, "SQLITE_NOTADB", ErrorCode::bad_input,
      "This is not a SQLite database: name the right file."},
     {SQLITE_CORRUPT, "SQLITE_CORRUPT", ErrorCode::bad_input,
      "The file is damaged: keep a copy, then restore it from a backup or rebuild it from the "
      "recordings."},
     {SQLITE_IOERR, "SQLITE_IOERR", ErrorCode::io,
-     "The disk reported an error: check its health and free space (also quotas) and the system "
-     "log."},
+     "The disk reported an error: check the health, the free space and the quotas of the disk, and "
+     "read the system log."},
     {SQLITE_BUSY, "SQLITE_BUSY", ErrorCode::io,
-     "Another program holds the database: try again when it is done."},
+     "Another program is using the database: try again when that program has finished."},
     {SQLITE_TOOBIG, "SQLITE_TOOBIG", ErrorCode::bad_input, "A value is too large to be stored."},
     {SQLITE_CONSTRAINT, "SQLITE_CONSTRAINT", ErrorCode::bad_input,
      "The record breaks a rule of the database and was not stored."},

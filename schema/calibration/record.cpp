@@ -124,7 +124,7 @@ CalibratedProbe read_probe(TomlTable& table) {
     probe.u_position_m = read_mm(table, "u_position_mm");
     if (std::any_of(probe.u_position_m.begin(), probe.u_position_m.end(),
                     [](double u) { return u < 0; }))
-      table.reject("u_position_mm", "has a standard uncertainty below 0");
+      table.reject("u_position_mm", "must contain standard uncertainties of 0 or greater");
   }
   if (table.has("direction")) {
     const Vec3 d = table.vector3("direction");
@@ -143,7 +143,8 @@ CalibratedProbe read_probe(TomlTable& table) {
   }
   for (const auto& row : table.matrix("linearity")) {
     if (row.size() != 2 || (!probe.linearity.empty() && row[0] <= probe.linearity.back()[0])) {
-      table.reject("linearity", "must be pairs [reading_um, correction_um], readings ascending");
+      table.reject("linearity",
+                   "must be pairs [reading_um, correction_um] in the order of increasing readings");
       break;
     }
     probe.linearity.push_back({row[0], row[1]});
@@ -153,7 +154,7 @@ CalibratedProbe read_probe(TomlTable& table) {
   if (table.has("sensitivity_dof")) {
     probe.sensitivity_freedom = table.number("sensitivity_dof");
     if (!(probe.sensitivity_freedom >= 1))
-      table.reject("sensitivity_dof", "must be the degrees of freedom, 1 or more");
+      table.reject("sensitivity_dof", "must be 1 or greater (degrees of freedom)");
   }
   return probe;
 }

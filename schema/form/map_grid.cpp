@@ -147,7 +147,7 @@ Result<SurfaceMap> grid_of(const MapPoints& points, const std::string& source,
     if (j == Steps::npos) return off_grid(place(k), 'y', points.y_m[k], rows);
     if (taken[j * map.nx + i])
       return bad_input(place(k) + "a second height at x = " + mm(points.x_m[k]) +
-                       " mm, y = " + mm(points.y_m[k]) + " mm; a pixel has one row");
+                       " mm, y = " + mm(points.y_m[k]) + " mm; give one row for each pixel");
     taken[j * map.nx + i] = true;
     map.z_m[j * map.nx + i] = points.z_m[k];
   }

@@ -63,8 +63,8 @@ Result<XyzUnits> xyz_units(const std::string& text) {
   if (xy && z) return XyzUnits{*xy, *z};
   return fail(ErrorCode::usage,
               "\"" + text +
-                  "\" is not a unit of a map; give m, mm, um or nm, or two of them (for x and y, "
-                  "and for z), such as mm,um; convert other units first");
+                  "\" is not a unit of a map; give m, mm, um or nm, or two of these units such as "
+                  "mm,um (mm for x and y, um for z); convert other units first");
 }
 
 std::string MapTextReader::place(std::size_t line) const {
@@ -155,8 +155,8 @@ Status MapTextReader::header(std::string_view text) {
         return bad_input(place(line_) + "column " + name + " is not in the unit of " + wanted +
                          "; convert the values and name the column " + wanted);
     return bad_input(place(line_) + "no column " + wanted + " in " + shown(text) +
-                     "; a map is a CSV with the header x_mm,y_mm,z_um, an XYZ without header, a "
-                     ".sdf (ISO 25178-71) or a Zygo .dat");
+                     "; a map is a CSV file with the header x_mm,y_mm,z_um, an XYZ file without "
+                     "header, an .sdf file (ISO 25178-71) or a Zygo .dat file");
   }
   columns_ = names.size();
   return {};
@@ -179,7 +179,7 @@ Status MapTextReader::csv_row(std::string_view text) {
     rest.remove_prefix(comma + 1);
   }
   if (column + 1 != columns_)
-    return bad_input(place(line_) + "has " + std::to_string(column + 1) +
+    return bad_input(place(line_) + "the line has " + std::to_string(column + 1) +
                      " columns, but the header has " + std::to_string(columns_));
   return add(xyz);
 }
@@ -198,16 +198,16 @@ Status MapTextReader::xyz_row(std::string_view text) {
     text.remove_prefix(size);
   }
   if (column != 3)
-    return bad_input(place(line_) + "has " + std::to_string(column) +
+    return bad_input(place(line_) + "the line has " + std::to_string(column) +
                      " numbers; a row of a map without header is x y z");
   return add(xyz);
 }
 
 Status MapTextReader::add(const std::array<double, 3>& xyz) {
   if (std::isnan(xyz[0]) || std::isnan(xyz[1]))
-    return bad_input(place(line_) +
-                     "has no position (x or y is empty or nan); add the value or delete "
-                     "the line");
+    return bad_input(
+        place(line_) +
+        "the line has no position (x or y is empty or nan); add the value or delete the line");
   const std::size_t point = points_.z_m.size();
   if (point == kMostPixels)
     return bad_input(place(line_) + "more than " + std::to_string(kMostPixels) +
@@ -226,7 +226,7 @@ Result<SurfaceMap> MapTextReader::finish() {
     MDOF_CHECK(line(last));
   }
   if (form_ == Form::unknown)
-    return bad_input(source_ + ": is empty; a map is a CSV with the header x_mm,y_mm,z_um");
+    return bad_input(source_ + ": is empty; a map is a CSV file with the header x_mm,y_mm,z_um");
   MDOF_TRY(SurfaceMap map,
            grid_of(points_, source_, [this](std::size_t point) { return place_of_point(point); }));
   map.notices = std::move(notices_);

@@ -65,13 +65,13 @@ class SdfReader {
       const std::size_t equals = line.find('=');
       if (equals == std::string_view::npos)
         return bad_input(place(line_) +
-                         "no \"key = value\" before the line * that ends the header");
+                         "the line must be \"key = value\", or \"*\" to end the header");
       std::string key;
       for (const char c : trimmed(line.substr(0, equals)))
         key += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
       keys_[key] = {std::string(trimmed(line.substr(equals + 1))), line_};
     }
-    return bad_input(source_ + ": ends within the header; a header ends with a line *");
+    return bad_input(source_ + ": ends within the header; the header must end with the line \"*\"");
   }
 
   Result<Value> value(const std::string& name) const {

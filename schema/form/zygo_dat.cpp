@@ -67,7 +67,9 @@ Result<double> height_of_a_count(const Header& header, const std::string& source
   const double scale_m =
       header.real(kScaleFactor) * header.real(kObliquity) * header.real(kWavelength) / counts;
   if (!(std::isfinite(scale_m) && scale_m != 0))
-    return bad_input(source + ": the header has no wavelength, scale factor or obliquity factor");
+    return bad_input(
+        source +
+        ": the wavelength, the scale factor or the obliquity factor is missing in the header");
   return header.i16(kSign) == 0 ? scale_m : -scale_m;
 }
 
@@ -86,7 +88,9 @@ Result<SurfaceMap> parse_zygo_dat(std::string_view bytes, const std::string& sou
   map.nx = header.u16(kWidth);
   map.ny = header.u16(kHeight);
   if (map.nx == 0 || map.ny == 0)
-    return bad_input(source + ": has no connected phase, so no heights; save it with phase data");
+    return bad_input(source +
+                     ": contains no connected phase data, and so no heights; save the measurement "
+                     "with phase data");
   if (map.nx * map.ny > kMostPixels)
     return bad_input(source + ": has more than " + std::to_string(kMostPixels) + " pixels");
   const std::size_t begin =

@@ -98,20 +98,26 @@ Status check_function(const ErrorFunction& function, std::size_t k, const std::s
   const std::size_t rows = std::max<std::size_t>(function.position.size(), 1);
   const auto fits = [rows](const std::vector<double>& v) { return v.empty() || v.size() == rows; };
   if (function.forward.size() != rows || !fits(function.reverse) || !fits(function.u))
-    return bad_input(where + ": must have one value for each position, and at least one");
+    return bad_input(where +
+                     ": the numbers of positions and values differ, or there is no value; give one "
+                     "value for each position");
   if (!all_below(function.position, 1e6))
-    return bad_input(where + ": a position is not a finite number; correct or remove the position");
+    return bad_input(
+        where +
+        ": a position is not a number, or is far too large; correct or remove the position");
   if (!increasing(function.position))
     return bad_input(where +
-                     ": positions must increase; sort them, and take the mean of readings at the "
-                     "same position");
+                     ": positions must increase; sort the positions, and take the mean of readings "
+                     "at the same position");
   const double most = k < 3 ? kMostShift_m : kMostTurn_rad;
   if (!all_below(function.forward, most) || !all_below(function.reverse, most))
-    return bad_input(where + ": every value must be a number of at most " +
-                     (k < 3 ? "10,000 µm" : "100,000 µrad") + "; check the unit");
+    return bad_input(where + ": every value must be a number from " +
+                     (k < 3 ? "-10,000 to 10,000 µm" : "-100,000 to 100,000 µrad") +
+                     "; check the unit of the values");
   const auto negative = [](double u) { return !(u >= 0); };
   if (!all_below(function.u, most) || std::any_of(function.u.begin(), function.u.end(), negative))
-    return bad_input(where + ": a standard uncertainty must be a number that is not negative");
+    return bad_input(where + ": every standard uncertainty must be a number from 0 to " +
+                     (k < 3 ? "10,000 µm" : "100,000 µrad") + "; check the unit");
   return {};
 }
 

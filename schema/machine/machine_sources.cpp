@@ -31,7 +31,7 @@ std::vector<NamedError> errors_of(const Machine& machine) {
 double read_factor(TomlTable& table, const std::string& key) {
   const double factor = table.number(key);
   if (std::abs(factor) <= kLargestFactor) return factor;
-  table.reject(key, "is larger than 1e9; check the unit");
+  table.reject(key, "must be from -1e9 to 1e9; check the unit of the factor");
   return 0;
 }
 
@@ -70,9 +70,10 @@ SourceEffect read_effect(TomlTable& table, const Machine& machine,
   if (table.has("factor"))
     effect.factor = from_um(read_factor(table, "factor"));
   else if (!table.has("of"))
-    table.reject("factor",
-                 "is missing; give factor (the error in µm or µrad per unit of the source) "
-                 "or factor_per_mm with of");
+    table.reject(
+        "factor",
+        "is missing; give \"factor\" (the error in µm or µrad per unit of the source), or "
+        "\"factor_per_mm\" (\"factor_per_deg\" for a rotary axis) together with \"of\" (the axis)");
   return effect;
 }
 
@@ -84,8 +85,8 @@ SourceShape read_shape(TomlTable& table) {
   if (name == "uniform") return SourceShape::rectangular;
   if (name == "arcsine") return SourceShape::u_shaped;
   table.reject("distribution", "\"" + name +
-                                   "\" must be normal, rectangular, triangular or "
-                                   "u-shaped");
+                                   "\" is not a distribution; give \"normal\", \"rectangular\", "
+                                   "\"triangular\" or \"u-shaped\"");
   return SourceShape::normal;
 }
 
@@ -95,10 +96,13 @@ ErrorSource read_source(TomlTable& table, const Machine& machine,
   source.name = table.string("name");
   if (source.name.empty()) table.reject("name", "must not be empty");
   for (const ErrorSource& other : machine.sources)
-    if (other.name == source.name) table.reject("name", "\"" + source.name + "\" is given twice");
+    if (other.name == source.name)
+      table.reject("name",
+                   "\"" + source.name + "\" is given twice; give each source a name of its own");
   for (const NamedError& error : errors)
     if (error.name == source.name)
-      table.reject("name", "\"" + source.name + "\" is the name of an error; give another one");
+      table.reject("name",
+                   "\"" + source.name + "\" is the name of an error; give the source another name");
   source.unit = table.string("unit");
   if (source.unit.empty() || source.unit.size() > 16)
     table.reject("unit", "must be a word such as um, urad or deg");

@@ -21,7 +21,7 @@ Vec3 read_point(TomlTable& table, std::string_view key) {
   Vec3 point = table.vector3(key);
   for (double& x : point) x = from_mm(x);
   if (!std::all_of(point.begin(), point.end(), [](double x) { return std::abs(x) < 1e3; }))
-    table.reject(key, "must be three numbers in mm");
+    table.reject(key, "must be three numbers in mm, each between -1000000 and 1000000");
   return point;
 }
 
@@ -96,7 +96,7 @@ void read_range(TomlTable& table, MachineFrame& frame) {
   if (!table.has(key)) return;
   const auto ends = table.numbers(key);
   if (ends.size() != 2 || !(ends[0] < ends[1])) {
-    table.reject(key, "must be [from, to] with from less than to");
+    table.reject(key, "must be two numbers, [from, to], the second greater than the first");
     return;
   }
   frame.range = {position_from_written(frame, ends[0]), position_from_written(frame, ends[1])};
@@ -113,13 +113,13 @@ StoredRows read_stored_rows(TomlTable& table, const std::string& key) {
   }
   for (const double x : table.is_array(key) ? table.numbers(key) : std::vector{table.number(key)}) {
     if (!(x >= 1 && x <= 1e15 && x == std::floor(x))) {
-      table.reject(key, "must contain numbers of stored rows, 1 or greater");
+      table.reject(key, "must contain numbers of stored results, 1 or greater");
       return rows;
     }
     rows.ids.push_back(static_cast<std::int64_t>(x));
   }
   if (rows.ids.empty())
-    table.reject(key, "must not be empty; remove the key, or give the number of a row");
+    table.reject(key, "must not be empty; remove the key, or give the number of a stored result");
   return rows;
 }
 
@@ -147,7 +147,8 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
     frame.tables = read_stored_rows(table, "tables");
     if (frame.tables.latest)
       table.reject("tables",
-                   "must contain numbers of tables; only runs and squareness accept \"latest\"");
+                   "must contain numbers of tables; only the keys \"runs\" and \"squareness\" "
+                   "accept \"latest\"");
   }
   frame.file = table.string("file", "");
   read_range(table, frame);
@@ -211,7 +212,7 @@ void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& fr
   else
     frame.moves_with = with[0];
   if (along != "X" && along != "Y" && along != "Z")
-    table.reject("along", "\"" + along + "\" must be X, Y or Z");
+    table.reject("along", "\"" + along + "\" must be \"X\", \"Y\" or \"Z\"");
   else
     frame.direction = kLetters.find(along);
   frame.ratio = table.number("ratio");

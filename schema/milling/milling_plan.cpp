@@ -30,7 +30,7 @@ class Reader {
   TomlTable& table(const char* name) {
     name_ = name;
     table_ = root_.table(name);
-    if (!table_) root_.reject(name, std::string("table [") + name + "] is missing");
+    if (!table_) root_.reject(name, std::string("table [") + name + "] is missing; add this table");
     return table_ ? *table_ : root_;
   }
 
@@ -101,7 +101,7 @@ void read_sections(TomlTable& tool, Reader& reader, MillingPlan& plan) {
     return;
   }
   for (const char* key : {"overhang_mm", "equivalent_diameter"})
-    if (tool.has(key)) tool.reject(key, "contradicts sections_mm; give one or the other");
+    if (tool.has(key)) tool.reject(key, "contradicts sections_mm; give only one of the two keys");
   for (const auto& row : tool.matrix("sections_mm")) {
     if (row.size() != 2 || !(row[0] > 0 && row[0] < kHuge) || !(row[1] > 0 && row[1] < kHuge)) {
       tool.reject("sections_mm", "each section is [length, diameter], both above 0");
@@ -216,11 +216,12 @@ Result<DeclaredMillingPlan> parse_milling_plan(std::string_view text, const std:
     cut.reject("radial_depth_mm",
                "is above tool.diameter_mm; a cut is at most as wide as the tool");
   if (plan.axial_depth_m > plan.overhang_m())
-    cut.reject("axial_depth_mm", "is above the tool's overhang");
+    cut.reject("axial_depth_mm", "must not exceed the overhang of the tool");
   if (plan.feed_per_tooth_m * plan.teeth > plan.radius_m())
-    cut.reject("feed_per_tooth_um", "times tool.teeth is above the tool's radius");
+    cut.reject("feed_per_tooth_um",
+               "multiplied by tool.teeth, must not exceed the radius of the tool");
   if (plan.runout_m + std::abs(plan.runout_tilt) * plan.axial_depth_m > plan.radius_m() / 10)
-    root.reject("runout", "is above a tenth of the tool's radius");
+    root.reject("runout", "must not exceed a tenth of the radius of the tool");
 
   TomlTable& force = read.table("force");
   plan.force_source = force.string("source", "");

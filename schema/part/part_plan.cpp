@@ -84,7 +84,8 @@ Result<PartPlan> parse_part_plan(std::string_view text, const std::string& sourc
   bool any = false;
   for (const PartLayer& layer : plan.layers) any = any || layer.on;
   if (!any)
-    return bad_input(source + ": all layers are off; switch on one of axes, budget, form, milling");
+    return bad_input(
+        source + ": all layers are off; switch on at least one of axes, budget, form and milling");
   return plan;
 }
 

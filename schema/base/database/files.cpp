@@ -153,9 +153,10 @@ Status check_journal(const fs::path& database) {
   const std::string end = bytes_at(journal, size - 16, 16);
   if (end.size() != 16 || end.substr(8) != kMagic || end.substr(0, 4) == std::string(4, '\0'))
     return {};
-  return bad_input(name.string() +
-                   ": names a super-journal, which mdof never makes and which SQLite would delete; "
-                   "the database is not read. Remove the journal, or restore both from a copy");
+  return bad_input(
+      name.string() +
+      ": names a super-journal, which mdof never makes and which SQLite would delete; the database "
+      "is not read. Remove the journal, or restore the database and the journal from a copy");
 }
 
 // As SQLite: one whose first byte is 0 has been used up.
@@ -211,7 +212,7 @@ int open_foreign(const fs::path& file, int flags) {
 
 std::string foreign_error_text(int error) {
   if (error == EINVAL) return "it is a folder, a pipe or a device; name a regular file";
-  if (error == EBUSY) return "this program is writing it; name another file";
+  if (error == EBUSY) return "this program is writing this file; name another file";
   return std::strerror(error);
 }
 
@@ -232,8 +233,8 @@ Result<PrivateCopy> PrivateCopy::make(const fs::path& database, int timeout_ms) 
     if (waited_ms >= timeout_ms)
       return fail(ErrorCode::conflict,
                   database.string() +
-                      ": another program writes the database all the time, so it "
-                      "cannot be copied; try again when that program has ended");
+                      ": another program writes the database all the time, so the database cannot "
+                      "be copied; try again when that program has ended");
     std::this_thread::sleep_for(std::chrono::milliseconds(kStepMs));
   }
 }

@@ -204,19 +204,19 @@ void JournalWatch::note(std::string what, bool foreign_wal) {
            in_wal == in_database;
   leave_files_alone();
   if (!moved_) return lose(std::move(what));
-  fault_ = std::move(what) + "; the data stored until then are in the database itself";
+  fault_ = std::move(what) + "; all data stored before are in the database file";
   if (!foreign_wal) return;
   // It would be taken into the database when that is next opened.
   std::error_code ec;
   const fs::path aside = wal_.string() + ".foreign";
   fs::rename(wal_, aside, ec);
   fault_ += ec ? "; remove " + wal_.string() + " before the database is next opened"
-               : "; that file was renamed to " + aside.string();
+               : "; the other file was renamed to " + aside.string();
 }
 
 void JournalWatch::lose(std::string what) {
   leave_files_alone();
-  fault_ = std::move(what) + "; the data of the last minutes may be lost";
+  fault_ = std::move(what) + "; data stored in the last minutes may be missing from the database";
 }
 
 }  // namespace mdof::sqlite

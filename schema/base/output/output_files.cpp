@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr int kMostNames = 100;  // of temporary files that an ended program can have left behind
 
-tl::unexpected<Error> not_written(const fs::path& path, int error, const char* more = "") {
-  return io_error(path.string() + ": cannot be written: " + std::strerror(error) + more +
+tl::unexpected<Error> not_written(const fs::path& path, int error) {
+  return io_error(path.string() + ": cannot be written: " + std::strerror(error) +
                   "; give a file in a folder that is writable and has free space");
 }
 
@@ -69,7 +69,10 @@ Status flush_folder(const fs::path& folder) {
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (flushed) return {};
-  return not_written(folder, error, " (the files exist, but a power cut may lose them)");
+  return io_error(folder.string() +
+                  ": the files are written, but a power cut can still delete these files, because "
+                  "the folder cannot be flushed to the disk (" +
+                  std::strerror(error) + "); check the disk, then export the files again");
 }
 
 }  // namespace
@@ -92,7 +95,8 @@ Result<std::size_t> OutputFiles::add(const fs::path& path) {
     file.descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     if (file.descriptor < 0 && errno == ENXIO)
       return io_error(path.string() +
-                      ": cannot be written, because it is a pipe that no program reads");
+                      ": cannot be written, because no program reads this pipe; start the program "
+                      "that reads the pipe");
     if (file.descriptor < 0 || ::fcntl(file.descriptor, F_SETFL, 0) != 0)
       return not_written(path, errno);
     files_.push_back(std::move(file));
@@ -158,7 +162,7 @@ Error OutputFiles::undone(Error error) {
                                                       file.path.c_str(), RENAME_EXCHANGE) == 0)
       file.stage = Stage::written;
     if (file.stage == Stage::replaced || file.stage == Stage::exchanged)
-      error.message += "; " + file.path.string() + " is already replaced; export all files again";
+      error.message += "; " + file.path.string() + " was already replaced; export all files again";
   }
   return error;
 }

@@ -83,7 +83,7 @@ TEST_F(WatchedJournal, WhatIsInAWalWithoutANameIsKept) {
         }
         const auto refused = insert(db);
         return !refused &&
-               refused.error().message.find("are in the database itself") != std::string::npos;
+               refused.error().message.find("are in the database file") != std::string::npos;
       });
       EXPECT_EQ(status, 0);
       kept = in_transaction ? 2 : 1;
@@ -99,7 +99,7 @@ TEST_F(WatchedJournal, ACutWalIsAFaultForGood) {
   fs::resize_file(wal_, 0);
   EXPECT_NE(db.journal_fault().find("-wal was cut short"), std::string::npos);
   fs::resize_file(wal_, 1 << 20);
-  EXPECT_NE(db.journal_fault().find("may be lost"), std::string::npos);
+  EXPECT_NE(db.journal_fault().find("may be missing"), std::string::npos);
   EXPECT_FALSE(insert(db));
 }
 

@@ -73,7 +73,7 @@ TEST(HeightMapCsv, WhatIsWrongIsNamed) {
       {"x_inch,y_inch,z_um\n0,0,1\n", "map.csv:1: column x_inch"},
       {"x_mm,y_mm,z_nm\n0,0,1\n", "map.csv:1: column z_nm"},
       {"x_mm,y_mm\n0,0\n", "no column z_um"},
-      {head + "0,0,1\n1,0\n", "map.csv:3: has 2 columns"},
+      {head + "0,0,1\n1,0\n", "map.csv:3: the line has 2 columns"},
       {head + "0,0,1\n1,0,one\n", "map.csv:3: column 3 is \"one\""},
       {head + "0,0,1\n1,0,inf\n", "not a finite number"},
       {head + "0,0,1\n,0,1\n", "map.csv:3: the line has no position"},

@@ -146,7 +146,7 @@ TEST(ParallelismByHand, RefusesWhatIsNoPairOfMotions) {
   const auto two_axes = parallelism(run_of_motion(motion_a()), run_of_motion(y));
   ASSERT_FALSE(two_axes);
   EXPECT_EQ(two_axes.error().remedy, Remedy::compare_two_axes);
-  EXPECT_NE(two_axes.error().message.find("run 11 measures axis X and run 12 axis Y"),
+  EXPECT_NE(two_axes.error().message.find("run 11 measures axis X and run 12 measures axis Y"),
             std::string::npos);
   MotionByHand two = motion_b();
   two.x_m.resize(2);

@@ -108,7 +108,7 @@ TEST(Positioning, RefusesWhatHasNoFigures) {
 TEST(Positioning, NamesTheTargetThatLacksReadings) {
   auto readings = two_targets();
   readings.pop_back();  // the second target's run 1 from the reverse side
-  EXPECT_NE(refused(readings).find("target 1000 mm: one reading in reverse direction"),
+  EXPECT_NE(refused(readings).find("target 1000 mm: only one reading in reverse direction"),
             std::string::npos);
   readings.erase(readings.begin());
   EXPECT_NE(

@@ -254,7 +254,7 @@ TEST(MachineBudget, AnErrorOfTheLineIsNoneOfTheBody) {
   EXPECT_NE(body.error().message.find("ECX at this command can exceed the limit of 0.1 rad"),
             std::string::npos)
       << body.error().message;
-  EXPECT_EQ(line.error().message.find("makes ECX larger"), std::string::npos)
+  EXPECT_EQ(line.error().message.find("ECX at this command can exceed"), std::string::npos)
       << line.error().message;
 }
 

@@ -14,8 +14,8 @@ namespace mdof {
 namespace {
 
 constexpr const char* kTableSense =
-    "error = actual minus nominal position of the moving body; the key correction gives the value "
-    "to add to a command";
+    "error = actual minus nominal position of the moving body; to correct an error, add \"factor\" "
+    "times the error to the command of the axis \"command\" (both in \"correction\")";
 
 // {"EYX_um": {"factor", "command", "reason"}, ...}: a correction is factor times the error, added
 // to the command of that axis; factor null: there is none, for that reason.

@@ -22,9 +22,9 @@ std::optional<WrongKey> check_spacing(const TargetSpacing& s) {
   if (!(s.to_mm > s.from_mm)) return WrongKey{"to_mm", "must be greater than from_mm"};
   if (!(s.interval_mm > 0)) return WrongKey{"interval_mm", "must be greater than zero"};
   if (!((s.to_mm - s.from_mm) / s.interval_mm < kMostTargets))
-    return WrongKey{"interval_mm", "makes more than 10000 targets"};
+    return WrongKey{"interval_mm", "gives more than 10000 targets; give a larger interval"};
   if (!(s.jitter_mm >= 0 && s.jitter_mm < s.interval_mm / 2))
-    return WrongKey{"jitter_mm", "must be less than half of interval_mm"};
+    return WrongKey{"jitter_mm", "must be 0 or greater, and less than half of interval_mm"};
   return std::nullopt;
 }
 

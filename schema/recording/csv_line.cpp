@@ -50,7 +50,7 @@ std::string reason_against(std::string_view field, bool parsed, double x) {
 CsvLine wrong_count(std::string_view line, std::size_t fields, std::size_t columns) {
   CsvLine result;
   result.state = State::bad;
-  result.reason = std::to_string(fields) + " fields, but the header has " +
+  result.reason = std::to_string(fields) + " fields in the line, but the header has " +
                   std::to_string(columns) + " columns";
   if (fields == 1 && line.find(';') != line.npos) {
     result.state = State::fatal;

@@ -85,7 +85,7 @@ Result<bool> CsvRowParser::last(SampleBlock& block) {
   if (rows() == 0)
     return bad_input(header_.source +
                      (bad_lines_.empty()
-                          ? ": a header but no rows; check that the recording was saved"
+                          ? ": has a header, but no rows; check that the recording was saved"
                           : ": no valid row; the first bad line: " + bad_lines_[0]));
   if (row_ == 0) return false;
   deliver(block);
@@ -225,9 +225,10 @@ Status CsvRowParser::store(const CsvLine& line) {
       header_.time_column >= 0 ? line.time_ns : static_cast<std::int64_t>(rows());
   if (time_ns <= last_time_ns_) {
     const char* const what = time_ns == last_time_ns_ ? "stands still" : "runs backwards";
-    return bad_input(where(line_) + "column time_s: time " + what + " (" + std::to_string(time_ns) +
-                     " ns after " + std::to_string(last_time_ns_) +
-                     " ns); a log must be one recording in order of time; split or repair it");
+    return bad_input(
+        where(line_) + "column time_s: time " + what + " (" + std::to_string(time_ns) +
+        " ns after " + std::to_string(last_time_ns_) +
+        " ns); a log must be one recording in the order of time; split or repair the log");
   }
   if (row_ == 0) block_.lost = std::exchange(lost_, 0);
   block_.time_ns[row_] = last_time_ns_ = time_ns;
@@ -260,10 +261,10 @@ Status CsvRowParser::count_blank_line(std::size_t bytes) {
   blank_bytes_ += bytes;
   if (blank_bytes_ <= limits_.blank_bytes) return {};
   const std::uint64_t first = line_ + 1 - blank_lines_;
-  return bad_input(
-      where(first) + "more than " + std::to_string(limits_.blank_bytes) +
-      " bytes of empty lines (" + std::to_string(blank_lines_) +
-      " lines so far), so this is not a recording; keep the lines before them, or record again");
+  return bad_input(where(first) + "more than " + std::to_string(limits_.blank_bytes) +
+                   " bytes of empty lines (" + std::to_string(blank_lines_) +
+                   " lines so far), so this is not a recording; keep only the lines before the "
+                   "empty lines, or record again");
 }
 
 // Blank lines that turn out not to be the end of the file.

@@ -86,7 +86,7 @@ Status check_unit(const CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (is_named(name, kTimeName) && name != kTimeColumn && has_time(header.kind))
     return bad_input(where(header, column) +
-                     (name == kTimeName ? "has no unit" : "time is read in seconds only") +
+                     (name == kTimeName ? "has no unit" : "the time must be in seconds") +
                      "; give seconds from the start and name the column time_s");
   if (!is_named(name, kEncoderChannel)) return {};
   for (const char* known : {kEncoderColumn, "encoder_um", "encoder_m", "encoder_V"})
@@ -113,11 +113,10 @@ Status add_column(CsvHeader& header, std::size_t column) {
   MDOF_CHECK(check_unit(header, column));
   const std::optional<Channel> channel = channel_of(name);
   if (!channel || channel->id.empty())
-    return bad_input(
-        where(header, column) +
-        "unknown unit; known units are _um _mm _V _C (also _s _hz _urad _deg _percent "
-        "_hPa, which are not read); convert the readings (of a probe to um), or rename "
-        "the column");
+    return bad_input(where(header, column) +
+                     "unknown unit; known units are _um, _mm, _V and _C (columns in _s, _hz, "
+                     "_urad, _deg, _percent or _hPa are allowed, but not read); convert the values "
+                     "(probes to um), or rename the column");
   for (std::size_t k = 0; k < header.channels.size(); ++k)
     if (header.channels[k].id == channel->id)
       return bad_input(where(header, column) + "channel \"" + channel->id +
@@ -133,7 +132,7 @@ Status check_required(const CsvHeader& header) {
     std::string found;
     for (const std::string& column : header.columns) found += (found.empty() ? "" : ", ") + column;
     return bad_input(where(header) + "no column " + name + " (columns: " + found +
-                     "); add it, or rename the column that contains it");
+                     "); add this column, or rename the column that contains these values");
   };
   if (header.kind == CsvKind::probe_log && header.time_column < 0) return missing(kTimeColumn);
   if (header.kind == CsvKind::table) return {};

@@ -16,7 +16,8 @@ constexpr std::size_t kMostRecords = 16, kMostRecordBytes = std::size_t{256} << 
 
 std::string too_many(std::size_t records) {
   return std::to_string(records) + " calibration records, but a rig can have at most " +
-         std::to_string(kMostRecords) + "; keep the newest of mounting and of sensitivity";
+         std::to_string(kMostRecords) +
+         "; keep the newest mounting record and the newest sensitivity records";
 }
 
 std::vector<std::string> names_of(TomlTable& rig) {
@@ -42,10 +43,10 @@ void check_fit(const CalibrationRecord& record, const Fits& rig, TomlTable& tabl
     table.reject(key, why, Remedy::calibrate_this_rig, record.kind);
   };
   if (record.rig != rig.name)
-    return reject("rig",
-                  "is \"" + record.rig + "\", but " + rig.source + " is \"" + rig.name + "\"");
+    return reject("rig", "is \"" + record.rig + "\", but the name in " + rig.source + " is \"" +
+                             rig.name + "\"");
   if (std::string(1, record.axis) != rig.axis)
-    return reject("axis", "is " + std::string(1, record.axis) + ", but the axis of " + rig.source +
+    return reject("axis", "is " + std::string(1, record.axis) + ", but the axis in " + rig.source +
                               " is " + rig.axis);
   std::vector<std::string> ids, more;
   for (const auto& probe : record.probes) ids.push_back(probe.id);
@@ -77,7 +78,7 @@ Result<std::string> read_one(const std::filesystem::path& file, const Fits& rig,
   const CalibrationRecord record = read_record(tables.front());
   if (!is_unchanged(parts.front()))
     tables.front().reject(
-        "sha256", "does not match the text below it; the record was changed after it was made",
+        "sha256", "does not match the text below it; the record was changed after the calibration",
         Remedy::calibrate_anew);
   check_fit(record, rig, tables.front());
   MDOF_CHECK(table.finish());
@@ -173,7 +174,8 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
     return table.reject("calibration", "names " + std::to_string(names.size()) +
                                            " files, but this text contains " +
                                            std::to_string(parts.size()) +
-                                           " calibration records; give the rig as a file");
+                                           " calibration records; give the rig as a file, so that "
+                                           "the records are read from the files");
   if (parts.size() > kMostRecords)
     return table.reject("calibration", "names " + too_many(parts.size()));
   for (const std::string_view part : parts)

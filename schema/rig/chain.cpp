@@ -14,8 +14,8 @@ bool is_axis(char letter) {
 
 tl::unexpected<Error> no_chain(std::string_view text, const std::string& why) {
   return bad_input("\"" + std::string(text) + "\" is not a kinematic chain: " + why +
-                   "; write it from the work to the tool, such as \"w-Y-X-b-Z-t\" (w work, b bed, "
-                   "t tool)");
+                   "; write the chain from the work to the tool, such as \"w-Y-X-b-Z-t\" (w work, "
+                   "b bed, t tool)");
 }
 
 std::vector<std::string> links(std::string_view text) {
@@ -48,7 +48,7 @@ const ChainAxis* Chain::find(char letter) const {
 Result<Chain> parse_chain(std::string_view text) {
   const auto all = links(text);
   if (all.size() < 3 || all.front() != "w" || all.back() != "t")
-    return no_chain(text, "it must begin with w and end with t");
+    return no_chain(text, "a chain must begin with w and end with t");
   Chain chain;
   bool bed = false;
   for (std::size_t i = 1; i + 1 < all.size(); ++i) {
@@ -61,7 +61,7 @@ Result<Chain> parse_chain(std::string_view text) {
       return no_chain(text, "\"" + link + "\" is given twice or is not one of b, X, Y, Z, A, B, C");
     }
   }
-  if (!bed) return no_chain(text, "it has no bed, b");
+  if (!bed) return no_chain(text, "the bed b is missing");
   for (const auto& link : all) chain.text += (chain.text.empty() ? "" : "-") + link;
   return chain;
 }

@@ -27,7 +27,7 @@ CorrectionSigns correction_signs(const Chain& chain, Axis axis) {
     if (!chain.known()) {
       signs.gap[k] =
           "the kinematic chain of the machine is unknown, so the sign is unknown; add [machine] "
-          "chain, such as \"w-Y-X-b-Z-t\", to the rig or to mdofd.toml and build the table again";
+          "chain, such as \"w-Y-X-b-Z-t\", to the rig or to mdofd.toml, then build the table again";
     } else if (!measured || !correcting) {
       signs.gap[k] = "the chain " + chain.text + " has no axis " + (measured ? by : letter(axis));
     } else {

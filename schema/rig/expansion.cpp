@@ -13,7 +13,8 @@ ThermalExpansion expansion_of(TomlTable& table, const std::string& body) {
   const std::string key = body + "_ppm_per_K", u_key = "u_" + key;
   const double ppm = table.number(key), u_ppm = table.number(u_key, 0.0);
   if (!(std::abs(ppm) <= kMostPpmPerK))
-    table.reject(key, "must be the expansion in 1e-6/K, from -1000 to 1000; steel has 11.5");
+    table.reject(
+        key, "must be the coefficient of expansion in 1e-6/K, from -1000 to 1000 (steel: 11.5)");
   if (!(u_ppm >= 0 && u_ppm <= kMostPpmPerK))
     table.reject(u_key, "must be a standard uncertainty from 0 to 1000");
   return {ppm * 1e-6, u_ppm * 1e-6};

@@ -99,8 +99,8 @@ void check_linearity(TomlTable& table, const Probe& probe) {
   const char* key = c.polynomial_um.empty() ? "linearity" : "polynomial_um";
   if (c.linearity.empty() && c.polynomial_um.empty())
     return table.reject(key,
-                        "is missing, but [corrections] linearity = true needs it for each probe; "
-                        "add linearity or polynomial_um, or remove the correction");
+                        "is missing, but [corrections] linearity = true needs this key for each "
+                        "probe; add \"linearity\" or \"polynomial_um\", or remove the correction");
   const auto range = readings_of_range(probe);
   if (!rises(c, range))
     return table.reject(
@@ -126,8 +126,9 @@ void leave_linearity_out(Rig& rig, RigPhysics& physics) {
 
 void need(TomlTable& table, const char* key, bool known, const char* correction) {
   if (known) return;
-  table.reject(key, std::string("is missing, but [corrections] ") + correction +
-                        " = true needs it for each probe; add it, or remove the correction");
+  table.reject(key,
+               std::string("is missing, but [corrections] ") + correction +
+                   " = true needs this key for each probe; add the key, or remove the correction");
 }
 
 void check_needs(TomlTable& root, std::vector<TomlTable>& tables, const Rig& rig,
@@ -140,10 +141,10 @@ void check_needs(TomlTable& root, std::vector<TomlTable>& tables, const Rig& rig
     if (physics.dielectric) need(tables[k], "standoff_um", probe.standoff_m > 0, "dielectric");
   }
   if (physics.dielectric && !physics.air)
-    root.reject("air",
-                "is missing, but [corrections] dielectric = true needs it; add a table [air] with "
-                "calibration_temperature_C, calibration_pressure_kPa and "
-                "calibration_humidity_percent");
+    root.reject(
+        "air",
+        "is missing, but [corrections] dielectric = true needs this table; add a table [air] with "
+        "calibration_temperature_C, calibration_pressure_kPa and calibration_humidity_percent");
 }
 
 bool says_anything(const RigPhysics& physics) {

@@ -64,20 +64,21 @@ Calibration read_calibration(TomlTable& table) {
   c.offset_um = table.number("offset_um", 0.0);
   for (const auto& row : table.matrix("linearity")) {
     if (row.size() != 2 || (!c.linearity.empty() && row[0] <= c.linearity.back()[0])) {
-      table.reject("linearity", "must be pairs [reading_um, correction_um], readings ascending");
+      table.reject("linearity",
+                   "must be pairs [reading_um, correction_um] in the order of increasing readings");
       break;
     }
     c.linearity.push_back({row[0], row[1]});
   }
   c.polynomial_um = table.numbers("polynomial_um", std::vector<double>{});
   if (!c.polynomial_um.empty() && !c.linearity.empty())
-    table.reject("polynomial_um", "contradicts linearity; give one or the other");
+    table.reject("polynomial_um", "contradicts \"linearity\"; give only one of the two keys");
   if (table.has("valid_um")) {
     const auto valid = table.numbers("valid_um");
     if (valid.size() == 2 && valid[0] < valid[1]) {
       c.valid_um = {valid[0], valid[1]};
     } else {
-      table.reject("valid_um", "must be the lowest and the highest raw reading in µm");
+      table.reject("valid_um", "must be two numbers: the lowest and the highest raw reading in µm");
     }
   }
   c.certificate = table.string("certificate", "");
@@ -103,8 +104,8 @@ Probe read_probe(TomlTable& table) {
   const double delay_us = table.number("delay_us", 0.0);
   if (!(delay_us >= 0 && delay_us <= kMostDelay_us))
     table.reject("delay_us",
-                 "must be from 0 to 10000000 (delay of the readings after those of the encoder, "
-                 "such as by the filter of the amplifier)");
+                 "must be from 0 to 10000000 (the time by which the readings come later than those "
+                 "of the encoder, for example because of a filter)");
   probe.delay_s = delay_us / 1e6;
   probe.uncertainty = {read_uncertainty(table, "u_calibration_um", from_um(1)),
                        read_uncertainty(table, "u_sensitivity_ppm", 1e-6),
@@ -131,8 +132,8 @@ HeightMap read_flatness(TomlTable& table) {
   }
   if (!regular) {
     table.reject("flatness_um",
-                 "must be one row for each flatness_first_mm with one height for each "
-                 "flatness_second_mm, both ascending");
+                 "must have one row for each value of flatness_first_mm, and one height in each "
+                 "row for each value of flatness_second_mm; the values of both keys must increase");
     return {};
   }
   return map;
@@ -148,7 +149,8 @@ TargetPlane read_plane(TomlTable& table) {
   plane.u_flatness = read_uncertainty(table, "u_flatness_um", from_um(1));
   plane.flatness_length_m = from_mm(table.number("flatness_length_mm", 30));
   if (!(plane.flatness_length_m > 0))
-    table.reject("flatness_length_mm", "must be the length of the longest wave, in mm, above 0");
+    table.reject("flatness_length_mm",
+                 "must be greater than 0 (the length of the longest wave of the flatness, in mm)");
   return plane;
 }
 
@@ -213,7 +215,7 @@ void check_machine(TomlTable& table, const Rig& rig) {
     return table.reject("machine", "the chain " + rig.machine.text + " has no axis " + axis);
   if (in_chain->against_command != rig.sides.against_encoder)
     table.reject("travel", "is \"" + std::string(rig.sides.travel()) + "\", but [machine] travel." +
-                               axis + " is the opposite (default \"+\"); correct the wrong one");
+                               axis + " is the opposite (default \"+\"); correct the wrong value");
 }
 
 constexpr std::size_t kMostProbes = 1000;  // each is compared with each

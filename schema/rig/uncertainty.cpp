@@ -54,19 +54,20 @@ Declared read_inline(TomlTable& table) {
   declared.shape = shape.shape;
   if (table.has("u") == table.has("half_width"))
     table.reject(table.has("u") ? "half_width" : "u",
-                 "give either u (standard uncertainty) or half_width (half of the distance between "
-                 "the limits)");
+                 "give either \"u\" (standard uncertainty) or \"half_width\" (half of the distance "
+                 "between the limits)");
   if (table.has("half_width")) {
     declared.u = numbers_of(table, "half_width");
     if (shape.half_width_by_u == 0)
       table.reject("half_width",
-                   "a normal distribution has no limits; give u, or another distribution");
+                   "a normal distribution has no limits, so it has no half_width; give \"u\" "
+                   "instead, or another distribution");
     for (double& u : declared.u) u /= shape.half_width_by_u;
   } else {
     declared.u = numbers_of(table, "u");
   }
   if (table.has("dof")) declared.freedom = table.number("dof");
-  if (!(declared.freedom >= 1)) table.reject("dof", "must be at least 1 degree of freedom");
+  if (!(declared.freedom >= 1)) table.reject("dof", "must be 1 or greater (degrees of freedom)");
   return declared;
 }
 

@@ -53,7 +53,8 @@ Kind read_kind(TomlTable& table) {
 void read_limits(TomlTable& table, Distribution& d) {
   if (table.has("half_width")) {
     for (const char* key : {"low", "high"})
-      if (table.has(key)) table.reject(key, "contradicts half_width; give one or the other");
+      if (table.has(key))
+        table.reject(key, "contradicts half_width; give half_width, or low and high");
     const double half = table.number("half_width");
     if (!(half > 0)) table.reject("half_width", "must be greater than zero");
     const double mean = table.number("mean", 0.0);

@@ -76,7 +76,9 @@ void read_head(TomlTable& table, const Path& folder, StudyPlan& plan) {
   if (auto squareness = table.table("squareness")) {
     plan.rig_y = read_rig(*squareness, "rig_y", folder);
     if (plan.rig.axis != Axis::x || plan.rig_y->axis != Axis::y)
-      squareness->reject("rig_y", "squareness needs rig of axis X and rig_y of axis Y");
+      squareness->reject(
+          "rig_y",
+          "squareness needs a rig of axis X (key \"rig\") and a rig of axis Y (key \"rig_y\")");
   }
   plan.model = static_cast<Model>(read_choice(table, "model", {"simplified", "exact", "rigid"}, 1));
   plan.forward = static_cast<Forward>(read_choice(table, "forward", {"rigid", "small-angle"}, 0));

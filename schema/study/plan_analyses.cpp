@@ -98,12 +98,12 @@ void read_run(TomlTable& table, StudyPlan& plan) {
   const bool ascending = std::adjacent_find(t.begin(), t.end(),
                                             [](double a, double b) { return !(a < b); }) == t.end();
   if (t.size() < 3 || t.size() > 100 || !ascending)
-    run->reject("targets_mm", "must be 3 to 100 positions, ascending");
+    run->reject("targets_mm", "must be 3 to 100 positions in increasing order");
   plan.run.dwell_s = read_above_zero(*run, "dwell_s", plan.run.dwell_s);
   plan.run.rate_hz = read_above_zero(*run, "rate_hz", plan.run.rate_hz);
   plan.run.speed_mm_s = read_above_zero(*run, "speed_mm_s", plan.run.speed_mm_s);
-  if (plan.run.dwell_s > 60) run->reject("dwell_s", "must be 60 at most");
-  if (plan.run.rate_hz > 10'000) run->reject("rate_hz", "must be 10000 at most");
+  if (plan.run.dwell_s > 60) run->reject("dwell_s", "must be at most 60");
+  if (plan.run.rate_hz > 10'000) run->reject("rate_hz", "must be at most 10000");
 }
 
 }  // namespace
@@ -118,9 +118,12 @@ void read_outputs(TomlTable& table, StudyPlan& plan) {
     const auto found = std::find(names.begin(), names.end(), key);
     if (found == names.end()) {
       const bool square = key == "EC0Y_urad";
-      table.reject("outputs", "\"" + key + "\" is not an output of this plan; " +
-                                  (square ? "it needs [squareness] rig_y and output_of = \"point\""
-                                          : known_or_list(key, names)));
+      table.reject(
+          "outputs",
+          "\"" + key + "\" is not an output of this plan; " +
+              (square
+                   ? "this output needs the key \"rig_y\" in [squareness] and output_of = \"point\""
+                   : known_or_list(key, names)));
       return;
     }
     if (!seen.insert(key).second) table.reject("outputs", "\"" + key + "\" is listed twice");

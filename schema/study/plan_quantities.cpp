@@ -118,7 +118,7 @@ Status read_quantity(TomlTable& table, const Path& folder, StudyPlan& plan) {
   if (low && !may_be_negative(targets->front().effect))
     table.reject(low, "must not be negative, because " + quantity.name + " is a " +
                           (targets->front().effect == Effect::probe_circle ? "radius" : "tilt") +
-                          " to any side");
+                          " without a direction");
   plan.quantities.push_back(std::move(quantity));
   return {};
 }
@@ -150,14 +150,16 @@ const PlannedQuantity* quantity_with(const StudyPlan& plan, const std::string& t
 void read_matrix(TomlTable& table, PlannedCorrelation& group) {
   const std::size_t n = group.quantities.size();
   if (table.has("coefficient")) {
-    if (table.has("matrix")) table.reject("matrix", "contradicts coefficient; give one of them");
+    if (table.has("matrix"))
+      table.reject("matrix", "contradicts \"coefficient\"; give only one of the two keys");
     const double r = table.number("coefficient");
     if (!(std::abs(r) < 1)) table.reject("coefficient", "must lie between -1 and 1");
     group.matrix.assign(n * n, r);
     for (std::size_t i = 0; i < n; ++i) group.matrix[i * n + i] = 1;
     return;
   }
-  if (!table.has("matrix")) return table.reject("matrix", "is missing; add it, or coefficient");
+  if (!table.has("matrix"))
+    return table.reject("matrix", "is missing; add \"matrix\" or \"coefficient\"");
   const auto rows = table.matrix("matrix");
   bool square = rows.size() == n;
   for (const auto& row : rows) {
@@ -193,10 +195,13 @@ PlannedCorrelation read_correlation(TomlTable& table, StudyPlan& plan,
     for (const auto& target : *targets) {
       const PlannedQuantity* quantity = quantity_with(plan, target.name);
       if (!quantity || quantity->distribution.kind == Kind::constant)
-        table.reject("quantities",
-                     target.name + " has no [[quantity]] that varies; add one for it");
+        table.reject(
+            "quantities",
+            target.name + " has no [[quantity]] that varies; add a [[quantity]] for this name");
       if (!grouped.insert(target.name).second)
-        table.reject("quantities", target.name + " is in two groups, or twice in one");
+        table.reject(
+            "quantities",
+            target.name + " is in two groups, or twice in one group; name each quantity once");
       group.quantities.push_back(target.name);
     }
   }

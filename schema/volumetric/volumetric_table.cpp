@@ -98,15 +98,16 @@ std::string volumetric_sha256(const VolumetricTable& t) {
 }
 
 std::string covers_text(const VolumetricTable& table) {
-  std::string text = table.noise_only
-                         ? "noise and repeatability only, for at least some of the measured errors"
-                         : "the u of the errors; errors of different axes and of files are taken "
-                           "as independent, except for the scales of common probes";
-  if (!table.u_not_declared.empty()) text += "; some errors have no u";
+  std::string text =
+      table.noise_only ? "the u of the errors (for at least one error only noise and repeatability)"
+                       : "the u of the errors; errors of different axes and errors from files are "
+                         "treated as independent, except for the scales of common probes";
+  if (!table.u_not_declared.empty()) text += "; errors without a u are not included";
   if (!table.u_independent_m.empty())
     text +=
-        "; u_independent is noise that differs between positions of an axis, u_common is the rest";
-  return text + "; between nodes also interpolation";
+        "; u_independent is the part from noise, which differs between the positions of an axis; "
+        "u_common is the rest";
+  return text + "; between the nodes, u also contains the interpolation error";
 }
 
 }  // namespace mdof

@@ -80,7 +80,7 @@ TEST_F(CsvTableTest, NamesTheLineAndTheRemedy) {
   expect_error(head + "nan,3\n", {":4: column position_mm: no value"});
   expect_error(head + "2,inf\n", {":4: column deviation_um", "not a finite number"});
   expect_error(head + "2,abc\n", {":4: column deviation_um: \"abc\" is not a number"});
-  expect_error(head + "2\n", {":4: 1 fields, but the header has 2"});
+  expect_error(head + "2\n", {":4: 1 fields in the line, but the header has 2"});
   expect_error(head + "\n3,4\n", {":4: empty line"});
   expect_error("position_mm;deviation_um\n1;2\n", {"semicolons"});
   expect_error("1,2\n3,4\n", {":1: a row of numbers", "position_mm,deviation_um"});
@@ -89,8 +89,9 @@ TEST_F(CsvTableTest, NamesTheLineAndTheRemedy) {
 }
 
 TEST_F(CsvTableTest, SaysWhichColumnOrUnitIsMeant) {
-  expect_error("position_um,deviation_um\n1,2\n",
-               {":1: column position_um does not have the expected unit", "name the column position_mm"});
+  expect_error(
+      "position_um,deviation_um\n1,2\n",
+      {":1: column position_um does not have the expected unit", "name the column position_mm"});
   expect_error("x_mm,deviation_um\n1,2\n",
                {":1: no column position_mm (columns: x_mm, deviation_um)"});
   expect_error("position_inch,deviation_um\n1,2\n", {":1:", "position_inch", "unknown unit"});

@@ -179,7 +179,7 @@ TEST(SimulatorOptions, ContradictionsBetweenKeysAreRefused) {
   EXPECT_NE(refusal("targets_mm = [1, 2]\nfrom_mm = 0").find("from_mm: contradicts"),
             std::string::npos);
   EXPECT_NE(refusal("from_mm = 5\nto_mm = 5").find("to_mm: must be greater"), std::string::npos);
-  EXPECT_NE(refusal("interval_mm = 0.001").find("interval_mm: makes more"), std::string::npos);
+  EXPECT_NE(refusal("interval_mm = 0.001").find("interval_mm: gives more"), std::string::npos);
   EXPECT_NE(refusal("interval_mm = 1\njitter_mm = 0.5").find("jitter_mm"), std::string::npos);
   EXPECT_NE(refusal("[[lost]]\nprobe = \"A\"\nfrom_s = 2\nto_s = 2").find("to_s"),
             std::string::npos);

@@ -52,8 +52,8 @@ class Check {
     for (std::size_t k = 0; k < rig.planes.size(); ++k) check_plane(k);
     within(kArtefact_urad, std::abs(to_urad(rig.artefact_angle_error_rad.value_or(0))), "", 0,
            "artefact_angle_error_urad",
-           " urad is an unusual deviation of a square from 90 degrees; give "
-           "artefact_angle_error_urad in urad");
+           " urad is an unusual deviation of a square from 90 degrees; check that the value is in "
+           "urad");
   }
 
   std::vector<Finding> take() { return std::move(findings_); }
@@ -88,7 +88,7 @@ void Check::check_probe(std::size_t k) {
   if (!(length(probe.position_m) <= kMost_m))
     add(true, "probe", k, "position_mm",
         "probe \"" + probe.id + "\" is " + text_of(to_mm(length(probe.position_m))) +
-            " mm from the origin of M, but a fixture ends at " + text_of(to_mm(kMost_m)) +
+            " mm from the origin of M, but the limit is " + text_of(to_mm(kMost_m)) +
             " mm; give position_mm in mm, not um");
   within(kRange_um, to_um(probe.range_m), "probe", k, "range_um",
          " um is an unusual range of the probe \"" + probe.id +
@@ -108,7 +108,7 @@ void Check::check_calibration(std::size_t k) {
   for (const auto& [reading_um, correction_um] : c.linearity)
     most_um = std::max(most_um, std::abs(correction_um));
   within(kShare, most_um / range_um, "probe", k, "linearity",
-         " times the range is an unusual correction of the probe \"" + probe.id +
+         " times the range is an unusual linearity correction of the probe \"" + probe.id +
              "\"; give pairs [reading_um, correction_um]");
   const double low_um = c.valid_um ? (*c.valid_um)[0] : c.reads_gap ? 0 : -range_um / 2;
   const double high_um = c.valid_um ? (*c.valid_um)[1] : c.reads_gap ? range_um : range_um / 2;
@@ -134,8 +134,8 @@ void Check::check_distances() {
   }
   if (extent_m == 0) return;  // no geometry at all, which the solver says better
   within(kExtent_mm, to_mm(extent_m), "probe", b, "position_mm",
-         " mm, the largest distance between probes (\"" + rig_.probes[a].id + "\" and \"" +
-             rig_.probes[b].id + "\"), is unusual; give positions in mm, not " +
+         " mm is an unusual value of the largest distance between probes (\"" + rig_.probes[a].id +
+             "\" and \"" + rig_.probes[b].id + "\"); give positions in mm, not " +
              (to_mm(extent_m) > kExtent_mm.most_usual ? "um" : "m"));
 }
 

@@ -349,7 +349,8 @@ TEST(Artefact, NamesTheRigWhoseFaceIsNotClear) {
   const auto [x, at_0] = rigs_at(15, 0, three, three);
   const auto refused = artefact_of(x, at_0, {});
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("rig_Y: the side of the fixture"), std::string::npos);
+  EXPECT_NE(refused.error().message.find("rig_Y: it is unknown on which side of the fixture"),
+            std::string::npos);
   EXPECT_NE(refused.error().message.find("square normal to X lies"), std::string::npos);
   const auto [x_at_0, y] = rigs_at(0, -15, three, three);
   EXPECT_NE(artefact_of(x_at_0, y, {}).error().message.find("square normal to Y lies"),

@@ -93,7 +93,7 @@ TEST(CsvStream, BadLinesAreCountedAsLost) {
   ASSERT_EQ(all.error, "");
   EXPECT_GE(all.lost, 10u);
   ASSERT_FALSE(stream.notices().empty());
-  EXPECT_NE(test::shown(stream.notices()[0]).find("2 fields, but the header has 1"),
+  EXPECT_NE(test::shown(stream.notices()[0]).find("2 fields in the line, but the header has 1"),
             std::string::npos);
   const Collected more = collect(stream, 5000);
   EXPECT_NE(more.error.find("more than 100 of 10000 lines are bad"), std::string::npos)

@@ -61,7 +61,7 @@ TEST(CsvStreamProtocol, BadLinesAreCountedNamedAndSkipped) {
   EXPECT_EQ(fed.rows[2].lost, 1u);
   EXPECT_EQ(protocol.bad_lines(), 3u);
   EXPECT_EQ(protocol.bad_line_reasons(),
-            (std::vector<std::string>{"probe:3: 1 fields, but the header has 2 columns",
+            (std::vector<std::string>{"probe:3: 1 fields in the line, but the header has 2 columns",
                                       "probe:4: column B_um: \"x\" is not a number",
                                       "probe:6: empty line"}));
 }

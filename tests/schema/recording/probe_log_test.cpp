@@ -87,7 +87,7 @@ TEST(ProbeLogHeader, NamesTheColumnThatIsWrong) {
   expect_error("time_s,encoder_mm,A_um,B_um,A_um\n", {"column 5", "A_um", "twice"});
   expect_error("time_s,encoder_mm,A_um,A_V\n", {"column 4", "A_V", "twice", "A_um"});
   expect_error("time_s,time_s,encoder_mm,A_um\n", {"column 2", "twice"});
-  expect_error("time_s,encoder_mm,A_nm\n", {"column 3", "A_nm", "_um _mm _V _C"});
+  expect_error("time_s,encoder_mm,A_nm\n", {"column 3", "A_nm", "_um, _mm, _V and _C"});
   expect_error("time_s,encoder_mm,A_um,,B_um\n", {"column 4", "name"});
   expect_error("time_s,encoder_mm,_um\n", {"column 3"});
 }

@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{kHead + "outputs = [\"EBX_um\"]\n", "did you mean \"EYX_um\"?"},
         Bad{kHead + "outputs = [\"EYX_um\", \"EYX_um\"]\n", "listed twice"},
         Bad{kHead + "outputs = []\n", "at least one output"},
-        Bad{kHead + "outputs = [\"EC0Y_urad\"]\n", "[squareness] rig_y"},
+        Bad{kHead + "outputs = [\"EC0Y_urad\"]\n", "\"rig_y\" in [squareness]"},
         Bad{kHead + "[truth]\nEYX_um = [5, -5]\n", "low less than high"},
         Bad{kHead + "[truth]\nEYY_um = [0, 5]\n", "did you mean"},
         Bad{quantity(kNormal, "probe.A.posiion_um"), "did you mean \"probe.A.position_um\"?"},
@@ -192,7 +192,8 @@ INSTANTIATE_TEST_SUITE_P(
                    "tolerances = [\"probe.A.x_um\"]\n",
             "probability"},
         Bad{kHead + "[compare]\nrig = \"../five-probe/rig_Y.toml\"\n", "same axis"},
-        Bad{kHead + "[squareness]\nrig_y = \"../five-probe/rig_X.toml\"\n", "axis X and rig_y"},
+        Bad{kHead + "[squareness]\nrig_y = \"../five-probe/rig_X.toml\"\n",
+            "axis X (key \"rig\") and a rig of axis Y (key \"rig_y\")"},
         Bad{kHead + "output_of = \"run\"\n[run]\ntargets_mm = [0, 5]\n", "3 to 100 positions"}));
 
 class SampleFile : public testing::Test {

@@ -145,7 +145,7 @@ const std::vector<DriverRow>& driver_rows() {
           .configure = configure_modbus,
           .simulated = {{64, "the values of the profile, in the order of the profile",
                          "TCP or a serial line", make_simulated_modbus}},
-          .no_index = "a Modbus device does not report that the mark was passed",
+          .no_index = "a Modbus device does not report that the axis has passed the reference mark",
       },
       {
           .name = "pokeys57u",
@@ -162,9 +162,8 @@ const std::vector<DriverRow>& driver_rows() {
                   .note = "HID interface 1; interface 0 is a keyboard, interface 2 a joystick"},
           .simulated = {{pokeys57u::kEncoders, "encoders; by default that of the machine",
                          "USB HID", pokeys57u::make_simulated_pokeys57u}},
-          .no_index =
-              "the manufacturer's specification and library (PoKeysLibEncoders.c) disagree on "
-              "how a PoKeys is set to detect the mark",
+          .no_index = "the manufacturer's specification and library (PoKeysLibEncoders.c) disagree "
+                      "on how a PoKeys detects the reference mark, so mdof cannot use the mark",
       },
       {
           .name = "qsb",

@@ -58,7 +58,7 @@ std::string datum_text(const EncoderDatum& datum) {
     case Kind::set:
       return "set on " + datum.utc + " by " + datum.by + ", offset " + mm_text(datum.offset_m);
     case Kind::index:
-      return "index at " + mm_text(datum.offset_m) + ", passed on " + datum.utc;
+      return "reference mark at " + mm_text(datum.offset_m) + ", passed on " + datum.utc;
     default:
       return "";
   }

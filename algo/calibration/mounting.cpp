@@ -270,12 +270,12 @@ Status check_seen(const MountingFit& fit) {
   const auto& probes = fit.found.probes;
   if (std::any_of(probes.begin(), probes.end(), [](const auto& p) { return p.position_seen; }))
     return {};
-  return fail(
-      ErrorCode::check,
-      "these clampings determine the position of no probe: the target tilts differ by at most " +
-          plain_number(fit.found.tilt_rad * 1e3, 3) +
-          " mrad; clamp the target at three or more tilts that differ by several mrad about two "
-          "axes, not only about one");
+  return fail(ErrorCode::check,
+              "these clampings do not determine the position of any probe, because the target "
+              "tilts differ by at most " +
+                  plain_number(fit.found.tilt_rad * 1e3, 3) +
+                  " mrad; clamp the target at three or more tilts that differ by several mrad "
+                  "about two axes");
 }
 
 }  // namespace

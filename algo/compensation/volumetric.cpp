@@ -68,9 +68,9 @@ class CorrectedPlace {
     std::copy(command_m.begin(), command_m.end(), p.command_.begin());
     MDOF_TRY(p.found_, compensating_command(machine, p.command_, request.approach));
     if (p.found_.converged) return p;
-    return bad_input(
-        "at " + place_text(command_m) +
-        ": no command compensates errors that change this steeply; check the units of the tables");
+    return bad_input("at " + place_text(command_m) +
+                     ": the errors change too steeply to be compensated by any command; check the "
+                     "units of the tables");
   }
   Vec3 correction_m() const {
     Vec3 c{};

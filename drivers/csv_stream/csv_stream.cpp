@@ -112,8 +112,8 @@ tl::unexpected<Error> CsvStream::no_header(Error why) const {
     why.message += "; no program has written to the FIFO yet; start the script";
   else if (!options_.port.empty())
     why.message +=
-        "; check baud; if the device sends no header line when the port is opened, give header = "
-        "\"encoder_mm,A_um,...\"";
+        "; check the key \"baud\"; if the device sends no header line when the port is opened, "
+        "give header = \"encoder_mm,A_um,...\"";
   else if (why.code == ErrorCode::io)
     why.message +=
         "; the script must send a header line first on each connection, and flush its output; for "
@@ -254,8 +254,8 @@ Status CsvStream::check_silence() const {
   const char* remedy = options_.port.empty()
                            ? "; check that the script runs and flushes after each row; for a "
                              "slow device raise silence_s"
-                           : "; check baud, and that the device is on and sends without a "
-                             "request; for a slow device raise silence_s";
+                           : "; check the key \"baud\", and check that the device is switched on "
+                             "and sends without a request; for a slow device raise silence_s";
   return io_error(source_ + ": no row for " + seconds(silent_ns) + remedy);
 }
 

@@ -66,7 +66,7 @@ Result<std::size_t> ByteStream::read(std::span<char> into, milliseconds timeout)
     const ssize_t n = ::read(fd_, into.data(), into.size());
     if (n > 0) return static_cast<std::size_t>(n);
     if (n == 0) return io_error(name_ + ": the other side has closed the connection");
-    if (!would_block(errno)) return io_error(name_ + ": read: " + std::strerror(errno));
+    if (!would_block(errno)) return io_error(name_ + ": cannot be read: " + std::strerror(errno));
     if (!came) return 0;
   }
 }
@@ -78,7 +78,7 @@ Status ByteStream::write(std::string_view bytes, milliseconds timeout) {
     if (n > 0) {
       bytes.remove_prefix(static_cast<std::size_t>(n));
     } else if (!would_block(errno)) {
-      return io_error(name_ + ": write: " + std::strerror(errno));
+      return io_error(name_ + ": cannot be written: " + std::strerror(errno));
     } else if (!ready(fd_, POLLOUT, until)) {
       return io_error(name_ + ": the other side accepts no more bytes");
     }

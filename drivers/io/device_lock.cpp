@@ -54,7 +54,9 @@ pid_t holder_of(Name& name) {
 
 tl::unexpected<Error> in_use_by(pid_t pid) {
   if (pid == ::getpid())
-    return io_error("two devices of the configuration use this device; remove one of them");
+    return io_error(
+        "another device of the configuration already uses the same hardware; remove one of these "
+        "two devices");
   if (pid == 0)
     return io_error("the device is in use by another program", Remedy::ask_daemon_for_device);
   std::ifstream file("/proc/" + std::to_string(pid) + "/comm");

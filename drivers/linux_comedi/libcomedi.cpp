@@ -48,8 +48,8 @@ std::string open_error(const std::string& device, int error) {
   std::string what = device + ": " + comedi_strerror(error);
   if (error == ENOENT)
     return what +
-           "; check that the board is installed and its driver is loaded (ls /dev/comedi*); attach "
-           "an ISA board with comedi_config";
+           "; check that the board is installed and its driver is loaded (to list the boards, run: "
+           "ls /dev/comedi*); attach an ISA board with comedi_config";
   if (error == ENODEV || error == ENXIO)
     return what +
            "; no board is attached to this file, because the board is unplugged or has another "
@@ -57,7 +57,7 @@ std::string open_error(const std::string& device, int error) {
   if (error == EACCES || error == EPERM)
     return what +
            "; this user is not in the group iocard, which may use Comedi boards on Debian; run "
-           "sudo usermod -aG iocard $USER, then log in again";
+           "\"sudo usermod -aG iocard $USER\", then log in again";
   if (error == ENOTTY) return what + "; this is not a Comedi device; correct device";
   return what;
 }

@@ -61,8 +61,8 @@ void read_targets(TomlTable& table, SimulatorOptions& options) {
                         "must list from 1 to " + text_of(kMostTargets) + " positions");
   for (std::size_t i = 0; i < targets_mm.size(); ++i) {
     if (!(std::abs(targets_mm[i]) <= kLongest_mm))
-      return table.reject("targets_mm", "must contain positions with a magnitude of at most " +
-                                            text_of(kLongest_mm));
+      return table.reject("targets_mm", "must contain positions from -" + text_of(kLongest_mm) +
+                                            " to " + text_of(kLongest_mm));
     if (i > 0 && !(targets_mm[i] > targets_mm[i - 1]))
       return table.reject("targets_mm", "must contain increasing positions");
   }

@@ -98,7 +98,7 @@ class Search {
     if (other) return handle;
     if (const int code = libusb_claim_interface(connection.device, wanted_.interface); code != 0)
       return io_error(code == LIBUSB_ERROR_BUSY
-                          ? "it is in use by " + owner_of(place, wanted_.interface) +
+                          ? "the device is in use by " + owner_of(place, wanted_.interface) +
                                 "; end that program, or unload that driver"
                           : text_of_error(code));
     connection.claimed = wanted_.interface;

@@ -104,7 +104,7 @@ void read_sections(TomlTable& tool, Reader& reader, MillingPlan& plan) {
     if (tool.has(key)) tool.reject(key, "contradicts sections_mm; give only one of the two keys");
   for (const auto& row : tool.matrix("sections_mm")) {
     if (row.size() != 2 || !(row[0] > 0 && row[0] < kHuge) || !(row[1] > 0 && row[1] < kHuge)) {
-      tool.reject("sections_mm", "each section is [length, diameter], both above 0");
+      tool.reject("sections_mm", "each section must be [length, diameter], both greater than 0");
       return;
     }
     plan.sections.push_back({row[0] * kMm, row[1] * kMm});

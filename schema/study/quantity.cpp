@@ -121,11 +121,11 @@ Result<std::vector<QuantityTarget>> resolve_quantity(std::string_view name, cons
   }
   if (!found.empty()) return found;
   const std::string near = nearest_of(name, quantity_names(rig));
-  return bad_input("no quantity of rig \"" + rig.name + "\" is called \"" + std::string(name) +
-                   "\"; " +
-                   (near.empty() ? "names begin with probe., installation., target., encoder., "
-                                   "temperature. or truth., or are travel_mm"
-                                 : "did you mean \"" + near + "\"?"));
+  return bad_input(
+      "no quantity of rig \"" + rig.name + "\" is called \"" + std::string(name) + "\"; " +
+      (near.empty() ? "a name begins with \"probe.\", \"installation.\", \"target.\", "
+                      "\"encoder.\", \"temperature.\" or \"truth.\", or is \"travel_mm\""
+                    : "did you mean \"" + near + "\"?"));
 }
 
 }  // namespace mdof

@@ -185,7 +185,8 @@ TEST(Mounting, WhatTheClampingsDoNotShowIsNotMadeUp) {
   target.clampings.erase(target.clampings.begin());
   const auto twice = fit_mounting(rig, target.logs(rng));
   ASSERT_FALSE(twice);
-  EXPECT_NE(twice.error().message.find("the position of no probe"), std::string::npos);
+  EXPECT_NE(twice.error().message.find("do not determine the position of any probe"),
+            std::string::npos);
 }
 
 TEST(Mounting, AnAxisThatGoesTheOtherWayIsFound) {

@@ -230,8 +230,8 @@ TEST(Separation, EndForEndSeesHalfOfTheShapes) {
       half[i] = (height_at(c[i]) + (upside_down ? 1 : -1) * height_at(c[12 - i])) / 2;
     EXPECT_LT(worst(found->target.seen_m, without(half, line(c))), 1e-13);
     std::set<std::string> expected{"offset", "slope"};
-    if (!upside_down) expected.insert({"parabola", "5 more symmetric about -30 mm"});
-    if (upside_down) expected.insert("5 more antisymmetric about -30 mm");
+    if (!upside_down) expected.insert({"parabola", "5 more shapes symmetric about -30 mm"});
+    if (upside_down) expected.insert("5 more shapes antisymmetric about -30 mm");
     EXPECT_EQ(names(found->target), expected);
   }
 }

@@ -43,7 +43,7 @@ TEST(UnseenShapes, HaveTheNamesOfWhatTheySpan) {
   // A line about the middle, without an offset: the slope alone.
   EXPECT_EQ(named({{-5, -3, -1, 1, 3, 5}}), "slope (1)\n");
   // The line of the first place has an offset in it, which is seen: it is none of them.
-  EXPECT_EQ(named({kLine}), "1 more, from 10 mm to 50 mm (1)\n");
+  EXPECT_EQ(named({kLine}), "1 more shape, from 10 mm to 50 mm (1)\n");
 }
 
 TEST(UnseenShapes, OfAPeriodAreTwoOrOneWhereItIsOfTwoSteps) {
@@ -54,19 +54,22 @@ TEST(UnseenShapes, OfAPeriodAreTwoOrOneWhereItIsOfTwoSteps) {
   }
   EXPECT_EQ(named({sine, cosine}, {30e-3}), "period 30 mm (2)\n");
   EXPECT_EQ(named({{1, -1, 1, -1, 1, -1}}, {20e-3}), "period 20 mm (1)\n");
-  EXPECT_EQ(named({{1, -1, 1, -1, 1, -1}}, {30e-3}), "1 more antisymmetric about 25 mm (1)\n");
+  EXPECT_EQ(named({{1, -1, 1, -1, 1, -1}}, {30e-3}),
+            "1 more shape antisymmetric about 25 mm (1)\n");
 }
 
 TEST(UnseenShapes, WithoutANameAreSymmetricOrSomewhere) {
-  EXPECT_EQ(named({{1, 0, 0, 0, 0, 1}}), "1 more symmetric about 25 mm (1)\n");
-  EXPECT_EQ(named({{0, 1, 0, 0, -1, 0}}), "1 more antisymmetric about 25 mm (1)\n");
-  EXPECT_EQ(named({{1, 0, 0, 0, 0, 1}, {0, 1, 0, 0, 1, 0}}), "2 more symmetric about 25 mm (2)\n");
-  EXPECT_EQ(named({{0, 1, 2, 0, 0, 0}}), "1 more, from 10 mm to 20 mm (1)\n");
-  EXPECT_EQ(named({kOnes, {0, 0, 0, 0, 0, 1}}), "offset (1)\n1 more, from 0 mm to 50 mm (1)\n");
+  EXPECT_EQ(named({{1, 0, 0, 0, 0, 1}}), "1 more shape symmetric about 25 mm (1)\n");
+  EXPECT_EQ(named({{0, 1, 0, 0, -1, 0}}), "1 more shape antisymmetric about 25 mm (1)\n");
+  EXPECT_EQ(named({{1, 0, 0, 0, 0, 1}, {0, 1, 0, 0, 1, 0}}),
+            "2 more shapes symmetric about 25 mm (2)\n");
+  EXPECT_EQ(named({{0, 1, 2, 0, 0, 0}}), "1 more shape, from 10 mm to 20 mm (1)\n");
+  EXPECT_EQ(named({kOnes, {0, 0, 0, 0, 0, 1}}),
+            "offset (1)\n1 more shape, from 0 mm to 50 mm (1)\n");
   const auto uneven =
       named_shapes({0, 10e-3, 20e-3, 30e-3, 40e-3, 60e-3}, unseen({{1, 0, 0, 0, 0, 1}}), {});
   ASSERT_EQ(uneven.size(), 1u);
-  EXPECT_EQ(uneven[0].name, "1 more, from 0 mm to 60 mm");
+  EXPECT_EQ(uneven[0].name, "1 more shape, from 0 mm to 60 mm");
 }
 
 TEST(HiddenPeriods, AreTheGreatestCommonDivisorAndItsParts) {

@@ -165,7 +165,7 @@ TEST(EncoderZero, FromTheMarkOnPositionsAreTheMachines) {
   EXPECT_NEAR(block.value[0][0], 15.5, 1e-9);
   EXPECT_EQ(zero.datum(),
             (EncoderDatum{EncoderDatum::Kind::index, 0.0125, "t7", "2026-11-23T07:00:00Z", ""}));
-  EXPECT_EQ(zero.state().note, "index at 12.5 mm, passed on 2026-11-23T07:00:00Z");
+  EXPECT_EQ(zero.state().note, "reference mark at 12.5 mm, passed on 2026-11-23T07:00:00Z");
 }
 
 TEST(EncoderZero, WhoDoesNotLookForAMarkHasPassedNone) {
@@ -183,7 +183,7 @@ TEST(EncoderZero, TheMarkGoesWithThePowerAndComesAgain) {
   EXPECT_TRUE(begins_with(zero.state().note,
                           "positions are machine positions only after the encoder has passed"));
   ASSERT_TRUE(zero.pass_mark("t7", "later"));
-  EXPECT_EQ(zero.state().note, "index at 12.5 mm, passed on later");
+  EXPECT_EQ(zero.state().note, "reference mark at 12.5 mm, passed on later");
 }
 
 TEST(EncoderZero, WhatWasFoundBeforeTheMarkIsNotPut) {

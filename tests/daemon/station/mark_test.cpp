@@ -59,14 +59,14 @@ TEST_F(StationMark, ARunBeforeTheMarkSaysSoAndOneAfterItIsInItsPlace) {
   EXPECT_NEAR(run.points[1].point.position_m, 0.005, 1e-6);
 
   pass_mark();
-  EXPECT_SAYS(station_->encoder().note, "index at 12.5 mm, passed on 2");
+  EXPECT_SAYS(station_->encoder().note, "reference mark at 12.5 mm, passed on 2");
   run = measured();
   EXPECT_EQ(run.header.state, RunState::complete) << notices(run);
   EXPECT_EQ(run.header.notes, std::vector<std::string>());
   const EncoderDatum datum = datum_of(run);
   EXPECT_EQ(datum.kind, EncoderDatum::Kind::index);
   EXPECT_EQ(datum.device, "daq");
-  EXPECT_EQ(datum_text(datum).substr(0, 16), "index at 12.5 mm");
+  EXPECT_EQ(datum_text(datum).substr(0, 25), "reference mark at 12.5 mm");
   ASSERT_EQ(run.points.size(), 6u);
   EXPECT_NEAR(run.points[1].point.position_m, 0.0175, 1e-6);
 }

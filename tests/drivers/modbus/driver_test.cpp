@@ -345,8 +345,8 @@ TEST(ModbusConfiguration, WhatIsWrongIsNamedWithItsKey) {
   says(kPosition, "profile: is missing");
   says("profile = \"lika-smx\"\n" + kPosition, "did you mean \"lika-smax\"?");
   says("profile = \"mine.toml\"\n" + kPosition, "mine.toml: cannot be read: No such file");
-  says("profile = \"lika-smax\"\n" + kPosition, "mdofd.toml:1: port: give either port");
-  says(smax + "address = \"box\"\n" + kPosition, "mdofd.toml:2: port: give either port");
+  says("profile = \"lika-smax\"\n" + kPosition, "mdofd.toml:1: port: give either \"port\"");
+  says(smax + "address = \"box\"\n" + kPosition, "mdofd.toml:2: port: give either \"port\"");
   says("profile = \"adam-6017\"\n" + channel("A", "AI0"), "address: is missing");
   says("profile = \"adam-6017\"\naddress = \"a:b\"\n" + channel("A", "AI0"), "is not an address");
   says(smax + "baud = 0\n" + kPosition, "mdofd.toml:3: baud");

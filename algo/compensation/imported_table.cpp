@@ -205,7 +205,7 @@ std::vector<std::string> positioning_notes(const std::vector<Run>& runs) {
     one_reading = one_reading || run.points.size() == targets_of(run).size();
   }
   if (runs.size() == 1 && one_reading)
-    notes.push_back("one reading per target: the repeatability is unknown, so u is null");
+    notes.push_back("one reading per target: the repeatability is unknown, so u is unknown (null)");
   return notes;
 }
 

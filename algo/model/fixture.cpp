@@ -80,11 +80,12 @@ constexpr double kOnPlane_m = 1e-6;
 // The position is where the probe's line meets the nominal surface: it lies on the plane.
 Status check_on_plane(const Rig& rig, const FixtureProbe& probe, const TargetPlane& plane) {
   if (std::abs(probe.plane_offset_m - *plane.offset_m) <= kOnPlane_m) return {};
-  return bad_input(rig.source + ": probe \"" + probe.id +
-                   "\": its position_mm, where the probe's line meets the plane, is at " +
-                   in_mm(probe.plane_offset_m) + " along the normal of the plane \"" + plane.id +
-                   "\", but offset_mm of that plane is " + in_mm(*plane.offset_m) +
-                   "; correct one of the two, or name another plane");
+  return bad_input(
+      rig.source + ": probe \"" + probe.id +
+      "\": position_mm (the point where the line of the probe meets the plane) is at " +
+      in_mm(probe.plane_offset_m) + " along the normal of the plane \"" + plane.id +
+      "\", but offset_mm of that plane is " + in_mm(*plane.offset_m) +
+      "; correct one of the two, or name another plane");
 }
 
 // Probes of one plane, and without [[plane]] probes that look the same way, meet one surface.

@@ -30,7 +30,9 @@ Result<Roles> find_roles(const Fixture& fixture) {
   for (std::size_t i = 0; i < fixture.probes.size(); ++i) {
     const auto& probe = fixture.probes[i];
     if (!probe.flatness.empty()) {
-      return not_of_this_kind("probe " + probe.id + " looks at a plane with known flatness");
+      return not_of_this_kind(
+          "probe " + probe.id +
+          " measures a plane with a flatness map, which these models cannot use");
     }
     if (std::abs(probe.n_C.dot(probe.u_M)) < kAlong) {
       return not_of_this_kind("probe " + probe.id + " is not square to its plane");

@@ -233,7 +233,7 @@ class List {
       if (covariance.of[i].find(".n") == std::string::npos)
         largest.u = std::max(largest.u, std::sqrt(covariance.m2[i][i]));
     together_.insert(covariance.of.begin(), covariance.of.end());
-    add("calibration " + record.id + ": places and zeros", "calibration", largest, 1e6, "µm",
+    add("calibration " + record.id + ": positions and zeros", "calibration", largest, 1e6, "µm",
         [covariance](const Basis& b) { return of_covariance(b, covariance); });
   }
 

@@ -58,17 +58,33 @@ Result<std::optional<int>> setting(CommandPort& port, const std::string& command
   return value;
 }
 
+constexpr const char* kCorrectOne =
+    "correct one of the two values, or give configure = true, so that the driver changes the "
+    "controller";
+
 Status check(const char* key, std::optional<int> wanted, std::optional<int> is) {
   if (!wanted || !is || *wanted == *is) return {};
   return wrong(std::string(key) + " is " + std::to_string(*is) + " on the controller, but " +
                    std::to_string(*wanted) + " in the configuration",
-               "correct one of the two values, or give configure = true, so that the driver "
-               "changes the controller");
+               kCorrectOne);
+}
+
+std::string averaging_text(int type) {
+  if (type < 0 || type > static_cast<int>(Averaging::dynamic)) return std::to_string(type);
+  return std::string("\"") + to_string(static_cast<Averaging>(type)) + "\"";
+}
+
+// In the words of the configuration.
+Status check_averaging(std::optional<Averaging> wanted, std::optional<int> is) {
+  if (!wanted || !is || static_cast<int>(*wanted) == *is) return {};
+  return wrong("averaging is " + averaging_text(*is) + " on the controller, but " +
+                   averaging_text(static_cast<int>(*wanted)) + " in the configuration",
+               kCorrectOne);
 }
 
 Status read_averaging(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const auto type, setting(port, "$AVT?"));
-  if (options.averaging) MDOF_CHECK(check("averaging", static_cast<int>(*options.averaging), type));
+  MDOF_CHECK(check_averaging(options.averaging, type));
   const int kind = type.value_or(static_cast<int>(options.averaging.value_or(Averaging::none)));
   if (kind == static_cast<int>(Averaging::none)) return {};
   MDOF_TRY(const auto values, setting(port, "$AVN?"));

@@ -44,7 +44,7 @@ struct Advice {
 
 constexpr Advice kAdvice[] = {
     {SQLITE_FULL, "SQLITE_FULL", ErrorCode::io,
-     "The disk is full: free some space and try again; what was stored before is unchanged."},
+     "The disk is full: free some space and try again; the data stored before are unchanged."},
     {SQLITE_READONLY, "SQLITE_READONLY", ErrorCode::io,
      "The file or its folder cannot be written: check the owner and mode of both, check that the "
      "file system is not mounted read-only, or choose another place."},

@@ -68,8 +68,8 @@ Status check_first_name(const CsvHeader& header) {
   const std::string& name = header.columns[0];
   if (name.empty() || (name[0] != '-' && (name[0] < '0' || name[0] > '9'))) return {};
   return bad_input(where(header) +
-                   "a row of numbers instead of the header; add a header such as \"" +
-                   example_of(header.kind) + "\" before it");
+                   "the line has numbers instead of the header; insert a header such as \"" +
+                   example_of(header.kind) + "\" before this line");
 }
 
 bool has_time(CsvKind kind) {
@@ -142,7 +142,7 @@ Status check_required(const CsvHeader& header) {
                   [](const Channel& channel) { return channel.id == kEncoderChannel; });
   if (!encoder) return missing(kEncoderColumn);
   if (header.channels.size() < 2)
-    return bad_input(where(header) + "no column of a probe; add columns like A_um");
+    return bad_input(where(header) + "there is no column of a probe; add columns such as A_um");
   return {};
 }
 
@@ -200,8 +200,9 @@ Result<CsvHeader> parse_csv_header(std::string_view text, CsvKind kind, const st
       return header;
     }
   }
-  return bad_input(source + ": no header line in the first " + std::to_string(header.lines) +
-                   " lines, only comments; the header names the columns: time_s,encoder_mm,A_um");
+  return bad_input(
+      source + ": no header line in the first " + std::to_string(header.lines) +
+      " lines, only comments; add a header that names the columns, such as time_s,encoder_mm,A_um");
 }
 
 }  // namespace mdof

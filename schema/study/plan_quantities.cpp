@@ -42,7 +42,7 @@ void add_range(TomlTable& truth, StudyPlan& plan, const std::string& key, const 
     quantity.distribution.low = range[0];
     quantity.distribution.high = range[1];
   } else {
-    truth.reject(key, "must be [value], or [low, high] with low less than high");
+    truth.reject(key, "must be [value] for a fixed value, or [low, high] with low less than high");
   }
   plan.quantities.push_back(std::move(quantity));
 }

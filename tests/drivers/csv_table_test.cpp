@@ -83,7 +83,7 @@ TEST_F(CsvTableTest, NamesTheLineAndTheRemedy) {
   expect_error(head + "2\n", {":4: 1 fields in the line, but the header has 2"});
   expect_error(head + "\n3,4\n", {":4: empty line"});
   expect_error("position_mm;deviation_um\n1;2\n", {"semicolons"});
-  expect_error("1,2\n3,4\n", {":1: a row of numbers", "position_mm,deviation_um"});
+  expect_error("1,2\n3,4\n", {":1: the line has numbers", "position_mm,deviation_um"});
   expect_error("position_mm,deviation_um\n", {"no rows"});
   expect_error("", {"empty"});
 }

@@ -128,10 +128,10 @@ Result<PlanAxis> PlanAxis::create(const StudyPlan& plan, const Rig& rig, const s
   auto solver = Solver::create(rig, plan.model);
   if (!solver) return in_context(plan.source + ": rig", solver.error());
   if (rig.sides != Sides{})
-    return bad_input(plan.source +
-                     ": a plan needs a rig with moves = \"target\" and travel = \"+\"; " +
-                     rig.source + " states others. Use a copy of the rig without these two keys; " +
-                     "the effects of rig errors have the same size");
+    return bad_input(
+        plan.source + ": a plan needs a rig with moves = \"target\" and travel = \"+\", but " +
+        rig.source + " has other values. Use a copy of the rig without these two keys; " +
+        "the effects of rig errors have the same size");
   MDOF_CHECK(check_forward(plan, solver->fixture()));
   const std::size_t positions = series ? plan.series_positions : 0;
   MDOF_TRY(PlanDraws draws, PlanDraws::create(plan, rig, prefix, 1 + positions, causes));

@@ -153,7 +153,7 @@ TEST(CsvStream, WithoutAHeaderOpenFails) {
   CsvStream stream = over_tcp(served);
   const auto status = stream.open();
   ASSERT_FALSE(status);
-  EXPECT_NE(status.error().message.find("a row of numbers instead of the header"),
+  EXPECT_NE(status.error().message.find("the line has numbers instead of the header"),
             std::string::npos);
 }
 

@@ -87,7 +87,8 @@ TEST(CsvStreamProtocol, ALineADayIsNoError) {
 TEST(CsvStreamProtocol, AMissingHeaderIsSaid) {
   CsvStreamProtocol protocol("probe", 3);
   const Fed fed = feed(protocol, "0.1,2,3\n0.2,3,4\n");
-  EXPECT_NE(fed.error.find("a row of numbers instead of the header"), fed.error.npos) << fed.error;
+  EXPECT_NE(fed.error.find("the line has numbers instead of the header"), fed.error.npos)
+      << fed.error;
 }
 
 TEST(CsvStreamProtocol, TimeMustGrowUntilTheHeaderComesAgain) {

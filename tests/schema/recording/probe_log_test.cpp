@@ -69,7 +69,7 @@ TEST(ProbeLogHeader, ATableHasAnyColumnsAndNoTime) {
   EXPECT_EQ(header->time_column, -1);
   EXPECT_EQ(header->channels[2].id, "deviation");
   EXPECT_TRUE(header->may_be_missing(2));
-  EXPECT_NE(error_of("1,2\n", CsvKind::table).find("position_mm,deviation_um\" before it"),
+  EXPECT_NE(error_of("1,2\n", CsvKind::table).find("position_mm,deviation_um\" before this line"),
             std::string::npos);
 }
 

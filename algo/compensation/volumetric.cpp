@@ -171,10 +171,10 @@ Status check_measured(const VolumetricTable& table, const VolumetricRequest& req
   if (table.not_measured.empty() || request.incomplete) return {};
   std::string names;
   for (const std::string& name : table.not_measured) names += (names.empty() ? "" : ", ") + name;
-  return bad_input(
-      "the table would not correct errors that were not measured: " + names +
-          "; add them to the machine, with the value 0 where an error is known to be 0",
-      Remedy::allow_incomplete);
+  return bad_input("the table would not correct errors that were not measured: " + names +
+                       "; add these errors to the machine file, with the value 0 where an error is "
+                       "known to be 0",
+                   Remedy::allow_incomplete);
 }
 
 GridCell cell_of(const std::vector<double>& commands, double command) {

@@ -53,16 +53,15 @@ TEST(MountingView, NamesAProbeBesideTheOthers) {
   for (const auto which : {kTowards1, kTowards2})
     EXPECT_EQ(sentences(4, which),
               Sentences{"the direction of E: the tilts and readings are too small"});
-  EXPECT_EQ(sentences(3, algo::kScale),
-            Sentences{"the sensitivity of D: only a calibration of the sensitivity can determine the sensitivity"});
+  EXPECT_EQ(sentences(3, algo::kScale), Sentences{"the sensitivity of D: only a calibration of the "
+                                                  "sensitivity can determine the sensitivity"});
   // D looks along Y.
   for (const auto which : {kPlace1, kPlace2}) {
     const bool is_x = std::abs(model.along(3, which == kPlace1 ? 0 : 1).x()) > 0.5;
-    EXPECT_EQ(
-        sentences(3, which),
-        Sentences{
-            std::string("the position of D along ") + (is_x ? "X" : "Z") +
-            " relative to the other probes: clamp the target at more tilts, with larger differences"});
+    EXPECT_EQ(sentences(3, which),
+              Sentences{std::string("the position of D along ") + (is_x ? "X" : "Z") +
+                        " relative to the other probes: clamp the target at more tilts, with "
+                        "larger differences"});
   }
   // A sensitivity that is exact is not one of the unknowns.
   EXPECT_TRUE(named(model, {unit(model, 0, algo::kScale)}).sentences.empty());
@@ -76,7 +75,8 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
   ASSERT_EQ(both.sentences.size(), 2u);
   for (const auto& sentence : both.sentences)
     EXPECT_NE(sentence.find("the common position of D, E along "), std::string::npos) << sentence;
-  EXPECT_NE(both.sentences[0].find("the u of this mean is 14.1 um"), std::string::npos) << both.sentences[0];
+  EXPECT_NE(both.sentences[0].find("the u of this mean is 14.1 um"), std::string::npos)
+      << both.sentences[0];
   EXPECT_NEAR(both.u_together_m[0], 20e-6 / std::sqrt(2.0), 1e-12);
   EXPECT_EQ(both.u_together_m[1], 0);
   EXPECT_NEAR(both.u_together_m[2], 20e-6 / std::sqrt(2.0), 1e-12);
@@ -85,10 +85,10 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
   const auto zeros =
       Eigen::VectorXd(unit(model, 0, kZero) + unit(model, 1, kZero) + unit(model, 2, kZero));
   const Unseen zero = named(model, {zeros, unit(model, 4, kZero)});
-  EXPECT_EQ(zero.sentences,
-            (std::vector<std::string>{"the common zero of A, B, C: the mean zero (offset_um) in the "
-                                      "rig is kept",
-                                      "the zero of E relative to the other probes"}));
+  EXPECT_EQ(zero.sentences, (std::vector<std::string>{
+                                "the common zero of A, B, C: the mean zero (offset_um) in the "
+                                "rig is kept",
+                                "the zero of E relative to the other probes"}));
   EXPECT_EQ(zero.apart.cols(), 1);
 }
 
@@ -103,7 +103,8 @@ TEST(MountingView, TogetherIsNotKnownWhereOneIsNot) {
   const Unseen unseen = named(model, {scaled});
   ASSERT_EQ(unseen.sentences.size(), 1u);
   EXPECT_NE(unseen.sentences[0].find("the common position of A, B, C along "), std::string::npos);
-  EXPECT_NE(unseen.sentences[0].find("the rig does not declare the u of this mean"), std::string::npos);
+  EXPECT_NE(unseen.sentences[0].find("the rig does not declare the u of this mean"),
+            std::string::npos);
   const std::size_t axis = std::abs(model.along(0, 0).x()) > 0.5 ? 0 : 1;
   EXPECT_TRUE(std::isnan(unseen.u_together_m[axis]));
   EXPECT_EQ(unseen.u_together_m[2], 0);

@@ -104,7 +104,8 @@ TEST(BuildTable, RefusesRunsThatDoNotBelongTogether) {
   EXPECT_NE(refusal({run_by_hand(1), other}).find("run 2 measures axis Y"), std::string::npos);
   other = run_by_hand(2);
   other.header.sides.fixture_moves = true;
-  EXPECT_NE(refusal({run_by_hand(1), other}).find("differ in the key \"moves\" or \"travel\""), std::string::npos);
+  EXPECT_NE(refusal({run_by_hand(1), other}).find("differ in the key \"moves\" or \"travel\""),
+            std::string::npos);
   mdof::Run few = run_by_hand(1);
   std::erase_if(few.points, [](const MeasuredPoint& p) { return p.target > 2; });
   EXPECT_NE(refusal({few}).find("2 targets with calculated errors"), std::string::npos);

@@ -111,9 +111,8 @@ TEST(Positioning, NamesTheTargetThatLacksReadings) {
   EXPECT_NE(refused(readings).find("target 1000 mm: only one reading in reverse direction"),
             std::string::npos);
   readings.erase(readings.begin());
-  EXPECT_NE(
-      refused(readings).find("target 1000 mm: no reading in reverse direction, but other"),
-      std::string::npos);
+  EXPECT_NE(refused(readings).find("target 1000 mm: no reading in reverse direction, but other"),
+            std::string::npos);
 }
 
 // Limits of ±2√3 µm are 4 µm with k = 2; a drift of 5 µm is 3 µm.

@@ -157,7 +157,8 @@ TEST(UnevenVisits, ATableOfRunsWithOtherTargetsHasNoStep) {
   }
   EXPECT_EQ(test::shown(uneven_visits_of({longer, longer}).value()), "");
   EXPECT_EQ(test::shown(uneven_visits_of({longer, shorter}).value()),
-            "all runs together (the repetitions of all runs are numbered in one sequence): run_lacks_visits "
+            "all runs together (the repetitions of all runs are numbered in one sequence): "
+            "run_lacks_visits "
             "runs=run 2\n");
 }
 

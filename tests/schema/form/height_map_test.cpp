@@ -105,7 +105,8 @@ TEST(HeightMapXyz, UnitsAndBlanks) {
   EXPECT_EQ(both->at(1, 0), 2e-9);
   EXPECT_FALSE(xyz_units("inch"));
   EXPECT_FALSE(xyz_units("mm,"));
-  EXPECT_NE(error_of("0 0 1\n1 0 2 3\n").find("map.csv:2: the line has 4 numbers"), std::string::npos);
+  EXPECT_NE(error_of("0 0 1\n1 0 2 3\n").find("map.csv:2: the line has 4 numbers"),
+            std::string::npos);
 }
 
 TEST(HeightMapCsv, IsReadBackAsItWasWritten) {

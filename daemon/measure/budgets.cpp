@@ -28,7 +28,8 @@ constexpr std::size_t kMostCost = 250'000;  // a second; 11 targets and all decl
 Result<algo::TargetMean> target_near(const algo::RunBudgets& run, std::int64_t id, double at_m) {
   const auto& targets = run.means().targets;  // ascending
   if (targets.empty())
-    return bad_input("the run has no solved target, so no budget can be calculated");
+    return bad_input("no target of the run has error values, so no budget can be calculated",
+                     Remedy::show_points);
   double interval_m = 0;
   const algo::TargetMean* nearest = &targets.front();
   for (std::size_t i = 1; i < targets.size(); ++i) {
@@ -38,8 +39,8 @@ Result<algo::TargetMean> target_near(const algo::RunBudgets& run, std::int64_t i
   }
   const double first_m = targets.front().position_m, last_m = targets.back().position_m;
   if (at_m >= first_m - interval_m / 2 && at_m <= last_m + interval_m / 2) return *nearest;
-  return bad_input(plain_number(to_mm(at_m)) + " mm is beyond the travel of run " +
-                   std::to_string(id) + " (targets from " + plain_number(to_mm(first_m)) + " to " +
+  return bad_input(plain_number(to_mm(at_m)) + " mm is outside the targets of run " +
+                   std::to_string(id) + " (" + plain_number(to_mm(first_m)) + " to " +
                    plain_number(to_mm(last_m)) + " mm); give a position within this range");
 }
 
@@ -52,7 +53,7 @@ Result<std::vector<algo::Figure>> chosen_figures(std::vector<algo::Figure> all,
     names += (names.empty() ? "" : ", ") + figure.name;
   }
   return fail(ErrorCode::usage,
-              "\"" + name + "\" is not a figure of a run of this axis; the figures are " + names);
+              "\"" + name + "\" is not a figure of this run; give one of: " + names);
 }
 
 // A run whose rig cannot be had.
@@ -74,7 +75,9 @@ StatedFigures stated_figures(const Run& run, const Result<algo::RunBudgets>& of_
                 words::remedy(Remedy::budget_run)};
   StatedFigures stated{of_run->of(algo::figures_of_run(run.header.axis)), ""};
   std::erase_if(stated.budgets, [](const Budget& budget) { return !std::isfinite(budget.value); });
-  if (stated.budgets.empty()) stated.why = "the run has too few solved targets for any figure";
+  if (stated.budgets.empty())
+    stated.why =
+        "no figure could be calculated, because too few targets of the run have error values";
   return stated;
 }
 
@@ -119,8 +122,9 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
   for (std::size_t f = 0; f < figures.size(); ++f) {
     if (!std::isfinite(budgets[f].value)) {
       if (request.figure.empty()) continue;
-      return bad_input("run " + std::to_string(request.run) + " has too few solved targets for " +
-                       figures[f].name);
+      return bad_input("run " + std::to_string(request.run) + ": " + figures[f].name +
+                           " has no value, because too few targets of the run have error values",
+                       Remedy::show_points);
     }
     if (request.trials.trials > 1) budgets[f].trials = of_run.trials(figures[f], request.trials);
     found.budgets.push_back(std::move(budgets[f]));
@@ -128,7 +132,7 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
   if (found.budgets.empty())
     return bad_input(
         "run " + std::to_string(request.run) +
-            " has too few solved targets for any figure, so no budget can be calculated",
+            ": no budget can be calculated, because too few targets of the run have error values",
         Remedy::show_points);
   return found;
 }

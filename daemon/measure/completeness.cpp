@@ -74,7 +74,9 @@ std::string targets_text(const std::vector<double>& targets_m, const std::vector
     text += (text.empty() ? "" : "; ") + target_text(i, targets_m[i]);
     if (repeats > 0) text += ": " + visits_text(missing[i]);
   }
-  return more == 0 ? text : text + "; and " + std::to_string(more) + " more targets";
+  return more == 0 ? text
+                   : text + "; and " + std::to_string(more) +
+                         (more == 1 ? " more target" : " more targets");
 }
 
 std::optional<Notice> not_measured(const std::vector<double>& targets_m, int repeats,

@@ -55,9 +55,8 @@ std::optional<gid_t> group_of(TomlTable& table, const char* key) {
   const std::string name = table.string(key);
   const struct group* entry = ::getgrnam(name.c_str());
   if (entry != nullptr) return entry->gr_gid;
-  table.reject(key, "there is no group \"" + name +
-                        "\" on this machine; create it (sudo groupadd " + name +
-                        ") or name another group");
+  table.reject(key, "this computer has no group \"" + name +
+                        "\"; create this group (sudo groupadd " + name + ") or give another group");
   return std::nullopt;
 }
 
@@ -93,8 +92,9 @@ void read_rpc(TomlTable& root, Config& config) {
   config.socket = table->string("socket", config.socket);
   constexpr std::size_t kLongest = sizeof(sockaddr_un::sun_path) - 1;
   if (config.socket.size() > kLongest)
-    table->reject("socket", "has " + std::to_string(config.socket.size()) + " bytes (limit " +
-                                std::to_string(kLongest) + "); choose a shorter path");
+    table->reject("socket", "the path has " + std::to_string(config.socket.size()) +
+                                " bytes (limit " + std::to_string(kLongest) +
+                                "); choose a shorter path");
   read_access(*table, config.access);
   if (!table->has("tcp_port")) return;
   const auto port = table->integer("tcp_port");
@@ -200,15 +200,16 @@ Status check_together(TomlTable& table, const AxisConfig& axis) {
   std::map<std::string, std::string> source;
   for (const auto& device : axis.devices) {
     if (axis.devices.size() > 1 && (!device.live || device.simulated)) {
-      table.reject("device", "\"" + device.name + "\" provides all channels, so it must be " +
-                                 "the only device of its axis");
+      table.reject("device", "\"" + device.name +
+                                 "\" provides all channels, so no other device is " +
+                                 "allowed on this axis; remove the other devices of the axis");
       return {};
     }
     for (const auto& channel : device.channels) {
       const auto [other, fresh] = source.emplace(channel, device.name);
       if (!fresh) {
-        table.reject("device", "channel \"" + channel + "\" comes from \"" + other->second +
-                                   "\" and from \"" + device.name + "\"");
+        table.reject("device", "channel \"" + channel + "\" comes from two devices, \"" +
+                                   other->second + "\" and \"" + device.name + "\"");
       }
     }
   }
@@ -218,7 +219,8 @@ Status check_together(TomlTable& table, const AxisConfig& axis) {
   for (const Probe& probe : axis.rig.probes) needed.push_back(probe.id);
   for (const auto& channel : needed) {
     if (!source.contains(channel))
-      table.reject("device", "no device gives channel \"" + channel + "\" of " + axis.rig.source);
+      table.reject("device",
+                   "no device provides channel \"" + channel + "\" of " + axis.rig.source);
   }
   return {};
 }
@@ -228,7 +230,7 @@ Status check_names(TomlTable& table, const AxisConfig& axis, const Config& confi
   for (const auto& other : config.axes) {
     if (other.rig.axis == axis.rig.axis) {
       table.reject("rig", std::string("a second rig for axis ") + letter(axis.rig.axis) +
-                              "; give one [[axis]] for each axis");
+                              "; only one [[axis]] with one rig is allowed for each axis");
     }
     for (const auto& device : other.devices) names.insert(device.name);
   }
@@ -248,13 +250,16 @@ void take_machine(TomlTable& table, const Chain& machine, Rig& rig) {
   const ChainAxis* in_chain = machine.find(axis[0]);
   if (rig.machine.known() && rig.machine != machine) {
     table.reject(
-        "rig", rig.source + " states a [machine] that differs from this file; keep one of the two");
+        "rig",
+        rig.source +
+            " and this file have different [machine] tables; keep only one of the two tables");
   } else if (!in_chain) {
-    table.reject(
-        "rig", "is for axis " + axis + ", but the chain " + machine.text + " has no axis " + axis);
+    table.reject("rig", "the rig is for axis " + axis + ", but the chain of [machine], " +
+                            machine.text + ", has no axis " + axis);
   } else if (in_chain->against_command != rig.sides.against_encoder) {
-    table.reject("rig", "has travel = \"" + std::string(rig.sides.travel()) +
-                            "\", but [machine] travel." + axis + " states the opposite");
+    table.reject("rig", "the rig has travel = \"" + std::string(rig.sides.travel()) +
+                            "\", but [machine] travel." + axis +
+                            " states the opposite; correct the wrong one");
   } else {
     rig.machine = machine;
   }

@@ -76,7 +76,8 @@ constexpr std::int64_t kMostPoints = 200'000;  // all in memory at once: some 15
 Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& runs) {
   if (runs.size() > kMostRuns)
     return fail(ErrorCode::usage, "a table is built from at most " + std::to_string(kMostRuns) +
-                                      " runs, not " + std::to_string(runs.size()));
+                                      " runs, but " + std::to_string(runs.size()) +
+                                      " are given; give fewer runs");
   const std::set<std::int64_t> different(runs.begin(), runs.end());
   if (different.size() < runs.size())
     return bad_input(
@@ -197,8 +198,9 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   MDOF_TRY(const CompensationTable table, store.table(request.table));
   if (table.has_positioning())
     return fail(ErrorCode::conflict,
-                "table " + std::to_string(table.id) + " holds " + positioning_name(table.axis) +
-                    ", which mdofd does not serve; the controller reads it from a file",
+                "table " + std::to_string(table.id) + " contains " + positioning_name(table.axis) +
+                    "; mdofd does not serve positioning errors, so the controller must read them "
+                    "from a file",
                 Remedy::export_table);
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);

@@ -222,7 +222,10 @@ Status Pipeline::explain_nothing() const {
     return bad_input(
         "none of " + std::to_string(s.unplaced) +
         " scans has an encoder position; check the encoder, its cable and its channel");
-  if (s.scans == 0) return bad_input("no samples arrived from the rig's probes and the encoder");
+  if (s.scans == 0)
+    return bad_input(
+        "no samples arrived from the rig's probes and the encoder; check the devices, or the "
+        "columns of the log");
   if (!moved()) {
     const double travel_m = s.encoder_max_m - s.encoder_min_m;
     return bad_input("the encoder stays at " + plain_number(to_mm(s.encoder_min_m), 7) + " mm" +
@@ -236,13 +239,13 @@ Status Pipeline::explain_nothing() const {
     return bad_input("none of the " + std::to_string(found_.size()) +
                      " stops is near a given target; check targets_mm");
   }
-  return bad_input("no dwell found in " + std::to_string(s.scans) + " scans from " +
+  return bad_input("no stop found in " + std::to_string(s.scans) + " scans from " +
                        plain_number(to_mm(s.encoder_min_m), 6) + " to " +
-                       plain_number(to_mm(s.encoder_max_m), 6) + " mm" + ": the longest stop was " +
-                       plain_number(s.longest_still_s) + " s" + " within " +
-                       plain_number(to_um(s.tolerance_m)) + " um" + ", but a stop must last " +
-                       plain_number(options_.dwell.shortest_s()) + " s" +
-                       (problem ? "; " + words::text(*problem) : ""),
+                       plain_number(to_mm(s.encoder_max_m), 6) + " mm" +
+                       ": the axis was at rest for at most " + plain_number(s.longest_still_s) +
+                       " s" + " within " + plain_number(to_um(s.tolerance_m)) + " um" +
+                       ", but a stop must last " + plain_number(options_.dwell.shortest_s()) +
+                       " s" + (problem ? "; " + words::text(*problem) : ""),
                    Remedy::stop_longer);
 }
 

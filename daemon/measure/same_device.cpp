@@ -38,9 +38,9 @@ Result<Source> source_of(TomlTable& table, const std::vector<AxisConfig>& above)
 // Whose samples can go to two axes: of hardware, with channels that are known before it is open.
 Status check_source(const TomlTable& table, const drivers::DriverSpec& device) {
   if (device.live && device.recorded && !device.simulated && !device.part.empty()) return {};
-  return bad_input(
-      table.where("same_as") + ": \"" + device.name + "\" (" + device.driver +
-      ") can serve only one axis, because it lists no channels; give this axis its own device");
+  return bad_input(table.where("same_as") + ": \"" + device.name + "\" (" + device.driver +
+                   ") cannot serve two axes; only a hardware device with [[axis.device.channel]] "
+                   "entries can; give this axis its own device");
 }
 
 }  // namespace

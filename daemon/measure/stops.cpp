@@ -66,7 +66,7 @@ Result<LogStops> read_stops(const std::string& path, Axis axis, const Rig& rig) 
   dwell.flush(found.stops);
   dwell.mark(found.stops);
   if (found.stops.empty())
-    return bad_input(path + ": no stop found; the longest was " +
+    return bad_input(path + ": no stop found: the axis was at rest for at most " +
                      plain_number(dwell.summary().longest_still_s) + " s, but a stop must last " +
                      plain_number(algo::DwellOptions().shortest_s()) +
                      " s; stop longer at each place");

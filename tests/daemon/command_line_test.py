@@ -132,7 +132,7 @@ class Replay(CommandLine):
         self.assertIn("none.csv: No such file", err)
         code, _, err = mdof("replay", LOG["Y"], "--rig", RIG["X"], *self.at)
         self.assertEqual(code, 3)
-        self.assertIn("is a log of axis Y", err)
+        self.assertIn("the log is of axis Y", err)
         self.assertEqual(self.client.call("run.list")["total"], 0)
 
     def test_the_standard_input_cannot_be_handed_over(self):

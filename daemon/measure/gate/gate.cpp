@@ -77,13 +77,14 @@ Status check_gate(const Judged& judged, const Consent& consent, const std::strin
                                   [](const Notice& n) { return n.severity == Severity::invalid; });
   if (wrong != judged.doubtful.end())
     return fail(ErrorCode::conflict, judged.what + " is invalid, so " + consequence + ": " +
-                                         words::text(*wrong) + ". No option permits this");
+                                         words::text(*wrong) + ". No option overrides this check");
   if (judged.doubtful.empty() || consent.despite_warnings) return {};
   const std::size_t n = judged.doubtful.size();
   return fail(ErrorCode::conflict,
               judged.what + " is doubtful (" + std::to_string(n) +
                   (n == 1 ? " notice), so " : " notices), so ") + consequence + ": " +
-                  words::text(judged.doubtful.front()) + (n > 1 ? "; and more" : ""),
+                  words::text(judged.doubtful.front()) +
+                  (n > 1 ? "; and " + std::to_string(n - 1) + " more" : ""),
               Remedy::allow_doubtful);
 }
 
@@ -95,7 +96,7 @@ std::vector<std::string> marks_of(const Judged& judged) {
     marks.push_back("DOUBTFUL: " + judged.what + ": " + words::line(judged.doubtful[i]));
   if (shown < n)
     marks.push_back("DOUBTFUL: " + judged.what + ": and " + std::to_string(n - shown) +
-                    " more notices");
+                    (n - shown == 1 ? " more notice" : " more notices"));
   for (std::string& mark : marks)  // what it quotes is no line of its own
     for (char& c : mark)
       if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';

@@ -99,7 +99,7 @@ Result<std::optional<double>> standard_uncertainty(const ImportRequest& request,
   const std::optional<double>& u = error.angle ? request.u_urad : request.u_um;
   if (!u) return std::nullopt;
   if (!(*u >= 0 && std::isfinite(*u)))
-    return fail(ErrorCode::usage, "the standard uncertainty must be a finite number, not negative");
+    return fail(ErrorCode::usage, "the standard uncertainty must be a finite number of 0 or more");
   return error.angle ? from_urad(*u) : from_um(*u);
 }
 
@@ -110,10 +110,9 @@ Result<Run> imported_run(const ImportRequest& request) {
   MDOF_TRY(const ImportedError error, imported_error(request.axis, name));
   MDOF_TRY(const std::optional<double> u_si, standard_uncertainty(request, error));
   if (error.named && (request.sense || request.against_command))
-    return fail(ErrorCode::usage,
-                error.name +
-                    " is an error of the body; give sense and travel only for positioning (" +
-                    positioning_name(request.axis) + ")");
+    return fail(ErrorCode::usage, "\"sense\" and \"travel\" apply only to positioning (" +
+                                      positioning_name(request.axis) + "); leave both out for " +
+                                      error.name);
   MDOF_TRY(const ImportedSeries series,
            drivers::read_imported_file(request.file, request.format, error.angle, request.opened));
   Run run;

@@ -91,7 +91,7 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
     const std::string where = csv.source + ": " + error_name(frame, k);
     ErrorFunction& f = frame.error[k];
     if (f.known() || !f.file.empty())
-      return bad_input(where + " is also in MACHINE.toml; give the error once");
+      return bad_input(where + " is also in MACHINE.toml; give this error only once");
     f.position = positions_of(frame, csv.columns[0]);
     f.forward = forward;
     f.reverse = column(2);

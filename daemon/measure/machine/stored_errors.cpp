@@ -58,8 +58,8 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
   const std::string of = axis_of(frame);
   if (table.without_stated_point || table.stated.reference == Reference::carriage)
     return bad_input(of +
-                     "its table holds at a point that does not stay with the fixture, or at an "
-                     "unknown point; build a table that is stated at the fixture");
+                     "the errors of its table are stated at the carriage or at an unknown point; "
+                     "build a table that is stated at the fixture");
   if (table.sides.fixture_moves != frame.point_moves)
     return bad_input(of + "point must be \"" + (frame.point_moves ? "standing" : "moving") +
                      "\", because the rig states that the " + table.sides.moves() + " moves");
@@ -213,8 +213,9 @@ Result<std::vector<std::int64_t>> latest_runs(store::Store& store, const Machine
   for (const auto& id : {measured, positioning})
     if (id) ids.push_back(*id);
   if (!ids.empty()) return ids;
-  return fail(ErrorCode::not_found, store.file().string() + ": has no complete run of axis " +
-                                        frame.id + ", but the machine file asks for the latest");
+  return fail(ErrorCode::not_found,
+              store.file().string() + ": has no complete run of axis " + frame.id +
+                  ", but the machine file has runs = \"latest\"; measure this axis first");
 }
 
 Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all,
@@ -276,8 +277,8 @@ Result<std::optional<Squareness>> newest_squareness(store::Store& store, Predica
 }
 
 std::string no_axes(AxisPair axes) {
-  return std::string("; fit one from a run of axis ") + letter(axes.a) + " and a run of axis " +
-         letter(axes.b);
+  return std::string("; calculate one from a run of axis ") + letter(axes.a) +
+         " and a run of axis " + letter(axes.b);
 }
 
 // The newest of each two axes, of runs that the axes name; of a machine without runs of any.
@@ -298,8 +299,8 @@ Result<std::vector<Squareness>> latest_squareness(store::Store& store, const Mac
   return fail(ErrorCode::not_found,
               store.file().string() + ": has no squareness" +
                   (runs.empty() ? no_axes({})
-                                : " of the runs that the machine file names; fit one from two of "
-                                  "these runs that measure different axes"));
+                                : " of the runs that the machine file names; calculate one from "
+                                  "two of these runs, which must measure different axes"));
 }
 
 Result<std::vector<Squareness>> squareness_of(store::Store& store, const Machine& machine,
@@ -316,8 +317,10 @@ Result<std::vector<Squareness>> squareness_of(store::Store& store, const Machine
 Result<MachineFrame*> frame_of(Machine& machine, AxisPair axes, Axis axis) {
   for (MachineFrame& frame : machine.frames)
     if (frame.id == std::string(1, letter(axis))) return &frame;
-  return bad_input("squareness of the machine: the chain " + machine.chain.text +
-                   " does not have both axes, " + letter(axes.a) + " and " + letter(axes.b));
+  return bad_input(std::string("squareness of the machine: the stored squareness is of axes ") +
+                   letter(axes.a) + " and " + letter(axes.b) + ", but the chain " +
+                   machine.chain.text + " has no axis " + letter(axis) +
+                   "; give another squareness");
 }
 
 Status take_squareness(store::Store& store, Machine& machine, const Squareness& stored,
@@ -326,9 +329,10 @@ Status take_squareness(store::Store& store, Machine& machine, const Squareness& 
   MDOF_TRY(MachineFrame* const b, frame_of(machine, stored.axes, stored.axes.b));
   const std::size_t about = 6 - a->direction - b->direction;  // of the six: A, B, C of the third
   if (a->location[about].value || b->location[about].value)
-    return bad_input("squareness of the machine: " + with_unit(location_name(*b, about), about) +
-                     " or " + with_unit(location_name(*a, about), about) +
-                     " is given as well as the squareness; give one of them");
+    return bad_input("squareness of the machine: " +
+                     with_unit(location_name(b->location[about].value ? *b : *a, about), about) +
+                     " is given more than once (by \"squareness\" and by a key of an axis, or by "
+                     "two numbers in \"squareness\"); give this angle only once");
   algo::StatedPair at;
   MDOF_TRY(at.a, point_of_slope(*a, stated));
   MDOF_TRY(at.b, point_of_slope(*b, stated));

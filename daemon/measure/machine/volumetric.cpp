@@ -102,11 +102,11 @@ Result<store::Marks> check_volumetric_activation(store::Store& store, std::int64
     const auto active = store.active(axis);
     if (!active && active.error().code == ErrorCode::not_found) continue;
     if (!active) return tl::unexpected(active.error());
-    return fail(ErrorCode::conflict,
-                std::string("table ") + std::to_string(active->table.id) + " of axis " +
-                    letter(axis) +
-                    " is active, and a controller that applies both tables corrects twice",
-                Remedy::deactivate_axis, std::string(1, letter(axis)));
+    return fail(
+        ErrorCode::conflict,
+        std::string("table ") + std::to_string(active->table.id) + " of axis " + letter(axis) +
+            " is active; with a volumetric table as well, the controller would correct twice",
+        Remedy::deactivate_axis, std::string(1, letter(axis)));
   }
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active_volumetric();
@@ -118,10 +118,11 @@ Status check_no_volumetric(store::Store& store) {
   const auto active = store.active_volumetric();
   if (!active && active.error().code == ErrorCode::not_found) return {};
   if (!active) return tl::unexpected(active.error());
-  return fail(ErrorCode::conflict,
-              "the volumetric table " + std::to_string(active->table.id) +
-                  " is active, and a controller that applies both tables corrects twice",
-              Remedy::deactivate_volume);
+  return fail(
+      ErrorCode::conflict,
+      "the volumetric table " + std::to_string(active->table.id) +
+          " is active; with the table of an axis as well, the controller would correct twice",
+      Remedy::deactivate_volume);
 }
 
 }  // namespace mdof::daemon

@@ -52,7 +52,7 @@ Status OnTheFlyRun::check_room() {
     points_ += passes[passes_seen_].bins.size() + passes[passes_seen_].left_out.size();
   if (points_ <= options_.most_stops) return {};
   return bad_input(
-      "more than " + std::to_string(options_.most_stops) + " points on the fly, the limit of a run",
+      "a run on the fly may have at most " + std::to_string(options_.most_stops) + " points",
       Remedy::larger_interval);
 }
 
@@ -84,7 +84,7 @@ Status OnTheFlyRun::solve(algo::Sequence& sequence, const algo::Residuals& resid
     any = any || p.errors.valid;
   }
   if (any) return {};
-  return bad_input("none of " + std::to_string(sequence.points.size()) +
+  return bad_input("none of the " + std::to_string(sequence.points.size()) +
                    " points on the fly could be solved: " + sequence.points.front().errors.reason);
 }
 

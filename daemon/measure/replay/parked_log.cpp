@@ -110,8 +110,7 @@ Result<Rig> rig_of(const ParkedRequest& request, const ReplayLog& log) {
   if (!request.rig_source.empty()) return parse_rig(request.rig_text, request.rig_source);
   const std::string text = log.rig_text();
   if (!text.empty()) return parse_rig(text, request.log + " (its rig)");
-  return fail(ErrorCode::usage, request.log + ": is a CSV log, which contains no rig",
-              Remedy::give_rig);
+  return fail(ErrorCode::usage, request.log + ": a CSV log contains no rig", Remedy::give_rig);
 }
 
 Status check_parked(const std::string& path, const std::vector<double>& encoder_m) {
@@ -187,7 +186,7 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   const std::size_t steps = reader.encoder.size() / together;
   if (steps < algo::kStepsOfWindow)
     return bad_input(log.path() + ": the log lasts " + plain_number(parked.length_s) +
-                         " s, but a window needs " +
+                         " s, but a time window needs " +
                          plain_number(std::max(per_step, kShortStep_s) *
                                       static_cast<double>(algo::kStepsOfWindow)) +
                          " s",

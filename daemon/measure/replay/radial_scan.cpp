@@ -61,8 +61,8 @@ struct Columns {
 Result<double> length_unit(const Channel& channel, const std::string& log) {
   if (channel.unit == Unit::um) return from_um(1);
   if (channel.unit == Unit::mm) return from_mm(1);
-  return bad_input(log + ": the scanning probe " + channel.id + " must be a column " + channel.id +
-                   "_um or " + channel.id + "_mm");
+  return bad_input(log + ": the column of the scanning probe " + channel.id +
+                   " must have the name " + channel.id + "_um or " + channel.id + "_mm");
 }
 
 Status take_block(SampleBlock& block, const RigScan& scan, const std::string& log,
@@ -96,19 +96,20 @@ Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan
       MDOF_CHECK(calibrator.apply(block));
       MDOF_CHECK(take_block(block, scan, from.recording_path, columns));
       if (columns.height_m.value.size() > kMostScanPoints)
-        return bad_input(from.recording_path + ": has more than " +
-                         std::to_string(kMostScanPoints) + " heights, the limit of a scan");
+        return bad_input(from.recording_path + ": the scan has more than " +
+                         std::to_string(kMostScanPoints) +
+                         " heights (limit of a log); divide the scan into several runs");
     }
     if (state == drivers::ReadState::end) break;
   }
   if (log.sha256() != from.recording_sha256)
-    return bad_input(from.recording_path + ": has changed since run " + std::to_string(run.id) +
-                     " was made from it; replay it again");
+    return bad_input(from.recording_path + ": this log was changed after run " +
+                     std::to_string(run.id) + " was calculated from it; replay the log again");
   for (const auto& [name, series] :
        {std::pair(scan.probe, &columns.height_m), std::pair(scan.angle, &columns.angle_deg)})
     if (series->value.empty())
       return bad_input(from.recording_path + ": the column " + name +
-                       ", which [scan] of the rig names, has no value");
+                       ", which [scan] of the rig names, is missing or has no value");
   columns.angle_deg.unwind();
   return columns;
 }
@@ -180,7 +181,8 @@ Result<Motion> motion_of(const Run& run, const Rig& rig, const RigScan& scan) {
   std::sort(sorted.begin(), sorted.end());
   if (sorted.size() < 2)
     return bad_input("run " + std::to_string(run.header.id) +
-                     ": fewer than two targets are solved; a scan needs errors along the radius");
+                     ": fewer than two targets have error values, but a scan needs the errors at "
+                     "two or more targets along the radius; measure more targets");
   Motion motion;
   for (const auto& [target, sum] : targets)
     motion.u_m += sum.variance / (sum.n * sum.n) / static_cast<double>(targets.size());
@@ -221,8 +223,9 @@ Status add_run(store::Store& store, std::int64_t id, algo::ScanPoints& points, R
   MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
   MDOF_TRY(const auto scan, scan_of_rig(run.header.provenance.rig_text, rig.axis, name));
   if (!scan)
-    return bad_input(
-        name + ": is not a scan, because its rig has no [scan] that names the probe over the part");
+    return bad_input(name +
+                     ": this run is not a scan, because its rig has no [scan], which names the "
+                     "probe over the part; give a run with [scan] in its rig");
   out.simulated = out.simulated || run.header.simulated;
   MDOF_TRY(const Motion motion, motion_of(run, rig, *scan));
   const auto [least, most] = std::minmax_element(motion.reading_m.begin(), motion.reading_m.end());

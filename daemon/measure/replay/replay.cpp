@@ -32,10 +32,12 @@ Status check_unit(const std::string& source, const std::vector<Channel>& channel
                   const std::string& probe) {
   for (const Channel& c : channels) {
     if (c.id != probe || (c.unit != Unit::other && c.unit != Unit::deg_c)) continue;
-    return bad_input(source + ": column \"" + column_name(c) + "\" belongs to the probe \"" +
-                     probe + "\", but " + (c.unit == Unit::other ? "has no unit" : "is in °C") +
-                     "; name it " + probe + "_um, " + probe + "_mm or " + probe +
-                     "_V, by its unit");
+    return bad_input(
+        source + ": column \"" + column_name(c) + "\" contains the readings of the probe \"" +
+        probe + "\", but " +
+        (c.unit == Unit::other ? "its name states no unit" : "its name states the unit °C") +
+        "; rename the column to " + probe + "_um, " + probe + "_mm or " + probe +
+        "_V, according to the unit of its values");
   }
   return {};
 }
@@ -62,9 +64,9 @@ Status check_air(const std::string& source, const std::vector<Channel>& channels
     if (std::any_of(channels.begin(), channels.end(),
                     [q](const Channel& c) { return is_channel_of(c, q); }))
       continue;
-    return bad_input(source + ": has no column " + key +
-                     ", which [corrections] dielectric = true of " + rig.source +
-                     " needs; log this quantity, or declare " + key + " of the run in [air]");
+    return bad_input(source + ": the column " + key +
+                     " is missing, but [corrections] dielectric = true of " + rig.source +
+                     " needs this quantity; log it, or set " + key + " in [air] of the rig");
   }
   return {};
 }
@@ -183,7 +185,7 @@ Status check_axis(const std::string& source, const std::vector<std::string>& com
                   const Rig& rig) {
   const std::string stated = stated_axis(comments), of_rig(1, letter(rig.axis));
   if (stated.empty() || stated == of_rig) return {};
-  return bad_input(source + ": is a log of axis " + stated + ", but the rig " + rig.source +
+  return bad_input(source + ": the log is of axis " + stated + ", but the rig " + rig.source +
                    " is for axis " + of_rig + "; give the rig of axis " + stated);
 }
 
@@ -194,13 +196,16 @@ Status check_channels(const std::string& source, const std::vector<Channel>& cha
   for (const Probe& probe : rig.probes) {
     MDOF_CHECK(check_unit(source, channels, probe.id));
     if (has_channel(channels, probe.id)) continue;
-    return bad_input(source + ": has no column of the probe \"" + probe.id + "\" of " + rig.source +
-                     " (" + probe.id + "_um or " + probe.id + "_V); its columns are " + columns +
-                     "; correct the rig or the header");
+    return bad_input(source + ": the column of the probe \"" + probe.id + "\" of " + rig.source +
+                     " (" + probe.id + "_um, " + probe.id + "_mm or " + probe.id +
+                     "_V); the columns are " + columns + "; correct the rig or the header");
   }
   MDOF_CHECK(check_air(source, channels, rig));
   if (has_channel(channels, kEncoderChannel)) return check_encoder(source, channels, rig);
-  return bad_input(source + ": has no axis position (encoder_mm); its columns are " + columns);
+  return bad_input(source +
+                   ": the axis position (column encoder_mm) is missing; add it or rename its "
+                   "column; the columns are " +
+                   columns);
 }
 
 Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& options,

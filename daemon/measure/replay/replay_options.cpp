@@ -39,23 +39,24 @@ const std::vector<ReplayOption>& replay_options() {
       {"settle_s", &Request::settle_s, Range::not_negative, Of::dwells,
        "Time left out at the start of each stop [0.1]"},
       {"min_length_s", &Request::min_length_s, Range::positive, Of::dwells,
-       "Least averaging time of a stop [0.1]"},
+       "Shortest averaging time of a stop [0.1]"},
       {"max_gap_s", &Request::max_gap_s, Range::positive, Of::each_run,
        "Longest gap between samples that is interpolated [0.05]"},
       {"lag_bound_s", &Request::lag_bound_s, Range::positive, Of::each_run,
-       "Longest silence of a probe; then its readings are missing [3]"},
+       "Silence of a probe after which its readings count as missing [3]"},
       {"remove_drift", &Request::remove_drift, Range::any, Of::each_run,
-       "Remove a significant drift from the errors and add its uncertainty"},
+       "Subtract a significant drift from the errors and add the uncertainty of the drift"},
       {"on_the_fly", &Request::on_the_fly, Range::any, Of::each_run,
-       "For an axis that never stops: each point is fitted to the readings about its target"},
+       "For an axis that never stops: fit each point to the readings around its target"},
       {"interval_mm", &Request::interval_mm, Range::positive, Of::motion,
        "On the fly: distance between targets [1]"},
       {"bin_mm", &Request::bin_mm, Range::not_negative, Of::motion,
-       "On the fly: length about a target that is used [0: the interval, at most 1]"},
+       "On the fly: length around each target whose readings are used [0: the interval, at most "
+       "1]"},
       {"from_mm", &Request::from_mm, Range::any, Of::motion,
        "On the fly: the first target [start of the travel]"},
       {"to_mm", &Request::to_mm, Range::any, Of::motion,
-       "On the fly: no target lies beyond this [end of the travel]"}};
+       "On the fly: position beyond which there is no target [end of the travel]"}};
   return options;
 }
 

@@ -84,8 +84,7 @@ Result<Rig> rig_of(const ReplayRequest& request, const ReplayLog& log) {
   if (!request.rig_source.empty()) return parse_rig(request.rig_text, request.rig_source);
   const std::string text = log.rig_text();
   if (!text.empty()) return parse_rig(text, request.log + " (its rig)");
-  return fail(ErrorCode::usage, request.log + ": is a CSV log, which contains no rig",
-              Remedy::give_rig);
+  return fail(ErrorCode::usage, request.log + ": a CSV log contains no rig", Remedy::give_rig);
 }
 
 }  // namespace

@@ -80,8 +80,9 @@ class Members {
     reject(key);
     return std::nullopt;
   }
-  void reject(std::string_view key, const char* why = "cannot be read") {
-    if (status_) status_ = bad_input("its \"" + path_ + std::string(key) + "\" " + why);
+  void reject(std::string_view key,
+              const char* why = "has a wrong type or value; restore the file from a backup") {
+    if (status_) status_ = bad_input("key \"" + path_ + std::string(key) + "\" " + why);
   }
 
  private:
@@ -202,7 +203,8 @@ Result<PipelineOptions> read_options(element object, PipelineOptions options) {
 Result<element> parsed(simdjson::dom::parser& parser, const std::string& text) {
   element root;
   if (parser.parse(simdjson::padded_string(text)).get(root) || !root.is_object())
-    return bad_input("is not a JSON object; it is damaged or was not written by mdof");
+    return bad_input(
+        "this text is not a JSON object; the text is damaged, or mdof did not write it");
   return root;
 }
 

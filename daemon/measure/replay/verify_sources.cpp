@@ -73,8 +73,9 @@ void check_file(const Source& source, const std::string& of, SourceCheck& check)
   }
   const bool recording = drivers::is_recording(path);
   if (expected.empty() && !recording) {
-    check.notes.push_back(of + ": " + path +
-                          " was not read to its end, so there is no hash to check against");
+    check.notes.push_back(
+        of + ": " + path +
+        " cannot be checked: mdof did not read this file to its end, so no hash of it is stored");
     return;
   }
   const auto actual = recording ? sha256_of_recording(path) : sha256_of_file(path);
@@ -83,7 +84,7 @@ void check_file(const Source& source, const std::string& of, SourceCheck& check)
   } else if (!expected.empty() && *actual != expected) {
     check.findings.push_back(of + ": the file " + path +
                              " is not the file that was measured (its sha256 is " + *actual +
-                             ", expected " + expected + "); restore it from a copy");
+                             ", expected " + expected + "); restore the measured file from a copy");
   }
 }
 
@@ -92,11 +93,13 @@ void add_source(const RunHeader& run, Sources& sources, SourceCheck& check) {
   const std::string of = "run " + std::to_string(run.id);
   if (run.state == RunState::open) {
     check.notes.push_back(
-        of + ": the run is being measured; its recording can be checked after its end");
+        of + ": this run is being measured; its recording can be checked after the end of the run");
   } else if (from.recording_path == "-") {
-    check.notes.push_back(of + ": its log came from the standard input and cannot be read again");
+    check.notes.push_back(of +
+                          ": its log came from the standard input, so the log cannot be checked");
   } else if (from.recording_path.empty()) {
-    check.notes.push_back(of + ": names no recording or log");
+    check.notes.push_back(
+        of + ": no recording or log is stored for this run, so nothing can be checked");
   } else {
     sources[{from.recording_path, from.recording_sha256}].push_back(run.id);
   }

@@ -65,9 +65,11 @@ std::vector<std::string> differences(const Run& before, const Run& after) {
     notes.push_back("the travel differs: " + text(a) + " before, " + text(b) +
                     " after; straightness and ranges increase with the travel");
   if (before.header.provenance.rig_text != after.header.provenance.rig_text)
-    notes.emplace_back("the rigs differ: fixture, calibration or declared uncertainties");
+    notes.emplace_back(
+        "the rigs differ in the fixture, the calibration or the declared uncertainties");
   if (before.header.provenance.model != after.header.provenance.model)
-    notes.emplace_back("the models differ");
+    notes.push_back("the models differ: " + before.header.provenance.model + " before, " +
+                    after.header.provenance.model + " after");
   return notes;
 }
 
@@ -88,7 +90,7 @@ const char* to_string(Effect effect) {
 Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& request) {
   if (request.before == request.after)
     return fail(ErrorCode::usage, "run " + std::to_string(request.before) +
-                                      " is named twice; name two runs of one axis");
+                                      " is given twice; give two different runs of one axis");
   MDOF_TRY(const Run before, store.run(request.before));
   MDOF_TRY(const Run after, store.run(request.after));
   if (before.header.axis != after.header.axis)
@@ -110,7 +112,8 @@ Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& re
       found.figures.push_back(compared(budget, *other));
   if (found.figures.empty())
     return bad_input("runs " + std::to_string(request.before) + " and " +
-                     std::to_string(request.after) + " have no figure in common");
+                     std::to_string(request.after) +
+                     " cannot be compared, because no figure has a value in both runs");
   for (Notice& notice : second.notices) found.notices.push_back(std::move(notice));
   return found;
 }

@@ -82,8 +82,8 @@ void choose_kind(Chosen& chosen, bool mixed) {
     return;
   }
   leave_out(chosen.left_out, others,
-            "rig, model, treatment of drift or on-the-fly measurement differs from " + newest +
-                " (" + words::remedy(Remedy::mix_runs) + ")");
+            "the rig, the model, the drift removal or the measurement on the fly differs from " +
+                newest + " (" + words::remedy(Remedy::mix_runs) + ")");
   std::erase_if(chosen.runs, [&](const RunHeader& run) { return kind_of(run) != kind; });
 }
 
@@ -112,7 +112,7 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
     }
     if (static_cast<std::int64_t>(page.size()) < kRunsPage) break;
   }
-  leave_out(chosen.left_out, imported, "imported, without figures of a run");
+  leave_out(chosen.left_out, imported, "imported; trends do not include imported runs");
   leave_out(chosen.left_out, simulated, "simulated");
   leave_out(chosen.left_out, partial, "not complete");
   leave_out(chosen.left_out, superseded, "superseded");
@@ -147,7 +147,8 @@ Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>&
     if (std::isfinite(budget.value))
       add_value(trends[f], {header.id}, header.started_utc, budget, whole.has_value());
     else
-      leave_out(trends[f].left_out, {header.id}, "has too few solved targets for this figure");
+      leave_out(trends[f].left_out, {header.id},
+                "too few targets have error values for this figure");
   }
   return {};
 }
@@ -203,7 +204,8 @@ Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& re
   }
   if (!others.empty())
     trend.left_out.push_back(std::to_string(others.size()) +
-                             " fits whose artefact angle or corner differs from the newest fit (" +
+                             (others.size() == 1 ? " squareness fit" : " squareness fits") +
+                             ": artefact angle or corner differs from that of the newest fit (" +
                              words::remedy(Remedy::mix_runs) + ")");
   const auto started = [&](const Squareness& s) {
     return std::max(allowed[s.run_a]->started_utc, allowed[s.run_b]->started_utc);
@@ -235,7 +237,7 @@ Status check_figure(const TrendRequest& request) {
   }
   if (request.figure.empty()) return {};
   return fail(ErrorCode::usage,
-              "\"" + request.figure + "\" is not a figure here; the figures are " + names);
+              "\"" + request.figure + "\" is not a figure of these trends; give one of: " + names);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ TEST_F(ConfigFile, EachMistakeIsNamedWithLineAndRemedy) {
       {"[rpc]\nconnections = 1\n", "from 2 to 1024"},
       {"[rpc]\nconnections_of_user = 0\n", "from 1 to 1024"},
       {"[rpc]\nidle_timeout_s = -1\n", "from 0 to 86400"},
-      {"[rpc]\ncnc_group = \"no such\"\n", "there is no group \"no such\""},
+      {"[rpc]\ncnc_group = \"no such\"\n", "this computer has no group \"no such\""},
       {"[http]\nlisten = \"0.0.0.0:8080\"\n", "mdofd.toml:4: http.listen"},
       {"[http]\nlisten = \"127.0.0.1\"\n", "http.listen"},
       {"[http]\nhosts = [\"http://mill\"]\n", "http.hosts"},

@@ -204,7 +204,7 @@ TEST(Pipeline, NothingMeasuredIsAnErrorWithItsReason) {
   EXPECT_SAYS(refusal(parked), "the encoder stays at 12.5 mm (within 0 um)");
   TestAxis passing;
   for (const double mm : {20.0, 0.0}) passing.move_to(mm, 2);
-  EXPECT_SAYS(refusal(passing), "no dwell found in 4000 scans from -0.9895 to 19.99 mm");
+  EXPECT_SAYS(refusal(passing), "no stop found in 4000 scans from -0.9895 to 19.99 mm");
   PipelineOptions elsewhere;
   elsewhere.sequence.targets_m = {0.1, 0.2};
   EXPECT_SAYS(refusal(both_ways(), elsewhere), "none of the 10 stops is near a given target");

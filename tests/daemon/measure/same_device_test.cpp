@@ -126,7 +126,7 @@ TEST_F(SameDevice, EachMistakeIsNamedWithLineAndRemedy) {
        "mdofd.toml:18: axis[2].device.same_as: no [[axis]] above has a device named \"t8\"; "
        "devices above: t7"},
       {axis_y(kSame + kEncoderY) + kX, "a device named \"t7\"; devices above: none"},
-      {kX + axis_y(kSame), "no device gives channel \"encoder\""},
+      {kX + axis_y(kSame), "no device provides channel \"encoder\""},
       {kX + axis_y(kSame + encoder("DIO0")), "input \"DIO0\" is already used by \"encoder\""},
       {kX + axis_y(kSame + encoder("DIO4")), "mdofd.toml:19: axis[2].device.channel"},
       {kX + axis_y(kSame + "rate_hz = 5\n" + kEncoderY), "rate_hz: unknown key"},
@@ -134,7 +134,7 @@ TEST_F(SameDevice, EachMistakeIsNamedWithLineAndRemedy) {
        "is neither a probe of"},
       {kX + axis_y(kSame + "channel = [{ id = \"encoder\", input = \"DIO2\" }]\n"),
        "needs um_per_count"},
-      {simulated + axis_y("same_as = \"sim\"\n"), "(simulator) can serve only one axis"},
+      {simulated + axis_y("same_as = \"sim\"\n"), "(simulator) cannot serve two axes"},
       {counter + axis_y("same_as = \"c\"\n" + encoder("count1")),
        "a linux_counter shares only its probes with a second axis"},
       {counter + axis_y("same_as = \"c\"\n"), "\"c\" has no probe of"},

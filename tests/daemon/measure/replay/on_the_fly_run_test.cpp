@@ -81,7 +81,7 @@ TEST(OnTheFlyRun, MorePointsThanARunHoldsAreRefused) {
   OnTheFlyRun long_run = OnTheFlyRun::create(five_probe_rig(), options).value();
   const auto refused = long_run.push(more);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("more than 30 points on the fly"), std::string::npos);
+  EXPECT_NE(refused.error().message.find("may have at most 30 points"), std::string::npos);
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ Status check_size(store::Store& store, std::int64_t run) {
   MDOF_TRY(const std::int64_t points, store.count_points(run));
   if (points <= kMostPoints) return {};
   return bad_input("run " + std::to_string(run) + " has " + std::to_string(points) +
-                       " points, but a call calculates a budget of at most " +
-                       std::to_string(kMostPoints) + " points",
+                       " points (limit of a budget in one call: " + std::to_string(kMostPoints) +
+                       ")",
                    Remedy::budget_run);
 }
 
@@ -75,35 +75,39 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                              "point at which errors are stated: fixture, carriage or tool", false,
                              "\"fixture\""};
   const std::string result =
-      "figures: for each figure value, u, u_random, nu_eff (null: infinite), k, U for 95 %, "
-      "not_declared, and contributors, the largest first";
-  table.add({.name = "run.budget",
-             .summary = "Calculates the uncertainty budget of a figure of a run.",
-             .params = {{"run", ParamType::integer, "id of the run", true},
-                        {"figure", ParamType::string,
-                         "name of the figure, such as EYX_straightness_um, EYX_slope_urad, "
-                         "EAX_range_urad; with at_mm such as EYX_um",
-                         true},
-                        {"at_mm", ParamType::number,
-                         "position; the figure is the error at the nearest target", false},
-                        reference},
-             .result = result,
-             .example = R"({"run": 1, "figure": "EYX_straightness_um"})",
-             .handler = on_query(m, run_budget)});
+      "figures: for each result its value, u, u_random, nu_eff (null: infinite), k, U (95 %), "
+      "not_declared, and the contributors, largest first";
+  table.add(
+      {.name = "run.budget",
+       .summary =
+           "Calculates the uncertainty budget of one result of a run, such as a straightness.",
+       .params = {{"run", ParamType::integer, "id of the run", true},
+                  {"figure", ParamType::string,
+                   "name of the result, such as EYX_straightness_um, EYX_slope_urad or "
+                   "EAX_range_urad; with at_mm the name of an error, such as EYX_um",
+                   true},
+                  {"at_mm", ParamType::number,
+                   "position at which the error is asked for; the nearest target is used", false},
+                  reference},
+       .result = result,
+       .example = R"({"run": 1, "figure": "EYX_straightness_um"})",
+       .handler = on_query(m, run_budget)});
   table.add(
       {.name = "run.compare",
-       .summary = "Compares the figures of two runs of one axis, before and after a compensation.",
-       .params = {{"before", ParamType::integer, "id of the run before", true},
-                  {"after", ParamType::integer, "id of the run after", true},
+       .summary =
+           "Compares the results of two runs of one axis: one before, one after a compensation.",
+       .params = {{"before", ParamType::integer, "id of the run before the compensation", true},
+                  {"after", ParamType::integer, "id of the run after the compensation", true},
                   reference},
-       .result = "figures: for each figure before, after and change (|after| - |before|), each "
-                 "with value, u, u_random, nu_eff, k, U for 95 %; effect: reduced, increased, or "
-                 "not shown (change within its U); notes: other differences between the runs",
+       .result = "figures: for each result before, after and change (|after| - |before|), each "
+                 "with value, u, u_random, nu_eff, k, U (95 %); effect: reduced, increased, or not "
+                 "shown (the change is within its U); notes: other differences between the runs",
        .example = R"({"before": 1, "after": 2})",
        .handler = on_query(m, compare)});
   table.add({.name = "squareness.budget",
-             .summary = "Calculates the uncertainty budget of the squareness of two axes (EC0Y, "
-                        "EB0Z or EA0Z) from a run along each axis; the rigs state the artefact.",
+             .summary =
+                 "Calculates the uncertainty budget of the squareness of two axes (EC0Y, EB0Z or "
+                 "EA0Z) from a run along each axis. The rigs state the angle of the artefact.",
              .params = squareness_params(),
              .result = result,
              .example = R"({"run_x": 1, "run_y": 2})",
@@ -115,10 +119,10 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
            "between the reference lines of their straightness, with budgets. Nothing is stored.",
        .params = {{"run_a", ParamType::integer, "id of the run that is the datum", true},
                   {"run_b", ParamType::integer,
-                   "id of the run along the same axis that is compared with it", true},
+                   "id of the run along the same axis that is compared with run_a", true},
                   {"partial", ParamType::boolean, "also accept partial runs", false, "false"}},
        .result = "parallelism: for both straightness errors and each reference line, angle_urad = "
-                 "slope of B - slope of A; from_mm, to_mm: the common travel; " +
+                 "slope of run_b - slope of run_a; from_mm, to_mm: the common travel; " +
                  result,
        .example = R"({"run_a": 1, "run_b": 2})",
        .handler = on_query(m, parallelism)});

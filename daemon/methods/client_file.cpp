@@ -31,16 +31,18 @@ bool may_read(const FileUser& user, const struct stat& file) {
 }
 
 tl::unexpected<Error> cannot_open(const std::string& path, int why) {
-  return io_error(path + ": " + rpc::system_error_text(why) +
-                  "; mdofd itself reads the log, so put it where the user of mdofd can read it");
+  return io_error(
+      path + ": " + rpc::system_error_text(why) +
+      "; mdofd opens this file itself: put the file where the user that runs mdofd can read it");
 }
 
 Status check_file(const FileUser& user, const std::string& path, int place) {
   struct stat file {};
   if (::fstat(place, &file) != 0) return cannot_open(path, errno);
   if (S_ISLNK(file.st_mode))
-    return bad_input(path + ": is a link; give the path of the file itself");
-  if (!S_ISREG(file.st_mode)) return bad_input(path + ": is not a regular file");
+    return bad_input(path + ": this path is a link; give the path of the file itself");
+  if (!S_ISREG(file.st_mode))
+    return bad_input(path + ": this path is not a regular file; give the path of a file");
   if (sqlite::is_open_for_writing(file))
     return fail(ErrorCode::conflict, path +
                                          ": mdofd is writing this file (its database, or a "
@@ -70,7 +72,7 @@ bool exists(const std::string& path) {
 
 Result<ClientFile> open_for(const FileUser& user, const std::string& path) {
   if (!path.starts_with('/'))
-    return fail(ErrorCode::usage, "path \"" + path + "\" must be absolute");
+    return fail(ErrorCode::usage, "path \"" + path + "\" must be absolute (begin with /)");
   ClientFile opened;
   MDOF_TRY(opened.file, open_checked(user, path));
   if (const std::string wal = path + "-wal"; exists(wal)) {

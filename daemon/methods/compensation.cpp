@@ -34,9 +34,10 @@ Result<const store::ActiveTable*> active_table(const Methods& m, const Params& p
   MDOF_TRY(const Axis axis, axis_param(params));
   const auto& table = m.active.axes[static_cast<std::size_t>(axis)];
   if (table) return table.get();
-  return fail(ErrorCode::not_found,
-              std::string("no compensation table is active for axis ") + letter(axis) +
-                  "; build one from runs with compensation.build and activate it");
+  return fail(
+      ErrorCode::not_found,
+      std::string("no compensation table is active for axis ") + letter(axis) +
+          "; build a table with compensation.build and activate it with compensation.activate");
 }
 
 Result<TableRequest> read_table_request(const Params& params) {
@@ -124,8 +125,9 @@ Result<std::string> grid(const Methods& m, const Params& params) {
   MDOF_TRY(const auto* active, active_table(m, params));
   const auto [offset, count] = list_page_of(params, kMaxGridPage);
   if (params.has("generation") && params.integer("generation") != active->generation) {
-    return fail(ErrorCode::conflict, "generation changed to " + std::to_string(active->generation) +
-                                         "; read the grid again from offset 0");
+    return fail(ErrorCode::conflict, "the active table changed (generation is now " +
+                                         std::to_string(active->generation) +
+                                         "); read the grid again from offset 0");
   }
   JsonWriter json;
   json.begin_object();
@@ -182,7 +184,8 @@ Result<std::string> at(const Methods& m, const Params& params) {
   MDOF_TRY(const auto* active, active_table(m, params));
   const std::int64_t direction = params.integer("direction", 0);
   if (direction < -1 || direction > 1) {
-    return fail(ErrorCode::usage, "direction must be 1 (forward), -1 (reverse) or 0 (their mean)");
+    return fail(ErrorCode::usage,
+                "direction must be 1 (forward), -1 (reverse) or 0 (mean of both)");
   }
   const auto side = direction > 0   ? algo::TableSide::forward
                     : direction < 0 ? algo::TableSide::reverse
@@ -201,7 +204,7 @@ Result<std::string> at(const Methods& m, const Params& params) {
   write_correction(json, table, value.error);
   write_values(json, "u", table.axis, value.u);
   write_values(json, "u_interpolation", table.axis, value.u_interpolation);
-  write_covers(json, covers_text(table) + "; between targets also the interpolation",
+  write_covers(json, covers_text(table) + "; between targets u also includes the interpolation",
                table.not_declared);
   json.field("inside", value.inside)
       .field("simulated", table.simulated)
@@ -220,7 +223,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                           "free text that explains the change; stored in the history", false,
                           "\"\""};
   std::vector<rpc::Param> build_params{
-      {"runs", ParamType::array, "ids of runs of one axis and the same targets", true},
+      {"runs", ParamType::array, "ids of runs of one axis with the same targets", true},
       {"keep_slope", ParamType::boolean,
        "keep the slope in the straightness (by default the slope belongs to squareness)", false,
        "false"},
@@ -230,83 +233,88 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        "else the fixture]",
        false}};
   for (rpc::Param& limit : limit_params()) build_params.push_back(std::move(limit));
-  table.add(
-      {.name = "compensation.build",
-       .summary = "Builds and stores a table of one axis from runs; the table is not yet active.",
-       .params = std::move(build_params),
-       .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
-                 "simulated, doubtful, notices, notes",
-       .example = R"({"runs": [1]})",
-       .writes = true,
-       .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
+  table.add({.name = "compensation.build",
+             .summary =
+                 "Builds a table of one axis from runs and stores the table without activating it.",
+             .params = std::move(build_params),
+             .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
+                       "simulated, doubtful, notices, notes",
+             .example = R"({"runs": [1]})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
   table.add(
       {.name = "compensation.activate",
-       .summary =
-           "Activates a stored table on its axis, or on the volume, at once and for all clients.",
+       .summary = "Activates a stored table (of an axis or of the volume) at once for all clients.",
        .params = {{"table", ParamType::integer, "id of the table", true},
                   {"simulated", ParamType::boolean, "also accept a table of simulated data", false,
                    "false"},
                   {"despite_warnings", ParamType::boolean,
-                   "also accept a table whose runs have doubtful notices", false, "false"},
+                   "also accept a table that is doubtful because of notices of its runs", false,
+                   "false"},
                   reason},
        .result =
-           "table, generation, changed: false if the table was already active; simulated, doubtful",
+           "table, generation, changed (false: the table was already active), simulated, doubtful",
        .example = R"({"table": 1})",
        .writes = true,
        .approves = true,
        .handler = [&m](const Params& p, Reply r) { activate(m, p, std::move(r)); }});
-  table.add(
-      {.name = "compensation.deactivate",
-       .summary =
-           "Deactivates the table of an axis or of the volume; no table is active afterwards.",
-       .params = {axis, reason},
-       .result = "axis, generation, changed: false if no table was active",
-       .example = R"({"axis": "X"})",
-       .writes = true,
-       .approves = true,
-       .handler = [&m](const Params& p, Reply r) { deactivate(m, p, std::move(r)); }});
-  table.add(
-      {.name = "compensation.status",
-       .summary = "Lists the active tables by axis, with the generation, which increases with each "
-                  "change.",
-       .result = "generation; axes: table, runs, range, sense, simulated, doubtful, who activated "
-                 "it and when; volume: the same members for the volumetric table, or null",
-       .handler = [&m](const Params&) -> Result<std::string> { return status(m); }});
+  table.add({.name = "compensation.deactivate",
+             .summary = "Deactivates the active table of one axis, or of the volume. The tables of "
+                        "other axes stay active.",
+             .params = {axis, reason},
+             .result = "axis, generation, changed (false: no table was active)",
+             .example = R"({"axis": "X"})",
+             .writes = true,
+             .approves = true,
+             .handler = [&m](const Params& p, Reply r) { deactivate(m, p, std::move(r)); }});
+  table.add({.name = "compensation.status",
+             .summary = "Lists the active tables by axis, with the generation (a number that "
+                        "increases with each change of an active table).",
+             .result = "generation; axes: for each active table its number, runs, range, sense, "
+                       "simulated, doubtful, activated_by, activated_utc; volume: the same members "
+                       "of the volumetric table, or null",
+             .handler = [&m](const Params&) -> Result<std::string> { return status(m); }});
   table.add(
       {.name = "compensation.grid",
-       .summary = "Returns the grid of the active table, in pages. Axis: errors, forward and "
-                  "reverse separately. Volume: corrections.",
+       .summary = "Returns the grid of the active table, in pages. For an axis: errors, forward "
+                  "and reverse separately. For the volume: corrections.",
        .params = {axis,
                   offset_param(),
                   count_param(kMaxNodesPage),
                   {"generation", ParamType::integer,
-                   "generation of the pages already read: error -32001 if it has changed", false},
+                   "generation of the pages already read; if the generation has changed, the call "
+                   "fails with error -32001",
+                   false},
                   {"u_parts", ParamType::boolean,
                    "for the volume: also return u_common and u_independent of each node", false,
                    "false"}},
        .result =
-           "members of the table, doubtful, generation; for an axis points: errors (actual - "
-           "nominal) in um and urad; for the volume nodes: for each X, Y, Z in mm, three "
-           "corrections and three u in um, with u_parts three u_common and three u_independent",
+           "members of the table, doubtful, generation, points. Points of an axis: errors (actual "
+           "- nominal) in um and urad. Points of the volume: X, Y, Z in mm, three corrections and "
+           "three u in um; with u_parts also three u_common and three u_independent",
        .example = R"({"axis": "X", "offset": 0, "count": 20})",
        .handler = [&m](const Params& p) { return grid(m, p); }});
-  table.add({.name = "compensation.at",
-             .summary = "Returns the correction at a position: linear between grid points, outside "
-                        "the grid the end value (inside is then false).",
-             .params = {axis,
-                        {"position_mm", ParamType::number,
-                         "position on the axis; required for an axis", false},
-                        {"X_mm", ParamType::number, "command of X, for the volume", false, "0"},
-                        {"Y_mm", ParamType::number, "command of Y, for the volume", false, "0"},
-                        {"Z_mm", ParamType::number, "command of Z, for the volume", false, "0"},
-                        {"direction", ParamType::integer,
-                         "1 forward, -1 reverse, 0 the mean of both", false, "0"}},
-             .result = "axis: error in um and urad; correction, to be added to the command (null "
-                       "with correction_reason if its sign is unknown); u; inside: this approach "
-                       "was measured there; simulated; doubtful: its runs have doubtful notices; "
-                       "generation. Volume: correction, u, u_common and u_independent by axis",
-             .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
-             .handler = [&m](const Params& p) { return at(m, p); }});
+  table.add(
+      {.name = "compensation.at",
+       .summary = "Returns the correction at a position: interpolated linearly between grid "
+                  "points; outside the grid the end value, with \"inside\" = false.",
+       .params =
+           {axis,
+            {"position_mm", ParamType::number, "position on the axis; required for an axis", false},
+            {"X_mm", ParamType::number,
+             "for the volume: command of X [axis not in the grid: its position in the table]",
+             false, "0"},
+            {"Y_mm", ParamType::number, "for the volume: command of Y [as for X]", false, "0"},
+            {"Z_mm", ParamType::number, "for the volume: command of Z [as for X]", false, "0"},
+            {"direction", ParamType::integer, "1: forward, -1: reverse, 0: mean of both", false,
+             "0"}},
+       .result =
+           "Axis: error in um and urad; correction, to be added to the command (null if the sign "
+           "is unknown; correction_reason states why); u; inside (true: this approach was measured "
+           "at this position); simulated; doubtful (true: its runs have notices that make the "
+           "table doubtful); generation. Volume: correction, u, u_common and u_independent by axis",
+       .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
+       .handler = [&m](const Params& p) { return at(m, p); }});
 }
 
 }  // namespace mdof::daemon

@@ -46,8 +46,9 @@ void set_encoder(Methods& m, const Params& params, Reply reply) {
 
 void add_encoder_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "encoder.set",
-             .summary = "Sets the present position of an axis with an incremental encoder; it "
-                        "holds until the device of the encoder loses power.",
+             .summary =
+                 "Sets the present position of an axis that has an incremental encoder. The "
+                 "setting is lost when the device of the encoder loses power or mdofd restarts.",
              .params = {{"axis", ParamType::string, "X, Y or Z", true},
                         {"position_mm",
                          ParamType::number,

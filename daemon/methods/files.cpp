@@ -112,8 +112,12 @@ rpc::Param param_of(const ReplayOption& option) {
 }
 
 rpc::Param path_param() {
-  return {"path", ParamType::string, "absolute path of a file that caller and mdofd may read", true,
-          {},     {.bytes = 4096}};
+  return {"path",
+          ParamType::string,
+          "absolute path of a file that both the caller and mdofd may read",
+          true,
+          {},
+          {.bytes = 4096}};
 }
 
 std::vector<rpc::Param> replay_params() {
@@ -127,7 +131,12 @@ std::vector<rpc::Param> replay_params() {
        {.bytes = 60'000}},
       {"rig_source", ParamType::string, "file name of the rig, for messages", false},
       {"model", ParamType::string, "simplified, exact or rigid", false, "\"\""},
-      {"targets_mm", ParamType::array, "nominal positions", false, "[]", {.items = 10'000}},
+      {"targets_mm",
+       ParamType::array,
+       "nominal positions of the targets",
+       false,
+       "[]",
+       {.items = 10'000}},
       {"note", ParamType::string, "free text, stored with the run", false, "\"\""}};
   for (const ReplayOption& option : replay_options()) params.push_back(param_of(option));
   return params;
@@ -139,14 +148,17 @@ std::vector<rpc::Param> import_params() {
       path_param(),
       {"axis", ParamType::string, "X, Y or Z", true},
       {"error", ParamType::string,
-       "error that was measured, such as EYX [positioning: EXX for axis X]", false, "\"\""},
-      {"format", ParamType::string, "csv, iso230-2 or rtl [as in the file]", false, "\"\""},
+       "error that was measured, such as EYX [positioning error of the axis, such as EXX]", false,
+       "\"\""},
+      {"format", ParamType::string,
+       "format of the file: csv, iso230-2 or rtl [recognised from the file]", false, "\"\""},
       {"sense", ParamType::string,
-       "sense of positioning: command (actual - commanded position) or body (along + of the "
-       "machine) [command]",
+       "sign of positioning errors: \"command\" (actual - commanded position) or \"body\" "
+       "(positive along + of the machine) [\"command\"]",
        false},
       {"travel", ParamType::string,
-       "+ if the body moves along + when the command increases, - if it moves along - [unknown]",
+       "\"+\": the body moves along + when the command increases; \"-\": the body moves along - "
+       "[unknown]",
        false},
       {"u_um",
        ParamType::number,
@@ -161,7 +173,8 @@ std::vector<rpc::Param> import_params() {
        {},
        not_negative},
       {"note", ParamType::string, "free text, stored with the run", false, "\"\""},
-      {"despite_warnings", ParamType::boolean, "also accept a doubtful file", false, "false"}};
+      {"despite_warnings", ParamType::boolean,
+       "also accept a file that is doubtful because of notices", false, "false"}};
   for (rpc::Param& limit : limit_params()) params.push_back(std::move(limit));
   return params;
 }
@@ -169,20 +182,22 @@ std::vector<rpc::Param> import_params() {
 }  // namespace
 
 void add_files_methods(rpc::MethodTable& table, Methods& m) {
-  table.add(
-      {.name = "run.replay",
-       .summary = "Replays a log or a recording and stores the run; mdofd replays one at a time.",
-       .params = replay_params(),
-       .result = "run: id of the run, sent once the run is stored (a long log takes long)",
-       .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
-       .writes = true,
-       .handler = [&m](const Params& p, Reply r) {
-         store_run(m, p, read_replay_request(p), replayed, "run.replay", std::move(r));
-       }});
+  table.add({.name = "run.replay",
+             .summary = "Replays a log or a recording and stores the result as a run. mdofd "
+                        "replays one file at a time.",
+             .params = replay_params(),
+             .result = "run: id of the run. The reply is sent after the run is stored (a long log "
+                       "takes a long time)",
+             .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
+             .writes = true,
+             .handler = [&m](const Params& p, Reply r) {
+               store_run(m, p, read_replay_request(p), replayed, "run.replay", std::move(r));
+             }});
   table.add({.name = "run.import",
-             .summary = "Stores a file with measurements of another instrument as a run.",
+             .summary =
+                 "Imports a file with the readings of another instrument and stores them as a run.",
              .params = import_params(),
-             .result = "run: id of the run, sent once the run is stored",
+             .result = "run: id of the run. The reply is sent after the run is stored",
              .example = R"({"path": "/var/lib/mdof/laser_X.rtl", "axis": "X", "u_um": 0.3})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) {

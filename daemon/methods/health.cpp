@@ -57,10 +57,11 @@ Result<QueryThread::Work> health(Methods& m, const Params&) {
 
 void add_health_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.health",
-             .summary = "What is left of the disk, and who is connected.",
-             .result = "free_bytes of the disk that takes the recordings, database_bytes, "
-                       "newest_recording: run and bytes; null where it is not known; clients: one "
-                       "text each",
+             .summary = "Returns the free disk space, the size of the database and of the newest "
+                        "recording, and the connected clients.",
+             .result =
+                 "free_bytes of the disk with the recordings; database_bytes; newest_recording: "
+                 "run and bytes; clients: one text for each client. Unknown values are null",
              .handler = on_query(m, health)});
 }
 

@@ -34,8 +34,8 @@ void add_history_methods(rpc::MethodTable& table, Methods& m) {
        .summary = "Lists recorded actions on runs, squareness, tables and encoders (who, what, "
                   "when), newest first, in pages.",
        .params = {offset_param(), count_param(kMaxActionsPage)},
-       .result = "total, history: deed (run.start, compensation.activate, ...), of and id (object "
-                 "of the action), utc, uid, gid, pid, user; detail, where there are details",
+       .result = "total, history: \"deed\" (name of the action, such as run.start), \"of\" and "
+                 "\"id\" (object of the action), utc, uid, gid, pid, user, detail (if any)",
        .example = R"({"offset": 0, "count": 20})",
        .handler = on_query(m, list_history)});
 }

@@ -21,8 +21,8 @@ constexpr const char* kComponents[] = {"x_um", "y_um", "z_um", "a_urad", "b_urad
 Status check_no_files(const Machine& machine) {
   if (!names_files(machine)) return {};
   return bad_input(
-      "machine.at reads no files; give the tables in the text, as EXX_um = [[…]], or name runs and "
-      "tables of the database");
+      "the machine file names other files, but machine.at reads no files; give the tables in the "
+      "text, as EXX_um = [[…]], or name runs and tables of the database");
 }
 
 void write_error(JsonWriter& json, const char* key, const algo::Vector6& error) {
@@ -43,7 +43,9 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
   for (int k = 0; k < 3; ++k) json.field(kComponents[k], model.causes.empty() ? kNaN : to_um(u[k]));
   json.end_object();
   if (model.causes.empty())
-    json.field("u_reason", "neither a source nor the u of an error is declared");
+    json.field("u_reason",
+               "u is unknown, because the machine file declares neither sources of uncertainty nor "
+               "the u of an error");
   std::vector<std::string> missing;
   for (const auto& names : error.not_measured) algo::add_new(names, missing);
   write_strings(json, "not_measured", missing);
@@ -82,8 +84,8 @@ std::vector<rpc::Param> machine_params() {
            {},
            {.bytes = 60'000}},
           {"machine_source", ParamType::string,
-           "file name of the machine file, for messages; an absolute path if it names files, which "
-           "are read from its folder",
+           "file name of the machine file, for messages. If the machine file names other files: "
+           "its absolute path (the other files are read from the same folder)",
            false}};
 }
 
@@ -112,15 +114,16 @@ std::vector<rpc::Param> command_params(const char* what) {
 
 void add_machine_methods(rpc::MethodTable& table, Methods& m) {
   std::vector<rpc::Param> params = machine_params();
-  for (rpc::Param& each : command_params("command of the axis")) params.push_back(std::move(each));
+  for (rpc::Param& each : command_params("commanded position of the axis"))
+    params.push_back(std::move(each));
   table.add({.name = "machine.at",
-             .summary = "Calculates the error of the tool relative to the work at a command of a "
-                        "machine, with u. Nothing is stored.",
+             .summary = "Calculates the error of the tool relative to the workpiece at a commanded "
+                        "position of a machine, with u. Nothing is stored.",
              .params = params,
-             .result =
-                 "error (actual - nominal, by the exact product): x_um, y_um, z_um, a_urad, "
-                 "b_urad, c_urad; u of x, y and z (linear form); not_measured, beyond_tables: "
-                 "names of errors; notices of the stored runs that the machine names",
+             .result = "error (actual - nominal, without linearisation): x_um, y_um, z_um, a_urad, "
+                       "b_urad, c_urad; u of x, y and z (linearised); not_measured: errors that "
+                       "were not measured; beyond_tables: errors whose table does not reach this "
+                       "position; notices of the stored runs that the machine file names",
              .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
                         R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
                         R"(EXX_um = 2\nu_EXX_um = 0.1\n", "X_mm": 10})",

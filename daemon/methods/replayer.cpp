@@ -78,8 +78,9 @@ bool Replayer::was_left_behind() {
 
 void Replayer::start(Make make, const HistoryEntry& action, Done done) {
   if (shared_->busy.exchange(true))
-    return done(fail(ErrorCode::conflict,
-                     "mdofd is replaying or importing another log; try again when that has ended"));
+    return done(
+        fail(ErrorCode::conflict,
+             "mdofd is replaying or importing another file; try again when mdofd has finished"));
   if (thread_.joinable()) thread_.join();  // it has done its work, or is about to have
   {
     const std::lock_guard lock(shared_->mutex);

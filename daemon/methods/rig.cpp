@@ -76,13 +76,14 @@ Result<std::string> get_rig(Methods& m, const Params& params) {
 
 void add_rig_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "rig.get",
-             .summary = "The fixture of an axis as it is configured: its probes, their ranges and "
-                        "their calibrations.",
+             .summary = "Returns the configured fixture of an axis: probes, their ranges and their "
+                        "calibrations.",
              .params = {{"axis", ParamType::string, "X, Y or Z", true}},
-             .result = "axis, rig, moves, travel, chain; probes: position_mm and direction in the "
-                       "fixture's frame, reads, range_um, low_um and high_um (displacements at "
-                       "the ends of its range), certificate, laboratory, calibrated, due; records "
-                       "of calibrations in place; u_not_declared; notices of what is overdue",
+             .result =
+                 "axis, rig, moves, travel, chain; probes: position_mm and direction in the "
+                 "fixture's frame, reads, range_um, low_um and high_um (displacements at the ends "
+                 "of its range), certificate, laboratory, calibrated, due; records: calibrations "
+                 "made on the machine; u_not_declared; notices of overdue calibrations",
              .example = R"({"axis": "X"})",
              .handler = [&m](const Params& p) { return get_rig(m, p); }});
 }

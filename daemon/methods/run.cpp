@@ -60,7 +60,9 @@ Result<std::vector<double>> read_targets(const Params& params) {
   if (!params.has("from_mm") && !params.has("to_mm") && !params.has("interval_mm"))
     return params.numbers("targets_mm");
   if (params.has("targets_mm"))
-    return fail(ErrorCode::usage, "targets_mm and from_mm are both given; give one of them");
+    return fail(ErrorCode::usage,
+                "targets_mm and an interval (from_mm, to_mm, interval_mm) are both given; give "
+                "only one of the two");
   for (const char* key : {"from_mm", "to_mm", "interval_mm"})
     if (!params.has(key))
       return fail(
@@ -91,7 +93,7 @@ Result<RunRequest> read_run_request(const Params& params) {
   }
   if (request.repeats > 0 && request.targets_m.empty()) {
     return fail(ErrorCode::usage,
-                "repeats needs targets; give targets_mm, or from_mm, to_mm and interval_mm");
+                "\"repeats\" needs targets; give targets_mm, or from_mm, to_mm and interval_mm");
   }
   if (auto hidden = scale_period_notice(targets_mm, params.number("scale_period_um", 0)))
     request.notices.push_back(std::move(*hidden));
@@ -230,7 +232,9 @@ StatedRun stated_in_a_call(const Run& run) {
   Run beginning = run;
   beginning.points.resize(1);
   return {uncertainty_of(beginning),
-          {{}, "too many points for a call; " + words::remedy(Remedy::analyse_run)}};
+          {{},
+           "the run has too many points for one call (limit " + std::to_string(kMostStated) +
+               "); " + words::remedy(Remedy::analyse_run)}};
 }
 
 std::string run_json(const Run& run, const StatedRun& stated, const RunHeader& header,
@@ -258,7 +262,7 @@ Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::i
   MDOF_TRY(const std::int64_t points, store.count_points(id));
   if (points > kMaxRunPoints)
     return bad_input("run " + std::to_string(id) + " has " + std::to_string(points) +
-                         " points, too many for one call",
+                         " points (limit of one call: " + std::to_string(kMaxRunPoints) + ")",
                      Remedy::show_run, std::to_string(id));
   MDOF_TRY(auto run, run_stated_at(store, id, reference));
   explain(m, run.header);
@@ -299,52 +303,54 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
            {axis,
             {"targets_mm",
              ParamType::array,
-             "nominal positions, ascending; without targets mdofd finds them from the stops",
+             "nominal positions in ascending order [none: mdofd finds the targets from the stops]",
              false,
              "[]",
              {.items = kMaxTargets}},
-            {"from_mm", ParamType::number, "first target, instead of targets_mm", false},
-            {"to_mm", ParamType::number, "end of the targets; the last target is not beyond it",
-             false},
+            {"from_mm", ParamType::number,
+             "first target; give from_mm, to_mm and interval_mm instead of targets_mm", false},
+            {"to_mm", ParamType::number,
+             "end of the range of targets; the last target is at or before this position", false},
             {"interval_mm", ParamType::number, "distance between targets", false},
             {"jitter_mm", ParamType::number, "largest random shift of a target", false, "0"},
             {"seed", ParamType::integer, "seed of the random shifts", false, "1", {.least = 0}},
             {"scale_period_um",
              ParamType::number,
-             "signal period of the encoder's scale; mdofd warns if the intervals hide the periodic "
-             "error of the scale",
+             "signal period of the encoder's scale; mdofd warns if the distances between targets "
+             "hide the periodic error of the scale",
              false,
              "0",
              {.least = 0}},
             {"repeats",
              ParamType::integer,
-             "passes over the targets in each direction after which the run is complete (the axis "
-             "must overrun both ends); 0: until run.stop",
+             "number of passes over the targets in each direction, after which the run ends (the "
+             "axis must overrun both ends); 0: the run ends at run.stop",
              false,
              "0",
              {.least = 0, .most = 10'000}},
             {"note", ParamType::string, "free text, stored with the run", false, "\"\""}},
-       .result =
-           "run, axis, targets_mm, notices, notes; sent once the run is on the disk and measures",
+       .result = "run, axis, targets_mm, notices, notes. The reply is sent after the run is on the "
+                 "disk and measures",
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});
   table.add({.name = "run.resume",
-             .summary = "Continues a run that was cut off, as a new run that supersedes it and "
-                        "begins with its recorded samples.",
+             .summary = "Continues a run that ended early. The new run begins with the recorded "
+                        "samples of the old run and supersedes the old run.",
              .params = {run},
-             .result = "the members of the result of run.start",
+             .result = "the same members as the result of run.start",
              .example = R"({"run": 1})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) { resume_run(m, p, std::move(r)); }});
-  table.add({.name = "run.stop",
-             .summary = "Ends the run under way and evaluates it.",
-             .params = {run, {"abort", ParamType::boolean, "mark it as aborted", false, "false"}},
-             .result = "run: id of the evaluated run; it is a new run, which supersedes this one, "
-                       "if the sequence of targets was found to be different",
-             .example = R"({"run": 1})",
-             .writes = true,
-             .handler = [&m](const Params& p, Reply r) { stop_run(m, p, std::move(r)); }});
+  table.add(
+      {.name = "run.stop",
+       .summary = "Ends a run that is under way and evaluates it.",
+       .params = {run, {"abort", ParamType::boolean, "mark the run as aborted", false, "false"}},
+       .result = "run: id of the evaluated run. If mdofd renumbered the targets at the end, this "
+                 "is a new run that supersedes the stopped run",
+       .example = R"({"run": 1})",
+       .writes = true,
+       .handler = [&m](const Params& p, Reply r) { stop_run(m, p, std::move(r)); }});
   table.add({.name = "run.list",
              .summary = "Lists runs, newest first, in pages.",
              .params = {offset,
@@ -357,8 +363,8 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Returns a run without its points: header, provenance, straightness, "
                         "angles, plausibility, who started and stopped it.",
              .params = {run, reference},
-             .result = "the run; straightness in um, slopes and angles in urad; n_ij is null if it "
-                       "is too long for a reply",
+             .result = "the run; straightness in um, slopes and angles in urad; n_ij (numbers of "
+                       "visits) is null if the list is too long for a reply",
              .example = R"({"run": 1})",
              .handler = on_query(m, get_run)});
   table.add(

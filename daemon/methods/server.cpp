@@ -121,10 +121,11 @@ HistoryEntry action_with_reason(const Params& params, std::string name) {
 }
 
 std::vector<rpc::Param> limit_params() {
-  return {
-      {"limit_um", ParamType::number, "largest value (angles: urad) [1000 um, 10000 urad]", false},
-      {"limit_um_per_mm", ParamType::number,
-       "largest slope (angles: urad/mm) [50 um/mm, 500 urad/mm]", false}};
+  return {{"limit_um", ParamType::number,
+           "largest value that is allowed, in um (angles: in urad) [1000 um, 10000 urad]", false},
+          {"limit_um_per_mm", ParamType::number,
+           "largest slope that is allowed, in um/mm (angles: in urad/mm) [50 um/mm, 500 urad/mm]",
+           false}};
 }
 
 Result<algo::TableLimits> limits_param(const Params& params) {
@@ -178,9 +179,9 @@ Result<ActiveTables> load_active(store::Store& store) {
     }
     if (active && active->table.without_stated_point) {
       std::fprintf(stderr,
-                   "compensation table %lld of axis %c does not state at which point it holds and "
-                   "what sign a correction has (older version), so it is not served; build a new "
-                   "table from its runs and activate that\n",
+                   "compensation table %lld of axis %c is from an older version and is not served, "
+                   "because it states neither its reference point nor the sign of its corrections; "
+                   "build a new table from its runs and activate the new table\n",
                    static_cast<long long>(active->table.id), letter(axis));
       continue;
     }
@@ -228,20 +229,22 @@ Change change_active(Methods& m, std::string reply_members,
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.info",
              .summary = "Returns version, uptime, axes and the compensation generation.",
-             .result = "identity of the daemon; http: url of the web page and the file of its "
-                       "token, or null; chain: link and sha256 of the newest entry of the chain of "
-                       "hashes (a later check can name it); axes with their devices, the "
-                       "run under way and the datum of the encoder positions: datum (absolute, "
-                       "none, configured, set, index), offset_mm, note",
+             .result =
+                 "identity of the daemon; http: url of the web page and path of its token file, or "
+                 "null; chain: link and sha256 of the newest entry in the chain of hashes, for a "
+                 "later check of the database; axes: devices, run under way, datum of the encoder "
+                 "(absolute, none, configured, set or index), offset_mm, note",
              .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
-  table.add({.name = "device.list",
-             .summary = "Lists the devices with axis, state, last error, channels and counts.",
-             .result = "devices",
-             .handler = [&m](const Params&) -> Result<std::string> { return device_list(m); }});
+  table.add(
+      {.name = "device.list",
+       .summary = "Lists the devices with axis, state, last error, channels and numbers of scans.",
+       .result = "devices",
+       .handler = [&m](const Params&) -> Result<std::string> { return device_list(m); }});
   table.add({.name = "live.subscribe",
-             .summary = "Subscribes to the notifications live.update (always the newest values) "
-                        "and run.event (each step of a run, once it is on the disk, and each "
-                        "change of the active compensation table: type compensation, generation).",
+             .summary =
+                 "Subscribes to two notifications. live.update: the newest values. run.event: "
+                 "each step of a run, after the step is on the disk, and each change of an active "
+                 "compensation table (type \"compensation\", with the generation).",
              .params = {{"interval_ms",
                          ParamType::integer,
                          "shortest time between two updates",

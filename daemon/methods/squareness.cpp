@@ -64,8 +64,8 @@ Result<SquarenessRequest> squareness_param(const Params& params) {
 void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
   std::vector<rpc::Param> fit =
       squareness_params({{"artefact_angle_error_urad", ParamType::number,
-                          "angle error of the square: its material encloses 90 deg + this value at "
-                          "the corner of its two faces [as stated in the rigs]",
+                          "angle error of the square: the angle between its two faces, inside the "
+                          "material, is 90 deg + this value [as stated in the rigs]",
                           false},
                          {"u_artefact_urad",
                           ParamType::number,
@@ -73,18 +73,18 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
                           false,
                           {},
                           {.least = 0}}});
-  table.add({.name = "squareness.fit",
-             .summary = "Calculates the squareness of two axes from a run along each and stores it "
-                        "with its standard uncertainty: EC0Y for X and Y, EB0Z for X and Z, EA0Z "
-                        "for Y and Z. The same fit is stored once.",
-             .params = std::move(fit),
-             .result =
-                 "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), or the same for "
+  table.add(
+      {.name = "squareness.fit",
+       .summary = "Calculates the squareness of two axes from a run along each axis, and stores "
+                  "the squareness with its standard uncertainty. X and Y give EC0Y, X and Z give "
+                  "EB0Z, Y and Z give EA0Z. An identical result is stored only once.",
+       .params = std::move(fit),
+       .result = "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), or the same for "
                  "EB0Z or EA0Z; form_urad (residual straightness of both axes) and both slopes, at "
                  "the fixture; sense; notices",
-             .example = R"({"run_x": 1, "run_y": 2})",
-             .writes = true,
-             .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});
+       .example = R"({"run_x": 1, "run_y": 2})",
+       .writes = true,
+       .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});
 }
 
 }  // namespace mdof::daemon

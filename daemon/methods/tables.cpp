@@ -114,25 +114,27 @@ Result<QueryThread::Work> get_table(Methods& m, const Params& params) {
 }  // namespace
 
 void add_tables_methods(rpc::MethodTable& table, Methods& m) {
-  table.add({.name = "compensation.list",
-             .summary = "The stored tables, newest first, a page at a time.",
-             .params = {rpc::offset_param(),
-                        rpc::count_param(kMaxTablesPage),
-                        {"axis", ParamType::string,
-                         "X, Y or Z: of this axis only; volume: those of the volume", false}},
-             .result = "tables: the members of each without its points, active, generation (0: "
-                       "not active)",
-             .example = R"({"axis": "X", "count": 10})",
-             .handler = on_query(m, list_tables)});
-  table.add({.name = "compensation.table",
-             .summary = "A stored table of one axis, whether active or not, its points a page at a "
-                        "time.",
-             .params = {{"table", ParamType::integer, "id of the table", true},
-                        rpc::offset_param(),
-                        rpc::count_param(kMaxRowsPage)},
-             .result = "as of compensation.grid, with active",
-             .example = R"({"table": 1, "offset": 0, "count": 20})",
-             .handler = on_query(m, get_table)});
+  table.add(
+      {.name = "compensation.list",
+       .summary = "Lists the stored tables, newest first, in pages.",
+       .params = {rpc::offset_param(),
+                  rpc::count_param(kMaxTablesPage),
+                  {"axis", ParamType::string,
+                   "X, Y or Z: list only tables of this axis; volume: list only volumetric tables",
+                   false}},
+       .result = "tables: the members of each table without the points, active, generation (0: not "
+                 "active)",
+       .example = R"({"axis": "X", "count": 10})",
+       .handler = on_query(m, list_tables)});
+  table.add(
+      {.name = "compensation.table",
+       .summary = "Returns a stored table of one axis, active or not, with its points in pages.",
+       .params = {{"table", ParamType::integer, "id of the table", true},
+                  rpc::offset_param(),
+                  rpc::count_param(kMaxRowsPage)},
+       .result = "the same members as the result of compensation.grid, and \"active\"",
+       .example = R"({"table": 1, "offset": 0, "count": 20})",
+       .handler = on_query(m, get_table)});
 }
 
 }  // namespace mdof::daemon

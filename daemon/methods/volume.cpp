@@ -24,8 +24,8 @@ constexpr std::string_view kAxes = "XYZ";
 Result<const store::ActiveVolumetric*> active_volume(const Methods& m) {
   if (m.active.volume) return m.active.volume.get();
   return fail(ErrorCode::not_found,
-              "no volumetric table is active; build one from a machine file with "
-              "compensation.build_volume and activate it");
+              "no volumetric table is active; build a table with compensation.build_volume and "
+              "activate it with compensation.activate");
 }
 
 Result<algo::VolumetricRequest> read_grid(const Params& params, const Machine& machine) {
@@ -77,10 +77,10 @@ struct ClientFiles {
   Status read(VolumetricTableRequest& request) const {
     if (!names_files(request.machine)) return {};
     if (!user || !source.starts_with('/'))
-      return fail(ErrorCode::usage,
-                  source +
-                      ": names tables in files; give machine_source as an absolute path in the "
-                      "folder of these files (Unix socket only), or give the tables in the text");
+      return fail(ErrorCode::usage, source +
+                                        ": the machine file names other files; call over the Unix "
+                                        "socket and give machine_source as an absolute path in the "
+                                        "folder of these files, or give the tables in the text");
     std::vector<ClientFile> open;
     const FindFile beside = files_beside(source);
     MDOF_TRY(
@@ -154,8 +154,9 @@ Result<std::string> volume_grid(const Methods& m, const Params& params) {
   MDOF_TRY(const auto* active, active_volume(m));
   const auto [offset, count] = list_page_of(params, kMaxNodesPage);
   if (params.has("generation") && params.integer("generation") != active->generation)
-    return fail(ErrorCode::conflict, "generation changed to " + std::to_string(active->generation) +
-                                         "; read the grid again from offset 0");
+    return fail(ErrorCode::conflict, "the active table changed (generation is now " +
+                                         std::to_string(active->generation) +
+                                         "); read the grid again from offset 0");
   const VolumetricTable& table = active->table;
   const bool with_parts = params.boolean("u_parts", false);
   JsonWriter json(48 * 1024);
@@ -210,21 +211,22 @@ void add_volume_methods(rpc::MethodTable& table, Methods& m) {
   params.push_back({"axes", ParamType::string, "axes of the grid: XYZ, XY, XZ or YZ", true});
   params.push_back({"step_mm",
                     ParamType::number,
-                    "approximate distance between nodes",
+                    "approximate distance between nodes of the grid",
                     true,
                     {},
                     {.least = 1e-3, .most = 1e6}});
-  for (rpc::Param& each : command_params("command of the axis if it is not an axis of the grid"))
+  for (rpc::Param& each :
+       command_params("commanded position of this axis if the axis is not in the grid"))
     params.push_back(std::move(each));
   params.push_back({"approach", ParamType::string, "approach direction: mean, forward or reverse",
                     false, "\"mean\""});
   params.push_back({"incomplete", ParamType::boolean,
-                    "also build if an error that acts at the tool was not measured", false,
-                    "false"});
+                    "also build the table if an error that acts at the tool was not measured",
+                    false, "false"});
   for (rpc::Param& limit : limit_params()) params.push_back(std::move(limit));
   table.add({.name = "compensation.build_volume",
-             .summary = "Builds and stores a table of corrections over a plane or a volume of a "
-                        "machine with its measured errors; the table is not yet active.",
+             .summary = "Builds a table of corrections over a plane or a volume from the measured "
+                        "errors of a machine, and stores the table without activating it.",
              .params = std::move(params),
              .result = "table, machine, commands of the nodes, interpolation, residual errors, "
                        "not_measured, simulated, doubtful, notices",

@@ -157,7 +157,7 @@ TEST_F(CompensationMethods, AGridIsReadByPageAndAnotherGenerationIsTold) {
   EXPECT_EQ(call("compensation.grid", R"({"axis":"X","offset":5})").size("/result/points"), 0u);
   const Answer changed = call("compensation.grid", R"({"axis":"X","generation":7})");
   EXPECT_EQ(changed.code(), rpc::kChanged);
-  EXPECT_SAID(changed.message(), "generation changed to " + generation);
+  EXPECT_SAID(changed.message(), "generation is now " + generation);
 }
 
 TEST_F(CompensationMethods, OutOfForceNothingIsServed) {

@@ -109,14 +109,14 @@ TEST_F(RunMethods, WhatCannotBeMeasuredIsRefusedByItsKey) {
   EXPECT_TEXT(refused_start(R"("targets_mm":[0,5,5])"), "targets_mm must be in ascending order");
   EXPECT_TEXT(refused_start(R"("targets_mm":[5,0])"), "targets_mm must be in ascending order");
   EXPECT_TEXT(refused_start(R"("targets_mm":[0,"1"])"), "targets_mm");
-  EXPECT_TEXT(refused_start(R"("targets_mm":[0,1],"from_mm":0)"), "give one of them");
+  EXPECT_TEXT(refused_start(R"("targets_mm":[0,1],"from_mm":0)"), "give only one of the two");
   EXPECT_TEXT(refused_start(R"("from_mm":0,"to_mm":5)"), "interval_mm is missing");
   EXPECT_TEXT(refused_start(R"("from_mm":0,"interval_mm":5)"), "to_mm is missing");
   EXPECT_TEXT(refused_start(R"("to_mm":0,"interval_mm":5)"), "from_mm is missing");
   EXPECT_TEXT(refused_start(R"("from_mm":0,"to_mm":5,"interval_mm":0)"), "interval_mm");
   EXPECT_TEXT(refused_start(R"("from_mm":0,"to_mm":5,"interval_mm":1,"jitter_mm":9)"), "jitter_mm");
   EXPECT_TEXT(refused_start(R"("from_mm":0,"to_mm":1500,"interval_mm":1)"), "limit 1500");
-  EXPECT_TEXT(refused_start(R"("repeats":2)"), "repeats needs targets; give targets_mm");
+  EXPECT_TEXT(refused_start(R"("repeats":2)"), R"(\"repeats\" needs targets; give targets_mm)");
   EXPECT_TEXT(call("run.start", R"({"axis":"W"})").message(), "must be X, Y or Z");
   const Answer other = call("run.start", R"({"axis":"Y"})");
   EXPECT_EQ(other.code(), rpc::kNotFound);

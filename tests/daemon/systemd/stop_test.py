@@ -97,7 +97,7 @@ class Stop(unittest.TestCase):
         asked.start()
         while os.read(held, 4096) == b"":  # mdofd is opening it
             time.sleep(0.01)
-        with self.assertRaisesRegex(RpcError, "is replaying or importing another log"):
+        with self.assertRaisesRegex(RpcError, "is replaying or importing another file"):
             client.call("run.replay", path=log)
         run = client.call("run.start", axis="X")["run"]
         self.assertEqual(client.call("server.info")["axes"][0]["run"], run)

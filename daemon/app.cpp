@@ -50,7 +50,7 @@ std::int64_t now_ns(clockid_t clock) {
 std::string clock_json(double step_s) {
   JsonWriter json;
   json.begin_object().field("type", "clock").field("step_s", step_s);
-  json.field("text", "the time of day was set; the measurement continues");
+  json.field("text", "the system clock was changed; the measurement continues");
   json.field("utc", utc_now()).end_object();
   return json.take();
 }
@@ -192,7 +192,7 @@ void App::Parts::start_stations() {
 std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
   auto last = reader->last_datum(axis);
   if (last) return std::move(*last);
-  std::fprintf(stderr, "axis %c: its last position is unknown: %s\n", letter(axis),
+  std::fprintf(stderr, "axis %c: the position that was set last cannot be read: %s\n", letter(axis),
                words::text(last.error()).c_str());
   return std::nullopt;
 }
@@ -292,7 +292,8 @@ void App::Parts::watch_clock() {
   const auto step_ns = clock.look(now_ns(CLOCK_REALTIME), now_ns(CLOCK_BOOTTIME));
   if (!step_ns) return;
   const double step_s = static_cast<double>(*step_ns) * 1e-9;
-  std::fprintf(stderr, "the time of day was set by %.3f s; the measurement continues\n", step_s);
+  std::fprintf(stderr, "the system clock was changed by %.3f s; the measurement continues\n",
+               step_s);
   report(kRunTopic, clock_json(step_s));
 }
 

@@ -30,8 +30,8 @@ Result<HttpAccess> http_at(const std::string& address) {
   if (!port || (!v6 && name != "127.0.0.1" && name != "localhost"))
     return fail(ErrorCode::usage,
                 "\"" + address.substr(0, 64) +
-                    "\" is no address of this machine and port, such as 127.0.0.1:8080 or "
-                    "[::1]:8080; from another machine take a tunnel (ssh -L 8080:localhost:8080)");
+                    "\" is not a local address with a port; give, for example, 127.0.0.1:8080 or "
+                    "[::1]:8080; from another computer use a tunnel (ssh -L 8080:localhost:8080)");
   out.address = v6 ? "::1" : "127.0.0.1";
   out.port = *port;
   return out;
@@ -51,7 +51,8 @@ std::optional<HttpAccess> read_http(TomlTable& root, const std::filesystem::path
   http->hosts = table->strings("hosts");
   if (!std::all_of(http->hosts.begin(), http->hosts.end(), is_host))
     table->reject("hosts",
-                  "has to list names as a browser shows them, such as \"mill.local:8080\"");
+                  "must be a list of host names as in the address bar of a browser, such as "
+                  "\"mill.local:8080\"");
   return std::move(*http);
 }
 

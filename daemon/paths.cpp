@@ -29,7 +29,7 @@ Result<std::filesystem::path> default_database() {
   if (const char* home = environment("HOME")) {
     return std::filesystem::path(home) / ".local/state/mdof/mdof.db";
   }
-  return fail(ErrorCode::usage, "the place of the database is unknown, because HOME is not set",
+  return fail(ErrorCode::usage, "the path of the database is unknown, because HOME is not set",
               Remedy::name_database);
 }
 

@@ -51,9 +51,10 @@ std::string describe(const Method& method) {
 Method discover_method(const MethodTable& table) {
   return {.name = "rpc.discover",
           .summary = "Describes all methods in an OpenRPC 1.2.6 document.",
-          .params = {{"offset", ParamType::integer, "first method of this page", false, "0"},
-                     {"max_bytes", ParamType::integer, "largest size of the reply line", false,
-                      "49152"}},
+          .params = {{"offset", ParamType::integer, "index of the first method of this page", false,
+                      "0"},
+                     {"max_bytes", ParamType::integer,
+                      "largest size of the reply line, from 4096 to 49152", false, "49152"}},
           .result = "the document; x-next-offset is present if another page follows",
           .result_schema = R"({"type":"object"})",
           .example = R"({"offset":0})",
@@ -62,7 +63,7 @@ Method discover_method(const MethodTable& table) {
             const std::int64_t bytes = params.integer("max_bytes", 49152);
             if (offset < 0) return fail(ErrorCode::usage, "offset: must not be negative");
             if (bytes < 4096 || bytes > 49152)
-              return fail(ErrorCode::usage, "max_bytes: must be 4096 ... 49152");
+              return fail(ErrorCode::usage, "max_bytes: must be from 4096 to 49152");
             return table.openrpc(static_cast<std::size_t>(offset),
                                  static_cast<std::size_t>(bytes) - kEnvelopeBytes);
           }};

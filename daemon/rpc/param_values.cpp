@@ -120,7 +120,7 @@ Status set(const Method& method, std::size_t i, const element& value, ParamValue
     return usage("parameter " + in_quotes(param.name) + " must be of type " +
                  to_string(param.type) + ", not " + kind(value) +
                  (param.type == ParamType::integer && value.is_number()
-                      ? " that is not a 64-bit integer"
+                      ? " with a fraction or beyond 64 bits"
                       : ""));
   MDOF_CHECK(check_bounds(param, value));
   out.values[i] = value;

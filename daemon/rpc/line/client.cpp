@@ -32,17 +32,18 @@ std::string group_of(const std::string& path) {
 std::string whose(const std::string& path) {
   struct stat info {};
   const bool roots = ::stat(path.c_str(), &info) == 0 && info.st_gid == 0;
-  return roots ? "mdofd was started by root; run it as the user mdof (systemctl start mdofd), and "
+  return roots ? "mdofd runs as root; end it and start it as the user mdof (systemctl start "
+                 "mdofd), then "
                : "";
 }
 
 tl::unexpected<Error> cannot_connect(const std::string& path, int number) {
   constexpr const char* kStart =
-      "; start it with \"systemctl start mdofd\" or by hand with \"mdofd\"";
-  if (number == ENOENT) return io_error(path + ": no daemon is running (no socket)" + kStart);
+      "; start mdofd with \"systemctl start mdofd\", or by hand with \"mdofd\"";
+  if (number == ENOENT) return io_error(path + ": mdofd is not running (no socket)" + kStart);
   if (number == ECONNREFUSED)
-    return io_error(path + ": no daemon is running (the socket is left over from an earlier one)" +
-                    kStart);
+    return io_error(
+        path + ": mdofd is not running (the socket is left over from an earlier start)" + kStart);
   if (number == EACCES)
     return io_error(path + ": permission denied; " + whose(path) + "become a member of the group " +
                     group_of(path) + " (\"sudo usermod -aG " + group_of(path) +
@@ -73,7 +74,7 @@ template <class Json>
 Error read_error(Json json) {
   std::int64_t code = 0;
   std::string_view text;
-  Error out{ErrorCode::io, "an error without a message"};
+  Error out{ErrorCode::io, "mdofd sent an error without a message"};
   if (!json["message"].get_string().get(text)) out.message = text;
   if (!json["code"].get_int64().get(code)) out.code = error_code_of(static_cast<int>(code));
   if (!json["data"].get_string().get(text)) out.message += ": " + std::string(text);
@@ -87,7 +88,7 @@ Result<Message> read_message(const std::string& line) {
   const padded_string padded(line);
   ondemand::object object;
   if (parser.iterate(padded).get(document) || document.get_object().get(object))
-    return io_error("the server sent a line that is not a JSON object");
+    return io_error("mdofd sent a line that is not a JSON object");
   Message out;
   std::string_view text;
   std::int64_t id = 0;
@@ -112,11 +113,13 @@ Result<Client> Client::connect(const std::string& socket_path) {
 Status Client::send_line(std::string_view line, Clock::time_point end) {
   while (!line.empty()) {
     if (!wait_for(socket_.get(), POLLOUT, end))
-      return io_error("the daemon does not accept the request within the time limit");
+      return io_error(
+          "mdofd did not accept the request in time; try again, or check its state (systemctl "
+          "status mdofd)");
     const ssize_t n = ::send(socket_.get(), line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (n < 0 && errno == EPIPE) return {};  // it closed, and may have said why
     if (n < 0 && errno != EAGAIN && errno != EINTR)
-      return io_error("the daemon closed the connection: " + system_error_text(errno));
+      return io_error("mdofd closed the connection: " + system_error_text(errno));
     if (n > 0) line.remove_prefix(static_cast<std::size_t>(n));
   }
   return {};
@@ -132,14 +135,14 @@ Result<std::string> Client::read_line(Clock::time_point end) {
     }
     scanned = received_.size();
     if (!wait_for(socket_.get(), POLLIN, end))
-      return io_error("the daemon does not answer within the time limit");
+      return io_error(
+          "mdofd did not answer in time; try again, or check its state (systemctl status mdofd)");
     std::array<char, 16384> bytes;
     const ssize_t n = ::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
     const int error = errno;
     connected_ = n > 0 || (n < 0 && (error == EAGAIN || error == EINTR));
     if (n == 0) return io_error("the daemon closed the connection");
-    if (!connected_)
-      return io_error("the daemon closed the connection: " + system_error_text(error));
+    if (!connected_) return io_error("mdofd closed the connection: " + system_error_text(error));
     if (n > 0) received_.append(bytes.data(), static_cast<std::size_t>(n));
   }
 }
@@ -161,7 +164,7 @@ Result<std::string> Client::call(std::string_view method, std::string_view param
     }
     if (message.id && *message.id != id) continue;  // the answer to a call given up before
     if (message.error) return tl::unexpected(std::move(*message.error));
-    if (!message.result) return io_error("the server sent neither a result nor an error");
+    if (!message.result) return io_error("mdofd sent neither a result nor an error");
     return std::move(*message.result);
   }
 }

@@ -94,7 +94,9 @@ void Connection::take_line(Clock::time_point until) {
     return refuse("the request line is too long (limit " +
                   std::to_string(server_.service.options().max_line_bytes) + " bytes)");
   if (!session_->peer().credentials && is_http(line.text))
-    return refuse("this is not an HTTP server; a line of HTTP on TCP ends the connection");
+    return refuse(
+        "this port accepts JSON-RPC lines, not HTTP; for HTTP use the address of the web page "
+        "([http] of mdofd.toml)");
   if (line.text.empty()) return;      // as a line end too many leaves it
   std::string& out = output_.text();  // whole lines
   if (!session_->handle(line.text, out, until)) line_ = line;
@@ -186,7 +188,7 @@ void Connection::input_ended() {
   if (!input_.partial()) return;
   std::string message;
   append_error(message, "null", kParseError, "Parse error",
-               "the last line does not end in a line feed");
+               "the last line does not end with a line feed");
   send(message);
 }
 
@@ -222,7 +224,7 @@ void Connection::check_times(Clock::time_point now) {
   if (state_ == State::draining && now - draining_since_ > options.drain_timeout) return close();
   if (state_ != State::open) return;
   if (line_since_ && now - *line_since_ > options.request_timeout) {
-    refuse("a request line must be complete within " +
+    refuse("the request line was not complete within " +
            std::to_string(options.request_timeout.count()) + " ms");
     return pump();
   }

@@ -40,11 +40,13 @@ Status remove_stale(const std::string& path) {
   struct stat info {};
   if (::lstat(path.c_str(), &info) != 0) return {};
   if (!S_ISSOCK(info.st_mode))
-    return io_error(path + ": exists and is not a socket; remove it or configure another path");
+    return io_error(
+        path + ": this file exists and is not a socket; remove the file or configure another path");
   const auto answer = connect_to_unix(path);
   if (answer)
-    return fail(ErrorCode::conflict,
-                path + ": another daemon answers on this socket; stop it first");
+    return fail(
+        ErrorCode::conflict,
+        path + ": another program (perhaps mdofd) answers on this socket; end that program first");
   if (answer.error() != ECONNREFUSED) return cannot(path, answer.error());
   if (::unlink(path.c_str()) != 0) return cannot(path + ": cannot remove the stale socket", errno);
   return {};

@@ -58,7 +58,7 @@ std::string reason(simdjson::error_code error, const ServerOptions& options) {
     case simdjson::UTF8_ERROR:
       return "the line is not UTF-8";
     case simdjson::DEPTH_ERROR:
-      return "nested deeper than " + std::to_string(options.max_depth) + " levels";
+      return "the JSON is nested deeper than " + std::to_string(options.max_depth) + " levels";
     case simdjson::NUMBER_ERROR:
       return "a number is malformed or larger than its type";
     default:
@@ -70,17 +70,17 @@ std::string not_an_approver(const std::string& method, const std::string& group,
                             const Caller& caller) {
   const auto who = caller.credentials();
   return method + " is reserved for members of the group " + group +
-         " (approve_group in [rpc] of mdofd.toml), and " +
+         " (approve_group in [rpc] of mdofd.toml), but " +
          (who                  ? "uid " + std::to_string(who->uid)
           : caller.over_http() ? std::string("a web page")
                                : std::string("a TCP client")) +
-         " is not a member; ask a member, or become a member and connect again";
+         " is not a member; ask a member to make this call, or become a member and connect again";
 }
 
 std::string may_not_write(const std::string& method, const Caller& caller) {
   if (!caller.over_http()) return method + " changes data; call it over the Unix socket";
   return words::text({ErrorCode::usage,
-                      method + " changes data and needs the token of mdofd, as \"" +
+                      method + " changes data and needs the token of mdofd in the header \"" +
                           "Authorization: Bearer TOKEN\"",
                       Remedy::show_token});
 }
@@ -112,8 +112,8 @@ tl::expected<const Method*, Dispatcher::Parser::Refusal> Dispatcher::Parser::pre
   if (method->writes && !caller.may_write())
     return tl::unexpected(Refusal{kForbidden, may_not_write(method->name, caller), ""});
   if (method->subscribes && caller.over_http())
-    return tl::unexpected(
-        Refusal{kForbidden, method->name + " needs a connection that stays: GET /events", ""});
+    return tl::unexpected(Refusal{
+        kForbidden, method->name + " is not available through POST /rpc; use GET /events", ""});
   if (method->approves && options.approvers && !caller.in_group(options.approvers->id))
     return tl::unexpected(
         Refusal{kForbidden, not_an_approver(method->name, options.approvers->name, caller), ""});
@@ -166,7 +166,7 @@ bool Dispatcher::Parser::begin_batch(const Message& message, std::size_t members
     append_error(message.out, "null", kInvalidRequest, "Invalid Request",
                  members == 0 ? ""
                               : "a batch may have at most " + std::to_string(options.max_batch) +
-                                    " members; send it in parts");
+                                    " members; divide the batch");
     return false;
   }
   message.batch = {std::make_shared<Exchange>(limits(), members, true, message.sink), 0};

@@ -15,7 +15,7 @@ constexpr std::string_view kTooLargeForBatch =
 std::string too_large(std::size_t bytes, std::size_t max_bytes) {
   return "the result has " + std::to_string(bytes) +
          " bytes (limit of a reply line: " + std::to_string(max_bytes) +
-         "); request a part of it (offset, count)";
+         "); request a part of the result (offset, count)";
 }
 
 }  // namespace

@@ -30,14 +30,14 @@ std::string user_has_all(const Peer& peer, const ServerOptions& o) {
   const auto uid = uid_of(peer);
   return (uid ? "uid " + std::to_string(*uid) + " has " : "TCP clients have ") +
          std::to_string(o.max_connections_of_user) +
-         " connections, the limit for one user; close one, or raise connections_of_user in [rpc] "
-         "of mdofd.toml";
+         " connections (limit for one user); close a connection, or raise connections_of_user in "
+         "[rpc] of mdofd.toml";
 }
 
 std::string all_in_use(const ServerOptions& o) {
   return "all " + std::to_string(o.max_connections) + " connections are in use" +
-         (o.kept_for_group ? " or kept for the group cnc_group" : "") +
-         "; close one, or raise connections in [rpc] of mdofd.toml";
+         (o.kept_for_group ? " or reserved for the group of cnc_group" : "") +
+         "; close a connection, or raise \"connections\" in [rpc] of mdofd.toml";
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ Status TopicHub::subscribe(Subscriber& who, std::string_view topic,
   if (who.subscriptions.size() >= options_.max_subscriptions)
     return fail(ErrorCode::usage, "this connection has " +
                                       std::to_string(options_.max_subscriptions) +
-                                      " subscriptions, the limit; unsubscribe from one first");
+                                      " subscriptions (limit); unsubscribe from a topic first");
   who.subscriptions.emplace_back(found->topic, interval, options_.max_queued_events);
   found->subscribers.emplace_back(&who, std::prev(who.subscriptions.end()));
   return {};

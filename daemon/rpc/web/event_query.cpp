@@ -45,7 +45,7 @@ tl::expected<void, HttpError> take_topics(std::string_view list, EventQuery& out
   while (!list.empty()) {
     if (const auto topic = cut(list, ','); !topic.empty()) out.topics.emplace_back(topic);
     if (out.topics.size() > kMostTopics)
-      return bad_query("topics: at most " + std::to_string(kMostTopics));
+      return bad_query("topics: too many topics; the limit is " + std::to_string(kMostTopics));
   }
   return {};
 }
@@ -54,7 +54,8 @@ tl::expected<void, HttpError> take_interval(std::string_view text, EventQuery& o
   std::int64_t ms = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ms);
   if (error != std::errc{} || end != text.data() + text.size() || ms < 1 || ms > kLongest_ms)
-    return bad_query("interval_ms: has to be a number from 1 to " + std::to_string(kLongest_ms));
+    return bad_query("interval_ms: must be a whole number from 1 to " +
+                     std::to_string(kLongest_ms));
   out.interval = std::chrono::milliseconds(ms);
   return {};
 }
@@ -67,17 +68,20 @@ tl::expected<EventQuery, HttpError> read_event_query(std::string_view query) {
     std::string_view value = cut(query, '&');
     const auto key = cut(value, '=');
     const auto text = decoded(value);
-    if (!text) return bad_query("the query is not percent-encoded as it should be");
+    if (!text) return bad_query("the query of the address is not correctly percent-encoded");
     if (key == "topics") {
       MDOF_CHECK(take_topics(*text, out));
     } else if (key == "interval_ms") {
       MDOF_CHECK(take_interval(*text, out));
     } else {
-      return bad_query("no parameter " + in_quotes(key) + "; there are: topics, interval_ms");
+      return bad_query("unknown parameter " + in_quotes(key) +
+                       "; the parameters are topics and interval_ms");
     }
   }
   if (out.topics.empty())
-    return bad_query("which topics? As /events?topics=live.update,run.event&interval_ms=100");
+    return bad_query(
+        "topics: is missing; use, for example, "
+        "/events?topics=live.update,run.event&interval_ms=100");
   return out;
 }
 

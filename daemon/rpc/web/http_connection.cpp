@@ -31,7 +31,7 @@ HttpConnection::HttpConnection(HttpServerCore& server, int socket)
 
 void HttpConnection::turn_away() {
   append_refusal(output_.text(),
-                 {503, "mdofd has all the connections of browsers that it may have: close a page"},
+                 {503, "all connections of mdofd for browsers are in use; close a page of mdofd"},
                  "Retry-After: 5\r\n");
   (void)output_.flush(socket_.native_handle());
   close();
@@ -101,13 +101,15 @@ tl::expected<void, HttpError> HttpConnection::judge() const {
   if (!rpc && !stream && server_.files.find(head_->path) == nullptr)
     return tl::unexpected(HttpError{404, "there is no such page"});
   if (rpc ? head_->method != "POST" : !reads)
-    return tl::unexpected(HttpError{405, head_->path + " does not take this method"});
+    return tl::unexpected(HttpError{
+        405,
+        head_->path + " does not accept this HTTP method; the header Allow lists the methods"});
   if (!rpc && head_->body_bytes > 0)
-    return tl::unexpected(HttpError{400, "this request may have no body"});
+    return tl::unexpected(HttpError{400, "a request for this path must not have a body"});
   const std::string_view type =
       std::string_view(head_->content_type).substr(0, head_->content_type.find(';'));
   if (rpc && type != "application/json")
-    return tl::unexpected(HttpError{415, "Content-Type has to be application/json"});
+    return tl::unexpected(HttpError{415, "Content-Type must be application/json"});
   return {};
 }
 
@@ -155,7 +157,7 @@ void HttpConnection::go_on_with_rpc() {
 
 void HttpConnection::begin_stream() {
   if (server_.stream_count() >= server_.service.options().max_http_streams)
-    return refuse({503, "mdofd has all the streams of events that it may have: close a page"},
+    return refuse({503, "all event streams of mdofd are in use; close a page of mdofd"},
                   "Retry-After: 5\r\n");
   if (!admit(Peer::Http::reads)) return;
   if (const auto error = subscribe_all()) return refuse(*error);
@@ -338,8 +340,8 @@ void HttpConnection::close() {
 void HttpConnection::check_times(Clock::time_point now) {
   const auto& options = server_.service.options();
   if (stalled_since_ && now - *stalled_since_ > options.stall_timeout)
-    return drop("it took none of " + std::to_string(output_.unsent()) + " unsent bytes for " +
-                std::to_string(options.stall_timeout.count()) + " ms");
+    return drop("the browser accepted none of " + std::to_string(output_.unsent()) +
+                " unsent bytes for " + std::to_string(options.stall_timeout.count()) + " ms");
   const auto passed = now - since_;
   if (state_ == State::draining && passed > options.drain_timeout) return close();
   if (state_ == State::answering && is_gone(socket_.native_handle())) return close();
@@ -351,7 +353,7 @@ void HttpConnection::check_times(Clock::time_point now) {
   if (state_ != State::reading || output_.unsent() > 0) return;
   if (is_idle() && passed > options.http_idle_timeout) return close();
   if (is_idle() || passed <= options.request_timeout) return;
-  refuse({408, "the head of a request, and its body, have to be complete within " +
+  refuse({408, "the request was not complete within " +
                    std::to_string(options.request_timeout.count()) + " ms"});
   pump();
 }

@@ -31,8 +31,8 @@ tl::expected<void, HttpError> check_single(const Fields& fields) {
                           http::field::origin, http::field::authorization}) {
     if (fields.count(name) > 1) {
       const auto text = to_string(name);
-      return refused(400, "the request has the field " + std::string(text.data(), text.size()) +
-                              " more than once");
+      return refused(400, "the request has the header field " +
+                              std::string(text.data(), text.size()) + " more than once");
     }
   }
   return {};
@@ -40,7 +40,7 @@ tl::expected<void, HttpError> check_single(const Fields& fields) {
 
 tl::expected<std::size_t, HttpError> body_bytes_of(const Fields& fields, std::size_t most) {
   if (fields.count(http::field::transfer_encoding) > 0)
-    return refused(501, "a body has to come with Content-Length, without Transfer-Encoding");
+    return refused(501, "Transfer-Encoding is not supported; send the body with Content-Length");
   if (fields.count(http::field::content_length) == 0) return 0;
   const std::string text = field(fields, http::field::content_length);
   std::uint64_t bytes = 0;
@@ -48,14 +48,14 @@ tl::expected<std::size_t, HttpError> body_bytes_of(const Fields& fields, std::si
   if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument)
     return refused(400, "Content-Length is not a number");
   if (error != std::errc{} || bytes > most)
-    return refused(413, "a body may have " + std::to_string(most) + " bytes");
+    return refused(413, "the body is too large (limit " + std::to_string(most) + " bytes)");
   return static_cast<std::size_t>(bytes);
 }
 
 // "/path?query", and nothing else: no absolute form, no fragment.
 tl::expected<void, HttpError> take_target(std::string_view target, HttpHead& out) {
   if (target.empty() || target.front() != '/' || target.find('#') != target.npos)
-    return refused(400, "the target of a request has to be a path, as /index.html");
+    return refused(400, "the target of the request must be a path, such as /index.html");
   const auto query = std::min(target.find('?'), target.size());
   out.path = target.substr(0, query);
   if (query < target.size()) out.query = target.substr(query + 1);
@@ -72,19 +72,21 @@ bool lists_gzip(const std::string& accepted) {
 tl::expected<std::size_t, HttpError> end_of_head(std::string_view received, std::size_t& scanned,
                                                  std::size_t max_bytes) {
   if (!received.empty() && (received.front() < 'A' || received.front() > 'Z'))
-    return refused(400, "this is no request of HTTP");
+    return refused(400, "this is not an HTTP request");
   const std::size_t most = std::min(received.size(), max_bytes);
   for (; scanned < most; ++scanned) {
     const char c = received[scanned];
     const char before = scanned > 0 ? received[scanned - 1] : '\0';
     if ((c == '\n') != (before == '\r') || c == '\0')
-      return refused(400, "a line of a request ends in CR LF, and has neither elsewhere");
+      return refused(
+          400, "each header line must end with CR LF and must not contain another CR, LF or NUL");
     if ((c == ' ' || c == '\t') && before == '\n')
-      return refused(400, "a field of a request may not go on in another line");
+      return refused(400, "a header field must not continue on the next line");
     if (c == '\n' && received.substr(0, scanned + 1).ends_with(kEnd)) return ++scanned;
   }
   if (received.size() >= max_bytes)
-    return refused(431, "the head of a request may have " + std::to_string(max_bytes) + " bytes");
+    return refused(431, "the header of the request is too large (limit " +
+                            std::to_string(max_bytes) + " bytes)");
   return 0;
 }
 
@@ -96,7 +98,7 @@ tl::expected<HttpHead, HttpError> read_head(std::string_view head, const HttpLim
   parser.put(boost::asio::const_buffer(head.data(), head.size()), error);
   if (error && error != http::error::need_more)
     return refused(400, "the request cannot be read: " + error.message());
-  if (!parser.is_header_done()) return refused(400, "the request has no end");
+  if (!parser.is_header_done()) return refused(400, "the header of the request is not complete");
   const Fields& fields = parser.get();
   MDOF_CHECK(check_single(fields));
   HttpHead out;
@@ -104,7 +106,7 @@ tl::expected<HttpHead, HttpError> read_head(std::string_view head, const HttpLim
   const auto method = fields.method_string(), target = fields.target();
   out.method.assign(method.data(), method.size());
   MDOF_CHECK(take_target({target.data(), target.size()}, out));
-  if (fields.count(http::field::host) == 0) return refused(400, "the request names no host");
+  if (fields.count(http::field::host) == 0) return refused(400, "the header field Host is missing");
   out.host = field(fields, http::field::host);
   out.origin = field(fields, http::field::origin);
   out.fetch_site = field(fields, "Sec-Fetch-Site");

@@ -38,17 +38,18 @@ tl::expected<void, HttpError> check_same_site(const HttpHead& head,
                                               const std::vector<std::string>& hosts) {
   const std::string host = lower_case(head.host), origin = lower_case(head.origin);
   if (!is_own(host, hosts))
-    return tl::unexpected(HttpError{
-        421, "mdofd is not known as " + in_quotes(head.host) +
-                 "; if this is a name of the machine, add it to hosts in [http] of mdofd.toml"});
+    return tl::unexpected(
+        HttpError{421, "mdofd does not accept the host name " + in_quotes(head.host) +
+                           "; if this is a name of the computer on which mdofd runs, add the name "
+                           "to hosts in [http] of mdofd.toml"});
   if (!origin.empty() && origin != "http://" + host && origin != "https://" + host)
-    return tl::unexpected(HttpError{
-        403, "the page of " + in_quotes(head.origin) +
-                 " may not use mdofd: open the page that mdofd serves (hosts of [http] of "
-                 "mdofd.toml has further names of it)"});
+    return tl::unexpected(
+        HttpError{403, "a page of " + in_quotes(head.origin) +
+                           " may not use mdofd; open the page that mdofd serves"});
   if (head.fetch_site == "cross-site" || head.fetch_site == "same-site") {
     if (head.path == "/rpc" || head.path == "/events")
-      return tl::unexpected(HttpError{403, "the page of another site may not use mdofd"});
+      return tl::unexpected(HttpError{
+          403, "a page of another site may not use mdofd; open the page that mdofd serves"});
   }
   return {};
 }

@@ -34,13 +34,13 @@ Result<std::string> new_token() {
 Result<std::string> make_token(const std::filesystem::path& file) {
   MDOF_TRY(const std::string token, new_token());
   const Descriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (fd.get() < 0) return cannot_use(file, "cannot make it", errno);
+  if (fd.get() < 0) return cannot_use(file, "the file cannot be created", errno);
   const std::string line = token + "\n";
   if (::write(fd.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size()) ||
       ::fsync(fd.get()) != 0) {
     const int number = errno;
     (void)::unlink(file.c_str());
-    return cannot_use(file, "cannot write it", number);
+    return cannot_use(file, "the file cannot be written", number);
   }
   return token;
 }
@@ -49,17 +49,17 @@ Result<std::string> make_token(const std::filesystem::path& file) {
 
 Result<std::string> read_token(const std::filesystem::path& file) {
   const Descriptor fd(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOFOLLOW));
-  if (fd.get() < 0) return cannot_use(file, "cannot read it", errno);
+  if (fd.get() < 0) return cannot_use(file, "the file cannot be read", errno);
   struct stat info {};
-  if (::fstat(fd.get(), &info) != 0) return cannot_use(file, "cannot read it", errno);
+  if (::fstat(fd.get(), &info) != 0) return cannot_use(file, "the file cannot be read", errno);
   if (!S_ISREG(info.st_mode))
-    return fail(ErrorCode::check,
-                "token_file: " + file.string() +
-                    ": is not a regular file; remove it, and mdofd makes another one");
+    return fail(ErrorCode::check, "token_file: " + file.string() +
+                                      ": this is not a regular file; remove it and restart mdofd, "
+                                      "which creates a new token file");
   if ((info.st_mode & 077) != 0)
     return fail(ErrorCode::check, "token_file: " + file.string() +
-                                      ": others may read it; remove it, and mdofd makes another "
-                                      "when it starts (mode 0600)");
+                                      ": other users can read this file; remove it and restart "
+                                      "mdofd, which creates a new token file (mode 0600)");
   std::array<char, 2 * kBytes + 2> bytes{};
   const ssize_t got = ::read(fd.get(), bytes.data(), bytes.size());
   std::string_view text(bytes.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
@@ -67,8 +67,8 @@ Result<std::string> read_token(const std::filesystem::path& file) {
   if (text.size() != 2 * kBytes ||
       text.find_first_not_of("0123456789abcdef") != std::string_view::npos)
     return fail(ErrorCode::check, "token_file: " + file.string() +
-                                      ": does not hold 64 hexadecimal digits; remove it, and mdofd "
-                                      "makes another when it starts");
+                                      ": this file does not contain 64 hexadecimal digits; remove "
+                                      "it and restart mdofd, which creates a new token file");
   return std::string(text);
 }
 

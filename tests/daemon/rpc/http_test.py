@@ -244,12 +244,12 @@ class Configuration(unittest.TestCase):
 
     def test_what_is_wrong_is_named(self):
         for http, arguments, said in (
-                ('[http]\nlisten = "0.0.0.0:8080"\n', (), r"mdofd.toml:\d+: http.listen: .*no address of this machine"),
+                ('[http]\nlisten = "0.0.0.0:8080"\n', (), r"mdofd.toml:\d+: http.listen: .*not a local address with a port"),
                 ('[http]\nlisten = "127.0.0.1"\n', (), "http.listen"),
                 ('[http]\nlisten = "127.0.0.1:70000"\n', (), "http.listen"),
                 ('[http]\nhosts = ["http://mill.local/"]\n', (), "http.hosts"),
                 ('[http]\nport = 8080\n', (), "port"),
-                ("", ("--http", "192.168.0.1:80"), "no address of this machine"),
+                ("", ("--http", "192.168.0.1:80"), "not a local address with a port"),
                 ('[http]\ntoken_file = "/proc/none"\n', (), r"http.token_file: .*/proc/none")):
             with self.subTest(http, arguments=arguments):
                 self.assertRegex(self.started(http, *arguments), said)

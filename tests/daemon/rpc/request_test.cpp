@@ -90,7 +90,8 @@ TEST_F(Requests, ResultsTooLargeAskForPages) {
   EXPECT_EQ(call("bytes", "[49115]").size(), 49151u);
   const auto reply = call("bytes", "[49116]");
   EXPECT_EQ(at(reply, "/error/code"), "-32013");
-  EXPECT_NE(at(reply, "/error/message").find("a part of it (offset, count)"), std::string::npos);
+  EXPECT_NE(at(reply, "/error/message").find("a part of the result (offset, count)"),
+            std::string::npos);
 }
 
 TEST_F(Requests, ABatchKeepsWhatFitsAndNamesTheRest) {

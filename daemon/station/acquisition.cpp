@@ -243,15 +243,15 @@ void Acquisition::report_clock(const drivers::ClockState& clock) {
   const bool was = std::exchange(clock_is_uncertain_, clock.doubtful);
   if (stepped)
     report(Trouble::Kind::clock,
-           "the device clock jumped, or the link was slow for a long time, so the times of the "
-           "samples are unknown until the clock has settled (4 s). These samples are suspect; "
-           "stops in this time are left out or lack the probes of the device. Check power and "
-           "network, and measure the points of this time again");
+           "the device clock jumped, or the link was slow for a long time. The times of the "
+           "samples are unknown while the clock settles (4 s). Stops in this time are left out, or "
+           "lack the probes of the device. Check power and network, then measure the points of "
+           "this time again");
   else if (clock.doubtful && !was)
     report(Trouble::Kind::clock,
            "the packets arrive " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
-               " s late, or the device clock stood still, so the samples are suspect until they "
-               "arrive in time again; check the network and the load of this computer");
+               " s late, or the device clock stood still; the samples are suspect while this "
+               "lasts; check the network and the load of this computer");
   else if (was && !clock.doubtful)
     report(Trouble::Kind::back, "the times of the samples are valid again");
 }
@@ -294,7 +294,7 @@ bool Acquisition::recover(const SampleBlock& block) {
     status_.recovered_utc = utc_now();
   }
   std::string text =
-      "the device sends samples again after " + with_one_decimal(away.count()) + " s";
+      "the device sends samples again after a break of " + with_one_decimal(away.count()) + " s";
   if (block.lost > 0) text += "; scans lost in this time: " + std::to_string(block.lost);
   report(Trouble::Kind::back, text);
   return true;
@@ -316,8 +316,8 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
     report(Trouble::Kind::slow, "the device sends " + with_one_decimal(rate_hz) + " of " +
                                     with_one_decimal(is.info.rate_hz) + " scans per second, and " +
                                     std::to_string(lost_in_window_) +
-                                    " were lost in 5 s; check the network or cable and the load of "
-                                    "this computer, or lower the rate of the device");
+                                    " scans were lost in 5 s; check the network or cable and the "
+                                    "load of this computer, or lower the rate of the device");
   }
   if (was_slow && !slow) report(Trouble::Kind::back, "the device sends all scans again");
   window_end_ = now + kWindow;

@@ -24,9 +24,8 @@ fs::path nearest_folder(fs::path folder) {
 }
 
 std::string remedy_of_permission(const fs::path& folder) {
-  return "; choose another folder, or make user and group mdof its owner and run mdofd as user "
-         "mdof "
-         "(sudo install -d -o mdof -g mdof -m 750 " +
+  return "; choose another folder, or make user and group mdof the owner of this folder and run "
+         "mdofd as user mdof (sudo install -d -o mdof -g mdof -m 750 " +
          folder.string() + ")";
 }
 
@@ -52,10 +51,10 @@ Status check_file(const std::string& key, const fs::path& file) {
     return bad_input(key + ": " + file.string() + " is a folder; name a file in it");
   MDOF_CHECK(check_folder(key, fs::absolute(file, failed).parent_path()));
   if (!fs::exists(file, failed) || ::access(file.c_str(), R_OK | W_OK) == 0) return {};
-  return bad_input(
-      key + ": mdofd has no permission to read and write " + file.string() +
-      "; make user and group mdof its owner and run mdofd as user mdof (sudo chown mdof:mdof " +
-      file.string() + ")");
+  return bad_input(key + ": mdofd has no permission to read and write " + file.string() +
+                   "; make user and group mdof the owner of this file and run mdofd as user mdof "
+                   "(sudo chown mdof:mdof " +
+                   file.string() + ")");
 }
 
 Status check_socket(const Config& config) {
@@ -63,7 +62,7 @@ Status check_socket(const Config& config) {
   const fs::path socket = config.socket;
   if (fs::exists(socket, failed) && !fs::is_socket(socket, failed))
     return bad_input(config.socket_key + ": " + config.socket +
-                     " exists and is not a socket; remove it or choose another path");
+                     " exists and is not a socket; remove this file or choose another path");
   return check_folder(config.socket_key, fs::absolute(socket, failed).parent_path());
 }
 
@@ -76,7 +75,8 @@ Status check_identities(const Config& config) {
       if (fresh) continue;
       return bad_input(config.source + ": the devices \"" + other->second + "\" and \"" +
                        device.name + "\" are the same device (" + other->first +
-                       "), which can be opened only once; remove one or correct its address");
+                       "), which can be opened only once; remove one of the two, or correct the "
+                       "address of one of them");
     }
   }
   return {};

@@ -23,16 +23,17 @@ std::string advised_datum_note(const EncoderDatum& datum) {
 
 // Of what was said and does not hold any more.
 std::string lost_note(const DatumSetting& said, bool since_start, const EncoderDatum& now) {
-  std::string note = "the position was set to " + plain_number(to_mm(said.position_m), kDigits) +
-                     " mm on " + said.utc + ", but was lost " +
-                     (since_start ? "when the device lost power" : "by a restart of mdofd") + ": " +
-                     words::remedy(Remedy::set_encoder_again, std::string(1, letter(said.axis))) +
-                     "; ";
+  const std::string note =
+      "the position was set to " + plain_number(to_mm(said.position_m), kDigits) + " mm on " +
+      said.utc + ", but was lost " +
+      (since_start ? "when the device lost power" : "by a restart of mdofd") + "; ";
   const std::string none = advised_datum_note(now);
   if (!none.empty()) return note + none;
-  if (now.kind == EncoderDatum::Kind::configured)
-    return note + "until then offset_mm of the configuration applies";
-  return note + "until then positions are as the device shows them";
+  return note +
+         (now.kind == EncoderDatum::Kind::configured
+              ? "now offset_mm of the configuration applies; "
+              : "now positions are as the device shows them; ") +
+         words::remedy(Remedy::set_encoder_again, std::string(1, letter(said.axis)));
 }
 
 }  // namespace
@@ -67,11 +68,10 @@ EncoderState EncoderZero::state() const {
   const std::lock_guard lock(mutex_);
   if (datum_.kind == EncoderDatum::Kind::index) return {datum_, datum_text(datum_)};
   if (index_m_ && datum_.kind == EncoderDatum::Kind::none)
-    return {
-        datum_,
-        "positions are machine positions only after the encoder has passed its reference mark (" +
-            words::remedy(Remedy::pass_reference_mark) +
-            "); until then: " + advised_datum_note(datum_)};
+    return {datum_, "the encoder (device \"" + datum_.device +
+                        "\") has not passed its reference mark, so positions are not machine "
+                        "positions; " +
+                        words::remedy(Remedy::pass_reference_mark)};
   if (!last_) return {datum_, advised_datum_note(datum_)};
   if (datum_.kind != EncoderDatum::Kind::set)
     return {datum_, lost_note(*last_, since_start_, datum_)};
@@ -135,12 +135,13 @@ void EncoderZero::watch(double shown_m, std::int64_t time_ns) {
 
 Result<DatumSetting> EncoderZero::find(Axis axis, double position_m, const std::string& utc) {
   if (drivers::monotonic_ns() - last_ns_ > kStale_ns)
-    return fail(ErrorCode::conflict,
-                "the encoder has sent no sample for 1 s, so its present reading is unknown",
-                Remedy::list_devices);
+    return fail(
+        ErrorCode::conflict,
+        "the encoder has sent no sample for 1 s, so the present reading of the encoder is unknown",
+        Remedy::list_devices);
   if (count_ == 0 || last_ns_ - since_ns_ < kRest_ns)
     return fail(ErrorCode::conflict,
-                "the axis moves, or has stood still for less than 0.2 s; stop it at a known "
+                "the axis moves, or has stood still for less than 0.2 s; stop the axis at a known "
                 "position, then set that position");
   const double shown_m = rest_m_ + sum_m_ / static_cast<double>(count_);
   const std::lock_guard lock(mutex_);

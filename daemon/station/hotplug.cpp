@@ -19,11 +19,15 @@ Result<Hotplug> Hotplug::watch() {
   if (hotplug.udev_)
     hotplug.monitor_.reset(udev_monitor_new_from_netlink(hotplug.udev_.get(), "udev"));
   if (!hotplug.monitor_)
-    return io_error("cannot connect to udev, which reports the devices that are plugged in");
+    return io_error(
+        "cannot connect to udev, so mdofd does not notice when a device is plugged in; a lost "
+        "device is opened again after a pause");
   for (const char* subsystem : {"usb", "hidraw", "tty", "counter", "iio"})
     udev_monitor_filter_add_match_subsystem_devtype(hotplug.monitor_.get(), subsystem, nullptr);
   if (udev_monitor_enable_receiving(hotplug.monitor_.get()) < 0)
-    return io_error("udev does not report which devices are plugged in");
+    return io_error(
+        "udev does not report when a device is plugged in; a lost device is opened again after a "
+        "pause");
   return hotplug;
 }
 

@@ -21,14 +21,14 @@ tl::unexpected<Error> refused(std::int64_t run, const std::string& why,
 }
 
 Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisConfig& axis) {
-  if (run.state == RunState::open) return refused(run.id, "it is under way");
-  if (run.state == RunState::complete) return refused(run.id, "it is complete");
+  if (run.state == RunState::open) return refused(run.id, "this run is under way");
+  if (run.state == RunState::complete) return refused(run.id, "this run is complete");
   if (run.provenance.recording_kind != "recording")
-    return refused(run.id, "it was not recorded from devices");
+    return refused(run.id, "this run has no recording from devices");
   MDOF_TRY(const auto later, reader.superseded_by(run.id));
-  if (later) return refused(run.id, "run " + std::to_string(*later) + " supersedes it");
+  if (later) return refused(run.id, "run " + std::to_string(*later) + " supersedes this run");
   if (run.provenance.rig_text != axis.rig.text)
-    return refused(run.id, "the rig was changed after its start; start a new run");
+    return refused(run.id, "the rig was changed after this run began; start a new run");
   return {};
 }
 
@@ -90,11 +90,10 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
   if (in_machine && now.kind == Kind::set) return {};  // each says where the axis stands
   if (alike && counts_on) return {};
   if (of_run.kind == Kind::none)
-    return refused(
-        cut_off.id,
-        "its encoder had no datum, and it is unknown whether the encoder has counted without "
-        "interruption since then, so present positions may differ from those of the run",
-        Remedy::set_encoder_then_start);
+    return refused(cut_off.id,
+                   "its encoder had no datum and may have stopped counting after the run, so "
+                   "present positions may differ from those of the run",
+                   Remedy::set_encoder_then_start);
   if (of_run.kind == Kind::absolute && now.kind != Kind::none)
     return refused(cut_off.id,
                    "its positions are those that the device shows, but the present positions of "

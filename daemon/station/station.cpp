@@ -172,8 +172,11 @@ void Station::start_run(const RunRequest& request, const RunDone& done) {
   }
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1)) {
-    return done(fail(ErrorCode::conflict, std::string("a run of axis ") + letter(config_.rig.axis) +
-                                              " is under way; stop it with run.stop first"));
+    return done(fail(ErrorCode::conflict,
+                     std::string("a run of axis ") + letter(config_.rig.axis) +
+                         (none < 0 ? " is about to begin, or the axis position is being stored; "
+                                     "try again"
+                                   : " is under way; stop this run with run.stop first")));
   }
   const auto options = std::make_shared<const PipelineOptions>(options_for(request));
   NewRun description = describe_run(request, *options);

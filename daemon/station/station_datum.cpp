@@ -13,13 +13,15 @@ void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDo
   const std::string axis(1, letter(config_.rig.axis));
   if (!config_.live())
     return done(fail(ErrorCode::conflict,
-                     "axis " + axis + " is read from a log, whose positions cannot be set"));
+                     "axis " + axis + " is read from a log; positions of a log cannot be set"));
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1))
     return done(
         fail(ErrorCode::conflict,
              "a run of axis " + axis +
-                 " is under way, and its positions must not change; stop it with run.stop first"));
+                 (none < 0 ? " is about to begin, or the axis position is being stored; try again"
+                           : " is under way, so its positions must not change; stop this run with "
+                             "run.stop first")));
   Item item;
   item.kind = Item::Kind::datum;
   item.position_m = position_m;

@@ -56,11 +56,10 @@ std::optional<Trouble> unsolved(const MeasuredPoint& point, const Rig& rig,
     (algo::has_flag(point.point, Flag::saturated, id) ? saturated : silent).push_back(id);
     all.push_back(id);
   }
-  std::string text = "the stop at " + number_mm(point.point.position_m) + " is not solved: ";
+  std::string text = "the stop at " + number_mm(point.point.position_m) + " has no error values: ";
   if (!silent.empty()) text += "no usable readings of probe " + join(silent);
   if (!saturated.empty())
-    text +=
-        (silent.empty() ? "" : "; ") + ("probe " + join(saturated)) + " at the end of its range";
+    text += (silent.empty() ? "" : "; ") + ("end of the range reached by probe " + join(saturated));
   if (all.empty()) text += point.errors.reason;
   return Trouble{Kind::unsolved, all.empty() ? "" : source_of(all, channels), text, utc};
 }

@@ -131,8 +131,9 @@ void RecordingWriter::remove(const fs::path& file) {
 Status RecordingWriter::append(const SampleBlock& block) {
   Stream& stream = streams_[block.device];
   if (!increases(stream.last_ns, block.time_ns))
-    return bad_input(connection_.file().string() + ": device \"" + block.device +
-                     "\": time does not increase; the driver must be opened again");
+    return bad_input(
+        connection_.file().string() + ": device \"" + block.device +
+        "\": the time of the samples does not increase; the device must be opened again");
   if (waiting_bytes_ > kMaxWaitingBytes) {
     stream.lost += block.lost + block.scans();
     lost_ += block.lost + block.scans();

@@ -41,8 +41,8 @@ Status check_one_name(const fs::path& file) {
   const auto names = fs::hard_link_count(file, ec);
   if (ec || names < 2) return {};
   return bad_input(file.string() + ": this database has " + std::to_string(names) +
-                   " names (hard links), but its journal belongs to only one of them; remove the "
-                   "other names, or copy the file if you want a copy");
+                   " names (hard links), but SQLite can use its journal under only one of these "
+                   "names; remove the other names, or copy the file if you need a copy");
 }
 
 // Another user's database that no mdof writes now is a foreign file: to read it with a -shm of our

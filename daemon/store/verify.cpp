@@ -35,9 +35,10 @@ Status Store::check_head(const ChainHead& reported) {
   MDOF_TRY(const ChainHead now, chain_head());
   return bad_input(file().string() + ": the chain of hashes has no link " +
                    std::to_string(reported.link) + " of hash " + reported.sha256 +
-                   ", which mdofd reported last; it ends at link " + std::to_string(now.link) +
-                   ", so the newest entries are missing or were changed. Restore the database; or, "
-                   "to continue with this one, remove " +
+                   ", which mdofd reported last; the chain ends at link " +
+                   std::to_string(now.link) +
+                   ", so the newest entries are missing or were changed. Restore the database from "
+                   "a backup. Or, to continue with this database, remove " +
                    announced_head_file(file()).string());
 }
 
@@ -55,7 +56,8 @@ Status Store::verify_file(std::vector<std::string>& findings) {
     MDOF_TRY(const bool row, rows.step());
     if (!row) return {};
     findings.push_back("table " + std::string(rows.text(0)) + ": row " + std::string(rows.text(1)) +
-                       " refers to a row of " + std::string(rows.text(2)) + " that is missing");
+                       " refers to a row of " + std::string(rows.text(2)) +
+                       " that is missing; restore the database from a backup");
   }
 }
 
@@ -65,9 +67,9 @@ Status Store::verify_documents(std::vector<std::string>& findings) {
     MDOF_TRY(const bool row, rows.step());
     if (!row) return {};
     if (sha256_hex(rows.text(2)) != rows.text(1))
-      findings.push_back(
-          "document " + std::to_string(rows.integer(0)) +
-          " (a rig, a plan, options or a configuration) was changed after it was stored");
+      findings.push_back("document " + std::to_string(rows.integer(0)) +
+                         " (a rig, a plan, options or a configuration) was changed after it was "
+                         "stored; restore the database from a backup");
   }
 }
 

@@ -33,8 +33,8 @@ bool has_room(const std::filesystem::path& file) {
 
 std::string not_writable(const Error& error) {
   return words::text(error) +
-         "; mdofd serves the active tables and tries again; until it succeeds nothing can be "
-         "stored";
+         "; mdofd serves the active tables and tries again to open the database; nothing is stored "
+         "before that succeeds";
 }
 
 // What is there can be served, though nothing can be stored.
@@ -187,7 +187,7 @@ std::string Storekeeper::chain_fault() {
   if (!store_) return {};
   const Status whole = store_->check_head(announced_);
   if (whole || whole.error().code != ErrorCode::bad_input) return {};
-  return words::text(whole.error()) + ", and restart mdofd; until the restart nothing is stored";
+  return words::text(whole.error()) + ", and restart mdofd; nothing is stored before the restart";
 }
 
 // One that no longer has what was announced before is not announced anew: see watch_database().
@@ -228,7 +228,7 @@ void Storekeeper::watch_database() {
   if (!reason.empty())
     reason +=
         " while mdofd was using it, so nothing can be stored; put back the old file, or restart "
-        "mdofd to continue with the present one";
+        "mdofd to continue with the present file (or with a new file, if there is none)";
   else if (store_ && !(reason = store_->journal_fault()).empty())
     reason += "; nothing more is stored; restart mdofd";
   else

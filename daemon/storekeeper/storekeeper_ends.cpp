@@ -8,8 +8,8 @@ namespace mdof::daemon {
 namespace {
 
 constexpr const char* kHeld =
-    ": another program holds the database in a transaction that does not end; measured points wait "
-    "and are in the recording; end that program";
+    ": another program locks the database by a transaction that does not end; measured points wait "
+    "in memory and are in the recording; end that program";
 
 std::string too_many(std::size_t most) {
   return "; more than " + std::to_string(most) +
@@ -92,7 +92,7 @@ void Storekeeper::wait_for_database(Points points) {
 void Storekeeper::drop(const Points& points) {
   overflowed_[points.run] += points.points.size();
   dropped_points_ += points.points.size();
-  points.done(io_error("no memory reserved for this point" + too_many(options_.most_waiting)));
+  points.done(io_error("this point is not stored now" + too_many(options_.most_waiting)));
 }
 
 // Their number is asked for once, when the run ends.
@@ -153,9 +153,10 @@ void Storekeeper::store_waiting_items() {
 
 // mdofd ends: the runs stay without an end, as after a power cut, and their recordings have all.
 void Storekeeper::discard_waiting_items() {
-  const auto error =
-      io_error("mdofd ended while another program held the database; the run is in the recording",
-               Remedy::resume_or_replay);
+  const auto error = io_error(
+      "mdofd ended while another program locked the database; the samples of the run are in the "
+      "recording",
+      Remedy::resume_or_replay);
   for (const Points& points : waiting_points_) points.done(error);
   for (const Ending& ending : waiting_ends_) ending.done(error);
 }

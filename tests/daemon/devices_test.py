@@ -296,7 +296,7 @@ class Devices(unittest.TestCase):
         self.assertTrue(any(f"continues run {cut}" in w and "set on" in w for w in notice_lines(header)), header)
         self.assertEqual(header["options"]["encoder_datum"]["kind"], "set")
         self.check_both_parts(header, cut, before)
-        for run, why in ((header["run"], "is complete"), (cut, "supersedes it"), (4711, "4711")):
+        for run, why in ((header["run"], "is complete"), (cut, "supersedes this run"), (4711, "4711")):
             with self.assertRaisesRegex(RpcError, why):
                 self.client.call("run.resume", run=run)
 

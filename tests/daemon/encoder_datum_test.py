@@ -158,7 +158,7 @@ class EncoderDatum(unittest.TestCase):
             try:
                 self.client.call("encoder.set", axis="X", position_mm=1)
             except RpcError as error:
-                self.assertIn("stop it at a known position", str(error))
+                self.assertIn("stop the axis at a known position", str(error))
                 refused += 1
             time.sleep(0.005)
         self.assertGreater(refused, 10)
@@ -227,7 +227,7 @@ class EncoderDatum(unittest.TestCase):
         self.offset_mm = 0
         encoder = self.encoder()
         self.assertEqual((encoder["datum"], encoder["offset_mm"]), ("none", 0))
-        lost = f"the position was set to {position_mm:.9g} mm on {said['utc']}, but was lost by a restart of mdofd: set the position again"
+        lost = f"the position was set to {position_mm:.9g} mm on {said['utc']}, but was lost by a restart of mdofd; "
         self.assertTrue(encoder["note"].startswith(lost), encoder["note"])
         self.assertIn("encoder of X: " + lost, self.status())
         started = self.client.call("run.start", axis="X")

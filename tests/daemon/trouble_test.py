@@ -229,7 +229,7 @@ class Trouble(unittest.TestCase):
         out, err = record.communicate(timeout=60)
         header = json.loads(out)
         text = " ".join(notice_lines(header))
-        self.assertRegex(text, r'device "t7": problem "lost", \d+ times?(?:, first)? at \d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z: .*; the device sends samples again after [\d.]+ s')
+        self.assertRegex(text, r'device "t7": problem "lost", \d+ times?(?:, first)? at \d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z: .*; the device sends samples again after a break of [\d.]+ s')
         self.assertRegex(text, r'device "t7": problem "suspect", 1 time at \d{4}-\d\d-\d\dT\d\d:\d\d:\d\d\.\d{3}Z: the encoder\'s datum is lost')
         self.assertRegex(text, r"\d+ points? from [\d.]+ s on ha(?:s|ve) no valid position")
         self.assertNotIn("five probes", text)

@@ -37,7 +37,7 @@ Status back_up(Connection& connection, std::int64_t version) {
                       copied.error());
   flush_to_disk(partial);
   fs::rename(partial, name, ec);
-  if (ec) return io_error(name + ": the backup cannot be put in place: " + ec.message());
+  if (ec) return io_error(name + ": the backup cannot be renamed to this name: " + ec.message());
   return {};
 }
 
@@ -59,7 +59,7 @@ Status check_kind(Connection& connection, int known) {
   const std::string file = connection.file().string();
   if (application != kApplication && (application != 0 || tables > 0))
     return bad_input(file + ": is a SQLite database of another application (application_id " +
-                     std::to_string(application) + "); name the database of mdof");
+                     std::to_string(application) + "); give the database of mdof");
   MDOF_TRY(const std::int64_t version, connection.integer("PRAGMA user_version"));
   if (version > known)
     return bad_input(file + ": has schema version " + std::to_string(version) +

@@ -136,7 +136,7 @@ bool WriterLock::held(const fs::path& database) {
 Status WriterLock::claim_open_runs() {
   struct flock request = one_byte(kOpenRunsByte, F_WRLCK);
   if (::fcntl(fd_, F_OFD_SETLK, &request) == 0) return {};
-  return not_locked("its database");
+  return not_locked("the database");
 }
 
 bool WriterLock::open_runs_claimed(const fs::path& database) {

@@ -115,18 +115,18 @@ TEST(EncoderZero, WhatARestartForgotIsTold) {
   EXPECT_TRUE(begins_with(EncoderZero({counting()}).state().note, "the encoder (device \"t7\")"));
   const std::string lost =
       "the position was set to 12.5 mm on 2026-11-01T06:00:00Z, but was lost by a restart of "
-      "mdofd: set the position again (mdof "
-      "encoder set Y POSITION_MM); ";
+      "mdofd; ";
+  const std::string remedy = "; set the position again (mdof encoder set Y POSITION_MM)";
   EXPECT_TRUE(begins_with(EncoderZero({counting()}, said(0.0125)).state().note,
                           lost + "the encoder (device \"t7\") has no datum"));
   auto configured = counting();
   configured.encoder.offset_mm = 5;
   EXPECT_EQ(EncoderZero({configured}, said(0.0125)).state().note,
-            lost + "until then offset_mm of the configuration applies");
+            lost + "now offset_mm of the configuration applies" + remedy);
   auto absolute = counting();
   absolute.encoder.counts = false;
   EXPECT_EQ(EncoderZero({absolute}, said(0.0125)).state().note,
-            lost + "until then positions are as the device shows them");
+            lost + "now positions are as the device shows them" + remedy);
   EXPECT_EQ(EncoderZero({absolute}).state().note, "");
 }
 
@@ -139,7 +139,7 @@ TEST(EncoderZero, WhatThePowerTookIsToldOtherwise) {
   EXPECT_TRUE(
       begins_with(zero.state().note,
                   "the position was set to 12.5 mm on 2026-11-23T07:00:00Z, but was lost when the "
-                  "device lost power: set the position again"))
+                  "device lost power; the encoder (device \"t7\") has no datum"))
       << zero.state().note;
 }
 
@@ -153,7 +153,7 @@ TEST(EncoderZero, FromTheMarkOnPositionsAreTheMachines) {
   EncoderZero zero({with_mark()});
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
   EXPECT_TRUE(begins_with(zero.state().note,
-                          "positions are machine positions only after the encoder has passed"));
+                          "the encoder (device \"t7\") has not passed its reference mark"));
   SampleBlock block = resting_at(3);
   zero.apply(block);
   EXPECT_EQ(block.value[0][0], 3);
@@ -181,7 +181,7 @@ TEST(EncoderZero, TheMarkGoesWithThePowerAndComesAgain) {
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
   EXPECT_EQ(zero.datum().offset_m, 0);
   EXPECT_TRUE(begins_with(zero.state().note,
-                          "positions are machine positions only after the encoder has passed"));
+                          "the encoder (device \"t7\") has not passed its reference mark"));
   ASSERT_TRUE(zero.pass_mark("t7", "later"));
   EXPECT_EQ(zero.state().note, "reference mark at 12.5 mm, passed on later");
 }

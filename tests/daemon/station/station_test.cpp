@@ -179,7 +179,7 @@ TEST_F(StationTest, AStopEarlyIsPartialAndItGoesOnFromThere) {
   EXPECT_GE(whole.points.size(), 6u);
 
   for (const auto& [run, why] :
-       {std::pair(*id, "supersedes it"), std::pair(*next, "it is complete")}) {
+       {std::pair(*id, "supersedes this run"), std::pair(*next, "this run is complete")}) {
     const auto refused = request_to_resume(*store, run, station_->config());
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::conflict);
@@ -191,7 +191,7 @@ TEST_F(StationTest, ARunUnderWayOrOfAnotherRigDoesNotGoOn) {
   const auto id = start(both_ways_once());
   auto store = store::Store::open(folder_ / "mdof.db", store::Access::read_only);
   EXPECT_SAYS(request_to_resume(*store, *id, station_->config()).error().message,
-              "it is under way");
+              "this run is under way");
   give(axis_, 0, 1400);
   ASSERT_TRUE(stop());
   AxisConfig other = station_->config();

@@ -17,17 +17,17 @@ Trouble at(const char* time, Kind kind, const char* text, const char* device = "
 TEST(TroubleLog, ADeviceThatCameBackIsOneLineWithItsCause) {
   TroubleLog log;
   log.add(at("14:02:11", Kind::lost, "no packet for 2 s"));
-  log.add(at("14:02:14", Kind::back, "the device sends samples again after 3.2 s"));
+  log.add(at("14:02:14", Kind::back, "the device sends samples again after a break of 3.2 s"));
   EXPECT_EQ(test::shown(log.summary()),
             "device_trouble t7 kind=lost times=1 utc=2026-11-22T14:02:11.250Z reason=no packet for "
-            "2 s end=the device sends samples again after 3.2 s\n");
+            "2 s end=the device sends samples again after a break of 3.2 s\n");
 }
 
 TEST(TroubleLog, ManyAreSummarised) {
   TroubleLog log;
   for (int i = 0; i < 150; ++i) {
     log.add(at("14:02:11", Kind::lost, "no route"));
-    log.add(at("14:02:12", Kind::back, "the device sends samples again after 0.1 s"));
+    log.add(at("14:02:12", Kind::back, "the device sends samples again after a break of 0.1 s"));
   }
   log.add(at("14:05:00", Kind::lost, "no route"));
   log.add(at("14:05:01", Kind::suspect, "the encoder's datum is lost"));
@@ -60,16 +60,17 @@ TEST(Unsolved, NamesTheProbesAndTheirDeviceAndNotTheConsequence) {
   const auto of_one = unsolved(
       stop({nan, nan, 0, 0, 0}, {{Flag::lost, "A"}, {Flag::lost, "B"}}, false), rig, two, "now");
   ASSERT_TRUE(of_one);
-  EXPECT_EQ(trouble_line(*of_one),
-            "device \"capa\": unsolved: the stop at 12.500 mm is not solved: no usable readings of "
-            "probe A, B");
+  EXPECT_EQ(
+      trouble_line(*of_one),
+      "device \"capa\": unsolved: the stop at 12.500 mm has no error values: no usable readings "
+      "of probe A, B");
   const auto of_both =
       unsolved(stop({nan, 0, nan, 0, 0},
                     {{Flag::lost, "A"}, {Flag::saturated, "C"}, {Flag::lost, "C"}}, false),
                rig, two, "now");
   EXPECT_EQ(trouble_line(*of_both),
-            "unsolved: the stop at 12.500 mm is not solved: no usable readings of probe A; probe C "
-            "at the end of its range");
+            "unsolved: the stop at 12.500 mm has no error values: no usable readings of probe A; "
+            "end of the range reached by probe C");
 }
 
 TEST(TroubleLog, NoTroubleIsNoLine) {

@@ -6,9 +6,9 @@ const consent = (name, text, required) => h("label", {class: "check"}, h("input"
 
 // marks: {simulated, doubtful} of the table; doubtful null: not known. True: it was done. Throws as call().
 export async function change(method, params, {title, text, action, marks = {}}) {
-  const form = await ask(title, [text, field("Reason", h("input", {name: "reason", required: true, maxlength: 500}), "kept in the history"),
-    marks.simulated ? consent("simulated", "Activate it though its data are SIMULATED", true) : null,
-    marks.doubtful || marks.doubtful === null ? consent("despite_warnings", "Activate it despite the warnings of its runs", marks.doubtful === true) : null], action);
+  const form = await ask(title, [text, field("Reason", h("input", {name: "reason", required: true, maxlength: 500}), "stored in the history"),
+    marks.simulated ? consent("simulated", "Activate the table although its data are SIMULATED", true) : null,
+    marks.doubtful || marks.doubtful === null ? consent("despite_warnings", "Activate the table despite the warnings of its runs", marks.doubtful === true) : null], action);
   if (!form) return false;
   await call(method, {...params, reason: form.get("reason"), simulated: form.has("simulated") || undefined,
     despite_warnings: form.has("despite_warnings") || undefined});

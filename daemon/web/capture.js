@@ -35,21 +35,21 @@ class Wizard {
     const input = (name, value, extra = {}) => h("input", {name, type: "number", step: "any", value, ...extra});
     this.even = h("div", {class: "fields"},
       field("From/mm", input("from_mm", 0)), field("To/mm", input("to_mm", 30)), field("Interval/mm", input("interval_mm", 5)),
-      field("Jitter/mm", input("jitter_mm", 0, {min: 0}), "each target is moved by up to this, so that no periodic error hides"),
+      field("Jitter/mm", input("jitter_mm", 0, {min: 0}), "largest random shift of a target, so that no periodic error stays hidden"),
       field("Seed of the jitter", input("seed", 1, {min: 0, step: 1})));
-    this.list = field("Targets/mm", h("textarea", {name: "targets_mm", rows: 2}), "ascending, with spaces between");
+    this.list = field("Targets/mm", h("textarea", {name: "targets_mm", rows: 2}), "in ascending order, separated by spaces");
     this.repeats = field("Repeats", input("repeats", 5, {min: 0, max: 10000, step: 1}),
-      "each to and fro; the axis must overrun both ends. 0: until you stop");
+      "passes in each direction; the axis must overrun both ends. 0: the run ends when you stop it");
     this.kind = select(kKinds, "even", () => this.show(), {name: "kind"});
     this.element = h("form", {class: "panel", oninput: () => this.show(), onsubmit: (e) => { e.preventDefault(); this.start(started); }},
       h("h2", {}, "New run"),
       h("fieldset", {}, h("legend", {}, "1 Axis and note"), h("div", {class: "fields"},
         field("Axis", select(machine.state.info.axes.map((a) => [a.axis, `${a.axis}: ${a.rig}`]), null, null, {name: "axis"})),
-        field("Note", h("input", {name: "note", maxlength: 1000}), "for people; it is stored with the run"))),
+        field("Note", h("input", {name: "note", maxlength: 1000}), "free text, stored with the run"))),
       h("fieldset", {}, h("legend", {}, "2 Targets"), field("Targets are", this.kind), this.even, this.list),
       h("fieldset", {}, h("legend", {}, "3 Repeats"), h("div", {class: "fields"}, this.repeats,
         field("Signal period of the scale/µm", input("scale_period_um", "", {min: 0}),
-          "where it is known, mdofd warns of intervals that hide its error"))),
+          "if given, mdofd warns of intervals that hide the periodic error of the scale"))),
       this.preview, this.wrong, h("p", {class: "buttons"}, h("button", {class: "main"}, "Start the run")));
     this.show();
   }
@@ -59,9 +59,9 @@ class Wizard {
     this.list.hidden = kind !== "list";
     this.repeats.hidden = kind === "free";
     const count = expected(request(new FormData(this.element)));
-    setText(this.preview, kind === "free" ? "Targets are recognised; the run goes on until you stop it."
-      : count === null ? "Targets: give from, to and an interval above 0."
-      : `${count.targets} targets` + (count.points ? `, ${count.points} points expected: each target forward and in reverse.` : ", until you stop."));
+    setText(this.preview, kind === "free" ? "mdofd finds the targets from the stops; the run ends when you stop it."
+      : count === null ? "Give From, To and an Interval above 0."
+      : `${count.targets} targets` + (count.points ? `, ${count.points} points expected: each target forward and in reverse.` : "; the run ends when you stop it."));
   }
   async start(started) {
     try {
@@ -81,7 +81,7 @@ class Progress {
     this.bar = h("progress", {"aria-label": `Progress of run ${run}`});
     this.where = h("p", {class: "where"}, "Waiting for the first stop");
     this.now = h("p", {});
-    this.trouble = h("div", {role: "log", "aria-label": "What has happened"});
+    this.trouble = h("div", {role: "log", "aria-label": "Problems of devices and stops"});
     this.covers = h("div", {});
     this.charts = null;
     this.place = h("div", {});
@@ -92,7 +92,7 @@ class Progress {
     this.element = h("section", {class: "panel", "aria-label": `Run ${run}`},
       h("h2", {}, `Run ${run}, axis ${axis}`), this.where, this.now, this.bar, this.buttons, this.end,
       notices([...(reply?.notices ?? []), ...(reply?.notes ?? [])]), this.trouble, this.place,
-      h("p", {class: "quiet"}, "Blue, full: forward. Orange, dashed: in reverse. Bands: ± U of each stop alone (95 %)."), this.covers);
+      h("p", {class: "quiet"}, "Blue solid line: forward. Orange dashed line: reverse. Bands: ± U (95 %) of each single stop."), this.covers);
     this.offs = [live.on("run.event", (e) => this.event(e)), live.on("live.update", (v) => this.live(v)), live.on("gap", () => this.read())];
     this.read();
   }
@@ -151,7 +151,7 @@ class Progress {
   }
   async stop(abort) {
     if (abort && !await ask(`Abort run ${this.run}?`, h("p", {},
-      "Its points stay stored, marked as aborted. No table is built from an aborted run."), "Abort the run")) return;
+      "The points stay stored, and the run is marked as aborted. No table can be built from an aborted run."), "Abort the run")) return;
     try {
       const {run} = await call("run.stop", {run: this.run, abort});
       if (!this.over) this.ended({state: abort ? "aborted" : "stopped", run});
@@ -181,7 +181,7 @@ export function open(place) {
     for (const a of machine.state.info.axes) if (a.run) add(a.axis, a.run);
     if (wizard) return;
     if (machine.axes().length === 0) {
-      empty.replaceChildren(h("p", {class: "notice"}, "mdofd measures no axis: its configuration needs an [[axis]]."));
+      empty.replaceChildren(h("p", {class: "notice"}, "mdofd has no axis to measure; add an [[axis]] to mdofd.toml and restart mdofd."));
       return;
     }
     wizard = new Wizard((reply) => {

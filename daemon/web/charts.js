@@ -60,7 +60,7 @@ export class Chart {
     if (!this.series || !this.canvas.isConnected || this.closed) return;
     const rows = rowsOf(this.series);
     if (rows.length === 0) {
-      this.legend.textContent = "Nothing is solved yet.";
+      this.legend.textContent = "No point has error values yet.";
       return;
     }
     const options = {

@@ -65,13 +65,13 @@ function numbers({points}) {
 }
 
 const signs = (t) => Object.entries(t.correction).map(([key, c]) => c.factor === null ? `${nameOf(key)}: none (${c.reason})`
-  : `${nameOf(key)}: ${c.factor > 0 ? "+" : "−"} to the command of ${c.command}`).join("; ");
+  : `${c.factor > 0 ? "+" : "−"}${nameOf(key)} is added to the command of ${c.command}`).join("; ");
 
 function card(t) {
   return facts([["Axis", t.axis], ["Data", t.simulated ? "SIMULATED: no machine was measured" : "measured"], ["Runs", t.runs.join(", ")],
-    ["Range", `${fixed(t.first_mm, 3)} … ${fixed(t.last_mm, 3)} mm, ${t.points_total} points`], ["Stated at", t.reference],
-    ["Straightness about", t.straightness_reference], ["Correction", signs(t)], ["Built", time(t.created_utc)],
-    ["Warnings", t.doubtful ? "▲ its runs have doubtful notices" : null], ["Active since", t.activated_utc && `${time(t.activated_utc)}, by ${t.activated_by}`]]);
+    ["Range", `${fixed(t.first_mm, 3)} … ${fixed(t.last_mm, 3)} mm, ${t.points_total} points`], ["Reference point", t.reference],
+    ["Straightness relative to", t.straightness_reference], ["Correction", signs(t)], ["Built", time(t.created_utc)],
+    ["Warnings", t.doubtful ? "▲ notices of its runs make this table doubtful" : null], ["Active since", t.activated_utc && `${time(t.activated_utc)}, by ${t.activated_by}`]]);
 }
 
 class AxisPanel {
@@ -82,7 +82,7 @@ class AxisPanel {
     this.shown = h("div", {});
     this.wrong = h("div", {role: "alert"});
     this.builder = h("div", {});
-    this.table = table(`Stored tables of ${axis}, newest first`, [["table"], ["state", "w"], ["runs"], ["range/mm", "w"], ["points", "n"], ["data"], ["built", "w"], ["do"]], []);
+    this.table = table(`Stored tables of ${axis}, newest first`, [["table"], ["state", "w"], ["runs"], ["range/mm", "w"], ["points", "n"], ["data"], ["built", "w"], ["actions"]], []);
     this.history = h("div", {});
     this.element = h("div", {}, h("section", {class: "panel"}, h("h2", {}, `Active on axis ${axis}`), this.active), this.wrong, this.shown,
       h("section", {}, h("h2", {}, "Stored tables"), this.table), this.builder, h("section", {}, h("h2", {}, "History"), this.history));
@@ -94,13 +94,13 @@ class AxisPanel {
         call("run.list", {axis, count: 100}), call("history.list", {count: 200})]);
       this.now = status.axes[axis] ?? null;
       this.active.replaceChildren(...this.now ? [h("p", {class: "result"}, `Table ${this.now.table}, generation ${this.now.generation}`), card(this.now), covers(this.now) ?? "",
-        h("p", {class: "buttons"}, h("button", {onclick: () => this.show(this.now.table)}, "Show it"), h("button", {class: "danger", onclick: () => this.deactivate()}, "Deactivate …"))]
+        h("p", {class: "buttons"}, h("button", {onclick: () => this.show(this.now.table)}, "Show this table"), h("button", {class: "danger", onclick: () => this.deactivate()}, "Deactivate …"))]
         : [h("p", {}, "No table is active: nothing is corrected on this axis.")]);
       setRows(this.table, list.tables.map((t) => this.row(t)));
       this.build(runs.filter((r) => ["complete", "partial"].includes(r.state)));
       const deeds = history.filter((d) => d.deed.startsWith("compensation."));
       this.history.replaceChildren(deeds.length === 0 ? h("p", {}, "No table was built or activated yet.") : table("Tables of all axes: who did what, newest first",
-        [["when", "w"], ["what"], ["of"], ["by"], ["reason"]], deeds.map((d) => [time(d.utc), d.deed.replace("compensation.", ""),
+        [["when", "w"], ["action"], ["object"], ["by"], ["reason"]], deeds.map((d) => [time(d.utc), d.deed.replace("compensation.", ""),
           `${d.of === "compensation_table" || d.of === "volumetric_table" ? "table" : "generation"} ${d.id}`, d.user || `uid ${d.uid}`, d.detail ?? "–"])));
     } catch (error) {
       this.wrong.replaceChildren(problem(error));
@@ -121,8 +121,8 @@ class AxisPanel {
       h("h2", {}, "Build a table"), runs.length === 0 ? h("p", {}, `There is no run of ${this.axis} yet; measure one in Capture.`)
         : h("fieldset", {}, h("legend", {}, "From runs with the same targets"), runs.slice(0, 20).map((r) => h("label", {class: "check"},
           h("input", {type: "checkbox", name: "run", value: r.run, checked: chosen.has(r.run)}), `run ${r.run}, ${time(r.started_utc)}, ${r.state}${r.simulated ? ", SIMULATED" : ""} ${r.note ?? ""}`))),
-      h("label", {class: "check"}, h("input", {type: "checkbox", name: "keep_slope"}), "Keep the slope (by default squareness holds it)"),
-      h("label", {class: "check"}, h("input", {type: "checkbox", name: "partial"}), "Take partial runs as well"),
+      h("label", {class: "check"}, h("input", {type: "checkbox", name: "keep_slope"}), "Keep the slope in the straightness (by default the slope belongs to squareness)"),
+      h("label", {class: "check"}, h("input", {type: "checkbox", name: "partial"}), "Also accept partial runs"),
       h("p", {class: "buttons"}, h("button", {class: "main", disabled: runs.length === 0}, "Build the table")), result));
   }
   async make(form) {
@@ -140,8 +140,8 @@ class AxisPanel {
       const [shown, active] = await Promise.all([rows(id), this.now ? rows(this.now.table) : null]);
       this.opened?.close();
       this.opened = new TablePicture(shown, active);
-      this.shown.replaceChildren(h("section", {class: "panel", "aria-label": `Table ${id}`}, h("h2", {}, `Table ${id}${shown.active ? ", active" : active ? ` against the active table ${active.table}` : ", not active"}`),
-        h("p", {class: "quiet"}, `Blue: table ${id}${active && !shown.active ? `, orange: active table ${active.table}` : ""}; full: forward, dashed: in reverse. Bands: ± U = ${kCoverage} u.`),
+      this.shown.replaceChildren(h("section", {class: "panel", "aria-label": `Table ${id}`}, h("h2", {}, `Table ${id}${shown.active ? ", active" : active ? `, compared with the active table ${active.table}` : ", not active"}`),
+        h("p", {class: "quiet"}, `Blue: table ${id}${active && !shown.active ? `, orange: active table ${active.table}` : ""}; solid: forward, dashed: reverse. Bands: ± U = ${kCoverage} u.`),
         this.opened.element, numbers(shown), card(shown), covers(shown) ?? ""));
       this.opened.draw();
     } catch (error) {
@@ -160,11 +160,11 @@ class AxisPanel {
   async activate(id) {
     const t = await call("compensation.table", {table: id, count: 1}).catch((error) => this.wrong.replaceChildren(problem(error)));
     if (t) this.change("compensation.activate", {table: id}, {title: `Activate table ${id} on axis ${t.axis}?`, action: "Activate", marks: t,
-      text: [card(t), this.now ? h("p", {}, `It replaces table ${this.now.table}, at once and for everybody.`) : null]});
+      text: [card(t), this.now ? h("p", {}, `Table ${id} replaces table ${this.now.table} at once, for all clients.`) : null]});
   }
   deactivate() {
     this.change("compensation.deactivate", {axis: this.axis}, {title: `Deactivate the table of axis ${this.axis}?`, action: "Deactivate",
-      text: h("p", {}, `Table ${this.now.table} is no longer served; nothing is corrected on this axis.`)});
+      text: h("p", {}, `mdofd no longer serves table ${this.now.table}; nothing is corrected on this axis.`)});
   }
   close() { this.opened?.close(); }
 }

@@ -68,7 +68,7 @@ export function covers(of) {
   if (!of.u_covers && missing.length === 0) return null;
   const incomplete = missing.length > 0;
   return h("div", {class: incomplete ? "notice doubtful" : "quiet"},
-    h("p", {}, incomplete ? h("strong", {}, "U incomplete: ") : "U contains ", of.u_covers ?? "", "."),
+    h("p", {}, incomplete ? h("strong", {}, "U is incomplete: ") : null, "U contains ", of.u_covers ?? "", "."),
     incomplete ? h("details", {}, h("summary", {}, `${missing.length} contributors are not declared`),
       h("p", {}, missing.join(", "))) : null);
 }
@@ -123,7 +123,7 @@ export function age(seconds) {
 
 // Shows what a promise gives, or its error where it belongs.
 export function fill(element, promise) {
-  element.replaceChildren(h("p", {class: "quiet"}, "Reading …"));
+  element.replaceChildren(h("p", {class: "quiet"}, "Loading …"));
   return promise.then((content) => element.replaceChildren(...[content].flat().filter(Boolean)),
     (error) => element.replaceChildren(problem(error)));
 }

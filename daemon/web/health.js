@@ -22,13 +22,13 @@ export function reasons(info, devices, compensation) {
     if (a.encoder.note) found.push([`encoder of ${a.axis}`, a.encoder.note]);
     const waiting = machine.state.newest.get(a.axis)?.value.waiting_for;
     if (waiting) found.push([`axis ${a.axis}`, `waits for ${waiting}`]);
-    if (machine.isStale(a.axis)) found.push([`axis ${a.axis}`, "stale: no new values come"]);
+    if (machine.isStale(a.axis)) found.push([`axis ${a.axis}`, "stale: no new values arrive"]);
     if (!compensation.axes[a.axis] && !compensation.volume) found.push([`compensation of ${a.axis}`, "no table is active: nothing is corrected"]);
   }
-  if (info.axes.length === 0) found.push(["configuration", "mdofd measures no axis: it needs an [[axis]]"]);
+  if (info.axes.length === 0) found.push(["configuration", "mdofd has no axis to measure; add an [[axis]] to mdofd.toml and restart mdofd"]);
   if (info.store_jobs_dropped + info.store_points_dropped > 0)
     found.push(["queues", `the disk was too slow: ${info.store_jobs_dropped} blocks and ${info.store_points_dropped} points were dropped`]);
-  if (info.calls_refused > 0) found.push(["calls", `${info.calls_refused} were refused, because too many were waiting`]);
+  if (info.calls_refused > 0) found.push(["calls", `${info.calls_refused} calls were refused, because too many calls were waiting`]);
   return found;
 }
 
@@ -46,19 +46,19 @@ function daysTo(due) {
 
 function calibrations() {
   return machine.axes().map((axis) => [axis, machine.state.rigs.get(axis)]).filter(([, rig]) => rig).flatMap(([axis, rig]) => [
-    ...rig.probes.map((p) => [`${axis}, probe ${p.id}`, p.certificate ?? "none named", p.laboratory ?? "–", p.calibrated ?? "–", p.due ?? "–", p.due ? daysTo(p.due) : "▲ no due date"]),
-    ...rig.records.map((r) => [`${axis}, ${r.kind} in place`, r.id, "–", r.date, r.valid_until, daysTo(r.valid_until)])]);
+    ...rig.probes.map((p) => [`${axis}, probe ${p.id}`, p.certificate ?? "not stated", p.laboratory ?? "–", p.calibrated ?? "–", p.due ?? "–", p.due ? daysTo(p.due) : "▲ no due date"]),
+    ...rig.records.map((r) => [`${axis}, ${r.kind} (calibration record)`, r.id, "–", r.date, r.valid_until, daysTo(r.valid_until)])]);
 }
 
 export function open(place) {
   const t = {
     why: table("Reasons", [["place", "w"], ["reason"]], []),
-    devices: table("Devices", [["device", "w"], ["axis"], ["driver"], ["state", "w"], ["rate/Hz", "n"], ["scans", "n"], ["lost", "n"], ["dropped blocks", "n"], ["opened again", "n"], ["last error"]], []),
-    clocks: table("Clocks of the devices against this machine's", [["device", "w"], ["drift/ppm", "n"], ["jitter/ms", "n"], ["settled"], ["steps", "n"]], []),
-    calibrations: table("Calibrations", [["of", "w"], ["certificate"], ["laboratory"], ["calibrated", "w"], ["due", "w"], ["state", "w"]], []),
+    devices: table("Devices", [["device", "w"], ["axis"], ["driver"], ["state", "w"], ["rate/Hz", "n"], ["scans", "n"], ["lost", "n"], ["dropped blocks", "n"], ["reopened", "n"], ["last error"]], []),
+    clocks: table("Clocks of the devices, compared with the clock of this computer", [["device", "w"], ["drift/ppm", "n"], ["jitter/ms", "n"], ["settled"], ["steps", "n"]], []),
+    calibrations: table("Calibrations", [["calibrated part", "w"], ["certificate"], ["laboratory"], ["calibrated", "w"], ["due", "w"], ["state", "w"]], []),
   };
   const fine = h("p", {}), server = h("div", {}), storage = h("div", {}), clients = h("div", {}), wrong = h("div", {role: "alert"});
-  place.append(wrong, h("section", {class: "panel"}, h("h2", {}, "Why something does nothing"), fine, t.why),
+  place.append(wrong, h("section", {class: "panel"}, h("h2", {}, "What does not work, and why"), fine, t.why),
     h("div", {class: "columns"}, h("section", {class: "panel"}, h("h2", {}, "mdofd"), server), h("section", {class: "panel"}, h("h2", {}, "Storage"), storage),
       h("section", {class: "panel"}, h("h2", {}, "Connected clients"), clients)),
     h("section", {}, h("h2", {}, "Devices"), t.devices), h("section", {}, h("h2", {}, "Clocks"), t.clocks), h("section", {}, h("h2", {}, "Calibrations"), t.calibrations));
@@ -72,18 +72,18 @@ export function open(place) {
       const why = reasons(info, devices, compensation), hours = hoursLeft(health, sized);
       setRows(t.why, why);
       t.why.hidden = why.length === 0;
-      fine.textContent = why.length === 0 ? "● Everything works." : `▲ ${why.length} ${why.length === 1 ? "thing needs" : "things need"} a look.`;
-      server.replaceChildren(facts([["Version", info.version], ["Started", time(info.started_utc)], ["Up for", age(info.uptime_s)], ["Generation of the tables", String(info.generation)],
-        ["Blocks dropped by the queue of the disk", String(info.store_jobs_dropped)], ["Points dropped", String(info.store_points_dropped)], ["Calls refused", String(info.calls_refused)],
+      fine.textContent = why.length === 0 ? "● Everything works." : `▲ ${why.length} ${why.length === 1 ? "entry needs" : "entries need"} attention.`;
+      server.replaceChildren(facts([["Version", info.version], ["Started", time(info.started_utc)], ["Running for", age(info.uptime_s)], ["Generation of the tables", String(info.generation)],
+        ["Blocks dropped (disk too slow)", String(info.store_jobs_dropped)], ["Points dropped (disk too slow)", String(info.store_points_dropped)], ["Calls refused", String(info.calls_refused)],
         ["Chain of hashes", info.chain.link ? `link ${info.chain.link}, ${info.chain.sha256.slice(0, 16)} …` : "empty"]]));
-      storage.replaceChildren(facts([["State", info.storage === "ok" ? "● ok" : `■ ${info.storage}: ${info.storage_reason}`], ["Free", GB(health.free_bytes)],
-        ["Recording goes on for", hours === null ? "not known before a run was recorded" : `${fixed(hours, 0)} h at the rate of run ${newest}`],
+      storage.replaceChildren(facts([["State", info.storage === "ok" ? "● ok" : `■ ${info.storage}: ${info.storage_reason}`], ["Free disk space", GB(health.free_bytes)],
+        ["Free space lasts for", hours === null ? "not known, because no run was recorded yet" : `${fixed(hours, 0)} h at the rate of run ${newest}`],
         ["Database", `${info.database}, ${isNumber(health.database_bytes) ? fixed(health.database_bytes / 1e6, 1) : "–"} MB`]]));
       clients.replaceChildren(h("ul", {}, health.clients.map((c) => h("li", {}, c))));
       setRows(t.devices, devices.map((d) => [d.device, d.axis, d.driver, (d.state === "open" ? "● " : "■ ") + d.state, fixed(d.rate_hz, 0), String(d.scans), String(d.scans_lost), String(d.blocks_dropped),
         String(d.reopened), d.error ?? d.last_error ?? "none"]));
       setRows(t.clocks, devices.map((d) => d.clock ? [d.device, fixed(d.clock.drift_ppm, 2), fixed(d.clock.jitter_ms, 3), d.clock.settled ? "● yes" : "▲ not yet", String(d.clock.steps)]
-        : [d.device, "–", "–", "has the clock of this machine", "–"]));
+        : [d.device, "–", "–", "uses the clock of this computer", "–"]));
       setRows(t.calibrations, calibrations());
       wrong.replaceChildren();
     } catch (error) {

@@ -50,7 +50,7 @@ export function warnings() {
       age: all.length ? Math.min(...all.map(ageOf)) : Infinity});
   else
     for (const axis of all.filter(isStale))
-      found.push({kind: "invalid", text: `Axis ${axis} is stale: no new values come.`, age: ageOf(axis)});
+      found.push({kind: "invalid", text: `Axis ${axis} is stale: no new values arrive.`, age: ageOf(axis)});
   const simulated = (state.info?.axes ?? []).filter((a) => a.simulated).map((a) => a.axis);
   if (simulated.length)
     found.push({kind: "doubtful", text: `SIMULATED: ${simulated.join(", ")}. No machine is measured.`});

@@ -10,7 +10,7 @@ export function budgetBars(budget, unit) {
     return h("span", {class: "share", "aria-hidden": "true"}, fill);
   };
   return table(`Contributors to u in ${unit}, the largest first`,
-    [["contributor"], [`u/${unit}`, "n"], ["share of u²", "n"], ["as a bar"], ["declared", "n"]],
+    [["contributor"], [`u/${unit}`, "n"], ["share of u²", "n"], ["bar"], ["declared", "n"]],
     budget.contributors.map((c) => [c.contributor, short(Math.abs(c.contribution)),
       isNumber(c.share) ? `${fixed(100 * c.share, 1)} %` : "–", isNumber(c.share) ? bar(c.share) : "",
       isNumber(c.value) ? `${c.key ?? ""} ${c.value} ${c.unit ?? ""}` : "–"]));

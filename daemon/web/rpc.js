@@ -29,7 +29,7 @@ async function post(method, params) {
     }
   } catch (error) {
     if (error instanceof RpcError) throw error;
-    throw new RpcError({code: 0, message: `${method}: mdofd does not answer; it may be stopped or starting`});
+    throw new RpcError({code: 0, message: `${method}: mdofd does not answer; mdofd may be stopped or starting`});
   }
   if (reply.error) throw new RpcError(reply.error);
   return reply.result;
@@ -38,8 +38,8 @@ async function post(method, params) {
 export async function askToken(reason) {
   asking ??= ask("Token", [
     reason ? h("p", {class: "notice doubtful"}, reason) : null,
-    h("p", {}, "A call that changes something needs the token of this mdofd. Print it with ", h("code", {}, "mdof token"),
-      " on the machine that runs it, as a user who may read it. It is kept until this tab is closed."),
+    h("p", {}, "Every change needs the token of this mdofd. Print the token with ", h("code", {}, "mdof token"),
+      " on the computer that runs mdofd, as a user who may read the token file. This page keeps the token until you close the tab."),
     field("Token", h("input", {name: "token", type: "password", autocomplete: "off", required: true, autofocus: true})),
   ], "Use this token");
   const form = await asking;

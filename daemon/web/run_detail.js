@@ -11,10 +11,10 @@ function head(run) {
   const t = run.temperature_C;
   return facts([["State", run.state], ["Data", run.simulated ? "SIMULATED: no machine was measured" : "measured"],
     ["Started", time(run.started_utc)], ["Note", run.note], ["Supersedes", run.supersedes && `run ${run.supersedes}`],
-    ["Points", String(run.points_total)], ["Stated at", run.reference + (run.reference_mm ? ` (${run.reference_mm.map((x) => fixed(x, 3)).join(", ")}) mm` : "")],
+    ["Points", String(run.points_total)], ["Reference point", run.reference + (run.reference_mm ? ` (${run.reference_mm.map((x) => fixed(x, 3)).join(", ")}) mm` : "")],
     ["Temperature", isNumber(t?.mean) ? `${fixed(t.mean, 2)} °C` : null],
     ["Lost scans", `${run.scans_lost} of ${run.scans}`], ["Model", run.model],
-    ["Recording", run.recording.path], ["SHA-256 of it", run.recording.sha256]]);
+    ["Recording", run.recording.path], ["SHA-256 of the recording", run.recording.sha256]]);
 }
 
 // Least squares or through both ends, as [x, y] of both ends of the line.
@@ -63,8 +63,8 @@ class Budget {
   constructor(run) {
     this.place = h("div", {"aria-live": "polite"});
     const figures = Object.keys(run.uncertainty ?? {});
-    this.element = h("section", {}, h("h2", {}, "Uncertainty budget"), figures.length === 0 ? h("p", {}, "No figure of this run has a budget.")
-      : field("Figure", select(figures.map((key) => [key, `${titleOf(key)}/${unitOf(key)}`]), figures[0], (key) => this.read(run.run, key))), this.place);
+    this.element = h("section", {}, h("h2", {}, "Uncertainty budget"), figures.length === 0 ? h("p", {}, "No result of this run has an uncertainty budget.")
+      : field("Result", select(figures.map((key) => [key, `${titleOf(key)}/${unitOf(key)}`]), figures[0], (key) => this.read(run.run, key))), this.place);
     if (figures.length) this.read(run.run, figures[0]);
   }
   async read(run, figure) {
@@ -96,7 +96,7 @@ function partners(run, runs) {
   const of = (test) => runs.filter((r) => r.run !== run.run && test(r)).map((r) => [r.run, `run ${r.run}, ${r.axis}, ${time(r.started_utc)} ${r.note ?? ""}`]);
   const pick = (label, options, how) => options.length === 0 ? null
     : field(label, select([["", "choose …"], ...options], "", (other) => { if (other) location.hash = `runs/${run.run}/${how}/${other}`; }));
-  return h("div", {class: "fields"}, pick("Lay over this run", of((r) => r.axis === run.axis), "with"),
+  return h("div", {class: "fields"}, pick("Compare with", of((r) => r.axis === run.axis), "with"),
     pick("Squareness with", of((r) => r.axis !== run.axis && r.simulated === run.simulated), "square"));
 }
 
@@ -110,7 +110,7 @@ async function resume(run, place) {
 }
 
 export function openRun(place, id) {
-  const body = h("div", {}, h("p", {class: "quiet"}, "Reading …"));
+  const body = h("div", {}, h("p", {class: "quiet"}, "Loading …"));
   const opened = [];
   place.append(h("p", {}, h("a", {href: "#runs"}, "← All runs")), body);
   async function read() {
@@ -121,10 +121,10 @@ export function openRun(place, id) {
     const wrong = h("div", {});
     body.replaceChildren(h("h2", {}, `Run ${run.run}, axis ${run.axis}`),
       h("div", {class: "columns"}, head(run), h("div", {}, partners(run, runs),
-        run.state === "open" || run.state === "aborted" ? h("p", {}, h("button", {onclick: () => resume(id, wrong)}, "Resume: go on as a new run")) : null, wrong,
+        run.state === "open" || run.state === "aborted" ? h("p", {}, h("button", {onclick: () => resume(id, wrong)}, "Resume (continue as a new run)")) : null, wrong,
         covers(run))), notices([...run.notices, ...run.notes]) ?? "",
       h("h2", {}, "Five errors"), charts.element,
-      h("p", {class: "quiet"}, "Actual − nominal. Blue, full: forward; orange, dashed: in reverse; the newest four passes. Bands: ± U (95 %)."), pointsTable(points),
+      h("p", {class: "quiet"}, "Errors are actual − nominal. Blue solid line: forward; orange dashed line: reverse. The charts show the newest four passes. Bands: ± U (95 %)."), pointsTable(points),
       straightness.element, h("h2", {}, "Angles"), angles(run), new Budget(run).element, deeds(run.history) ?? "");
     charts.set(points);
     straightness.draw();

@@ -33,8 +33,8 @@ function pairCharts(key, a, b) {
 
 const effects = {reduced: "▼ reduced", increased: "▲ increased", "not shown": "● not shown"};
 
-const figures = (found, first, second) => table(`Figures of run ${first} (before) and run ${second} (after). Not shown: the change is within its U`,
-  [["figure"], [`run ${first}`, "w"], [`run ${second}`, "w"], ["change of |value|", "w"], ["effect", "w"]],
+const figures = (found, first, second) => table(`Results of run ${first} (before) and run ${second} (after). “not shown”: the change is smaller than its U`,
+  [["result"], [`run ${first}`, "w"], [`run ${second}`, "w"], ["change of |value|", "w"], ["effect", "w"]],
   Object.entries(found.figures).map(([key, f]) => [titleOf(key), measured(f.before, unitOf(key), {with_k: false}), measured(f.after, unitOf(key), {with_k: false}),
     measured(f.change, unitOf(key), {with_k: false}), effects[f.effect] ?? f.effect]));
 
@@ -43,7 +43,7 @@ function back(run) {
 }
 
 export function openPair(place, first, second) {
-  const body = h("div", {}, h("p", {class: "quiet"}, "Reading …"));
+  const body = h("div", {}, h("p", {class: "quiet"}, "Loading …"));
   const opened = [];
   place.append(back(first), body);
   async function read() {
@@ -52,9 +52,9 @@ export function openPair(place, first, second) {
     const pairs = errorKeys(a.points.find((p) => errorKeys(p).length)).map((key) => pairCharts(key, a, b));
     const table = h("div", {});
     opened.push(...pairs.flatMap((pair) => pair.charts));
-    body.replaceChildren(h("h2", {}, `Run ${after} over run ${before}`),
-      h("p", {class: "quiet"}, `Means over all passes. Blue: run ${after}, orange: run ${before}; full: forward, dashed: in reverse. U of a single difference is not calculated; that of each figure is below.`),
-      h("div", {class: "charts"}, pairs.map((pair) => pair.element)), h("h2", {}, "Figures"), table);
+    body.replaceChildren(h("h2", {}, `Run ${after} compared with run ${before}`),
+      h("p", {class: "quiet"}, `Means over all passes. Blue: run ${after}, orange: run ${before}; solid: forward, dashed: reverse. U is calculated for the results below, not for single differences.`),
+      h("div", {class: "charts"}, pairs.map((pair) => pair.element)), h("h2", {}, "Results"), table);
     pairs.forEach((pair) => pair.draw());
     try {
       const found = await call("run.compare", {before, after});
@@ -68,7 +68,7 @@ export function openPair(place, first, second) {
 }
 
 export function openSquareness(place, first, second) {
-  const body = h("div", {}, h("p", {class: "quiet"}, "Reading …"));
+  const body = h("div", {}, h("p", {class: "quiet"}, "Loading …"));
   place.append(back(first), body);
   async function read() {
     const heads = await Promise.all([first, second].map((run) => call("run.get", {run})));
@@ -89,7 +89,7 @@ export function openSquareness(place, first, second) {
     body.replaceChildren(h("h2", {}, `Squareness of ${a} and ${b}: runs ${heads.map((run) => run.run).join(" and ")}`),
       h("div", {class: "columns"}, squarenessPicture(a, b, budget.value),
         h("div", {}, h("p", {class: "result"}, `${nameOf(key)} = ${measured(budget, "µrad")}`),
-          h("p", {}, `The angle from +${a} to +${b} is 90° + ${nameOf(key)}. The picture enlarges it.`),
+          h("p", {}, `The angle from +${a} to +${b} is 90° + ${nameOf(key)}. The picture exaggerates the deviation from 90°.`),
           heads.map((run) => h("p", {class: "quiet"}, `${run.axis}: run ${run.run}, ${time(run.started_utc)}, ${run.state}${run.simulated ? ", SIMULATED" : ""}`)),
           h("p", {}, h("button", {onclick: store}, "Store this squareness")), stored)),
       notices(found.notices) ?? "", h("h2", {}, "Uncertainty budget"), budgetBars(budget, "µrad"),

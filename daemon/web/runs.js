@@ -21,7 +21,7 @@ export class RunList {
       ["supersedes"], ["note"]], []);
     const choose = (key, all, values) => select([["", all], ...values.map((v) => [v, v])], "", (v) => { this.filter[key] = v; this.draw(); });
     this.count = h("p", {class: "quiet", role: "status"});
-    this.more = h("button", {type: "button", onclick: () => this.read()}, "Older runs");
+    this.more = h("button", {type: "button", onclick: () => this.read()}, "Load older runs");
     this.wrong = h("div", {});
     this.element = h("div", {}, h("div", {class: "fields", role: "search", "aria-label": "Filter of runs"},
       field("Axis", choose("axis", "all", ["X", "Y", "Z"])), field("State", choose("state", "all", kStates)),
@@ -44,7 +44,7 @@ export class RunList {
       (r.note ?? "").toLowerCase().includes(text));
     setRows(this.table, shown.map(rowOf));
     this.count.textContent = `${shown.length} of ${this.total} runs` +
-      (this.runs.length < this.total ? `; the newest ${this.runs.length} are looked at` : "");
+      (this.runs.length < this.total ? `; only the newest ${this.runs.length} are searched` : "");
     this.more.hidden = this.runs.length >= this.total;
   }
 }

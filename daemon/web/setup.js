@@ -60,7 +60,7 @@ export function shimText(um, probe) {
   if (Math.abs(off) < kCentred * (probe.high_um - probe.low_um) / 2) return "Centred: no shim needed";
   const probeTowards = off > 0 ? along(probe.direction) : opposite(probe.direction);
   const targetTowards = off > 0 ? opposite(probe.direction) : along(probe.direction);
-  return `Shim ${fixed(Math.abs(off), 1)} µm: the probe towards ${probeTowards}, or the target towards ${targetTowards}`;
+  return `Shim ${fixed(Math.abs(off), 1)} µm: move the probe towards ${probeTowards}, or the target towards ${targetTowards}`;
 }
 
 class ProbeCard {
@@ -92,9 +92,9 @@ class ProbeCard {
     this.bar.setAttribute("aria-valuenow", isNumber(um) ? um.toFixed(2) : low);
     this.needle.hidden = !isNumber(um);
     this.needle.style.left = `${Math.min(Math.max((um - low) / (high - low), 0), 1) * 100}%`;
-    setText(this.shim, stale ? "Shim: not known while stale" : shimText(um, this.probe));
+    setText(this.shim, stale ? "Shim: not known, because no new values arrive" : shimText(um, this.probe));
     const {pooled} = this.noise;
-    setText(this.quiet, pooled === null ? "Noise: shown at rest" : `Noise s = ${fixed(pooled[0], 4)} µm (${pooled[1]} degrees of freedom, at rest)`);
+    setText(this.quiet, pooled === null ? "Noise: shown when the axis is at rest" : `Noise s = ${fixed(pooled[0], 4)} µm (${pooled[1]} degrees of freedom, at rest)`);
   }
 }
 
@@ -105,10 +105,10 @@ class SignCheck {
     this.cards = cards;
     this.push = select([["", "choose …"], ...["+X", "−X", "+Y", "−Y", "+Z", "−Z"].map((d) => [d, d])], "", () => this.draw());
     this.rows = cards.map((card) => [h("td", {class: "n"}, "–"), h("td", {}, "–")]);
-    this.start = h("button", {type: "button", onclick: () => this.begin()}, "Start: take readings as zero");
+    this.start = h("button", {type: "button", onclick: () => this.begin()}, "Start: use these readings as zero");
     this.element = h("section", {class: "panel"}, h("h2", {}, "Sign check"),
-      h("p", {}, "Stop the axis. Start, then push the target lightly in one direction of the machine. Each probe whose line lies " +
-        "along it must rise or fall as the rig says. A reversed sign would compensate twice instead of not at all."),
+      h("p", {}, "Stop the axis and press Start. Then push the target lightly along one direction of the machine. Each probe that " +
+        "measures along this direction must rise or fall as the rig states. With a reversed sign, a compensation would double the error."),
       h("div", {class: "buttons"}, field("I push the target towards", this.push), this.start),
       table("Change since the start", [["probe"], ["measures"], ["change/µm", "n"], ["verdict"]],
         cards.map((card, i) => h("tr", {}, h("th", {scope: "row"}, card.probe.id), h("td", {}, along(card.probe.direction)), ...this.rows[i]))));
@@ -135,9 +135,9 @@ export function verdict(change, card, push) {
   if (Math.abs(change) < least) return "no change yet";
   if (!push) return change > 0 ? "rises" : "falls";
   const expected = push.reduce((a, x, k) => a + x * card.probe.direction[k], 0);
-  if (Math.abs(expected) < 0.2) return "◆ changes, though it looks across the push";
-  return expected * change > 0 ? "● as the rig says"
-    : `■ REVERSED: see "measures" and "reads" of probe ${card.probe.id} in the rig`;
+  if (Math.abs(expected) < 0.2) return "◆ changes, although it measures across the push";
+  return expected * change > 0 ? "● as the rig states"
+    : `■ REVERSED: check "measures" and "reads" of probe ${card.probe.id} in the rig`;
 }
 
 class Devices {
@@ -163,7 +163,7 @@ class Devices {
     this.before.set(d.device, {scans: d.scans, at: now});
     const rate = last && now > last.at ? (d.scans - last.scans) / (now - last.at) * 1000 : null;
     return [d.device, d.driver, (d.state === "open" ? "● " : "■ ") + d.state, rate === null ? "–" : fixed(rate, 0),
-      fixed(d.rate_hz, 0), String(d.scans_lost), [d.error, ...d.trouble].filter(Boolean).join("; ") || "nothing"];
+      fixed(d.rate_hz, 0), String(d.scans_lost), [d.error, ...d.trouble].filter(Boolean).join("; ") || "none"];
   }
 }
 
@@ -177,7 +177,7 @@ export function open(place, [asked]) {
   const axis = axes.includes(asked) ? asked : axes[0];
   if (!axis) {
     place.append(machine.state.error ? problem(machine.state.error)
-      : h("p", {class: "notice"}, "mdofd measures no axis: its configuration needs an [[axis]]."));
+      : h("p", {class: "notice"}, "mdofd has no axis to measure; add an [[axis]] to mdofd.toml and restart mdofd."));
     return machine.onChange(() => { if (machine.axes().length) location.reload(); });
   }
   const rig = machine.state.rigs.get(axis);
@@ -190,7 +190,7 @@ export function open(place, [asked]) {
     where, stale, h("div", {class: "probes"}, cards.map((card) => card.element)),
     h("div", {class: "columns"},
       h("section", {class: "panel"}, h("h2", {}, "Errors now"), h("p", {class: "quiet"},
-        "One instant, stated at the fixture; actual − nominal. U is not known for an instant: it is stated for each point of a run."), errors),
+        "Errors of this instant at the fixture, actual − nominal. U is calculated for the points of a run, not for an instant."), errors),
       devices.element),
     check.element);
 
@@ -203,7 +203,7 @@ export function open(place, [asked]) {
       }
       setText(keys.get(name), `${x} ${unit}`);
     }
-    if (!value) for (const dd of keys.values()) setText(dd, "not solved");
+    if (!value) for (const dd of keys.values()) setText(dd, "no value");
   }
 
   let drawn = 0;

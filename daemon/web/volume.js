@@ -48,7 +48,7 @@ export function planePicture(nodes, plane, largest_um) {
   nodes.map((n) => arrow(...place(n), n[3 + a] * long, -n[3 + b] * long)),
   [xs[0], xs.at(-1)].map((x) => text(edge + (x - xs[0]) * scale, height - kEdge + 22, fixed(x, 1))), text(edge + span * scale / 2, height - kEdge + 22, `${kAxes[a]}/mm`),
   [ys[0], ys.at(-1)].map((y) => text(kEdge - 26, height - edge - (y - ys[0]) * scale + 4, fixed(y, 1))), text(kEdge - 26, kEdge - 14, `${kAxes[b]}/mm`)),
-  h("p", {class: "quiet"}, `Seen ${view}. Longest arrow: ${fixed(largestInPlane, 3)} µm in the plane. The stronger the blue, the larger the whole correction (0 to ${fixed(largest_um, 3)} µm).`)];
+  h("p", {class: "quiet"}, `Seen ${view}. Longest arrow: ${fixed(largestInPlane, 3)} µm in the plane. A stronger blue shows a larger correction in space (0 to ${fixed(largest_um, 3)} µm).`)];
 }
 
 async function grid() {
@@ -89,13 +89,13 @@ function activeOf(volume, nodes) {
   return [h("h2", {}, `Table ${volume.table} of ${volume.machine}, generation ${volume.generation}`),
     h("p", {class: "result"}, largestText(nodes)),
     volume.simulated ? h("p", {class: "notice doubtful"}, "▲ SIMULATED: no machine was measured") : "",
-    volume.not_measured.length ? h("p", {class: "notice doubtful"}, `▲ Not measured, and in no correction: ${volume.not_measured.join(", ")}`) : "",
+    volume.not_measured.length ? h("p", {class: "notice doubtful"}, `▲ Not measured, so not corrected: ${volume.not_measured.join(", ")}`) : "",
     covers({u_covers: volume.u_covers, u_not_declared: volume.not_declared}) ?? "", pictures(volume, nodes),
-    facts([["Approach", volume.approach], ["Beyond the tables", volume.beyond_tables.join(", ")],
+    facts([["Approach", volume.approach], ["Errors whose table does not cover the grid", volume.beyond_tables.join(", ")],
       ["Interpolation error", Object.entries(volume.interpolation).map(([k, x]) => `${k[0]} ${isNumber(x) ? fixed(x, 4) : "–"} µm`).join(", ")],
       ["Active since", `${time(volume.activated_utc)}, by ${volume.activated_by}`], ["Sense", volume.sense]]),
     h("details", {}, h("summary", {}, "All nodes with u"), table("Corrections of the nodes; u: standard uncertainty",
-      [...["X/mm", "Y/mm", "Z/mm", "X/µm", "Y/µm", "Z/µm", "u X/µm", "u Y/µm", "u Z/µm"].map((c) => [c, "n"])],
+      [...["X/mm", "Y/mm", "Z/mm", "correction X/µm", "correction Y/µm", "correction Z/µm", "u X/µm", "u Y/µm", "u Z/µm"].map((c) => [c, "n"])],
       nodes.slice(0, kMostRows).map((n) => n.slice(0, 9).map((x, i) => fixed(x, i < 3 ? 3 : 4)))))];
 }
 
@@ -111,10 +111,10 @@ function stored(tables, active, done) {
   };
   const on = (t) => h("button", {"aria-label": `Activate table ${t.table} of the volume`, onclick: () => act("compensation.activate", {table: t.table},
     {title: `Activate table ${t.table} of the volume?`, action: "Activate", marks: {simulated: t.simulated, doubtful: null},
-      text: h("p", {}, `${t.machine}, ${t.nodes} nodes, built ${time(t.created_utc)}.${active ? ` It replaces table ${active.table}.` : ""}`)})}, "Activate …");
+      text: h("p", {}, `${t.machine}, ${t.nodes} nodes, built ${time(t.created_utc)}.${active ? ` This table replaces table ${active.table}.` : ""}`)})}, "Activate …");
   const off = (t) => h("button", {class: "danger", "aria-label": `Deactivate table ${t.table} of the volume`, onclick: () => act("compensation.deactivate", {axis: "volume"},
-    {title: "Deactivate the table of the volume?", action: "Deactivate", text: h("p", {}, `Table ${t.table} is no longer served.`)})}, "Deactivate …");
-  return table("Stored tables of the volume, newest first", [["table"], ["state", "w"], ["machine"], ["nodes", "n"], ["data"], ["built", "w"], ["do"]],
+    {title: "Deactivate the table of the volume?", action: "Deactivate", text: h("p", {}, `mdofd no longer serves table ${t.table}; the volume is no longer corrected.`)})}, "Deactivate …");
+  return table("Stored tables of the volume, newest first", [["table"], ["state", "w"], ["machine"], ["nodes", "n"], ["data"], ["built", "w"], ["actions"]],
     tables.map((t) => [String(t.table), t.active ? "● active" : "stored", t.machine, String(t.nodes), t.simulated ? "SIMULATED" : "measured", time(t.created_utc), t.active ? off(t) : on(t)]));
 }
 
@@ -124,7 +124,7 @@ export function openVolume(place) {
   async function read() {
     const [{volume}, {tables}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis: "volume"})]);
     const now = volume ? activeOf(volume, await grid())
-      : [h("p", {class: "notice"}, "No table of the volume is active. A machine's table is built by mdof compensation build --machine.")];
+      : [h("p", {class: "notice"}, "No table of the volume is active. Build a table with mdof compensation build --machine, then activate it here.")];
     body.replaceChildren(...now, tables.length ? stored(tables, volume, again) : "");
   }
   function again(error) {

@@ -91,7 +91,7 @@ async function pictures(browser, found) {
         await page.reload();
         await page.locator("h1").waitFor();
         await act?.(page);
-        await page.getByText("Reading …").waitFor({state: "detached"});
+        await page.getByText("Loading …").waitFor({state: "detached"});
         await sleep(name === "measuring" ? 4000 : 700);
         await accessible(page, `${name}, ${colorScheme}, ${width} px`);
         assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${name} fits ${width} px`);

@@ -69,7 +69,7 @@ async function runs(page) {
   const shown = said.match(/Straightness (−?[\d.]+) µm, U = ([\d.]+) µm/) ?? assert.fail(said);
   assert.ok(Math.abs(Number(shown[1]) - straightness.value) < 0.01 * straightness.value + 1e-3, `${shown[1]} is ${straightness.value}`);
   assert.ok(Math.abs(Number(shown[2]) / straightness.U - 1) < 0.06, `${shown[2]} is ${straightness.U}`);
-  assert.match(await text(page, ".view"), /U incomplete: noise and repeatability only/);
+  assert.match(await text(page, ".view"), /U is incomplete: U contains noise and repeatability only/);
   await page.getByText("noise and repeatability", {exact: true}).waitFor();  // its budget
   await accessible(page, "one run");
   await page.getByRole("link", {name: "All runs"}).click();
@@ -108,7 +108,7 @@ async function compensation(page, run) {
 
 async function restart(page) {
   await page.getByRole("link", {name: "Health"}).click();
-  await page.getByText(/things? needs? a look|Everything works/).waitFor();
+  await page.getByText(/entr(y|ies) needs? attention|Everything works/).waitFor();
   await page.getByText(/h at the rate of run/).waitFor();
   await accessible(page, "Health");
   await page.getByRole("link", {name: "Set up"}).click();

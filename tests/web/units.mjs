@@ -42,12 +42,12 @@ export async function units(page) {
       numbers: [fixed(-0.0001, 2), fixed(-1.5, 1), fixed(null, 2), measured({value: 1.83045, U: 0.0886, k: 2}, "µm"), measured({value: 1}, "µm"), short(0.000123456)],
     };
   });
-  assert.match(found.right, /as the rig says/);
+  assert.match(found.right, /as the rig states/);
   assert.match(found.wrong, /REVERSED.*probe A/);
   assert.match(found.across, /across/);
   assert.equal(found.none, "no change yet");
-  assert.equal(found.shim, "Shim 40.0 µm: the probe towards +Z, or the target towards −Z");
-  assert.equal(found.shim_back, "Shim 40.0 µm: the probe towards −Z, or the target towards +Z");
+  assert.equal(found.shim, "Shim 40.0 µm: move the probe towards +Z, or the target towards −Z");
+  assert.equal(found.shim_back, "Shim 40.0 µm: move the probe towards −Z, or the target towards +Z");
   assert.match(found.centred, /no shim/);
   assert.deepEqual(found.noise, [null, [Math.sqrt((2 + 8 + 0) / 21), 21]]);
   assert.deepEqual(found.states, ["in range", "off centre", "near the end of its range", "over range"]);

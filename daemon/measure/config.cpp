@@ -209,7 +209,8 @@ Status check_together(TomlTable& table, const AxisConfig& axis) {
       const auto [other, fresh] = source.emplace(channel, device.name);
       if (!fresh) {
         table.reject("device", "channel \"" + channel + "\" comes from two devices, \"" +
-                                   other->second + "\" and \"" + device.name + "\"");
+                                   other->second + "\" and \"" + device.name +
+                                   "\"; remove the channel from one of the two");
       }
     }
   }
@@ -219,8 +220,8 @@ Status check_together(TomlTable& table, const AxisConfig& axis) {
   for (const Probe& probe : axis.rig.probes) needed.push_back(probe.id);
   for (const auto& channel : needed) {
     if (!source.contains(channel))
-      table.reject("device",
-                   "no device provides channel \"" + channel + "\" of " + axis.rig.source);
+      table.reject("device", "no device provides channel \"" + channel + "\" of " +
+                                 axis.rig.source + "; add this channel to a device");
   }
   return {};
 }
@@ -255,7 +256,8 @@ void take_machine(TomlTable& table, const Chain& machine, Rig& rig) {
             " and this file have different [machine] tables; keep only one of the two tables");
   } else if (!in_chain) {
     table.reject("rig", "the rig is for axis " + axis + ", but the chain of [machine], " +
-                            machine.text + ", has no axis " + axis);
+                            machine.text + ", has no axis " + axis +
+                            "; correct the rig or the chain");
   } else if (in_chain->against_command != rig.sides.against_encoder) {
     table.reject("rig", "the rig has travel = \"" + std::string(rig.sides.travel()) +
                             "\", but [machine] travel." + axis +

@@ -258,15 +258,16 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .writes = true,
        .approves = true,
        .handler = [&m](const Params& p, Reply r) { activate(m, p, std::move(r)); }});
-  table.add({.name = "compensation.deactivate",
-             .summary = "Deactivates the active table of one axis, or of the volume. The tables of "
-                        "other axes stay active.",
-             .params = {axis, reason},
-             .result = "axis, generation, changed (false: no table was active)",
-             .example = R"({"axis": "X"})",
-             .writes = true,
-             .approves = true,
-             .handler = [&m](const Params& p, Reply r) { deactivate(m, p, std::move(r)); }});
+  table.add(
+      {.name = "compensation.deactivate",
+       .summary =
+           "Deactivates the active table of one axis, or of the volume. Other tables stay active.",
+       .params = {axis, reason},
+       .result = "axis, generation, changed (false: no table was active)",
+       .example = R"({"axis": "X"})",
+       .writes = true,
+       .approves = true,
+       .handler = [&m](const Params& p, Reply r) { deactivate(m, p, std::move(r)); }});
   table.add({.name = "compensation.status",
              .summary = "Lists the active tables by axis, with the generation (a number that "
                         "increases with each change of an active table).",
@@ -308,11 +309,10 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
             {"Z_mm", ParamType::number, "for the volume: command of Z [as for X]", false, "0"},
             {"direction", ParamType::integer, "1: forward, -1: reverse, 0: mean of both", false,
              "0"}},
-       .result =
-           "Axis: error in um and urad; correction, to be added to the command (null if the sign "
-           "is unknown; correction_reason states why); u; inside (true: this approach was measured "
-           "at this position); simulated; doubtful (true: its runs have notices that make the "
-           "table doubtful); generation. Volume: correction, u, u_common and u_independent by axis",
+       .result = "Axis: error (um, urad), correction (to be added to the command; null with "
+                 "correction_reason if its sign is unknown), u, inside (true: this approach was "
+                 "measured at this position), simulated, doubtful, generation. Volume: correction, "
+                 "u, u_common and u_independent by axis",
        .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
        .handler = [&m](const Params& p) { return at(m, p); }});
 }

@@ -331,7 +331,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              {.least = 0, .most = 10'000}},
             {"note", ParamType::string, "free text, stored with the run", false, "\"\""}},
        .result = "run, axis, targets_mm, notices, notes. The reply is sent after the run is on the "
-                 "disk and measures",
+                 "disk and has begun to measure",
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});

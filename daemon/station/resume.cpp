@@ -57,7 +57,8 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   MDOF_TRY(const RunHeader header, reader.run_header(run));
   MDOF_CHECK(check_can_go_on(reader, header, axis));
   const auto options = read_options_json(header.provenance.options_json, {});
-  if (!options) return refused(run, "its stored request: " + words::text(options.error()));
+  if (!options)
+    return refused(run, "the stored request of the run: " + words::text(options.error()));
   RunRequest request;
   request.note = header.note;
   request.targets_m = options->sequence.targets_m;

@@ -43,9 +43,9 @@ Status create_file(const fs::path& file) {
     return {};
   }
   if (errno == EEXIST)
-    return fail(ErrorCode::conflict,
-                file.string() +
-                    ": exists already, and a recording is never overwritten; name another file");
+    return fail(ErrorCode::conflict, file.string() +
+                                         ": this file exists already, and a recording is never "
+                                         "overwritten; give another file name");
   return io_error(
       file.string() + ": cannot be created: " + std::strerror(errno) +
       "; check the mode of the folder, the free space and whether the file system is writable");

@@ -31,7 +31,7 @@ Status make_parent(const fs::path& file) {
   if (ec && !fs::is_directory(file.parent_path(), ignored))
     return io_error(file.parent_path().string() +
                     ": the folder of the database cannot be created: " + ec.message() +
-                    "; create it, or name another place");
+                    "; create this folder, or give another path");
   return {};
 }
 

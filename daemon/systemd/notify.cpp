@@ -45,7 +45,7 @@ Result<std::vector<int>> take_listen_sockets() {
   const int count = sd_listen_fds(/*unset_environment=*/1);
   if (count < 0)
     return io_error("sockets from systemd: " + std::string(std::strerror(-count)) +
-                    "; start mdofd by mdofd.socket or without LISTEN_FDS");
+                    "; start mdofd with mdofd.socket, or unset LISTEN_FDS");
   std::vector<int> sockets;
   for (int fd = SD_LISTEN_FDS_START; fd < SD_LISTEN_FDS_START + count; ++fd) {
     if (sd_is_socket(fd, AF_UNSPEC, SOCK_STREAM, /*listening=*/1) <= 0)

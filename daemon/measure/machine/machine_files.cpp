@@ -102,8 +102,8 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
   machine.simulated = machine.simulated || csv.simulated;
   machine.noise_only = machine.noise_only || csv.noise_only;
   if (any) return {};
-  return bad_input(csv.source + ": has no column with an error of axis " + frame.id + ", such as " +
-                   names[0] + "; add that column, or rename the column that holds the error");
+  return bad_input(csv.source + ": no column contains an error of axis " + frame.id + ", such as " +
+                   names[0] + "; add such a column, or rename the column that contains the error");
 }
 
 }  // namespace

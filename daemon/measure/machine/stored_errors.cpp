@@ -213,9 +213,10 @@ Result<std::vector<std::int64_t>> latest_runs(store::Store& store, const Machine
   for (const auto& id : {measured, positioning})
     if (id) ids.push_back(*id);
   if (!ids.empty()) return ids;
-  return fail(ErrorCode::not_found,
-              store.file().string() + ": has no complete run of axis " + frame.id +
-                  ", but the machine file has runs = \"latest\"; measure this axis first");
+  return fail(
+      ErrorCode::not_found,
+      store.file().string() + ": no complete run of axis " + frame.id +
+          " is stored, but the machine file has runs = \"latest\"; measure this axis first");
 }
 
 Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, StoredErrors& all,
@@ -297,9 +298,9 @@ Result<std::vector<Squareness>> latest_squareness(store::Store& store, const Mac
   }
   if (!all.empty()) return all;
   return fail(ErrorCode::not_found,
-              store.file().string() + ": has no squareness" +
+              store.file().string() + ": no squareness is stored" +
                   (runs.empty() ? no_axes({})
-                                : " of the runs that the machine file names; calculate one from "
+                                : " for the runs that the machine file names; calculate one from "
                                   "two of these runs, which must measure different axes"));
 }
 
@@ -374,8 +375,9 @@ Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64
              return id ? s.id == *id : s.axes == latest_of;
            }));
   if (found) return *found;
-  return fail(ErrorCode::not_found, store.file().string() + ": has no squareness" +
-                                        (id ? " " + std::to_string(*id) : no_axes(latest_of)));
+  return fail(ErrorCode::not_found,
+              store.file().string() + (id ? ": there is no squareness " + std::to_string(*id)
+                                          : ": no squareness is stored" + no_axes(latest_of)));
 }
 
 Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine) {

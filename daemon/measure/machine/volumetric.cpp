@@ -105,7 +105,7 @@ Result<store::Marks> check_volumetric_activation(store::Store& store, std::int64
     return fail(
         ErrorCode::conflict,
         std::string("table ") + std::to_string(active->table.id) + " of axis " + letter(axis) +
-            " is active; with a volumetric table as well, the controller would correct twice",
+            " is active; if a volumetric table were active too, the controller would correct twice",
         Remedy::deactivate_axis, std::string(1, letter(axis)));
   }
   MDOF_TRY(const Judged judged, judged_table(store, table));
@@ -121,7 +121,7 @@ Status check_no_volumetric(store::Store& store) {
   return fail(
       ErrorCode::conflict,
       "the volumetric table " + std::to_string(active->table.id) +
-          " is active; with the table of an axis as well, the controller would correct twice",
+          " is active; if the table of an axis were active too, the controller would correct twice",
       Remedy::deactivate_volume);
 }
 

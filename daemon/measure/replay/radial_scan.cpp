@@ -224,8 +224,8 @@ Status add_run(store::Store& store, std::int64_t id, algo::ScanPoints& points, R
   MDOF_TRY(const auto scan, scan_of_rig(run.header.provenance.rig_text, rig.axis, name));
   if (!scan)
     return bad_input(name +
-                     ": this run is not a scan, because its rig has no [scan], which names the "
-                     "probe over the part; give a run with [scan] in its rig");
+                     ": this run is not a scan, because its rig has no [scan] that names the probe "
+                     "over the part; give a run whose rig has [scan]");
   out.simulated = out.simulated || run.header.simulated;
   MDOF_TRY(const Motion motion, motion_of(run, rig, *scan));
   const auto [least, most] = std::minmax_element(motion.reading_m.begin(), motion.reading_m.end());

@@ -35,7 +35,7 @@ std::string ReplayOption::command_line_name() const {
 const std::vector<ReplayOption>& replay_options() {
   static const std::vector<ReplayOption> options{
       {"tolerance_um", &Request::tolerance_um, Range::not_negative, Of::dwells,
-       "Encoder change up to which the axis is at rest [0: automatic]"},
+       "Largest change of the encoder position while the axis counts as at rest [0: automatic]"},
       {"settle_s", &Request::settle_s, Range::not_negative, Of::dwells,
        "Time left out at the start of each stop [0.1]"},
       {"min_length_s", &Request::min_length_s, Range::positive, Of::dwells,
@@ -51,7 +51,7 @@ const std::vector<ReplayOption>& replay_options() {
       {"interval_mm", &Request::interval_mm, Range::positive, Of::motion,
        "On the fly: distance between targets [1]"},
       {"bin_mm", &Request::bin_mm, Range::not_negative, Of::motion,
-       "On the fly: length around each target whose readings are used [0: the interval, at most "
+       "On the fly: width of the range of readings around each target [0: the interval, at most "
        "1]"},
       {"from_mm", &Request::from_mm, Range::any, Of::motion,
        "On the fly: the first target [start of the travel]"},

@@ -32,7 +32,7 @@ std::string group_of(const std::string& path) {
 std::string whose(const std::string& path) {
   struct stat info {};
   const bool roots = ::stat(path.c_str(), &info) == 0 && info.st_gid == 0;
-  return roots ? "mdofd runs as root; end it and start it as the user mdof (systemctl start "
+  return roots ? "mdofd runs as root; end mdofd, start it as the user mdof (systemctl start "
                  "mdofd), then "
                : "";
 }
@@ -114,8 +114,8 @@ Status Client::send_line(std::string_view line, Clock::time_point end) {
   while (!line.empty()) {
     if (!wait_for(socket_.get(), POLLOUT, end))
       return io_error(
-          "mdofd did not accept the request in time; try again, or check its state (systemctl "
-          "status mdofd)");
+          "mdofd did not accept the request in time; try again, or check mdofd with \"systemctl "
+          "status mdofd\"");
     const ssize_t n = ::send(socket_.get(), line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (n < 0 && errno == EPIPE) return {};  // it closed, and may have said why
     if (n < 0 && errno != EAGAIN && errno != EINTR)
@@ -136,12 +136,13 @@ Result<std::string> Client::read_line(Clock::time_point end) {
     scanned = received_.size();
     if (!wait_for(socket_.get(), POLLIN, end))
       return io_error(
-          "mdofd did not answer in time; try again, or check its state (systemctl status mdofd)");
+          "mdofd did not answer in time; try again, or check mdofd with \"systemctl status "
+          "mdofd\"");
     std::array<char, 16384> bytes;
     const ssize_t n = ::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
     const int error = errno;
     connected_ = n > 0 || (n < 0 && (error == EAGAIN || error == EINTR));
-    if (n == 0) return io_error("the daemon closed the connection");
+    if (n == 0) return io_error("mdofd closed the connection");
     if (!connected_) return io_error("mdofd closed the connection: " + system_error_text(error));
     if (n > 0) received_.append(bytes.data(), static_cast<std::size_t>(n));
   }

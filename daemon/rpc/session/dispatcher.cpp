@@ -60,7 +60,7 @@ std::string reason(simdjson::error_code error, const ServerOptions& options) {
     case simdjson::DEPTH_ERROR:
       return "the JSON is nested deeper than " + std::to_string(options.max_depth) + " levels";
     case simdjson::NUMBER_ERROR:
-      return "a number is malformed or larger than its type";
+      return "a number is malformed or too large";
     default:
       return {};
   }

@@ -132,7 +132,7 @@ Result<fs::path> allow_address(const fs::path& units, const std::string& address
                          Existing::replace);
   if (written) return file;
   return io_error(written.error().message +
-                  "; only root may write in this folder; run: sudo mdof setup network " + address);
+                  "; if root alone may write there, run: sudo mdof setup network " + address);
 }
 
 std::vector<Diagnosis> check_network(const Machine& machine, const daemon::Config& config) {

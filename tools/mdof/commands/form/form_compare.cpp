@@ -64,7 +64,8 @@ Status form_compare(const FormCompareCommand& o) {
   if (found.undetermined > 0)
     warn(o.a + ": the shape of the surface does not determine " +
          std::to_string(found.undetermined) +
-         " of the 3 values shift x, shift y and turn; mdof sets the undetermined values to 0");
+         " of the 3 movements in the plane (shifts, turn or a combination of them); mdof makes "
+         "none of these movements");
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
   MDOF_CHECK(plot_maps({{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
   return o.json ? write_line(compare_json(found, o)) : write_out(compare_text(found, o));

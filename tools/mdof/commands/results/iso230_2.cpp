@@ -46,9 +46,12 @@ std::optional<PositioningUncertainty> uncertainty_of(const Iso230Command& comman
 
 std::string uncertainty_text(const std::optional<PositioningUncertainty>& U) {
   if (!U) return "uncertainty: not declared; give --device-limit-um and --drift-um\n";
+  const std::string missing = !std::isfinite(U->device)  ? "--device-limit-um"
+                              : !std::isfinite(U->drift) ? "--drift-um"
+                                                         : "";
   return "U (k = 2): " + um_to_place(U->E_M_A, U->E_M_A) + " µm for E, M and A, " +
-         um_to_place(U->B, U->B) +
-         " µm for B\n"
+         um_to_place(U->B, U->B) + " µm for B\n" +
+         (missing.empty() ? "" : "\"-\": unknown, because " + missing + " is not given\n") +
          "U contains the measuring device and the drift, but not the temperature of the\n"
          "machine and the alignment\n";
 }

@@ -303,10 +303,11 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
            {axis,
             {"position_mm", ParamType::number, "position on the axis; required for an axis", false},
             {"X_mm", ParamType::number,
-             "for the volume: command of X [axis not in the grid: its position in the table]",
-             false, "0"},
-            {"Y_mm", ParamType::number, "for the volume: command of Y [as for X]", false, "0"},
-            {"Z_mm", ParamType::number, "for the volume: command of Z [as for X]", false, "0"},
+             "for the volume: command of X; required if X is an axis of the grid [default: the "
+             "position of X in the table]",
+             false},
+            {"Y_mm", ParamType::number, "for the volume: command of Y, as for X", false},
+            {"Z_mm", ParamType::number, "for the volume: command of Z, as for X", false},
             {"direction", ParamType::integer, "1: forward, -1: reverse, 0: mean of both", false,
              "0"}},
        .result = "Axis: error (um, urad), correction (to be added to the command; null with "

@@ -183,9 +183,11 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
   json.begin_object().field("axis", "volume");
   for (std::size_t k = 0; k < 3; ++k) {
     const std::string key = std::string(1, kAxes[k]) + "_mm";
-    // Of an axis that stands, its place is the default.
-    command_m[k] = params.has(key) || table.command_m[k].size() > 1 ? from_mm(params.number(key, 0))
-                                                                    : table.command_m[k].front();
+    const bool stands = table.command_m[k].size() == 1;  // then its place is the default
+    if (!params.has(key) && !stands)
+      return fail(ErrorCode::usage, key + " is missing; give the command of " + kAxes[k] +
+                                        ", which is an axis of the grid");
+    command_m[k] = params.has(key) ? from_mm(params.number(key)) : table.command_m[k].front();
     json.field(key, to_mm(command_m[k]));
   }
   const algo::VolumetricValue value = algo::volumetric_at(table, command_m);

@@ -76,6 +76,7 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndTakenBack) {
   EXPECT_NEAR(value_at(R"(,"X_mm":10,"Y_mm":7)").number("/result/correction/X_um"), -(1 + 1 + 0.35),
               1e-3);
   EXPECT_EQ(value_at(R"(,"X_mm":10,"Y_mm":7,"Z_mm":3)").at("/result/inside"), "false");
+  EXPECT_SAYS(value_at(R"(,"X_mm":10)").message(), "Y_mm is missing");  // no command is guessed
 
   EXPECT_EQ(activate(1).at("/result/changed"), "false");
   EXPECT_EQ(call("compensation.deactivate", R"({"axis":"volume"})").at("/result/changed"), "true");
@@ -110,7 +111,7 @@ TEST_F(VolumeMethods, TheGridComesInPagesAndIsWhatAtSays) {
   const Answer parts = call("compensation.grid", R"({"axis":"volume","count":1,"u_parts":true})");
   EXPECT_EQ(parts.size("/result/points/0"), 15u);
   EXPECT_EQ(parts.at("/result/points/0/14"), "null");
-  EXPECT_EQ(value_at("").at("/result/u_common/X_um"), "null");
+  EXPECT_EQ(value_at(R"(,"X_mm":0,"Y_mm":0)").at("/result/u_common/X_um"), "null");
   const Answer other = call("compensation.grid", R"({"axis":"volume","generation":1})");
   EXPECT_EQ(other.code(), rpc::kChanged);
 }

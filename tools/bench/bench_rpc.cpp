@@ -60,7 +60,7 @@ daemon::ActiveTables table_in_force() {
       active.table.u_reverse[k].push_back(1e-8);
     }
   }
-  return {std::make_shared<const store::ActiveTable>(std::move(active)), nullptr, nullptr};
+  return {{std::make_shared<const store::ActiveTable>(std::move(active)), nullptr, nullptr}, {}};
 }
 
 // Gives a fixed reply to whatever it reads.

@@ -71,38 +71,24 @@ Station::~Station() {
 DeviceSink Station::sink() {
   DeviceSink sink;
   sink.samples = [this](SampleBlock& block, std::uint64_t pass, milliseconds wait) {
-    Item item;
-    item.pass = pass;
-    item.block = std::move(block);
     // Frames are on the encoder's time: it wakes the measuring thread, the other devices do not.
-    const bool encoder = has_encoder(item.block);
-    if (shared_->queue.push_for(item, wait, encoder ? Queue::Wake::yes : Queue::Wake::no))
-      return true;
-    block = std::move(item.block);
+    const auto wake = has_encoder(block) ? Queue::Wake::yes : Queue::Wake::no;
+    Item item(Samples{std::move(block), pass});
+    if (shared_->queue.push_for(item, wait, wake)) return true;
+    block = std::move(std::get<Samples>(item).block);
     return false;
   };
   sink.ended = [this](std::uint64_t pass, const std::string& reason,
                       const drivers::SourceInfo& source) {
-    Item item;
-    item.kind = Item::Kind::ended;
-    item.pass = pass;
-    item.reason = reason;
-    item.source = source;
-    shared_->queue.push_always(std::move(item));
+    shared_->post([=](Station& s) { s.source_ended(pass, reason, source); });
   };
   sink.trouble = [this](const Trouble& trouble) {
     // Who hears of it and stops the run finds it in the run.
-    Item item;
-    item.kind = Item::Kind::trouble;
-    item.trouble = std::make_shared<const Trouble>(trouble);
-    shared_->queue.push_always(std::move(item));
+    shared_->post([=](Station& s) { s.take_trouble(trouble); });
     shared_->events.trouble(config_.rig.axis, run(), trouble);
   };
   sink.mark = [this](const std::string& device) {
-    Item item;
-    item.kind = Item::Kind::mark;
-    item.device = device;
-    shared_->queue.push_always(std::move(item));
+    shared_->post([=](Station& s) { s.take_mark(device); });
   };
   return sink;
 }
@@ -215,14 +201,9 @@ void Station::begin_run(NewRun description, const RunRequest& request, const Opt
           shared->run = 0;
           return done(id);
         }
-        Item item;
-        item.kind = Item::Kind::attach;
-        item.run = *id;
-        item.request = request;
-        item.options = options;
-        item.beginning = beginning;
-        item.done = done;
-        shared->queue.push_always(std::move(item));
+        shared->post([run = *id, request, options, beginning, done](Station& s) {
+          s.attach(run, request, options, beginning.get(), done);
+        });
       });
   if (posted) return;
   shared_->run = 0;
@@ -234,20 +215,12 @@ void Station::stop_run(bool abort, const HistoryEntry& action, RunDone done) {
     return done(fail(ErrorCode::not_found,
                      std::string("no run of axis ") + letter(config_.rig.axis) + " is under way"));
   }
-  Item item;
-  item.kind = Item::Kind::stop;
-  item.abort = abort;
-  item.action = action;
-  item.done = std::move(done);
-  shared_->queue.push_always(std::move(item));
+  shared_->post(
+      [abort, action, done = std::move(done)](Station& s) { s.end_run(abort, action, done); });
 }
 
 void Station::storage_failed(std::int64_t run, const Error& error) {
-  Item item;
-  item.kind = Item::Kind::storage_failed;
-  item.run = run;
-  item.reason = words::text(error);
-  shared_->queue.push_always(std::move(item));
+  shared_->post([run, reason = words::text(error)](Station& s) { s.storage_ended(run, reason); });
 }
 
 void Station::wake_devices() {

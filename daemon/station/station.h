@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "daemon/measure/config.h"
@@ -78,35 +79,13 @@ class Station {
 
  private:
   struct Beginning;
-  struct Item {
-    enum class Kind {
-      samples,
-      ended,
-      attach,
-      stop,
-      storage_failed,
-      trouble,
-      datum,
-      datum_stored,
-      mark
-    } kind = Kind::samples;
+  // What the measure thread is given, in order: samples, or what else it has to do.
+  struct Samples {
     SampleBlock block;
-    std::int64_t run = 0;
-    RunRequest request;
-    std::shared_ptr<const PipelineOptions> options;  // of the run to attach
-    std::shared_ptr<Beginning> beginning;            // of a run that goes on from another
-    bool abort = false;
-    std::optional<HistoryEntry> action;  // who stops, or says where the axis stands
-    std::string reason;
-    drivers::SourceInfo source;
-    std::uint64_t pass = 0;  // of a source that is read once a run
-    RunDone done;
-    std::shared_ptr<const Trouble> trouble;
-    std::string device;            // of Kind::mark
-    double position_m = 0;         // of Kind::datum
-    Result<DatumSetting> setting;  // of Kind::datum_stored
-    DatumDone datum_done;
+    std::uint64_t pass;  // of a source that is read once a run
   };
+  using Job = std::function<void(Station&)>;
+  using Item = std::variant<Samples, Job>;
   using Queue = BoundedQueue<Item>;
   struct OpenRun;
   // What the store's callbacks may still need when the station itself has gone.
@@ -115,6 +94,7 @@ class Station {
     StationEvents events;
     std::atomic<std::int64_t> run{0};
     Queue queue;
+    void post(Job job) { queue.push_always(std::move(job)); }
   };
   static constexpr std::size_t kQueuedBlocks = 1024;
 
@@ -130,22 +110,30 @@ class Station {
                   const RunDone& done);
 
   void measure();
-  void handle(Item& item);
+  void handle(Samples& samples);
+  void handle(const Job& job) { job(*this); }
   void take_samples(SampleBlock& block);
   void keep_for_recording(const SampleBlock& block);
   void record();
-  bool of_this_pass(const Item& item) const;
+  bool is_this_pass(std::uint64_t pass) const;
+  void source_ended(std::uint64_t pass, const std::string& reason,
+                    const drivers::SourceInfo& source);
+  void take_trouble(const Trouble& trouble);
+  void storage_ended(std::int64_t run, const std::string& reason);
+  void end_run(bool abort, const HistoryEntry& action, const RunDone& done);
   void report_unsolved(const std::vector<MeasuredPoint>& points);
   void keep_new_points(const std::vector<MeasuredPoint>& points);
-  void attach(Item& item);
+  void attach(std::int64_t run, const RunRequest& request, const Options& options,
+              Beginning* beginning, const RunDone& done);
   // station_datum.cpp
-  void take_datum(const Item& item);
-  void store_datum(const DatumSetting& setting, const Item& item);
-  void put_datum(const Item& item);
+  void take_datum(double position_m, const HistoryEntry& action, const DatumDone& done);
+  void store_datum(const DatumSetting& setting, const HistoryEntry& action, const DatumDone& done);
+  void put_datum(const Result<DatumSetting>& stored, const HistoryEntry& action,
+                 const DatumDone& done);
   void take_mark(const std::string& device);
   void end_unless_from_mark();
-  void finish(RunState state, Notices why, const drivers::SourceInfo& source, RunDone done,
-              const std::optional<HistoryEntry>& action = std::nullopt);
+  void finish(RunState state, Notices why, const drivers::SourceInfo& source = {},
+              RunDone done = {}, const std::optional<HistoryEntry>& action = std::nullopt);
   const Pipeline* pipeline() const;
   void note_newest();
   void show_live();

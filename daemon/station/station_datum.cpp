@@ -22,35 +22,27 @@ void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDo
                  (none < 0 ? " is about to begin, or the axis position is being stored; try again"
                            : " is under way, so its positions must not change; stop this run with "
                              "run.stop first")));
-  Item item;
-  item.kind = Item::Kind::datum;
-  item.position_m = position_m;
-  item.action = action;
-  item.datum_done = std::move(done);
-  shared_->queue.push_always(std::move(item));
+  shared_->post([position_m, action, done = std::move(done)](Station& s) {
+    s.take_datum(position_m, action, done);
+  });
 }
 
 // ---- measuring thread; no run is under way: set_encoder() has seen to it ----
 
-void Station::take_datum(const Item& item) {
-  const auto found = zero_.find(config_.rig.axis, item.position_m, item.action->utc);
-  if (found) return store_datum(*found, item);
+void Station::take_datum(double position_m, const HistoryEntry& action, const DatumDone& done) {
+  const auto found = zero_.find(config_.rig.axis, position_m, action.utc);
+  if (found) return store_datum(*found, action, done);
   shared_->run = 0;
-  item.datum_done(tl::unexpected(found.error()));
+  done(tl::unexpected(found.error()));
 }
 
-void Station::store_datum(const DatumSetting& setting, const Item& asked) {
-  const auto put = [shared = shared_, action = asked.action,
-                    done = asked.datum_done](Result<DatumSetting> stored) {
-    Item item;
-    item.kind = Item::Kind::datum_stored;
-    item.setting = std::move(stored);
-    item.action = action;
-    item.datum_done = done;
-    shared->queue.push_always(std::move(item));
+void Station::store_datum(const DatumSetting& setting, const HistoryEntry& action,
+                          const DatumDone& done) {
+  const auto put = [=, shared = shared_](const Result<DatumSetting>& stored) {
+    shared->post([=](Station& s) { s.put_datum(stored, action, done); });
   };
   if (const std::string fault = keeper_.fault(); !fault.empty()) return put(io_error(fault));
-  const bool posted = keeper_.post([put, setting, action = asked.action](store::Store& store) {
+  const bool posted = keeper_.post([put, setting, action](store::Store& store) {
     const auto id = store.add_datum(setting, action);
     put(id ? Result<DatumSetting>(setting) : tl::unexpected(id.error()));
   });
@@ -58,16 +50,17 @@ void Station::store_datum(const DatumSetting& setting, const Item& asked) {
 }
 
 // The live view begins afresh, as the axis does not jump.
-void Station::put_datum(const Item& item) {
-  const auto set = item.setting ? zero_.put(*item.setting, actor_text(item.action->by))
-                                : Result<EncoderDatum>(tl::unexpected(item.setting.error()));
+void Station::put_datum(const Result<DatumSetting>& stored, const HistoryEntry& action,
+                        const DatumDone& done) {
+  const auto set = stored ? zero_.put(*stored, actor_text(action.by))
+                          : Result<EncoderDatum>(tl::unexpected(stored.error()));
   if (set) {
     view_.reset();
     for (auto& acquisition : acquisitions_)
       if (acquisition->spec().name == set->device) acquisition->trust_count();
   }
   shared_->run = 0;
-  item.datum_done(set);
+  done(set);
 }
 
 // The axis does not jump: the live view begins afresh. A run cannot go on, as what it has measured
@@ -83,7 +76,7 @@ void Station::end_unless_from_mark() {
   if (zero_.datum().kind != EncoderDatum::Kind::index ||
       open_->datum.kind == EncoderDatum::Kind::index)
     return;
-  finish(RunState::aborted, {notice(NoticeCode::reference_mark_passed)}, {}, {});
+  finish(RunState::aborted, {notice(NoticeCode::reference_mark_passed)});
 }
 
 }  // namespace mdof::daemon

@@ -139,68 +139,62 @@ void Station::measure() {
     shared_->queue.pop_all(items, kPopTimeout);
     if (items.empty() && open_) record();
     for (Item& item : items) {
-      handle(item);
+      std::visit([this](auto& what) { handle(what); }, item);
       measure_turn_ = steady_clock::now();
     }
     note_newest();
     show_live();  // once it has all samples that came; where none came, it shows that they stopped
   }
-  if (open_) finish(RunState::aborted, {notice(NoticeCode::daemon_stopped)}, {}, {});
+  if (open_) finish(RunState::aborted, {notice(NoticeCode::daemon_stopped)});
 }
 
-void Station::handle(Item& item) {
-  switch (item.kind) {
-    case Item::Kind::samples:
-      if (!of_this_pass(item)) return;
-      return take_samples(item.block);
-    case Item::Kind::attach:
-      return attach(item);
-    case Item::Kind::stop:
-      if (!open_) return item.done(fail(ErrorCode::not_found, "the run has just ended"));
-      return finish(item.abort ? RunState::aborted : RunState::complete,
-                    item.abort ? Notices{notice(NoticeCode::aborted)} : Notices(), item.source,
-                    item.done, item.action);
-    case Item::Kind::ended:
-      if (!open_ || !of_this_pass(item)) return;
-      return finish(item.reason.empty() ? RunState::complete : RunState::failed,
-                    failure(item.reason), item.source, {});
-    case Item::Kind::storage_failed:
-      if (!open_ || open_->id != item.run) return;
-      return finish(RunState::failed, failure(item.reason), item.source, {});
-    case Item::Kind::trouble:
-      if (item.trouble->kind == Trouble::Kind::suspect) zero_.lose(item.trouble->device, utc_now());
-      if (open_) open_->troubles.add(*item.trouble);
-      return;
-    case Item::Kind::datum:
-      return take_datum(item);
-    case Item::Kind::datum_stored:
-      return put_datum(item);
-    case Item::Kind::mark:
-      return take_mark(item.device);
-  }
+void Station::handle(Samples& samples) {
+  if (is_this_pass(samples.pass)) take_samples(samples.block);
 }
 
 // A replay is read once a run; what an earlier reading left in the queue is not of this run.
-bool Station::of_this_pass(const Item& item) const {
-  return config_.live() || item.pass == acquisitions_.front()->pass();
+bool Station::is_this_pass(std::uint64_t pass) const {
+  return config_.live() || pass == acquisitions_.front()->pass();
 }
 
-void Station::attach(Item& item) {
+void Station::source_ended(std::uint64_t pass, const std::string& reason,
+                           const drivers::SourceInfo& source) {
+  if (!open_ || !is_this_pass(pass)) return;
+  finish(reason.empty() ? RunState::complete : RunState::failed, failure(reason), source);
+}
+
+void Station::take_trouble(const Trouble& trouble) {
+  if (trouble.kind == Trouble::Kind::suspect) zero_.lose(trouble.device, utc_now());
+  if (open_) open_->troubles.add(trouble);
+}
+
+void Station::storage_ended(std::int64_t run, const std::string& reason) {
+  if (open_ && open_->id == run) finish(RunState::failed, failure(reason));
+}
+
+void Station::end_run(bool abort, const HistoryEntry& action, const RunDone& done) {
+  if (!open_) return done(fail(ErrorCode::not_found, "the run has just ended"));
+  if (abort) return finish(RunState::aborted, {notice(NoticeCode::aborted)}, {}, done, action);
+  finish(RunState::complete, {}, {}, done, action);
+}
+
+void Station::attach(std::int64_t run, const RunRequest& request, const Options& options,
+                     Beginning* beginning, const RunDone& done) {
   std::optional<Continuation> continues;
-  auto pipeline = item.beginning ? std::move(item.beginning->pipeline)
-                                 : Pipeline::create(config_.rig, *item.options);
+  auto pipeline =
+      beginning ? std::move(beginning->pipeline) : Pipeline::create(config_.rig, *options);
   if (!pipeline) {  // the configuration was checked with the same rig: only given targets differ
     shared_->run = 0;
-    return item.done(tl::unexpected(pipeline.error()));
+    return done(tl::unexpected(pipeline.error()));
   }
-  if (item.beginning) continues.emplace(item.beginning->end_ns);
+  if (beginning) continues.emplace(beginning->end_ns);
   open_ = std::make_unique<OpenRun>(
-      OpenRun{item.run, item.request, std::move(*pipeline), {}, std::move(continues), {}, {}, 0});
-  open_->datum = item.options->datum;
-  open_->model = item.options->model;
-  shared_->run = item.run;
-  shared_->events.run_event(event_json("started", item.run, config_.rig.axis));
-  item.done(item.run);
+      OpenRun{run, request, std::move(*pipeline), {}, std::move(continues), {}, {}, 0});
+  open_->datum = options->datum;
+  open_->model = options->model;
+  shared_->run = run;
+  shared_->events.run_event(event_json("started", run, config_.rig.axis));
+  done(run);
   if (!config_.live()) acquisitions_.front()->start();
   // Between the question and now the mark may have been passed.
   end_unless_from_mark();
@@ -222,17 +216,16 @@ void Station::take_samples(SampleBlock& block) {
   if (open_->continues) open_->continues->shift(block);
   if (config_.recorded()) keep_for_recording(block);
   if (const Status pushed = open_->pipeline.push(block); !pushed) {
-    return finish(RunState::failed, failure(words::text(pushed.error())), {}, {});
+    return finish(RunState::failed, failure(words::text(pushed.error())));
   }
   const auto& points = open_->pipeline.points();
   const std::size_t before = open_->stored.size();
   if (!points.empty() && !approach_assumed(points.back())) keep_new_points(points);
-  if (open_->pipeline.is_full()) return finish(RunState::complete, {}, {}, {});
+  if (open_->pipeline.is_full()) return finish(RunState::complete, {});
   const RunRequest& asked = open_->request;
   const std::size_t all = 2 * asked.targets_m.size() * static_cast<std::size_t>(asked.repeats);
   if (open_->stored.size() == before || open_->stored.size() < all) return;
-  if (all_measured(asked.targets_m, asked.repeats, open_->stored))
-    finish(RunState::complete, {}, {}, {});
+  if (all_measured(asked.targets_m, asked.repeats, open_->stored)) finish(RunState::complete, {});
 }
 
 void Station::keep_for_recording(const SampleBlock& block) {

@@ -257,10 +257,10 @@ void Acquisition::report_clock(const drivers::ClockState& clock) {
 }
 
 bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
+  SampleBlock block;
   while (acquiring_) {
     turn_ = steady_clock::now();
     trust_counts(driver);
-    SampleBlock block;
     const auto state = driver.read(block, kReadTimeout);
     if (!state) {
       fail(words::text(state.error()));

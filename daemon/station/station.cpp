@@ -73,10 +73,11 @@ DeviceSink Station::sink() {
   sink.samples = [this](SampleBlock& block, std::uint64_t pass, milliseconds wait) {
     // Frames are on the encoder's time: it wakes the measuring thread, the other devices do not.
     const auto wake = has_encoder(block) ? Queue::Wake::yes : Queue::Wake::no;
+    SampleBlock spare = shared_->spare.take(block.device);
     Item item(Samples{std::move(block), pass});
-    if (shared_->queue.push_for(item, wait, wake)) return true;
-    block = std::move(std::get<Samples>(item).block);
-    return false;
+    const bool pushed = shared_->queue.push_for(item, wait, wake);
+    block = pushed ? std::move(spare) : std::move(std::get<Samples>(item).block);
+    return pushed;
   };
   sink.ended = [this](std::uint64_t pass, const std::string& reason,
                       const drivers::SourceInfo& source) {

@@ -23,6 +23,7 @@
 #include "daemon/station/device/device_reader.h"
 #include "daemon/station/device/shared_device.h"
 #include "daemon/station/encoder_zero.h"
+#include "daemon/station/spare_blocks.h"
 #include "daemon/storekeeper/storekeeper.h"
 #include "schema/base/bounded_queue.h"
 #include "schema/notice/notice.h"
@@ -94,6 +95,7 @@ class Station {
     StationEvents events;
     std::atomic<std::int64_t> run{0};
     Queue queue;
+    SpareBlocks spare;
     void post(Job job) { queue.push_always(std::move(job)); }
   };
   static constexpr std::size_t kQueuedBlocks = 1024;

@@ -149,7 +149,9 @@ void Station::measure() {
 }
 
 void Station::handle(Samples& samples) {
-  if (is_this_pass(samples.pass)) take_samples(samples.block);
+  if (!is_this_pass(samples.pass)) return;
+  take_samples(samples.block);
+  shared_->spare.put(std::move(samples.block));
 }
 
 // A replay is read once a run; what an earlier reading left in the queue is not of this run.

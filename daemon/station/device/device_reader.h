@@ -31,7 +31,8 @@ struct DeviceStatus {
 // Where what is read goes: all on the acquiring thread. `pass` counts the readings of a source that
 // is read once a run.
 struct DeviceSink {
-  // True: taken over. False: there was no room within `wait`, the block is untouched.
+  // True: taken over; `block` is then another one, used up, whose memory the next may reuse. False:
+  // there was no room within `wait`, the block is untouched.
   std::function<bool(SampleBlock& block, std::uint64_t pass, std::chrono::milliseconds wait)>
       samples;
   // The source has ended, or, with a reason, will not recover.

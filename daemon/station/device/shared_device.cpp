@@ -23,19 +23,23 @@ std::string device_channel(const Part& part, const std::string& id) {
 
 }  // namespace
 
-SampleBlock part_of(const SampleBlock& block, const Part& part) {
-  SampleBlock taken;
+void take_part(const SampleBlock& block, const Part& part, SampleBlock& taken) {
   taken.device = block.device;
   taken.time_ns = block.time_ns;
   taken.lost = block.lost;
+  taken.channels.clear();
+  taken.value.resize(part.size());
+  taken.quality.resize(block.quality.empty() ? 0 : part.size());
   for (std::size_t c = 0; c < block.channels.size(); ++c) {
     const auto id = part.find(block.channels[c].id);
     if (id == part.end()) continue;
+    const std::size_t to = taken.channels.size();
     taken.channels.push_back({id->second, block.channels[c].unit});
-    taken.value.push_back(block.value[c]);
-    if (!block.quality.empty()) taken.quality.push_back(block.quality[c]);
+    taken.value[to] = block.value[c];
+    if (!block.quality.empty()) taken.quality[to] = block.quality[c];
   }
-  return taken;
+  taken.value.resize(taken.channels.size());
+  if (!block.quality.empty()) taken.quality.resize(taken.channels.size());
 }
 
 // What one axis has of it.
@@ -101,7 +105,8 @@ DeviceSink SharedDevice::fan_out() {
 void SharedDevice::hand_out(const SampleBlock& block, std::uint64_t pass) {
   const std::lock_guard lock(mutex_);
   for (const auto& taker : takers_) {
-    SampleBlock part = part_of(block, taker->spec.part);
+    SampleBlock& part = taker->block;
+    take_part(block, taker->spec.part, part);
     part.lost += std::exchange(taker->dropped_scans, 0);
     if (taker->sink.samples(part, pass, std::chrono::milliseconds(0))) continue;
     taker->dropped_scans = part.lost + part.scans();

@@ -15,8 +15,9 @@
 
 namespace mdof::daemon {
 
-// Of `block` the channels that `part` (DriverSpec::part) is of, under their names there.
-SampleBlock part_of(const SampleBlock& block, const drivers::ChannelPart& part);
+// Replaces `taken` by the channels of `block` that `part` (DriverSpec::part) is of, under their
+// names there.
+void take_part(const SampleBlock& block, const drivers::ChannelPart& part, SampleBlock& taken);
 
 // Parts come and go on the main thread.
 class SharedDevice {
@@ -29,6 +30,7 @@ class SharedDevice {
   struct Taker {
     drivers::DriverSpec spec;
     DeviceSink sink;
+    SampleBlock block;  // for its part of the next
     bool ceased = false;
     std::uint64_t dropped_scans = 0;      // to be reported with the next block
     std::uint64_t dropped = 0, lost = 0;  // blocks and scans, as of DeviceStatus

@@ -5,17 +5,11 @@
 #include <iterator>
 #include <utility>
 
-#include "algo/iso230/straightness.h"
 #include "algo/model/restate.h"
-#include "algo/plausibility/map_cover.h"
 #include "algo/plausibility/plausibility.h"
-#include "algo/plausibility/visit_step.h"
 #include "algo/points/flags.h"
-#include "daemon/measure/completeness.h"
-#include "daemon/measure/drift_treatment.h"
 #include "daemon/measure/points/point_solver.h"
 #include "daemon/words/words.h"
-#include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
@@ -37,56 +31,7 @@ void keep_last(const FrameBlock& frames, FrameBlock& newest) {
   }
 }
 
-void write_by_channel(JsonWriter& json, const char* key,
-                      const std::map<std::string, double>& numbers) {
-  if (numbers.empty()) return;
-  json.key(key).begin_object();
-  for (const auto& [channel, x] : numbers) json.field(channel, x);
-  json.end_object();
-}
-
-// In mm; up to a kilometre to the picometre, so that it is the same once read again.
-double offset_mm(const EncoderDatum& datum) {
-  const double whole_mm = to_mm(datum.offset_m);
-  return std::abs(whole_mm) < 1e6 ? std::round(whole_mm * 1e9) / 1e9 : whole_mm;
-}
-
-// An encoder that knows its positions by itself has no datum to write.
-void write_datum(JsonWriter& json, const EncoderDatum& datum) {
-  if (datum == EncoderDatum()) return;
-  json.key("encoder_datum")
-      .begin_object()
-      .field("kind", to_string(datum.kind))
-      .field("offset_mm", offset_mm(datum))
-      .field("device", datum.device);
-  if (!datum.utc.empty() || !datum.by.empty()) json.field("utc", datum.utc).field("by", datum.by);
-  json.end_object();
-}
-
 }  // namespace
-
-std::string PipelineOptions::json() const {
-  JsonWriter json;
-  json.begin_object().field("model", to_string(model));
-  json.key("align")
-      .begin_object()
-      .field("lag_bound_s", align.lag_bound_s)
-      .field("max_gap_s", align.max_gap_s);
-  write_by_channel(json, "interval_s", align.interval_s);
-  write_by_channel(json, "delay_s", align.delay_s);
-  json.end_object();
-  json.key("dwell").raw(dwell.json());
-  json.key("targets_mm").begin_array();
-  for (const double t : sequence.targets_m) json.value(to_mm(t));
-  json.end_array()
-      .field("target_window_mm", to_mm(sequence.target_window_m))
-      .field("repeats", repeats);
-  if (remove_drift) json.field("remove_drift", true);
-  if (on_the_fly) json.key("on_the_fly").raw(on_the_fly->json());
-  write_datum(json, datum);
-  json.end_object();
-  return json.take();
-}
 
 Result<Pipeline> Pipeline::create(const Rig& rig, const PipelineOptions& options) {
   MDOF_TRY(algo::Solver solver, algo::Solver::create(rig, options.model));
@@ -94,23 +39,12 @@ Result<Pipeline> Pipeline::create(const Rig& rig, const PipelineOptions& options
 }
 
 Pipeline::Pipeline(Rig rig, PipelineOptions options, algo::Solver solver)
-    : rig_(std::move(rig)),
-      options_(std::move(options)),
-      calibrator_(rig_),
-      aligner_(options_.align, probe_ids(rig_)),
-      dwell_(options_.dwell, probe_ids(rig_), probe_ranges_m(rig_)),
-      solver_(std::move(solver)),
-      corrections_(rig_),
-      suspect_(options_.dwell.min_length_s / 2) {}
+    : RunBuilder(std::move(rig), std::move(options), std::move(solver)),
+      dwell_(options_.dwell, probe_ids(rig_), probe_ranges_m(rig_)) {}
 
 Status Pipeline::push(SampleBlock& raw) {
-  lost_ += raw.lost;
   note_break(raw);
-  suspect_.push(raw);
-  temperature_.push(raw);
-  corrections_.push(raw);
-  MDOF_CHECK(calibrator_.apply(raw));
-  MDOF_CHECK(aligner_.push(raw, frames_));
+  MDOF_CHECK(take(raw));
   if (frames_.size() == 0) return {};
   keep_last(frames_, newest_);
   find_stops();
@@ -293,31 +227,6 @@ std::optional<Notice> Pipeline::never_stops() const {
                 {{"moving_percent", 100 * moved_s / (moved_s + stood_s)}, {"stops_mm", stops_mm}});
 }
 
-// Complete is what has all that was asked for.
-void Pipeline::judge(Run& run) const {
-  Notices missing = missing_notices(options_.sequence.targets_m, options_.repeats, run.points);
-  if (auto why = never_stops()) missing.push_back(std::move(*why));
-  run.header.state = missing.empty() ? RunState::complete : RunState::partial;
-  append(run.header.notices, std::move(missing));
-}
-
-// What the run looks like as a whole, and what of it is doubtful.
-void Pipeline::add_plausibility(Run& run) const {
-  const auto& dwell = options_.dwell;
-  const algo::RunToJudge whole{rig_,
-                               sequence_,
-                               dwell_.summary(),
-                               lost_,
-                               !options_.sequence.targets_m.empty(),
-                               dwell.shortest_s()};
-  run.plausibility = algo::plausibility(whole);
-  Notices& notices = run.header.notices;
-  append(notices, algo::signal_notices(whole));
-  append(notices, algo::visit_notices(whole));
-  append(notices, algo::unit_notices(rig_, *run.plausibility));
-  append(notices, algo::map_notices(rig_, solver_.fixture(), sequence_.points));
-}
-
 Result<Run> Pipeline::finish() {
   aligner_.flush(frames_);
   find_stops();
@@ -325,33 +234,23 @@ Result<Run> Pipeline::finish() {
   leave_out_beyond();
   take_points();
   if (sequence_.points.empty() || !moved()) MDOF_CHECK(explain_nothing());
-  Run run;
-  MDOF_CHECK(judge_dead_probes(run.header.notices));
-  run.header.axis = rig_.axis;
-  run.header.sides = rig_.sides;
-  run.header.stated = kAtFixture;
-  run.header.scans = dwell_.summary().scans;
-  run.header.scans_lost = lost_;
-  run.header.temperature = temperature_.of_run();
-  if (auto note = datum_note(options_.datum.kind, options_.datum.device); !note.empty())
-    run.header.notes.push_back(std::move(note));
-  Notices& notices = run.header.notices;
-  append(notices, sequence_.notices);
-  if (unplaced_ > 0) notices.push_back(not_placed());
-  if (is_full()) notices.push_back(beyond_limit());
-  for (auto& [probe, why] : aligner_.too_slow()) notices.push_back(std::move(why));
-  add_plausibility(run);
-  run.points = sequence_.points;
-  corrections_.report(solver_, found_, run);
-  append(notices, dwell_.notices(found_));
-  if (auto contradiction = residuals().contradiction(run.points))
-    notices.push_back(std::move(*contradiction));
-  append(notices, algo::repeat_notices(rig_, run.points));
-  treat_drift(rig_, options_.remove_drift, run);
-  judge(run);
-  run.straightness = algo::straightness(rig_.moving(), run.points);
-  run.angles = algo::angles(rig_.moving(), run.points);
-  return run;
+  Notices first;
+  MDOF_CHECK(judge_dead_probes(first));
+  append(first, sequence_.notices);
+  if (unplaced_ > 0) first.push_back(not_placed());
+  if (is_full()) first.push_back(beyond_limit());
+  Notices partial;
+  if (auto why = never_stops()) partial.push_back(std::move(*why));
+  const algo::Residuals residuals = this->residuals();
+  return build({.sequence = sequence_,
+                .as_read = found_,
+                .summary = dwell_.summary(),
+                .least_dwell_s = options_.dwell.shortest_s(),
+                .residuals = residuals,
+                .targets_m = options_.sequence.targets_m,
+                .first = std::move(first),
+                .of_points = dwell_.notices(found_),
+                .partial = std::move(partial)});
 }
 
 }  // namespace mdof::daemon

@@ -1,25 +1,17 @@
 // Raw blocks of one axis that moves all the time -> a run: what Pipeline does where it dwells.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "algo/model/solver.h"
 #include "algo/on_the_fly/on_the_fly.h"
-#include "algo/points/align.h"
-#include "algo/uncertainty/chi_square.h"
-#include "daemon/measure/corrections/point_corrections.h"
-#include "daemon/measure/pipeline.h"
-#include "daemon/measure/points/run_temperature.h"
-#include "daemon/measure/points/suspect_encoder.h"
-#include "drivers/calibration.h"
-#include "schema/notice/notice.h"
+#include "daemon/measure/points/run_builder.h"
 
 namespace mdof::daemon {
 
 // Thread-bound.
-class OnTheFlyRun {
+class OnTheFlyRun : RunBuilder {
  public:
   // `options` have on_the_fly, which check_on_the_fly() accepts. Error: Pipeline's.
   static Result<OnTheFlyRun> create(const Rig& rig, const PipelineOptions& options);
@@ -37,21 +29,10 @@ class OnTheFlyRun {
   Status leave_suspect_out(algo::Sequence& sequence, Notices& notices) const;
   void correct(algo::Sequence& sequence) const;
   Status solve(algo::Sequence& sequence, const algo::Residuals& residuals) const;
-  void judge(const algo::Sequence& sequence, Run& run) const;
 
-  Rig rig_;
-  PipelineOptions options_;
-  drivers::Calibrator calibrator_;
-  algo::Aligner aligner_;
-  algo::Solver solver_;
   algo::OnTheFly fly_;
-  PointCorrections corrections_;
-  FrameBlock frames_;
-  std::uint64_t lost_ = 0;
   std::size_t passes_seen_ = 0, points_ = 0;  // of fly_
   std::optional<std::int64_t> begin_ns_;
-  SuspectEncoder suspect_;
-  RunTemperature temperature_;
 };
 
 }  // namespace mdof::daemon

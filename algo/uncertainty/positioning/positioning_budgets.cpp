@@ -172,8 +172,8 @@ std::vector<double> drawn_errors(const Visits& visits, const Run& run, std::size
 
 }  // namespace
 
-Result<RunPositioningUncertainty> positioning_uncertainty(const Rig& rig, const Run& run,
-                                                          std::size_t named, bool keep_slope) {
+Result<RunPositioningUncertainty> run_positioning_uncertainty(const Rig& rig, const Run& run,
+                                                              std::size_t named, bool keep_slope) {
   MDOF_TRY(const auto declared, contributors(rig, run));
   RunBudgets both(rig, run), apart(rig, approaches_apart(run));
   std::vector<std::vector<PointShifts>> parts;

@@ -17,7 +17,7 @@ namespace mdof::algo {
 // straightness, or the range of an angle, of the run's other budgets, and has their U. R by trials
 // (repeatability_interval.h) of the noise of each dwell and of what is declared.
 // Error: as contributors().
-Result<RunPositioningUncertainty> positioning_uncertainty(const Rig& rig, const Run& run,
-                                                          std::size_t named, bool keep_slope);
+Result<RunPositioningUncertainty> run_positioning_uncertainty(const Rig& rig, const Run& run,
+                                                              std::size_t named, bool keep_slope);
 
 }  // namespace mdof::algo

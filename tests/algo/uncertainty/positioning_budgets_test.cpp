@@ -98,7 +98,7 @@ std::map<std::string, HeldParameter> held_parameters(const AxisCase& c) {
     TrueVisits measured;
     for (const MeasuredPoint& p : run.points)
       measured[p.target][p.point.direction].push_back(p.errors.local[kEz]);
-    const auto U = positioning_uncertainty(rig, run, kYawOfCases, false).value();
+    const auto U = run_positioning_uncertainty(rig, run, kYawOfCases, false).value();
     const std::map<std::string, double> by_name = {
         {"B", U.B}, {"B mean", U.B_mean}, {"R", U.R}, {"E", U.E}, {"M", U.M}};
     const ParameterValues of_axis = parameters(axis), of_visits = parameters(visits),
@@ -160,7 +160,7 @@ TEST(PositioningBudgets, OfASingleRunThereIsNoR) {
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 1};
   synthetic.truth = [](double d) { return Errors5{1e-2 * d * d, 0, 0, 0, 1e-2 * d}; };
   synthetic.u_reading_m = 40e-9;
-  const auto U = positioning_uncertainty(rig, synthetic.measure(), kYawOfCases, false).value();
+  const auto U = run_positioning_uncertainty(rig, synthetic.measure(), kYawOfCases, false).value();
   EXPECT_TRUE(std::isnan(U.R));
   EXPECT_TRUE(std::isnan(U.R_forward));
   EXPECT_GT(U.E, 0);
@@ -172,7 +172,7 @@ TEST(PositioningBudgets, TheMeanReversalIsByHand) {
   const Rig rig = test::rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 1};
   synthetic.u_reading_m = 40e-9;
-  const auto U = positioning_uncertainty(rig, synthetic.measure(), kYawOfCases, false).value();
+  const auto U = run_positioning_uncertainty(rig, synthetic.measure(), kYawOfCases, false).value();
   const double u_visit = 40e-9 * std::sqrt(2.0) / 10e-3;
   EXPECT_NEAR(U.B_mean, 1.96 * u_visit * std::sqrt(2.0 / 9), 0.002 * U.B_mean);
 }
@@ -185,11 +185,12 @@ TEST(PositioningBudgets, MHasTheUOfTheOtherBudgets) {
   synthetic.u_reading_m = 10e-9;
   const auto run = synthetic.measure();
   const auto budgets = RunBudgets::create(rig, run).value();
-  EXPECT_EQ(positioning_uncertainty(rig, run, kYawOfCases, false)->M,
+  EXPECT_EQ(run_positioning_uncertainty(rig, run, kYawOfCases, false)->M,
             budgets.of(range_figure(Axis::x, kYawOfCases)).U);
-  EXPECT_EQ(positioning_uncertainty(rig, run, 0, false)->M,
+  EXPECT_EQ(run_positioning_uncertainty(rig, run, 0, false)->M,
             budgets.of(straightness_figure(Axis::x, 0)).U);
-  EXPECT_EQ(positioning_uncertainty(rig, run, 0, true)->M, budgets.of(range_figure(Axis::x, 0)).U);
+  EXPECT_EQ(run_positioning_uncertainty(rig, run, 0, true)->M,
+            budgets.of(range_figure(Axis::x, 0)).U);
 }
 
 // From one side only: its own figures.
@@ -200,7 +201,7 @@ TEST(PositioningBudgets, OfOneSideHaveThatSide) {
   synthetic.u_reading_m = 40e-9;
   auto run = synthetic.measure();
   std::erase_if(run.points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
-  const auto U = positioning_uncertainty(rig, run, 0, false).value();
+  const auto U = run_positioning_uncertainty(rig, run, 0, false).value();
   EXPECT_GT(U.E_forward, 0);
   EXPECT_GT(U.R_forward, 0);
   for (const double none : {U.B, U.B_mean, U.E_reverse, U.E, U.M, U.R_reverse, U.R})
@@ -215,8 +216,8 @@ TEST(PositioningBudgets, AnEvenSlopeIsNoneOfAStraightness) {
   synthetic.truth = [](double d) { return Errors5{0.02 * d, 0, 0, 0, 0}; };
   const mdof::Run run = synthetic.measure();
   const double length_m = synthetic.targets_m.back() - synthetic.targets_m.front();
-  const auto kept = positioning_uncertainty(rig, run, 0, true).value(),
-             straight = positioning_uncertainty(rig, run, 0, false).value();
+  const auto kept = run_positioning_uncertainty(rig, run, 0, true).value(),
+             straight = run_positioning_uncertainty(rig, run, 0, false).value();
   const double expected = 1.96 * 1e-3 * 0.02 * length_m;
   for (const double U : {kept.E, kept.E_forward, kept.E_reverse})
     EXPECT_NEAR(U, expected, 0.05 * expected);

@@ -65,7 +65,7 @@ Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
   MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
   std::vector<RunPositioningUncertainty> all;
   for (const std::size_t k : chosen) {
-    MDOF_TRY(auto U, algo::positioning_uncertainty(rig, run, k, found.keep_slope));
+    MDOF_TRY(auto U, algo::run_positioning_uncertainty(rig, run, k, found.keep_slope));
     all.push_back(std::move(U));
   }
   for (std::size_t i = 0; i < all.size(); ++i) found.columns[i].U = std::move(all[i]);

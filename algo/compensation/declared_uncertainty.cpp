@@ -5,9 +5,9 @@
 #include <map>
 #include <string>
 
-#include "algo/drift/removed_drift.h"
 #include "algo/model/restate.h"
 #include "algo/uncertainty/contributors.h"
+#include "schema/recording/run_options.h"
 
 namespace mdof::algo {
 namespace {
@@ -55,7 +55,7 @@ Result<std::map<std::string, PartsOfRuns>> all_contributors(const std::vector<Ri
         "leave some runs out");
   };
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    if (!rigs[r].declares_uncertainty() && !asked_to_remove_drift(runs[r].header)) continue;
+    if (!rigs[r].declares_uncertainty() && !run_options(runs[r].header).remove_drift) continue;
     if (points > kMostPoints) return too_many();
     MDOF_TRY(const auto of_run, contributors(rigs[r], runs[r]));
     for (const Contributor& contributor : of_run) {

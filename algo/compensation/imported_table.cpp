@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "schema/base/number/number_text.h"
+#include "schema/recording/run_options.h"
 #include "schema/sample.h"
 #include "schema/units.h"
 
@@ -70,7 +71,7 @@ Result<std::vector<double>> signs_of(const std::vector<Run>& runs,
   std::vector<double> signs;
   for (const Run& run : runs) {
     if (against_command) MDOF_CHECK(check_travel(run.header, *against_command));
-    const ImportedSense stated = imported_sense(run.header);
+    const ImportedSense stated = run_options(run.header).imported;
     const std::optional<bool> against =
         stated.against_command ? stated.against_command : against_command;
     if (stated.sense == PositioningSense::body && !against)
@@ -153,7 +154,7 @@ std::size_t target_at(const std::vector<double>& targets, double position_m) {
 }
 
 Status check_travel(const RunHeader& run, bool against_command) {
-  const auto stated = imported_sense(run).against_command;
+  const auto stated = run_options(run).imported.against_command;
   if (!stated || *stated == against_command) return {};
   return bad_input("run " + std::to_string(run.id) + " was imported with travel \"" +
                    (*stated ? "-" : "+") + "\", but the machine file states travel \"" +

@@ -4,6 +4,7 @@
 
 #include "algo/drift/run_drift.h"
 #include "algo/model/restate.h"
+#include "schema/recording/run_options.h"
 
 namespace mdof::algo {
 namespace {
@@ -30,12 +31,8 @@ PointShifts restated(const PointShifts& at_fixture, const Run& run, Model model)
 
 }  // namespace
 
-bool asked_to_remove_drift(const RunHeader& header) {
-  return header.provenance.options_json.find("\"remove_drift\":true") != std::string::npos;
-}
-
 std::vector<Contributor> removed_drift(const Run& run) {
-  if (!asked_to_remove_drift(run.header)) return {};
+  if (!run_options(run.header).remove_drift) return {};
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);
   const std::vector<MeasuredPoint> points = restate(run, kAtFixture).points;

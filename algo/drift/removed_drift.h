@@ -8,9 +8,6 @@
 
 namespace mdof::algo {
 
-// By the options with which the run was evaluated.
-bool asked_to_remove_drift(const RunHeader& header);
-
 // A contributor of a run from which a drift was removed, without a key of the rig, as it is seen in
 // the run itself: all points share what is wrong of the drift, so that the means of many visits
 // have all of it. Empty: no drift was removed.

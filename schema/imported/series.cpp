@@ -28,17 +28,6 @@ std::optional<PositioningSense> positioning_sense_from(std::string_view word) {
   return std::nullopt;
 }
 
-// Written by this program alone; within a text of the file quotes would be escaped.
-ImportedSense imported_sense(const RunHeader& run) {
-  const std::string& options = run.provenance.options_json;
-  const auto says = [&](const char* text) { return options.find(text) != std::string::npos; };
-  ImportedSense stated;
-  if (says(R"("sense":"body")")) stated.sense = PositioningSense::body;
-  if (says(R"("travel":"+")")) stated.against_command = false;
-  if (says(R"("travel":"-")")) stated.against_command = true;
-  return stated;
-}
-
 bool is_imported(const RunHeader& run) {
   return run.provenance.recording_kind.starts_with("imported");
 }

@@ -63,8 +63,6 @@ struct ImportedSense {
 };
 const char* to_string(PositioningSense sense);  // "command", "body"
 std::optional<PositioningSense> positioning_sense_from(std::string_view word);
-// Of a run of positioning; one of a version before this has the sense of the command.
-ImportedSense imported_sense(const RunHeader& run);
 
 bool is_imported(const RunHeader& run);
 // Error (bad_input): the run is an imported one, which has not what `what` needs.

@@ -8,11 +8,11 @@
 #include <tuple>
 #include <utility>
 
-#include "algo/drift/removed_drift.h"
 #include "algo/uncertainty/budget.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/words/error_text.h"
 #include "schema/imported/series.h"
+#include "schema/recording/run_options.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -27,10 +27,9 @@ std::string figure_of(AxisPair axes) {
 
 // What two runs must have alike to be in one chart.
 std::string kind_of(const RunHeader& run) {
-  const bool without_drift = algo::asked_to_remove_drift(run);
-  const bool on_the_fly = run.provenance.options_json.find("\"on_the_fly\":") != std::string::npos;
-  return run.provenance.model + (without_drift ? " without drift " : " ") +
-         (on_the_fly ? "on the fly " : "") + run.provenance.rig_text;
+  const RunOptions options = run_options(run);
+  return run.provenance.model + (options.remove_drift ? " without drift " : " ") +
+         (options.on_the_fly ? "on the fly " : "") + run.provenance.rig_text;
 }
 
 void leave_out(std::vector<std::string>& sentences, const std::vector<std::int64_t>& runs,

@@ -152,10 +152,12 @@ TEST(ImportedTable, GoesWithTheTravelOfTheMachine) {
     return build_positioning_table({run}, against);
   };
   for (const bool against : {false, true}) {
-    const auto stated = built(against ? R"({"travel":"-"})" : R"({"travel":"+"})", against);
+    const auto stated = built(
+        against ? R"({"imported":{"travel":"-"}})" : R"({"imported":{"travel":"+"}})", against);
     EXPECT_TRUE(stated) << stated.error().message;
     EXPECT_TRUE(built("{}", against));
-    const auto other = built(against ? R"({"travel":"+"})" : R"({"travel":"-"})", against);
+    const auto other = built(
+        against ? R"({"imported":{"travel":"+"}})" : R"({"imported":{"travel":"-"}})", against);
     ASSERT_FALSE(other);
     EXPECT_NE(other.error().message.find("run 7 was imported with travel \"" +
                                          std::string(against ? "+" : "-") + "\""),

@@ -5,6 +5,7 @@
 #include "daemon/history.h"
 #include "daemon/words/words.h"
 #include "schema/imported/series.h"
+#include "schema/recording/run_options.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/csv/csv_text.h"
@@ -33,7 +34,7 @@ bool is_positioning(const Run& run) {
 
 std::string sense_text(const Run& run) {
   if (!is_positioning(run)) return "";
-  return imported_sense(run.header).sense == PositioningSense::body
+  return run_options(run.header).imported.sense == PositioningSense::body
              ? ", positive if the moving body is too far along + of the machine axis"
              : ", positive along + of the coordinates of the controller";
 }
@@ -56,7 +57,7 @@ std::string imported_json(const Run& run, const std::string& result_sha256,
   json.field("imported", true).field("error", run.header.provenance.model);
   json.field("sense", "actual - nominal, as in the file");
   if (is_positioning(run)) {
-    const ImportedSense stated = imported_sense(run.header);
+    const ImportedSense stated = run_options(run.header).imported;
     json.field("positioning_sense", to_string(stated.sense)).key("travel");
     stated.against_command ? json.value(*stated.against_command ? "-" : "+") : json.null();
   }

@@ -1,6 +1,5 @@
 #include "daemon/rpc/line/connection.h"
 
-#include <poll.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -25,16 +24,11 @@ bool is_http(std::string_view line) {
          (line[end] == ' ' && line.substr(end + 1).starts_with('/'));
 }
 
-bool hung_up(int socket) {
-  pollfd entry{socket, 0, 0};
-  return ::poll(&entry, 1, 0) > 0 && (entry.revents & (POLLHUP | POLLERR)) != 0;
-}
-
 }  // namespace
 
 Connection::Connection(ServerCore& server, int socket)
-    : server_(server),
-      socket_(*server.loop->context, socket),
+    : ClientSocket(*server.loop->context, socket),
+      server_(server),
       input_(server.service.options().max_line_bytes, Dispatcher::kPadding) {}
 
 void Connection::start(std::shared_ptr<Session> session) {
@@ -54,20 +48,20 @@ void Connection::send(std::string_view message) {
   output_.text().append(message).push_back('\n');
 }
 
-void Connection::wake() {
-  if (state_ == State::closed || std::exchange(has_turn_, true)) return;
-  server_.ask_for_turn(shared_from_this());
+void Connection::ask_for_turn() {
+  server_.ask_for_turn(std::static_pointer_cast<Connection>(shared_from_this()));
 }
 
-void Connection::take_turn() {
-  has_turn_ = false;
-  if (state_ == State::closed) return;
-  if (std::exchange(readable_, false)) receive();
-  if (state_ == State::open) run_lines();
-  pump();
+void Connection::forget() {
+  server_.forget(*this);
 }
 
 void Connection::pump() {
+  if (is_open()) run_lines();
+  send_all();
+}
+
+void Connection::send_all() {
   flush();
   send_due();
   wait();
@@ -76,7 +70,7 @@ void Connection::pump() {
 // At least one request or member of a batch, so that it goes on however short a turn is.
 void Connection::run_lines() {
   const auto until = Clock::now() + server_.service.options().turn;
-  while (state_ == State::open && session_->has_room() && next_line()) {
+  while (is_open() && session_->has_room() && next_line()) {
     take_line(until);
     if (Clock::now() > until) return;
   }
@@ -103,21 +97,11 @@ void Connection::take_line(Clock::time_point until) {
   if (!out.empty() && out.back() != '\n') out += '\n';
 }
 
-void Connection::flush() {
-  if (state_ == State::closed) return;
-  const auto sent = output_.flush(socket_.native_handle());
-  if (!sent) return close();
-  if (output_.unsent() == 0)
-    stalled_since_.reset();
-  else if (!stalled_since_ || *sent > 0)
-    stalled_since_ = Clock::now();
-}
-
 // As long as the client takes it: what is left waits for the socket, or for its time.
 void Connection::send_due() {
-  while (state_ == State::open && output_.unsent() == 0 && session_->has_subscriptions()) {
+  while (is_open() && output_.unsent() == 0 && session_->has_subscriptions()) {
     const auto next = session_->send_due(Clock::now());
-    if (next) server_.wake_subscribers_at(*next);
+    if (next) server_.wake_at(*next);
     if (output_.unsent() == 0) return;
     flush();
   }
@@ -125,11 +109,10 @@ void Connection::send_due() {
 
 // Exactly one thing comes next: writing, another turn, the end, or reading.
 void Connection::wait() {
-  if (state_ == State::closed) return;
+  if (closed_) return;
   if (output_.unsent() > 0) wait_writable();
-  if (state_ == State::draining) {
-    if (output_.unsent() == 0 && !std::exchange(shut_down_, true))
-      ::shutdown(socket_.native_handle(), SHUT_WR);
+  if (draining_since_) {
+    if (output_.unsent() == 0) end_output();
     return wait_readable();
   }
   if (!session_->has_room())
@@ -143,7 +126,7 @@ void Connection::wait() {
 // A client that has closed both ways takes no reply any more: what it sent last, as a notification,
 // has had its turn, and what does not fit into that is not run.
 void Connection::go_on() {
-  hung_up(socket_.native_handle()) ? close() : wake();
+  hung_up() ? close() : wake();
 }
 
 bool Connection::finished() {
@@ -151,29 +134,8 @@ bool Connection::finished() {
 }
 
 // Only where no whole line waits: what next() gave has ended, and the space stays where it is.
-void Connection::wait_readable() {
-  if (reading_ || input_ended_) return;
-  reading_ = true;
-  socket_.async_wait(asio::posix::stream_descriptor::wait_read,
-                     [self = shared_from_this()](const LoopError& error) {
-                       self->reading_ = false;
-                       self->readable_ = true;
-                       if (!error) self->wake();
-                     });
-}
-
-void Connection::wait_writable() {
-  if (writing_) return;
-  writing_ = true;
-  socket_.async_wait(asio::posix::stream_descriptor::wait_write,
-                     [self = shared_from_this()](const LoopError& error) {
-                       self->writing_ = false;
-                       if (!error) self->wake();
-                     });
-}
-
 void Connection::receive() {
-  if (state_ == State::draining) input_.discard();
+  if (draining_since_) input_.discard();
   const auto space = input_.space();
   const ssize_t got = ::recv(socket_.native_handle(), space.data(), space.size(), MSG_DONTWAIT);
   if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;  // waits again
@@ -184,7 +146,7 @@ void Connection::receive() {
 
 void Connection::input_ended() {
   input_ended_ = true;
-  if (state_ == State::draining) return close();
+  if (draining_since_) return close();
   if (!input_.partial()) return;
   std::string message;
   append_error(message, "null", kParseError, "Parse error",
@@ -201,7 +163,6 @@ void Connection::refuse(std::string_view why) {
 }
 
 void Connection::drain() {
-  state_ = State::draining;
   draining_since_ = Clock::now();
 }
 
@@ -210,32 +171,23 @@ void Connection::drop(const std::string& why) {
   close();
 }
 
-void Connection::close() {
-  if (state_ == State::closed) return;
-  state_ = State::closed;
-  LoopError ignored;
-  socket_.close(ignored);
-  session_.reset();
-  server_.forget(*this);
-}
-
 void Connection::check_times(Clock::time_point now) {
   const auto& options = server_.service.options();
-  if (state_ == State::draining && now - draining_since_ > options.drain_timeout) return close();
-  if (state_ != State::open) return;
+  if (draining_since_ && now - *draining_since_ > options.drain_timeout) return close();
+  if (!is_open()) return;
   if (line_since_ && now - *line_since_ > options.request_timeout) {
     refuse("the request line was not complete within " +
            std::to_string(options.request_timeout.count()) + " ms");
-    return pump();
+    return send_all();
   }
   if (stalled_since_ && now - *stalled_since_ > options.stall_timeout)
     return drop("the client accepted none of " + std::to_string(output_.unsent()) +
                 " unsent bytes for " + std::to_string(options.stall_timeout.count()) + " ms");
-  if ((input_ended_ || !reading_) && !has_turn_ && hung_up(socket_.native_handle())) return close();
+  if ((input_ended_ || !reading_) && !has_turn_ && hung_up()) return close();
   if (!session_->is_idle(now)) return;
   session_->end_idle();
   drain();
-  pump();
+  send_all();
 }
 
 }  // namespace mdof::rpc

@@ -3,45 +3,29 @@
 
 #include <chrono>
 #include <memory>
-#include <optional>
-#include <vector>
 
 #include "daemon/rpc/line/connection.h"
-#include "daemon/rpc/net/asio.h"
-#include "daemon/rpc/net/event_loop_core.h"
-#include "daemon/rpc/session/service.h"
+#include "daemon/rpc/net/client_set.h"
 
 namespace mdof::rpc {
 
 // Thread-bound: the loop.
-struct ServerCore : std::enable_shared_from_this<ServerCore> {
-  using Clock = std::chrono::steady_clock;
-
-  ServerCore(std::shared_ptr<EventLoop::Core> event_loop, Service& shared);
-  ~ServerCore();
+struct ServerCore final : ClientSet<Connection> {
+  using ClientSet::ClientSet;
+  ~ServerCore() override { close_all(); }
 
   void adopt(int socket);  // a connected client, or one too many
-  void forget(const Connection& connection);
-  void wake_subscribers_at(Clock::time_point when);
   void ask_for_turn(std::shared_ptr<Connection> connection);
 
-  std::shared_ptr<EventLoop::Core> loop;
-  Service& service;
-  std::vector<std::shared_ptr<Connection>> connections;
-
  private:
-  void sweep();
-  void wake_subscribers();
-  void post_turns();
-  void give_turns();
+  Clock::time_point give_turn(Clock::time_point now) override;
+  bool awaits_turn() const override { return !order_.empty(); }
+  void wake_due() override;
+  std::chrono::milliseconds least_limit() const override;
 
   FairOrder<std::shared_ptr<Connection>> order_;  // who has a request to run
-  bool turns_posted_ = false, again_ = false;
+  bool again_ = false;
   const Connection* in_turn_ = nullptr;
-  asio::steady_timer sweep_timer_;
-  bool sweeping_ = false;
-  asio::steady_timer due_timer_;
-  std::optional<Clock::time_point> due_;
 };
 
 }  // namespace mdof::rpc

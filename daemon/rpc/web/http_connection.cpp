@@ -1,6 +1,5 @@
 #include "daemon/rpc/web/http_connection.h"
 
-#include <poll.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -19,15 +18,10 @@ namespace {
 
 constexpr std::size_t kReceiveBytes = 16 * 1024;
 
-bool is_gone(int socket) {
-  pollfd entry{socket, 0, 0};
-  return ::poll(&entry, 1, 0) > 0 && (entry.revents & (POLLHUP | POLLERR)) != 0;
-}
-
 }  // namespace
 
 HttpConnection::HttpConnection(HttpServerCore& server, int socket)
-    : server_(server), socket_(*server.loop->context, socket), peer_(peer_of(socket)) {}
+    : ClientSocket(*server.loop->context, socket), server_(server), peer_(peer_of(socket)) {}
 
 void HttpConnection::turn_away() {
   append_refusal(output_.text(),
@@ -39,7 +33,7 @@ void HttpConnection::turn_away() {
 
 // A reply that comes late. What a stream gets has its own form.
 void HttpConnection::send(std::string_view message) {
-  if (state_ != State::streaming) {
+  if (!is(State::streaming)) {
     reply_ = message;
     return;
   }
@@ -47,22 +41,18 @@ void HttpConnection::send(std::string_view message) {
   append_event(output_.text(), seen_, note.method, note.params);
 }
 
-void HttpConnection::wake() {
-  if (state_ == State::closed || std::exchange(has_turn_, true)) return;
-  server_.ask_for_turn(shared_from_this());
+void HttpConnection::ask_for_turn() {
+  server_.ask_for_turn(std::static_pointer_cast<HttpConnection>(shared_from_this()));
 }
 
-void HttpConnection::take_turn() {
-  has_turn_ = false;
-  if (state_ == State::closed) return;
-  if (std::exchange(readable_, false)) receive();
-  pump();
+void HttpConnection::forget() {
+  server_.forget(*this);
 }
 
 void HttpConnection::pump() {
   flush();
-  if (state_ == State::reading && output_.unsent() == 0) take_request();
-  if (state_ == State::answering) go_on_with_rpc();
+  if (is(State::reading) && output_.unsent() == 0) take_request();
+  if (is(State::answering)) go_on_with_rpc();
   flush();
   send_stream();
   wait();
@@ -253,59 +243,27 @@ void HttpConnection::send_events() {
 
 // As long as the browser takes it: what is left waits for the socket, or for its time.
 void HttpConnection::send_stream() {
-  while (state_ == State::streaming && output_.unsent() == 0) {
+  while (is(State::streaming) && output_.unsent() == 0) {
     send_events();
     due_ = session_->send_due(Clock::now());
-    if (due_) server_.wake_streams_at(*due_);
+    if (due_) server_.wake_at(*due_);
     if (output_.unsent() == 0) return;
     sent_ = Clock::now();
     flush();
   }
 }
 
-void HttpConnection::flush() {
-  if (state_ == State::closed) return;
-  const auto sent = output_.flush(socket_.native_handle());
-  if (!sent) return close();
-  if (output_.unsent() == 0)
-    stalled_since_.reset();
-  else if (!stalled_since_ || *sent > 0)
-    stalled_since_ = Clock::now();
-}
-
 void HttpConnection::wait() {
-  if (state_ == State::closed) return;
+  if (closed_) return;
   if (output_.unsent() > 0) wait_writable();
-  if (state_ == State::draining && output_.unsent() == 0 && !std::exchange(shut_down_, true))
-    ::shutdown(socket_.native_handle(), SHUT_WR);
-  if (state_ == State::answering) return;  // until it has its reply
-  if (state_ == State::reading) {
+  if (is(State::draining) && output_.unsent() == 0) end_output();
+  if (is(State::answering)) return;  // until it has its reply
+  if (is(State::reading)) {
     if (output_.unsent() > 0) return;
     if (input_ended_) return close();
     if (!input_.empty() && !head_ && scanned_ == 0) return wake();  // a request behind the last
   }
   wait_readable();
-}
-
-void HttpConnection::wait_readable() {
-  if (reading_ || input_ended_) return;
-  reading_ = true;
-  socket_.async_wait(asio::posix::stream_descriptor::wait_read,
-                     [self = shared_from_this()](const LoopError& error) {
-                       self->reading_ = false;
-                       self->readable_ = true;
-                       if (!error) self->wake();
-                     });
-}
-
-void HttpConnection::wait_writable() {
-  if (writing_) return;
-  writing_ = true;
-  socket_.async_wait(asio::posix::stream_descriptor::wait_write,
-                     [self = shared_from_this()](const LoopError& error) {
-                       self->writing_ = false;
-                       if (!error) self->wake();
-                     });
 }
 
 void HttpConnection::receive() {
@@ -315,10 +273,10 @@ void HttpConnection::receive() {
   if (got < 0) return close();
   if (got == 0) {
     input_ended_ = true;
-    if (state_ == State::draining || state_ == State::streaming) close();
+    if (is(State::draining) || is(State::streaming)) close();
     return;
   }
-  if (state_ == State::draining || state_ == State::streaming) return;  // nothing is expected
+  if (is(State::draining) || is(State::streaming)) return;  // nothing is expected
   if (input_.empty()) since_ = Clock::now();
   input_.append(bytes, static_cast<std::size_t>(got));
 }
@@ -328,29 +286,20 @@ void HttpConnection::drop(const std::string& why) {
   close();
 }
 
-void HttpConnection::close() {
-  if (state_ == State::closed) return;
-  state_ = State::closed;
-  LoopError ignored;
-  socket_.close(ignored);
-  session_.reset();
-  server_.forget(*this);
-}
-
 void HttpConnection::check_times(Clock::time_point now) {
   const auto& options = server_.service.options();
   if (stalled_since_ && now - *stalled_since_ > options.stall_timeout)
     return drop("the browser accepted none of " + std::to_string(output_.unsent()) +
                 " unsent bytes for " + std::to_string(options.stall_timeout.count()) + " ms");
   const auto passed = now - since_;
-  if (state_ == State::draining && passed > options.drain_timeout) return close();
-  if (state_ == State::answering && is_gone(socket_.native_handle())) return close();
-  if (state_ == State::streaming && output_.unsent() == 0 && now - sent_ > options.http_heartbeat) {
+  if (is(State::draining) && passed > options.drain_timeout) return close();
+  if (is(State::answering) && hung_up()) return close();
+  if (is(State::streaming) && output_.unsent() == 0 && now - sent_ > options.http_heartbeat) {
     output_.text() += ":\n\n";
     sent_ = now;
     pump();
   }
-  if (state_ != State::reading || output_.unsent() > 0) return;
+  if (!is(State::reading) || output_.unsent() > 0) return;
   if (is_idle() && passed > options.http_idle_timeout) return close();
   if (is_idle() || passed <= options.request_timeout) return;
   refuse({408, "the request was not complete within " +

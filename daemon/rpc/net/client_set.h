@@ -1,0 +1,99 @@
+// The connections of a server of either kind: they have turns in slices, are looked at from time to
+// time, and are woken when a value is due. Private header.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "daemon/rpc/net/asio.h"
+#include "daemon/rpc/net/event_loop_core.h"
+#include "daemon/rpc/session/service.h"
+
+namespace mdof::rpc {
+
+// Thread-bound: the loop. `C`: a ClientSocket with check_times().
+template <class C>
+struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
+  using Clock = std::chrono::steady_clock;
+
+  ClientSet(std::shared_ptr<EventLoop::Core> event_loop, Service& shared)
+      : loop(std::move(event_loop)),
+        service(shared),
+        sweep_timer_(*loop->context),
+        due_timer_(*loop->context) {}
+  virtual ~ClientSet() = default;
+
+  void forget(const C& connection) {
+    std::erase_if(connections, [&](const auto& c) { return c.get() == &connection; });
+  }
+  void wake_at(Clock::time_point when) {
+    if (due_ && *due_ <= when) return;
+    due_ = when;
+    due_timer_.expires_at(when);
+    due_timer_.async_wait([weak = this->weak_from_this()](const LoopError& error) {
+      const auto self = weak.lock();
+      if (!self || error) return;  // gone, or an earlier time took its place
+      self->due_.reset();
+      self->wake_due();
+    });
+  }
+
+  std::shared_ptr<EventLoop::Core> loop;
+  Service& service;
+  std::vector<std::shared_ptr<C>> connections;
+
+ protected:
+  // Of the one that is next. The time after it.
+  virtual Clock::time_point give_turn(Clock::time_point now) = 0;
+  virtual bool awaits_turn() const = 0;
+  virtual void wake_due() = 0;  // whoever has a value that is due
+  virtual std::chrono::milliseconds least_limit() const = 0;
+
+  void close_all() {
+    for (const auto& connection : std::exchange(connections, {})) connection->close();
+  }
+  void begin(std::shared_ptr<C> connection) {
+    connections.push_back(std::move(connection));
+    if (!std::exchange(sweeping_, true)) sweep();
+  }
+  void post_turns() {
+    if (std::exchange(turns_posted_, true)) return;
+    loop->post([weak = this->weak_from_this()] {
+      if (const auto self = weak.lock()) self->give_turns();
+    });
+  }
+
+ private:
+  // In slices, between which the loop looks at sockets and timers: a request that has just come
+  // needs not wait for all who are before it in the queue of the loop.
+  void give_turns() {
+    constexpr std::chrono::microseconds kSlice{300};
+    turns_posted_ = false;
+    auto now = Clock::now();
+    for (const auto end = now + kSlice; awaits_turn() && now < end;) now = give_turn(now);
+    if (awaits_turn()) post_turns();
+  }
+  // Often enough to keep a limit to within an eighth of it.
+  void sweep() {
+    for (const auto& connection : std::vector(connections)) connection->check_times(Clock::now());
+    if (connections.empty()) {
+      sweeping_ = false;
+      return;
+    }
+    using std::chrono::milliseconds;
+    sweep_timer_.expires_after(std::clamp(least_limit() / 8, milliseconds(5), milliseconds(250)));
+    sweep_timer_.async_wait([weak = this->weak_from_this()](const LoopError& error) {
+      if (const auto self = weak.lock(); self && !error) self->sweep();
+    });
+  }
+
+  bool turns_posted_ = false, sweeping_ = false;
+  asio::steady_timer sweep_timer_, due_timer_;
+  std::optional<Clock::time_point> due_;
+};
+
+}  // namespace mdof::rpc

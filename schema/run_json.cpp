@@ -209,25 +209,25 @@ void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures) {
   });
 }
 
-std::string run_json(const Run& run, const RunUncertainty& uncertainty,
-                     const StatedFigures& figures, NoticeWords words) {
-  JsonWriter json;
-  json.begin_object();
-  write_header_members(json, run.header, words);
+void write_run_members(JsonWriter& json, const RunMembers& members, NoticeWords words) {
+  const auto& [run, header, uncertainty, figures, with_points, most_visits] = members;
+  write_header_members(json, header, words);
   write_covers(json, uncertainty);
-  json.key("points").begin_array();
-  for (std::size_t j = 0; j < run.points.size(); ++j)
-    write_point(json, run.header.moving(), run.points[j], uncertainty.points[j]);
-  json.end_array();
+  json.field("points_total", static_cast<std::uint64_t>(run.points.size()));
+  if (with_points) {
+    json.key("points").begin_array();
+    for (std::size_t j = 0; j < run.points.size(); ++j)
+      write_point(json, run.header.moving(), run.points[j], uncertainty.points[j]);
+    json.end_array();
+  }
   json.key("straightness");
   write_straightness(json, run.straightness, figures.budgets);
   json.key("angles");
   write_angles(json, run.angles);
   write_stated(json, figures);
   json.key("plausibility");
-  run.plausibility ? write_plausibility(json, *run.plausibility) : static_cast<void>(json.null());
-  json.end_object();
-  return json.take();
+  run.plausibility ? write_plausibility(json, *run.plausibility, most_visits)
+                   : static_cast<void>(json.null());
 }
 
 namespace {
@@ -244,14 +244,13 @@ std::string corner_text(const Squareness& s) {
 
 }  // namespace
 
-std::string squareness_json(const Squareness& s, const std::vector<Budget>& budgets) {
+void write_squareness_members(JsonWriter& json, const Squareness& s,
+                              const std::vector<Budget>& budgets) {
   const Budget& budget = budgets.front();
   const std::string name = std::string(squareness_name(s.axes)) + "_urad";
   const std::string slope_a = std::string("slope_") + s.straightness_a() + "_urad";
   const std::string slope_b = std::string("slope_") + s.straightness_b() + "_urad";
-  JsonWriter json;
-  json.begin_object()
-      .field("squareness", s.id)
+  json.field("squareness", s.id)
       .field(run_key(s.axes.a), s.run_a)
       .field(run_key(s.axes.b), s.run_b)
       .field(name, to_urad(s.error_rad))
@@ -275,9 +274,7 @@ std::string squareness_json(const Squareness& s, const std::vector<Budget>& budg
   json.field("slopes_over", "travel of the moving body along + of the axis")
       .field("sense", squareness_sense(s.axes, " deg"))
       .field("simulated", s.simulated)
-      .field("created_utc", s.created_utc)
-      .end_object();
-  return json.take();
+      .field("created_utc", s.created_utc);
 }
 
 std::string with_notices(std::string json, const Notices& notices, NoticeWords words) {

@@ -5,6 +5,7 @@
 #include "schema/compensation_table.h"
 #include "schema/notice/notice.h"
 #include "schema/notice/notice_json.h"
+#include "schema/plausibility_json.h"
 #include "schema/run.h"
 #include "schema/squareness.h"
 #include "schema/uncertainty/budget.h"
@@ -26,9 +27,17 @@ void write_reference(JsonWriter& json, const StatedAt& at);
 // Identity, state and provenance, without points; the members of an open object.
 void write_header_members(JsonWriter& json, const RunHeader& header, NoticeWords words);
 
-// The whole run as `mdof replay --json` prints it; `figures` as of write_stated().
-std::string run_json(const Run& run, const RunUncertainty& uncertainty,
-                     const StatedFigures& figures, NoticeWords words);
+// A run with what is stated of it.
+struct RunMembers {
+  const Run& run;
+  const RunHeader& header;  // the run's, or a shorter one
+  const RunUncertainty& uncertainty;
+  const StatedFigures& figures;  // as of write_stated()
+  bool with_points = true;
+  std::size_t most_visits = kAllVisits;  // of write_plausibility()
+};
+// The members of an open object.
+void write_run_members(JsonWriter& json, const RunMembers& members, NoticeWords words);
 
 // {"EYX_um": {"forward": {...}, "reverse": {...}, "mean": {...}}, ...}. "form_urad": how well a
 // line describes the axis. The slope of the mean has the u of its budget, where it is among these.
@@ -39,8 +48,9 @@ void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>&
 const Budget* budget_of_slope(const std::vector<Budget>& budgets, const StraightnessFigure& figure);
 void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
 
-// `budgets`: of EC0Y, then of the slopes.
-std::string squareness_json(const Squareness& squareness, const std::vector<Budget>& budgets);
+// Members of an open object; `budgets`: of EC0Y, then of the slopes.
+void write_squareness_members(JsonWriter& json, const Squareness& squareness,
+                              const std::vector<Budget>& budgets);
 
 // A JSON object with one member more: a list of texts, or "notices".
 std::string with_texts(std::string json, const std::string& name,

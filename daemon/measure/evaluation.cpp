@@ -7,6 +7,8 @@
 #include "algo/compensation/compensation.h"
 #include "algo/compensation/declared_uncertainty.h"
 #include "algo/compensation/imported_table.h"
+#include "algo/iso230/squareness_lines.h"
+#include "algo/iso230/straightness.h"
 #include "algo/model/restate.h"
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/two_runs.h"
@@ -15,9 +17,10 @@
 #include "daemon/measure/machine/volumetric.h"
 #include "daemon/paths.h"
 #include "daemon/words/error_text.h"
+#include "daemon/words/words.h"
 #include "schema/base/toml_reader.h"
 #include "schema/imported/series.h"
-#include "schema/run_json.h"
+#include "schema/iso230/iso230_json.h"
 
 namespace mdof::daemon {
 
@@ -292,6 +295,38 @@ Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squar
   MDOF_TRY(auto budgets, state_uncertainty(squareness, a, rig_a, b, rig_b, at));
   return FittedSquareness{std::move(squareness), std::move(budgets),
                           algo::inherited_notices({&a, &b})};
+}
+
+std::string run_document(const RunMembers& members, const std::string& result_sha256,
+                         const std::vector<HistoryEntry>& actions) {
+  JsonWriter json;
+  json.begin_object();
+  write_run_members(json, members, words::text);
+  json.key("straightness_lines");
+  write_straightness_lines(
+      json, algo::straightness_lines(members.run.header.moving(), members.run.points));
+  json.field("result_sha256", result_sha256).key("history");
+  write_actions(json, actions);
+  json.end_object();
+  return json.take();
+}
+
+Result<SquarenessLines> lines_of_squareness(store::Store& store, const Squareness& squareness) {
+  MDOF_TRY(const Run a, store.run(squareness.run_a));
+  MDOF_TRY(const Run b, store.run(squareness.run_b));
+  return algo::squareness_lines(a, b, squareness);
+}
+
+std::string squareness_document(const FittedSquareness& fitted, const SquarenessLines& lines) {
+  const auto& [squareness, budgets, notices] = fitted;
+  JsonWriter json;
+  json.begin_object();
+  write_squareness_members(json, squareness, budgets);
+  write_notices(json, "notices", notices, words::text);
+  json.key("lines");
+  write_squareness_lines(json, squareness, lines);
+  json.end_object();
+  return json.take();
 }
 
 }  // namespace mdof::daemon

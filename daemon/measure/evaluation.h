@@ -13,12 +13,19 @@
 #include "daemon/store/store.h"
 #include "schema/base/result.h"
 #include "schema/compensation_table.h"
+#include "schema/iso230/reference_lines.h"
 #include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
+#include "schema/run_json.h"
 #include "schema/uncertainty/budget.h"
 
 namespace mdof::daemon {
+
+// A stored run as `mdof show` and run.get give it: its members, those made on reading (the lines of
+// straightness), the hash of its result, and who did what with it.
+std::string run_document(const RunMembers& members, const std::string& result_sha256,
+                         const std::vector<HistoryEntry>& actions);
 
 // The rig of a run, with the machine of its configuration where the rig has none.
 Result<Rig> rig_of(const RunHeader& run);
@@ -107,5 +114,10 @@ Status store_squareness(store::Store& store, Squareness& squareness,
 // where `at` names some, as tables of the axes may be stated.
 Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness,
                                            const algo::StatedPair& at = {});
+
+// Both axes by each reference line, made on reading: what is stored is the fit by least squares.
+Result<SquarenessLines> lines_of_squareness(store::Store& store, const Squareness& squareness);
+// A fit as `mdof squareness` and squareness.fit give it.
+std::string squareness_document(const FittedSquareness& fitted, const SquarenessLines& lines);
 
 }  // namespace mdof::daemon

@@ -5,6 +5,7 @@
 
 #include "algo/compensation/compensation.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/gate/active_json.h"
 #include "daemon/methods/methods.h"
 #include "daemon/methods/volume.h"
 #include "daemon/paths.h"
@@ -65,7 +66,9 @@ void build(Methods& m, const Params& params, Reply reply) {
           JsonWriter json;
           json.begin_object();
           write_table_members(json, built.table);
-          json.field("doubtful", !built.doubtful.empty()).end_object();
+          json.field("doubtful", !built.doubtful.empty());
+          write_active(json, 0);
+          json.end_object();
           return with_texts(with_notices(json.take(), built.notices, words::text), "notes",
                             built.notes);
         };

@@ -238,26 +238,6 @@ StatedRun stated_in_a_call(const Run& run) {
                "); " + words::remedy(Remedy::analyse_run)}};
 }
 
-std::string run_json(const Run& run, const StatedRun& stated, const RunHeader& header,
-                     const std::vector<HistoryEntry>& actions, std::size_t most_visits) {
-  JsonWriter json;
-  json.begin_object();
-  write_header_members(json, header, words::text);
-  write_covers(json, stated.points);
-  json.field("points_total", static_cast<std::uint64_t>(run.points.size())).key("straightness");
-  write_straightness(json, run.straightness, stated.figures.budgets);
-  json.key("angles");
-  write_angles(json, run.angles);
-  write_stated(json, stated.figures);
-  json.key("plausibility");
-  run.plausibility ? write_plausibility(json, *run.plausibility, most_visits)
-                   : static_cast<void>(json.null());
-  json.key("history");
-  write_actions(json, actions);
-  json.end_object();
-  return json.take();
-}
-
 Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::int64_t id,
                                    Reference reference) {
   MDOF_TRY(const std::int64_t points, store.count_points(id));
@@ -267,11 +247,15 @@ Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::i
                      Remedy::show_run, std::to_string(id));
   MDOF_TRY(auto run, run_stated_at(store, id, reference));
   explain(m, run.header);
+  MDOF_TRY(const std::string sha256, store.result_sha256(id));
   MDOF_TRY(const auto actions, store.actions_of_run(id));
   const StatedRun stated = stated_in_a_call(run);
-  std::string whole = run_json(run, stated, run.header, actions, kMaxVisits);
-  return whole.size() <= kPageBytes ? whole
-                                    : run_json(run, stated, shortened(run.header), actions, 0);
+  const auto document = [&](const RunHeader& header, std::size_t most_visits) {
+    return run_document({run, header, stated.points, stated.figures, false, most_visits}, sha256,
+                        actions);
+  };
+  std::string whole = document(run.header, kMaxVisits);
+  return whole.size() <= kPageBytes ? whole : document(shortened(run.header), 0);
 }
 
 Result<QueryThread::Work> get_run(Methods& m, const Params& params) {
@@ -364,8 +348,9 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Returns a run without its points: header, provenance, straightness, "
                         "angles, plausibility, who started and stopped it.",
              .params = {run, reference},
-             .result = "the run; straightness in um, slopes and angles in urad; n_ij (numbers of "
-                       "visits) is null if the list is too long for a reply",
+             .result = "the run; straightness in um, slopes and angles in urad; "
+                       "straightness_lines; result_sha256; n_ij (numbers of visits) is null if the "
+                       "list is too long for a reply",
              .example = R"({"run": 1})",
              .handler = on_query(m, get_run)});
   table.add(

@@ -1,8 +1,6 @@
 // squareness.fit.
 #include "daemon/measure/evaluation.h"
 #include "daemon/methods/methods.h"
-#include "daemon/words/words.h"
-#include "schema/run_json.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -23,11 +21,11 @@ void squareness(Methods& m, const Params& params, Reply reply) {
   request.action = action_of(params, "squareness.fit");
   answer_with_change(m, std::move(reply), [request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(auto found, calculate_squareness(reader, request));
-    return [fitted = std::move(found),
+    MDOF_TRY(auto by_line, lines_of_squareness(reader, found.squareness));
+    return [fitted = std::move(found), lines = std::move(by_line),
             action = request.action](store::Store& store) mutable -> Result<std::string> {
       MDOF_CHECK(store_squareness(store, fitted.squareness, action));
-      return with_notices(squareness_json(fitted.squareness, fitted.budgets), fitted.notices,
-                          words::text);
+      return squareness_document(fitted, lines);
     };
   });
 }
@@ -81,7 +79,7 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
        .params = std::move(fit),
        .result = "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), or the same for "
                  "EB0Z or EA0Z; form_urad (residual straightness of both axes) and both slopes, at "
-                 "the fixture; sense; notices",
+                 "the fixture; sense; notices; lines",
        .example = R"({"run_x": 1, "run_y": 2})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});

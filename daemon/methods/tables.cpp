@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "daemon/measure/gate/active_json.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/methods/methods.h"
 #include "daemon/rpc/list_page.h"
@@ -28,7 +29,8 @@ std::string table_item(const CompensationTable& table, std::int64_t generation) 
   JsonWriter json;
   json.begin_object();
   write_table_members(json, table);
-  json.field("active", generation > 0).field("generation", generation).end_object();
+  write_active(json, generation);
+  json.end_object();
   return json.take();
 }
 
@@ -37,9 +39,8 @@ std::string volume_item(const VolumetricTable& table, const ActiveTables& active
   JsonWriter json;
   json.begin_object();
   write_volumetric_members(json, table);
-  json.field("active", is_active)
-      .field("generation", is_active ? active.volume->generation : 0)
-      .end_object();
+  write_active(json, is_active ? active.volume->generation : 0);
+  json.end_object();
   return json.take();
 }
 
@@ -87,12 +88,9 @@ Result<std::string> rows_json(store::Store& store, std::int64_t id, rpc::ListPag
   JsonWriter json;
   json.begin_object();
   write_table_members(json, table);
-  json.field("doubtful", !doubtful.empty())
-      .field("active", generation > 0)
-      .field("generation", generation)
-      .field("offset", page.offset)
-      .key("points")
-      .begin_array();
+  json.field("doubtful", !doubtful.empty());
+  write_active(json, generation);
+  json.field("offset", page.offset).key("points").begin_array();
   const auto total = static_cast<std::int64_t>(table.position_m.size());
   std::vector<std::int64_t> rows(
       static_cast<std::size_t>(std::clamp<std::int64_t>(total - page.offset, 0, page.count)));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "daemon/measure/gate/active_json.h"
 #include "daemon/measure/machine/machine_files.h"
 #include "daemon/measure/machine/volumetric.h"
 #include "daemon/methods/client_file.h"
@@ -65,7 +66,9 @@ std::string built_json(const BuiltVolumetric& built) {
   JsonWriter json;
   json.begin_object();
   write_volumetric_members(json, built.table);
-  json.field("doubtful", !built.doubtful.empty()).end_object();
+  json.field("doubtful", !built.doubtful.empty());
+  write_active(json, 0);
+  json.end_object();
   return with_notices(json.take(), built.notices, words::text);
 }
 
@@ -120,7 +123,7 @@ void build_volume(Methods& m, const Params& params, Reply reply) {
                      });
 }
 
-void write_active(JsonWriter& json, const store::ActiveVolumetric& active) {
+void write_active_volume(JsonWriter& json, const store::ActiveVolumetric& active) {
   write_volumetric_members(json, active.table);
   json.field("doubtful", active.doubtful).field("generation", active.generation);
 }
@@ -144,7 +147,7 @@ void write_volume_status(JsonWriter& json, const Methods& m) {
   const auto& active = m.active.volume;
   if (!active) return static_cast<void>(json.null());
   json.begin_object();
-  write_active(json, *active);
+  write_active_volume(json, *active);
   json.field("activated_utc", active->activated_utc)
       .field("activated_by", active->actor)
       .end_object();
@@ -161,7 +164,7 @@ Result<std::string> volume_grid(const Methods& m, const Params& params) {
   const bool with_parts = params.boolean("u_parts", false);
   JsonWriter json(48 * 1024);
   json.begin_object();
-  write_active(json, *active);
+  write_active_volume(json, *active);
   json.field("offset", offset).key("points").begin_array();
   const auto total = static_cast<std::int64_t>(table.nodes());
   const std::int64_t end = std::min(total, offset + count);

@@ -1,6 +1,7 @@
 """A daemon under test: starts mdofd with a configuration in a folder of its own and talks to it.
 
 Standard library only. Messages of JSON-RPC are lines; notifications are kept apart from answers."""
+import gzip
 import json
 import os
 import signal
@@ -45,6 +46,22 @@ def write_log(path):
             target, at = divmod(i, 600)
             encoder = target + (0 if at < 500 else (at - 500) / 100)
             log.write(f"{i * 1e-3:.6f},{encoder:.6f},0.1,0.2,0.3,0.4,{0.5 + target / 10}\n")
+
+
+def recorded_again(log, folder):
+    """The same readings a day later: readings of one recording may not count twice."""
+    path, column = os.path.join(folder, "again.csv"), None
+    with gzip.open(log, "rt") as first, open(path, "w") as second:
+        for line in first:
+            if not line.startswith("#"):
+                cells = line.rstrip("\n").split(",")
+                if column is None:
+                    column = cells.index("time_s")
+                else:
+                    cells[column] = f"{float(cells[column]) + 86400:.6f}"
+                line = ",".join(cells) + "\n"
+            second.write(line)
+    return path
 
 
 def replay(axis, log):

@@ -6,7 +6,6 @@ asked, and what they say of a quantity is compared. A command or method that thi
 usage: one_quantity_test.py MDOFD MDOF"""
 import copy
 import csv
-import gzip
 import json
 import math
 import os
@@ -17,7 +16,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from mdofd import DATA, RIG, Client, Daemon, simulator  # noqa: E402
+from mdofd import DATA, RIG, Client, Daemon, recorded_again, simulator  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
@@ -50,22 +49,6 @@ def mdof(*words):
                           env={**os.environ, "COLUMNS": "400"})
     assert done.returncode == 0, (words, done.stderr)
     return done.stdout
-
-
-def recorded_again(log, folder):
-    """The same readings a day later: readings of one recording may not count twice."""
-    path, column = os.path.join(folder, "again.csv"), None
-    with gzip.open(log, "rt") as first, open(path, "w") as second:
-        for line in first:
-            if not line.startswith("#"):
-                cells = line.rstrip("\n").split(",")
-                if column is None:
-                    column = cells.index("time_s")
-                else:
-                    cells[column] = f"{float(cells[column]) + 86400:.6f}"
-                line = ",".join(cells) + "\n"
-            second.write(line)
-    return path
 
 
 def half_digit(text):

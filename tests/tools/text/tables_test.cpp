@@ -198,8 +198,10 @@ TEST(RunCsv, SaysTheErrorsOfTheBodyThatMoves) {
   run.header.sides.fixture_moves = true;
   EXPECT_NE(points_csv(run, noise_of(run)).find(",123.4567,"), std::string::npos)
       << points_csv(run, noise_of(run));
-  EXPECT_NE(run_json(run, noise_of(run), {}, nullptr).find("\"EYX_um\":123.4567,"),
-            std::string::npos);
+  JsonWriter json;
+  const RunUncertainty uncertainty = noise_of(run);
+  write_run_members(json.begin_object(), {run, run.header, uncertainty, {}}, nullptr);
+  EXPECT_NE(json.text().find("\"EYX_um\":123.4567,"), std::string::npos);
 }
 
 TEST(LogCsv, IsALogWithTimesToTheNanosecond) {

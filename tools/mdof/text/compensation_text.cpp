@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "daemon/measure/gate/active_json.h"
 #include "schema/imported/series.h"
 #include "schema/rig/correction.h"
 #include "schema/run_json.h"
@@ -14,11 +15,6 @@ namespace mdof::tools {
 namespace {
 
 using Columns = std::array<std::vector<double>, 5>;
-
-void write_state(JsonWriter& json, std::int64_t generation) {
-  json.field("in_force", generation > 0).key("generation");
-  generation > 0 ? json.value(generation) : json.null();
-}
 
 // Of positioning alone: no other error was measured.
 std::string positioning_text(const CompensationTable& t, const std::vector<double>& values,
@@ -88,8 +84,8 @@ std::string table_document(const CompensationTable& t, std::int64_t generation, 
   json.begin_object();
   write_table_members(json, t);
   json.field("doubtful", doubtful);
-  write_state(json, generation);
-  json.key("points").begin_array();
+  daemon::write_active(json, generation);
+  json.field("offset", std::int64_t{0}).key("points").begin_array();
   for (std::size_t i = 0; i < t.position_m.size(); ++i) write_table_row(json, t, i);
   json.end_array().end_object();
   return json.take();
@@ -130,18 +126,18 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
 
 std::string list_document(const ListedTables& list) {
   JsonWriter json;
-  json.begin_object().key("tables").begin_array();
+  json.begin_object().field("offset", std::int64_t{0}).key("tables").begin_array();
   for (std::size_t i = 0; i < list.tables.size(); ++i) {
     json.begin_object();
     write_table_members(json, list.tables[i]);
-    write_state(json, list.generations[i]);
+    daemon::write_active(json, list.generations[i]);
     json.end_object();
   }
   json.end_array().key("volumes").begin_array();
   for (std::size_t i = 0; i < list.volumes.size(); ++i) {
     json.begin_object();
     write_volumetric_members(json, list.volumes[i]);
-    write_state(json, list.volume_generations[i]);
+    daemon::write_active(json, list.volume_generations[i]);
     json.end_object();
   }
   json.end_array().end_object();

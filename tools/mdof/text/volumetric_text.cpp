@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemon/measure/gate/active_json.h"
 #include "schema/base/json_writer.h"
 #include "schema/units.h"
 #include "schema/volumetric/volumetric_json.h"
@@ -15,11 +16,6 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::string_view kAxes = "XYZ";
-
-void write_state_of(JsonWriter& json, std::int64_t generation) {
-  json.field("in_force", generation > 0).key("generation");
-  generation > 0 ? json.value(generation) : json.null();
-}
 
 std::string state_text(std::int64_t generation) {
   return generation > 0 ? "active, generation " + std::to_string(generation) : "not active";
@@ -70,7 +66,7 @@ std::string volumetric_document(const VolumetricTable& t, std::int64_t generatio
   json.begin_object();
   write_volumetric_members(json, t);
   json.field("doubtful", doubtful);
-  write_state_of(json, generation);
+  daemon::write_active(json, generation);
   json.key("points").begin_array();
   for (std::size_t node = 0; node < t.nodes(); ++node) write_volumetric_node(json, t, node, true);
   json.end_array().end_object();

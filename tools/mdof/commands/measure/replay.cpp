@@ -98,7 +98,10 @@ Status replay(ReplayCommand command) {
   show_notices(run.header.notices, command.all_warnings);
   if (command.json) {
     const daemon::StatedRun stated = daemon::stated_run(run);
-    return write_line(run_json(run, stated.points, stated.figures, words::text));
+    JsonWriter json;
+    json.begin_object();
+    write_run_members(json, {run, run.header, stated.points, stated.figures}, words::text);
+    return write_line(json.end_object().take());
   }
   run.header.notices.clear();  // shown already
   const daemon::StatedRun stated = daemon::stated_run(run);

@@ -22,9 +22,9 @@ struct RunsCommand {
   bool all = false, json = false;
 };
 
-std::string runs_json(const std::vector<RunHeader>& runs, std::int64_t total) {
+std::string runs_json(const std::vector<RunHeader>& runs, std::int64_t total, std::int64_t offset) {
   JsonWriter json;
-  json.begin_object().field("total", total).key("runs").begin_array();
+  json.begin_object().field("total", total).field("offset", offset).key("runs").begin_array();
   for (const auto& header : runs) {
     json.begin_object();
     write_header_members(json, header, words::text);
@@ -61,7 +61,7 @@ Status list_runs(const RunsCommand& command) {
   const auto listed = command.all ? store::Store::Listed::all : store::Store::Listed::results;
   MDOF_TRY(const auto runs, store.list_runs(command.page.offset, command.page.count, axis, listed));
   MDOF_TRY(const auto total, store.count_runs(axis, listed));
-  return command.json ? write_line(runs_json(runs, total))
+  return command.json ? write_line(runs_json(runs, total, command.page.offset))
                       : write_out(runs_text(store, runs, total));
 }
 

@@ -1,13 +1,9 @@
 // mdof show RUN: a stored run, whole.
 #include <CLI/CLI.hpp>
 
-#include "algo/iso230/straightness.h"
-#include "daemon/history.h"
 #include "daemon/measure/budgets.h"
-#include "daemon/words/words.h"
+#include "daemon/measure/evaluation.h"
 #include "schema/imported/series.h"
-#include "schema/iso230/iso230_json.h"
-#include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/results/chosen_run.h"
 #include "tools/mdof/csv/run_csv.h"
@@ -21,20 +17,6 @@
 
 namespace mdof::tools {
 namespace {
-
-// run_json() with three members more. The lines are made on reading: what is stored, and its hash,
-// is as it was.
-std::string with_lines_hash_and_history(const Run& run, const std::string& sha256,
-                                        const std::vector<HistoryEntry>& actions) {
-  const daemon::StatedRun stated = daemon::stated_run(run);
-  std::string json = run_json(run, stated.points, stated.figures, words::text);
-  json.pop_back();
-  JsonWriter lines, history;
-  write_straightness_lines(lines, algo::straightness_lines(run.header.moving(), run.points));
-  daemon::write_actions(history, actions);
-  return json + ",\"straightness_lines\":" + lines.take() + ",\"result_sha256\":\"" + sha256 +
-         "\",\"history\":" + history.take() + "}";
-}
 
 Status show_imported(store::Store& store, const Run& run, const ChosenRun& choice) {
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
@@ -57,7 +39,11 @@ Status show(const ChosenRun& choice) {
   }
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
-  if (choice.json) return write_line(with_lines_hash_and_history(run, sha256, actions));
+  if (choice.json) {
+    const daemon::StatedRun stated = daemon::stated_run(run);
+    return write_line(
+        daemon::run_document({run, run.header, stated.points, stated.figures}, sha256, actions));
+  }
   const std::size_t width = terminal_columns();
   MDOF_TRY(const auto by, store.superseded_by(run.header.id));
   if (by)

@@ -3,14 +3,11 @@
 #include <array>
 #include <optional>
 
-#include "algo/iso230/squareness_lines.h"
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/run/run_charts.h"
 #include "daemon/words/words.h"
-#include "schema/iso230/iso230_json.h"
-#include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -86,21 +83,6 @@ std::string squareness_text(const Squareness& s, const std::vector<Budget>& budg
          "\n";
 }
 
-// Made on reading: stored is the fit by least squares.
-Result<SquarenessLines> lines_of_squareness(const std::string& database, const Squareness& s) {
-  MDOF_TRY(store::Store store, open_to_read(database));
-  MDOF_TRY(const Run a, store.run(s.run_a));
-  MDOF_TRY(const Run b, store.run(s.run_b));
-  return algo::squareness_lines(a, b, s);
-}
-
-std::string with_lines(std::string json, const Squareness& s, const SquarenessLines& lines) {
-  JsonWriter writer;
-  write_squareness_lines(writer, s, lines);
-  json.pop_back();
-  return json + ",\"lines\":" + writer.take() + "}";
-}
-
 Result<RunHeader> stored_header(const std::string& database, std::int64_t run) {
   MDOF_TRY(store::Store store, open_to_read(database));
   return store.run_header(run);
@@ -153,12 +135,11 @@ Status squareness(SquarenessCommand command) {
   const auto& [s, budgets, notices] = fitted;
   show_notices(notices, command.all_warnings);
   if (const std::string text = not_declared_text({budgets.front()}); !text.empty()) warn(text);
-  MDOF_TRY(const SquarenessLines lines, lines_of_squareness(command.database, s));
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const SquarenessLines lines, daemon::lines_of_squareness(store, s));
   MDOF_CHECK(draw_both_axes(command, s, budgets.front()));
-  return command.json
-             ? write_line(with_lines(
-                   with_notices(squareness_json(s, budgets), notices, words::text), s, lines))
-             : write_out(squareness_text(s, budgets, lines));
+  return command.json ? write_line(daemon::squareness_document(fitted, lines))
+                      : write_out(squareness_text(s, budgets, lines));
 }
 
 Action declare_squareness(CLI::App& command) {

@@ -19,9 +19,10 @@ struct HistoryCommand {
   bool json = false;
 };
 
-std::string actions_json(const std::vector<HistoryEntry>& actions, std::int64_t total) {
+std::string actions_json(const std::vector<HistoryEntry>& actions, std::int64_t total,
+                         std::int64_t offset) {
   JsonWriter json;
-  json.begin_object().field("total", total).key("history");
+  json.begin_object().field("total", total).field("offset", offset).key("history");
   daemon::write_actions(json, actions);
   json.end_object();
   return json.take();
@@ -39,7 +40,7 @@ Status list_history(const HistoryCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto actions, store.list_actions(command.page.offset, command.page.count));
   MDOF_TRY(const auto total, store.count_actions());
-  return command.json ? write_line(actions_json(actions, total))
+  return command.json ? write_line(actions_json(actions, total, command.page.offset))
                       : write_out(actions_text(actions, total));
 }
 

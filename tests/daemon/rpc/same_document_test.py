@@ -1,0 +1,118 @@
+#!/usr/bin/python3
+"""`mdof COMMAND --json` and the reply of the RPC are the same document: each method that has a command is called beside it,
+and all members are compared. A method that this test does not know fails it.
+
+usage: same_document_test.py MDOFD MDOF"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from mdofd import DATA, RIG, Daemon, recorded_again, simulator  # noqa: E402
+
+MDOFD, MDOF = sys.argv[1:3]
+PAGED = "a reply has at most 48 KiB: points come in pages, by a method of their own"
+NEXT = "the second of two alike"
+# (method, its parameters, the command, members that may differ and why). Runs 1 and 3 are of X, 2 of Y.
+SAME = [
+    ("run.get", {"run": 1}, "show 1", {"points": PAGED}),
+    ("run.list", {}, "runs", {}),
+    ("run.list", {"axis": "Y", "offset": 0, "count": 1}, "runs --axis Y --count 1", {}),
+    ("run.budget", {"run": 1, "figure": "EYX_slope_urad"}, "budget 1 --figure EYX_slope_urad", {}),
+    ("run.compare", {"before": 1, "after": 3}, "compare 1 3", {}),
+    ("parallelism.fit", {"run_a": 1, "run_b": 3}, "parallelism 1 3", {}),
+    ("squareness.fit", {"run_x": 1, "run_y": 2}, "squareness 1 2", {}),
+    ("squareness.budget", {"run_x": 1, "run_y": 2}, "budget 1 2", {}),
+    ("compensation.build", {"runs": [1]}, "compensation build 1",
+     {"points": PAGED, "offset": PAGED, "table": NEXT, "created_utc": NEXT}),
+    ("compensation.table", {"table": 1}, "compensation show 1", {}),
+    ("compensation.list", {}, "compensation list", {"volumes": "their pages are those of axis: volume"}),
+    ("compensation.activate", {"table": 1}, "compensation activate 1", {"changed": NEXT}),
+    ("compensation.table", {"table": 1}, "compensation show 1", {}),
+    ("compensation.deactivate", {"axis": "X"}, "compensation deactivate --axis X", {"changed": NEXT}),
+    ("history.list", {"count": 5}, "history --count 5", {}),
+    ("device.list", {}, "device list", {"scans": "they go on", "measured_hz": "it goes on", "clock": "it goes on"}),
+    ("server.info", {}, "status server", {"uptime_s": "it goes on"}),
+    ("compensation.status", {}, "status compensation", {}),
+]
+# Of these no command says the same.
+OTHERS = {
+    "compensation.at": "a question of the machine's control", "compensation.grid": "as compensation.table",
+    "compensation.build_volume": "tests/daemon/rpc/beside_daemon_test.py", "encoder.set": "tests/daemon/encoder_datum_test.py",
+    "live.subscribe": "a stream", "live.unsubscribe": "a stream", "machine.at": "mdof machine error is of files",
+    "rig.get": "what the page draws", "rpc.discover": "the methods", "run.import": "the id; the command shows the run",
+    "run.points": "pages of mdof show", "run.replay": "the id; the command shows the run", "run.resume": "begins",
+    "run.start": "begins; mdof record shows the run at its end", "run.stop": "ends", "server.health": "what the page shows",
+}
+
+
+def differences(command, reply, path=""):
+    if isinstance(command, dict) and isinstance(reply, dict):
+        found = []
+        for key in sorted(command.keys() | reply.keys()):
+            at = f"{path}/{key}"
+            if key in command and key in reply:
+                found += differences(command[key], reply[key], at)
+            else:
+                found.append((key, at, "only of the " + ("command" if key in command else "reply")))
+        return found
+    if isinstance(command, list) and isinstance(reply, list) and len(command) == len(reply):
+        return [d for i, (a, b) in enumerate(zip(command, reply)) for d in differences(a, b, f"{path}/{i}")]
+    if command == reply and isinstance(command, bool) == isinstance(reply, bool):
+        return []
+    return [(path.split("/")[-1], path, f"{command!r} of the command, {reply!r} of the reply")]
+
+
+class SameDocument(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = temporary.name
+        cls.daemon = Daemon(MDOFD, cls.folder, simulator("X"))
+        logs = {axis: os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz") for axis in "XY"}
+        for axis, log in (("X", logs["X"]), ("Y", logs["Y"]), ("X", recorded_again(logs["X"], cls.folder))):
+            cls.said("replay", log, "--rig", RIG[axis], "--db", cls.daemon.database)
+        cls.client = cls.daemon.start()
+        cls.addClassCleanup(cls.daemon.stop)
+        cls.addClassCleanup(cls.client.socket.close)
+
+    @classmethod
+    def said(cls, *words):
+        done = subprocess.run([MDOF, *words], capture_output=True, text=True, timeout=60)
+        assert done.returncode == 0, (words, done.stderr)
+        return done.stdout
+
+    @classmethod
+    def document(cls, command):
+        words = command.split()
+        if words[0] == "status":
+            return json.loads(cls.said("status", "--socket", cls.daemon.socket, "--json"))[words[1]]
+        options = cls.said(*[w for w in words if w.isalpha()][:2 if words[0] in ("compensation", "device") else 1], "--help")
+        for option, value in (("--db", cls.daemon.database), ("--socket", cls.daemon.socket)):
+            words += [option, value] if option in options else []
+        return json.loads(cls.said(*words, "--json"))
+
+    def test_all_members_are_the_same(self):
+        for method, params, command, allowed in SAME:
+            with self.subTest(command):
+                reply, document = self.client.call(method, **params), self.document(command)
+                found = differences(document, reply)
+                self.assertEqual([d for d in found if d[0] not in allowed], [], method)
+
+    # A comparison that sees no difference would prove nothing.
+    def test_a_member_less_or_another_value_is_seen(self):
+        self.assertEqual(differences({"a": [1, {"b": None}]}, {"a": [1, {"b": None}]}), [])
+        for other in ({}, {"a": [1]}, {"a": [1, {"b": 0}]}, {"a": [True, {"b": None}]}, {"a": [1, {}]}, {"a": [1, {"b": None}], "c": 0}):
+            self.assertEqual(len(differences({"a": [1, {"b": None}]}, other)), 1, other)
+
+    def test_every_method_is_known_here(self):
+        methods = {m["name"] for m in self.client.call("rpc.discover")["methods"]}
+        self.assertEqual(methods, {method for method, *_ in SAME} | OTHERS.keys())
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
@@ -156,6 +161,162 @@ TEST(VisitStep, CopiesOfASixthStopAndATenthAreSaid) {
   EXPECT_TRUE(said(6, 61).empty());
   EXPECT_TRUE(said(5, 40).empty());
   EXPECT_EQ(said(6, 40).size(), 1u);
+}
+
+// One probe's log by its places.
+struct PlacesOfProbe {
+  std::vector<const MeasuredPoint*> visits;
+  std::vector<std::vector<std::size_t>> places;
+
+  PlacesOfProbe(const std::vector<MeasuredPoint>& points, std::size_t probe) {
+    std::map<std::pair<int, int>, std::vector<std::size_t>> found;
+    for (const MeasuredPoint& p : points) {
+      if (p.point.direction == 0 || !std::isfinite(p.point.probe_m[probe])) continue;
+      found[{p.target, p.point.direction}].push_back(visits.size());
+      visits.push_back(&p);
+    }
+    for (const auto& [name, of] : found) places.push_back(of);
+  }
+  Eigen::VectorXd about_means(Eigen::VectorXd x) const {
+    for (const auto& of : places) {
+      double mean = 0;
+      for (const std::size_t i : of)
+        mean += x[static_cast<Eigen::Index>(i)] / static_cast<double>(of.size());
+      for (const std::size_t i : of) x[static_cast<Eigen::Index>(i)] -= mean;
+    }
+    return x;
+  }
+};
+
+// Every step tried by a fit of its own, and the smooth change by powers of the time.
+std::vector<VisitStep> brute_steps(const std::vector<MeasuredPoint>& points) {
+  std::vector<VisitStep> steps;
+  for (std::size_t k = 0; k < 5; ++k) {
+    const PlacesOfProbe of(points, k);
+    const auto n = static_cast<Eigen::Index>(of.visits.size());
+    const double freedom = static_cast<double>(n) - static_cast<double>(of.places.size()) - 2;
+    if (freedom < 4) continue;
+    Eigen::VectorXd y(n), time(n), best = Eigen::VectorXd::Zero(n);
+    double u = 1e-9 / 6;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Point& p = of.visits[static_cast<std::size_t>(i)]->point;
+      y[i] = p.probe_m[k];
+      time[i] = 1e-9 * static_cast<double>(p.begin_ns);
+      u = std::max(u, p.probe_u_m[k]);
+    }
+    y = of.about_means(y);
+    double least = y.squaredNorm(), size = 0;
+    Eigen::Index at = 0;
+    for (Eigen::Index i = 1; i < n; ++i) {
+      Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+      step.tail(n - i).setOnes();
+      step = of.about_means(step);
+      if (step.squaredNorm() < 2 - 1e-9) continue;
+      const double fitted = step.dot(y) / step.squaredNorm();
+      const double left = (y - fitted * step).squaredNorm();
+      if (left < least) least = left, size = fitted, at = i;
+    }
+    const double sd = std::max(std::sqrt(least / freedom), u);
+    if (at == 0 || std::abs(size) < 6 * sd) continue;
+    Eigen::MatrixXd powers(n, 6);
+    const Eigen::ArrayXd x = (time.array() - time[0]) / (time[n - 1] - time[0]) - 0.5;
+    for (int order = 1; order <= 6; ++order) powers.col(order - 1) = of.about_means(x.pow(order));
+    const Eigen::VectorXd fit = powers.colPivHouseholderQr().solve(y);
+    const double smooth = (y - powers * fit).norm() / std::sqrt(freedom);
+    if (freedom * std::log(smooth / sd) >= 10)
+      steps.push_back(
+          {k, static_cast<std::size_t>(of.visits[static_cast<std::size_t>(at)] - points.data()),
+           size, sd});
+  }
+  return steps;
+}
+
+// Logs of irregular times, with stops of no approach and without a reading, of a few places, and
+// with steps from small to large: what is found is what trying all of them finds.
+TEST(VisitStep, IsTheBestOfAllThatAreTried) {
+  const Rig rig = test::rig_x();
+  std::size_t found = 0, logs = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    std::mt19937_64 engine(seed);
+    std::uniform_real_distribution<> uniform;
+    const int at = 5 + static_cast<int>(60 * uniform(engine)),
+              runs = 1 + static_cast<int>(seed % 3);
+    const double size = 900e-9 * (uniform(engine) - 0.5);
+    auto points = repeated_log(
+        seed, [&](int n) { return n >= at ? size : 0; }, runs + 1);
+    std::vector<MeasuredPoint> some;
+    double time_s = 5;
+    for (MeasuredPoint& p : points) {
+      p.point.begin_ns = static_cast<std::int64_t>(1e9 * (time_s += 1 + 3 * uniform(engine)));
+      if (p.target > 2 + static_cast<int>(seed % 5) * 3) continue;
+      if (uniform(engine) < 0.05) p.point.direction = 0;
+      if (uniform(engine) < 0.05) p.point.probe_m[4] = std::nan("");
+      if (seed % 7 == 0 && uniform(engine) < 0.2) p.point.probe_u_m[4] = 40e-9;
+      p.point.probe_m[2] += some.size() > 9 ? -size : 0;
+      some.push_back(p);
+    }
+    const auto steps = visit_steps(rig, some), expected = brute_steps(some);
+    ASSERT_EQ(steps.size(), expected.size()) << seed;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      EXPECT_EQ(steps[i].probe, expected[i].probe) << seed;
+      EXPECT_EQ(steps[i].point, expected[i].point) << seed;
+      EXPECT_NEAR(steps[i].size_m, expected[i].size_m, 1e-6 * std::abs(size)) << seed;
+      EXPECT_NEAR(steps[i].sd_m, expected[i].sd_m, 1e-6 * expected[i].sd_m) << seed;
+    }
+    found += steps.size(), ++logs;
+  }
+  EXPECT_GT(found, logs / 3);
+  EXPECT_LT(found, 2 * logs);
+}
+
+// A step counts from before · after / all = 2 on, summed over the places: three places in four
+// rounds have 3/4 each after the first, two in eight 7/8.
+TEST(VisitStep, NeedsFourPlacesOrMoreVisits) {
+  const auto found = [](int targets, int visits, int before, double u_m) {
+    std::vector<MeasuredPoint> points;
+    for (int v = 0; v < visits; ++v)
+      for (int t = 1; t <= targets; ++t) {
+        MeasuredPoint& p = points.emplace_back();
+        p.target = t;
+        p.point.direction = 1;
+        p.point.begin_ns = 1'000'000'000 * static_cast<std::int64_t>(points.size());
+        p.point.probe_m.assign(5, 0);
+        p.point.probe_u_m.assign(5, u_m);
+        p.point.probe_m[1] = 1e-6 * t + (v >= before ? 100e-9 : 0);
+      }
+    return visit_steps(test::rig_x(), points);
+  };
+  ASSERT_EQ(found(4, 4, 2, 0).size(), 1u);
+  EXPECT_EQ(found(4, 4, 2, 0)[0].point, 8u);
+  EXPECT_NEAR(found(4, 4, 2, 0)[0].size_m, 100e-9, 1e-15);
+  EXPECT_NEAR(found(4, 4, 2, 0)[0].sd_m, 1e-9 / 6, 1e-15);  // without noise the least that counts
+  EXPECT_NEAR(found(4, 4, 2, 1e-9)[0].sd_m, 1e-9, 1e-15);
+  EXPECT_EQ(found(3, 4, 1, 0).size(), 1u);
+  EXPECT_TRUE(found(2, 8, 1, 0).empty());
+  // Six times the noise; so far below its u it is none.
+  EXPECT_TRUE(found(4, 4, 2, 16.7e-9).empty());
+}
+
+TEST(VisitStep, CopiesHaveTheirPlaceAndTheirNoise) {
+  const auto said = [](const std::function<void(MeasuredPoint&)>& change) {
+    auto points = repeated_log(3, no_change, 2);
+    for (std::size_t i = 26; i < points.size(); ++i) {
+      points[i].point = points[i - 26].point;
+      change(points[i]);
+    }
+    return repeat_notices(test::rig_x(), points).size();
+  };
+  EXPECT_EQ(said([](MeasuredPoint&) {}), 1u);
+  EXPECT_EQ(said([](MeasuredPoint& p) { p.point.position_m += 1e-9; }), 0u);
+  EXPECT_EQ(said([](MeasuredPoint& p) { p.point.probe_m[2] += 1e-12; }), 0u);
+  EXPECT_EQ(said([](MeasuredPoint& p) { p.target = 14 - p.target; }), 0u);
+  // Noise of one probe only.
+  auto points = repeated_log(3, no_change, 2);
+  for (std::size_t i = 0; i < 26; ++i) points[i].point.probe_sd_m = {1e-9, 0, 0, 0, 0};
+  for (std::size_t i = 26; i < points.size(); ++i) points[i].point = points[i - 26].point;
+  EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
+  for (MeasuredPoint& p : points) p.point.probe_sd_m.clear();
+  EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
 }
 
 }  // namespace

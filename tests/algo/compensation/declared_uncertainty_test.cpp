@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "schema/run_json.h"
@@ -67,6 +68,29 @@ TEST(DeclaredUncertainty, AScaleErrorIsAPartOfTheValue) {
     most = std::max(most, table.u_declared[0][i]);
   }
   EXPECT_GT(most, 1e-10);
+}
+
+// Of one u for both approaches it is the larger: D reads 1 µm more, or less, on the way back.
+TEST(DeclaredUncertainty, IsThatOfTheApproachWithMore) {
+  const Rig rig = rig_x_with("D", "u_sensitivity_ppm = 1000");
+  for (const double more_m : {1e-6, -1e-6}) {
+    SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+    synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
+    synthetic.added = [=](std::size_t k, double, double, double time_s) {
+      return k >= 3 && static_cast<int>((time_s - 5) / 90) % 2 == 1 ? more_m : 0.0;
+    };
+    const std::vector<mdof::Run> runs = {synthetic.measure()};
+    TableOptions options;
+    options.remove_slope = false;
+    options.stated = kAtFixture;
+    CompensationTable table = build_table(runs, options).value();
+    ASSERT_TRUE(add_declared_uncertainty(table, {rig}, runs, options));
+    for (std::size_t i = 0; i < table.position_m.size(); ++i) {
+      const double forward = std::abs(table.forward[0][i]), reverse = std::abs(table.reverse[0][i]);
+      EXPECT_NEAR(reverse - forward, std::abs(table.forward[0][i] + more_m) - forward, 1e-12);
+      EXPECT_NEAR(table.u_declared[0][i], 1e-3 * std::max(forward, reverse), 1e-13) << i;
+    }
+  }
 }
 
 // The same fixture twice errs twice alike; one of two fixtures by half.

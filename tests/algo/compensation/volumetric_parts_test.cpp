@@ -250,5 +250,31 @@ TEST(VolumetricParts, OfAGridThatIsFinerThanTheTargets) {
   }
 }
 
+// Noise that differs from node to node, on a grid of another number of nodes along each axis: what
+// a node has is what is read there.
+TEST(VolumetricParts, OfANodeAreItsOwn) {
+  Simulated s = simulated_axes(3);
+  for (MachineFrame& frame : s.machine.frames) {
+    frame.range = {0, kTravelOfParts_m / static_cast<double>(1 + frame.direction)};
+    for (std::size_t k = 0; k < kBodyErrors; ++k) {
+      const double noise = frame.error[k].u_independent[0];
+      frame.error[k].u_independent = {noise, 3 * noise};
+      frame.error[k].u.assign(2, 4 * noise);
+    }
+  }
+  VolumetricRequest request;
+  request.step_m = kTravelOfParts_m / 6;
+  request.incomplete = true;
+  const auto table = build_volumetric(s.machine, request);
+  ASSERT_TRUE(table) << table.error().message;
+  ASSERT_EQ(table->nodes(), 7U * 4U * 3U);
+  for (std::size_t node = 0; node < table->nodes(); ++node) {
+    const VolumetricValue read = volumetric_at(*table, table->command_at(node));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(table->u_independent_at(node)[k] / read.u_independent_m[k], 1, 1e-9)
+          << node << " of " << k;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -319,5 +319,30 @@ TEST(VisitStep, CopiesHaveTheirPlaceAndTheirNoise) {
   EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
 }
 
+// Half a second in all is a log as well; visits at one instant have no order that shows a change.
+TEST(VisitStep, TimesMayBeShortAndNotNone) {
+  auto points = repeated_log(7, [](int n) { return n >= 40 ? 200e-9 : 0; });
+  for (MeasuredPoint& p : points) p.point.begin_ns /= 400;
+  ASSERT_EQ(visit_steps(test::rig_x(), points).size(), 1U);
+  for (MeasuredPoint& p : points) p.point.begin_ns = 5;
+  EXPECT_TRUE(visit_steps(test::rig_x(), points).empty());
+}
+
+// Five times the noise, however often it is seen.
+TEST(VisitStep, BelowSixTimesTheNoiseIsNone) {
+  const Rig rig = test::rig_x();
+  EXPECT_TRUE(visit_steps(rig, repeated_log(
+                                   7, [](int n) { return n >= 100 ? 95e-9 : 0; }, 8))
+                  .empty());
+  EXPECT_EQ(visit_steps(rig, repeated_log(
+                                 7, [](int n) { return n >= 100 ? 140e-9 : 0; }, 8))
+                .size(),
+            1U);
+  const auto forward =
+      repeat_notices(rig, repeated_log(7, [](int n) { return n >= 58 ? 3e-7 : 0; }));
+  ASSERT_EQ(forward.size(), 1U);
+  EXPECT_NE(shown(forward[0]).find("approach=forward"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -1,0 +1,127 @@
+// Which contributors of two set-ups are one quantity, and what one surface does to runs along
+// different axes.
+#include "algo/uncertainty/statistics/common_quantities.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "algo/uncertainty/statistics/flatness.h"
+#include "tests/algo/rigs.h"
+
+namespace mdof::algo {
+namespace {
+
+Contributor declared_as(const std::string& name, const std::string& key, double u) {
+  Contributor contributor;
+  contributor.name = name;
+  contributor.key = key;
+  contributor.declared.u = u;
+  contributor.to_unit = 1e6;
+  contributor.parts = [] { return std::vector<PointShifts>{{Errors5{7, 0, 0, 0, 0}}}; };
+  return contributor;
+}
+
+std::string common_name(const Rig& rig, const Contributor& contributor) {
+  std::vector<Contributor> list = {contributor};
+  name_probe_correlations(rig, list);
+  return list[0].common_as;
+}
+
+// Scale, linearity and tilt factor go with a probe and its certificate; a zero does not.
+TEST(CommonQuantities, OfAProbeAreThoseOfItsCertificate) {
+  Rig rig = test::rig_x_with("", ""), other = rig;
+  rig.probes[1].calibration.certificate = "K 17";
+  other.probes[1].calibration.certificate = "K 18";
+  const std::string id = rig.probes[1].id;
+  for (const char* key : {"u_sensitivity_ppm", "u_linearity_um", "u_tilt_factor", "tilt_factor",
+                          "linearity", "polynomial_um"}) {
+    const Contributor one = declared_as("probe " + id + ": it", key, 3e-6);
+    EXPECT_FALSE(common_name(rig, one).empty()) << key;
+    EXPECT_EQ(common_name(rig, one), common_name(rig, one));
+    EXPECT_NE(common_name(rig, one), common_name(other, one));
+    EXPECT_NE(common_name(rig, one),
+              common_name(rig, declared_as("probe " + id + ": it", key, 4e-6)));
+  }
+  EXPECT_EQ(common_name(rig, declared_as("probe " + id + ": zero", "u_calibration_um", 1e-6)), "");
+  EXPECT_EQ(common_name(rig, declared_as("probe Q: it", "linearity", 1e-6)), "");
+}
+
+TEST(CommonQuantities, OfAPlaneAreItsNameNormalUncertaintyAndLength) {
+  const auto named = [](const std::string& name, const Vec3& normal, double u, double length_m) {
+    Rig rig = test::rig_x_with(
+        "", "", "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n[[plane]]\nnormal = \"+Y\"\n");
+    rig.planes[0].normal = normal;
+    std::vector<Contributor> list = {declared_as(name, "u_flatness_um", u)};
+    list[0].surface = std::make_shared<const PlaneFootprints>(PlaneFootprints{u, length_m, {}, {}});
+    name_common_surfaces(rig, list);
+    return list[0].surface_as;
+  };
+  const std::string top = named("plane top: flatness", {0, 0, 1}, 1e-7, 0.02);
+  EXPECT_FALSE(top.empty());
+  EXPECT_EQ(top, named("plane top: flatness", {0, 0, 1}, 1e-7, 0.02));
+  EXPECT_NE(top, named("plane top: flatness", {0, 0.1, 0.99}, 1e-7, 0.02));
+  EXPECT_NE(top, named("plane top: flatness", {0, 0, 1}, 2e-7, 0.02));
+  EXPECT_NE(top, named("plane top: flatness", {0, 0, 1}, 1e-7, 0.03));
+  EXPECT_FALSE(named("plane 2: flatness", {0, 0, 1}, 1e-7, 0.02).empty());  // has no id
+  EXPECT_EQ(named("plane 1: flatness", {0, 0, 1}, 1e-7, 0.02), "");
+}
+
+// In M at (x, y, z); along Y the local frame has x = +Y, y = -X.
+Contributor over_surface(const std::vector<Eigen::Vector3d>& places, bool along_y) {
+  PlaneFootprints surface{1e-7, 0.05, {}, {}, places.size()};
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    const Eigen::Vector3d zero(0.001, -0.003, 0.02);
+    const auto local = [&](const Eigen::Vector3d& p) {
+      return along_y ? Eigen::Vector3d(p.y(), -p.x(), p.z()) : p;
+    };
+    surface.footprints.push_back({local(places[j]), local(zero)});
+    surface.readings.push_back({j, j, Errors5{1, 0, -2, 0, 0}});
+  }
+  Contributor contributor = declared_as("plane top: flatness", "u_flatness_um", 1e-7);
+  contributor.surface = std::make_shared<const PlaneFootprints>(std::move(surface));
+  contributor.surface_as = "top";
+  return contributor;
+}
+
+TEST(CommonQuantities, OneSurfaceHasOneHeightAtAPlaceForRunsAlongXAndY) {
+  const std::vector<Eigen::Vector3d> places = {
+      {0.01, 0, 0.02}, {0.02, 0.004, 0.02}, {-0.03, 0.01, 0.021}, {0.005, -0.04, 0.019}};
+  std::vector<Contributor> of_a = {declared_as("probe A: zero", "u_calibration_um", 1e-6),
+                                   over_surface(places, false)};
+  std::vector<Contributor> of_b = {over_surface(places, true)};
+  const PartsOfTwo parts = parts_of_two(of_a, Axis::x, of_b, Axis::y);
+  ASSERT_EQ(parts.a.size(), 2u);
+  ASSERT_EQ(parts.b.size(), 1u);
+  ASSERT_EQ(parts.a[1].size(), parts.b[0].size());
+  ASSERT_FALSE(parts.b[0].empty());
+  double largest = 0;
+  for (std::size_t p = 0; p < parts.b[0].size(); ++p)
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      EXPECT_NEAR(parts.a[1][p][j][0], parts.b[0][p][j][0], 1e-14);
+      EXPECT_NEAR(parts.b[0][p][j][2], -2 * parts.b[0][p][j][0], 1e-20);
+      largest = std::max(largest, std::abs(parts.b[0][p][j][0]));
+    }
+  EXPECT_GT(largest, 1e-8);
+  EXPECT_EQ(of_a[1].common_as, "top");
+  EXPECT_EQ(of_b[0].common_as, "top");
+  EXPECT_EQ(of_a[0].common_as, "");
+  EXPECT_EQ(parts.a[0][0][0][0], 7);  // its own
+}
+
+TEST(CommonQuantities, TwoSurfacesHaveTheirOwnParts) {
+  std::vector<Contributor> of_a = {over_surface({{0.01, 0, 0.02}}, false)};
+  std::vector<Contributor> of_b = {over_surface({{0.01, 0, 0.02}}, true)};
+  of_b[0].surface_as = "another top";
+  const PartsOfTwo parts = parts_of_two(of_a, Axis::x, of_b, Axis::y);
+  EXPECT_EQ(of_a[0].common_as + of_b[0].common_as, "");
+  EXPECT_EQ(parts.a[0][0][0][0], 7);
+  EXPECT_EQ(parts.b[0][0][0][0], 7);
+}
+
+}  // namespace
+}  // namespace mdof::algo

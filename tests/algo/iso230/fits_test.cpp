@@ -201,7 +201,9 @@ TEST(Artefact, IsRefusedWhereTheRigsDifferOrTellNoCorner) {
   for (const double no_u : {-1e-9, 1e302, std::nan("")})
     EXPECT_FALSE(artefact_of(same_x, same_y, {.angle_error_rad = {}, .u_rad = no_u}));
   EXPECT_TRUE(artefact_of(same_x, same_y, {.angle_error_rad = -0.01, .u_rad = 0.01}));
-  EXPECT_NE(artefact_of(at_0, other, {}).error().message.find("rig_X: the side of the fixture"),
+  EXPECT_NE(artefact_of(at_0, other, {})
+                .error()
+                .message.find("rig_X: it is unknown on which side of the fixture"),
             std::string::npos);
   const auto [no_angle, needs_none] = rigs_at(0, -15);
   EXPECT_EQ(artefact_of(no_angle, needs_none, {})->corner, 0);

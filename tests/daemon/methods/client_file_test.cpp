@@ -100,7 +100,7 @@ TEST_F(ClientFiles, TheWalOfARecordingIsOpenedByTheSameRules) {
   const std::string path = write("run.mdofrec", "1\n");
   EXPECT_EQ(open_for({::getuid(), 0}, path)->wal.get(), -1);
   fs::create_symlink("/etc/shadow", path + "-wal");
-  EXPECT_NE(refusal(path).find("-wal: is a link"), std::string::npos) << refusal(path);
+  EXPECT_NE(refusal(path).find("-wal: this path is a link"), std::string::npos) << refusal(path);
   fs::remove(path + "-wal");
   write("run.mdofrec-wal", "2\n");
   const auto opened = open_for({::getuid(), 0}, path);

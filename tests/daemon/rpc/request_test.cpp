@@ -70,7 +70,7 @@ TEST_F(Requests, ParametersAreCheckedAgainstTheRow) {
             R"("parameter \"minuend\" must be of type integer, not a string")");
   EXPECT_EQ(
       message(R"({"minuend":1.5,"subtrahend":2})"),
-      R"("parameter \"minuend\" must be of type integer, not a number that is not a 64-bit integer")");
+      R"("parameter \"minuend\" must be of type integer, not a number with a fraction or beyond 64 bits")");
   EXPECT_EQ(message(R"({"minuend":1,"minuend":2,"subtrahend":2})"),
             R"("parameter \"minuend\" is given twice")");
   EXPECT_EQ(message("[1,2,3]"),

@@ -68,7 +68,7 @@ TEST_F(CheckStart, APathThatIsNoneIsNamedWithLineAndKey) {
        "mdofd.toml:4: rpc.socket: "},
       {"[store]\ndatabase = \"" + in_folder("mdof.db") + "\"\n[rpc]\nsocket = \"/tmp/" +
            std::string(120, 'x') + "\"\n",
-       "mdofd.toml:4: rpc.socket: has 125 bytes (limit 107)"},
+       "mdofd.toml:4: rpc.socket: the path has 125 bytes (limit 107)"},
   };
   for (const auto& c : cases)
     EXPECT_NE(refusal(c.text).find(c.says), std::string::npos) << refusal(c.text);

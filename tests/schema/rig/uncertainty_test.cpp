@@ -108,7 +108,7 @@ TEST(RigUncertainty, WhatCannotBeIsRefusedWithItsPlace) {
   EXPECT_NE(thermal("u_square_gradient_K_per_m = [1, 2]\nsquare_ppm_per_K = 9\n").find("three"),
             std::string::npos);
   EXPECT_NE(refusal("", "[drift]\nu_um = 1\n").find("u_um_per_h"), std::string::npos);
-  EXPECT_NE(refusal("", "[[plane]]\nnormal = \"+Z\"\nflatness_length_mm = 0\n").find("above 0"),
+  EXPECT_NE(refusal("", "[[plane]]\nnormal = \"+Z\"\nflatness_length_mm = 0\n").find("than 0"),
             std::string::npos);
 }
 

@@ -97,9 +97,9 @@ TEST_F(Hostile, NestingHasALimit) {
     for (std::size_t i = 0; i < n; ++i) value += R"({"a":)";
     return value + "1" + std::string(n, '}');
   };
-  expect_error(nested(5000), "-32700", R"("nested deeper than 32 levels")");
+  expect_error(nested(5000), "-32700", R"("the JSON is nested deeper than 32 levels")");
   expect_error(std::string(30000, '[') + std::string(30000, ']'), "-32700",
-               R"("nested deeper than 32 levels")");
+               R"("the JSON is nested deeper than 32 levels")");
   RawClient client(server_.path);
   const std::string deep = nested(27);
   EXPECT_EQ(at(client.ask(R"({"jsonrpc":"2.0","method":"echo","params":{"value":)" + deep +
@@ -110,14 +110,14 @@ TEST_F(Hostile, NestingHasALimit) {
 
 TEST_F(Hostile, NumbersBeyondTheirTypeAreAParseError) {
   expect_error(R"({"jsonrpc":"2.0","method":"sum","params":[1e999],"id":1})", "-32700",
-               R"("a number is malformed or larger than its type")");
+               R"("a number is malformed or too large")");
 }
 
 TEST_F(Hostile, ABatchOfTenThousandIsRefusedAsOne) {
   std::string batch = "[1";
   for (int i = 1; i < 10000; ++i) batch += ",1";
   expect_error(batch + "]", "-32600",
-               R"("a batch may have at most 100 members; send it in parts")");
+               R"("a batch may have at most 100 members; divide the batch")");
 }
 
 TEST_F(Hostile, ALineOfAMegabyteIsAnsweredOnceAndClosed) {
@@ -195,7 +195,8 @@ TEST_F(Hostile, AClientThatDripsIsClosedWhenTheRequestsTimeIsOver) {
   }
   EXPECT_FALSE(open);
   EXPECT_LT(Clock::now() - begin, 5s);
-  EXPECT_EQ(at(client.line(), "/error/data"), R"("a request line must be complete within 400 ms")");
+  EXPECT_EQ(at(client.line(), "/error/data"),
+            R"("the request line was not complete within 400 ms")");
   EXPECT_EQ(client.line(), "<closed>");
   EXPECT_TRUE(server_.connections_become(1));
 }

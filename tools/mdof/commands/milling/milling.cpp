@@ -6,6 +6,8 @@
 
 #include "algo/milling/beam.h"
 #include "algo/milling/milling.h"
+#include "daemon/output/charts/form/wall_chart.h"
+#include "daemon/output/charts/plot_files.h"
 #include "schema/base/files.h"
 #include "schema/base/json_writer.h"
 #include "schema/milling/milling_plan.h"
@@ -24,7 +26,7 @@ namespace {
 constexpr const char* kPreset = "micro-end-mill";
 
 struct MillingCommand {
-  std::string plan, preset;
+  std::string plan, preset, plots;
   bool offset = false, sensitivity = false, json = false;
   double trials = 64, seed = 1;
   unsigned threads = default_threads();
@@ -198,6 +200,23 @@ std::string milling_text(const std::vector<Milled>& all) {
   return text;
 }
 
+// A chart for each model of deflection.
+Status write_walls(const std::vector<Milled>& all, const std::string& folder) {
+  constexpr auto kLanguage = output::Language::english;
+  std::vector<charts::NamedChart> drawn;
+  if (folder.empty()) return {};
+  for (const Milled& m : all) {
+    MDOF_TRY(const algo::CutTurn turn, algo::cut_turn(m.plan));
+    const std::string model = to_string(m.plan.deflection), &name = m.plan.name;
+    const std::string title = (name.empty() ? "" : name + ": ") +
+                              output::phrase(output::Phrase::wall_of_cut, kLanguage, {model});
+    drawn.push_back({"wall-" + charts::file_name(model) + ".svg",
+                     charts::wall_svg(algo::wall_lines(m.plan, turn),
+                                      m.plan.feed_per_tooth_m * m.plan.teeth, title, kLanguage)});
+  }
+  return write_plots(drawn, folder);
+}
+
 Status milling(const MillingCommand& o) {
   if (o.plan.empty() == o.preset.empty())
     return fail(ErrorCode::usage, "milling needs either PLAN.toml or --preset micro-end-mill");
@@ -215,6 +234,7 @@ Status milling(const MillingCommand& o) {
     MDOF_TRY(const Milled steady, mill(declared, o));
     all.push_back(steady);
   }
+  MDOF_CHECK(write_walls(all, o.plots));
   return o.json ? write_line(milling_json(all, o)) : write_out(milling_text(all));
 }
 
@@ -244,6 +264,7 @@ Action declare_milling(CLI::App& command) {
   command.add_option("--threads", o->threads, "Number of threads; the results do not depend on it")
       ->needs(sensitivity)
       ->check(CLI::Range(1, 1024));
+  add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
   return [o] { return milling(*o); };
 }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "schema/base/json_writer.h"
 #include "schema/base/sha256.h"
+#include "schema/calibration/certificate_facts.h"
 #include "schema/units.h"
 
 namespace mdof {
@@ -44,6 +46,23 @@ std::string table_of(const std::vector<std::array<double, 2>>& linearity) {
     text += (text.back() == '[' ? "" : ", ") + json.take();
   }
   return text + "]\n";
+}
+
+// The strings of a certificate by their keys, for the writer and the reader.
+template <class Facts>
+auto certificate_keys(Facts& facts) {
+  return std::array{std::pair{"certificate", &facts.certificate},
+                    std::pair{"laboratory", &facts.laboratory},
+                    std::pair{"serial_number", &facts.serial_number},
+                    std::pair{"calibrated", &facts.calibrated}, std::pair{"due", &facts.due}};
+}
+
+std::string facts_text(const CertificateFacts& facts) {
+  std::string text;
+  if (facts.u_linearity_m > 0) text += line("u_linearity_um", to_um(facts.u_linearity_m));
+  for (const auto& [key, value] : certificate_keys(facts))
+    if (!value->empty()) text += line(key, *value);
+  return text;
 }
 
 std::string probe_text(const CalibratedProbe& probe) {
@@ -116,6 +135,15 @@ double read_u(TomlTable& table, const char* key) {
   return u;
 }
 
+std::string read_day(TomlTable& table, const char* key) {
+  std::string day = table.string(key);
+  const bool digits = std::all_of(day.begin(), day.end(),
+                                  [](char c) { return c == '-' || (c >= '0' && c <= '9'); });
+  if (day.size() != 10 || !digits || day[4] != '-' || day[7] != '-')
+    table.reject(key, "must be a date, YYYY-MM-DD");
+  return day;
+}
+
 CalibratedProbe read_probe(TomlTable& table) {
   CalibratedProbe probe;
   probe.id = table.string("id");
@@ -156,6 +184,7 @@ CalibratedProbe read_probe(TomlTable& table) {
     if (!(probe.sensitivity_freedom >= 1))
       table.reject("sensitivity_dof", "must be 1 or greater (degrees of freedom)");
   }
+  read_certificate(table);  // apply_records() takes it
   return probe;
 }
 
@@ -181,19 +210,14 @@ CalibrationCovariance read_covariance(TomlTable& table) {
   return {};
 }
 
-std::string read_day(TomlTable& table, const char* key) {
-  std::string day = table.string(key);
-  const bool digits = std::all_of(day.begin(), day.end(),
-                                  [](char c) { return c == '-' || (c >= '0' && c <= '9'); });
-  if (day.size() != 10 || !digits || day[4] != '-' || day[7] != '-')
-    table.reject(key, "must be a date, YYYY-MM-DD");
-  return day;
-}
-
 }  // namespace
 
 std::string record_text(const CalibrationRecord& record) {
-  const std::string body = body_text(record);
+  return record_text(record, {});
+}
+
+std::string record_text(const CalibrationRecord& record, const CertificateFacts& facts) {
+  const std::string body = body_text(record) + facts_text(facts);
   const std::string id =
       record.kind + "-" + record.date + "-" + sha256_hex(body).substr(0, kIdDigits);
   const std::string hashed = line("id", id) + body;
@@ -202,6 +226,17 @@ std::string record_text(const CalibrationRecord& record) {
          "hash of the text below it.\n" +
          std::string(kRecordHead) + "\n" + std::string(kHashKey) + sha256_hex(hashed) + "\"\n" +
          hashed;
+}
+
+CertificateFacts read_certificate(TomlTable& probe) {
+  CertificateFacts facts;
+  if (probe.has("u_linearity_um")) facts.u_linearity_m = from_um(read_u(probe, "u_linearity_um"));
+  for (const auto& [key, value] : certificate_keys(facts)) {
+    if (!probe.has(key)) continue;
+    const bool is_day = value == &facts.calibrated || value == &facts.due;
+    *value = is_day ? read_day(probe, key) : probe.string(key);
+  }
+  return facts;
 }
 
 CalibrationRecord read_record(TomlTable& table) {

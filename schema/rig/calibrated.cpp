@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "schema/base/files.h"
+#include "schema/calibration/certificate_facts.h"
 #include "schema/units.h"
 
 namespace mdof {
@@ -106,16 +107,17 @@ void apply(const CalibratedProbe& found, Probe& probe) {
     probe.uncertainty.direction = {found.u_direction_rad};
   }
   if (found.um_per_V) calibration.um_per_V = found.um_per_V;
-  if (!found.linearity.empty()) {
-    calibration.linearity = found.linearity;
-    calibration.polynomial_um.clear();
-  }
   if (found.u_sensitivity_1 > 0)
     probe.uncertainty.sensitivity = {found.u_sensitivity_1, UncertaintyShape::normal,
                                      found.sensitivity_freedom};
-  if (!found.offset_um) return;
-  move_offset(calibration, *found.offset_um);
-  if (!probe.uncertainty.calibration.declared()) probe.uncertainty.calibration = {found.u_offset_m};
+  if (found.offset_um) {
+    move_offset(calibration, *found.offset_um);
+    if (!probe.uncertainty.calibration.declared())
+      probe.uncertainty.calibration = {found.u_offset_m};
+  }
+  if (found.linearity.empty()) return;
+  calibration.linearity = found.linearity;  // of the offset that the record has
+  calibration.polynomial_um.clear();
 }
 
 // What takes the place of what an earlier record found, and the zeros that the rig declares, have
@@ -140,6 +142,19 @@ void apply(CalibrationRecord& record, Rig& rig) {
       if (probe.id == found.id) apply(found, probe);
   auto& offset = rig.uncertainty.installation_offset;
   if (record.u_together_m && offset.u == Vec3{}) offset = {*record.u_together_m};
+}
+
+void apply_certificates(TomlTable& record, Rig& rig) {
+  for (TomlTable& table : record.tables("probe")) {
+    const CertificateFacts facts = read_certificate(table);
+    const auto at = rig.probe_index(table.string("id"));
+    if (!at || facts.certificate.empty()) continue;
+    Calibration& calibration = rig.probes[*at].calibration;
+    calibration.certificate = facts.certificate;
+    calibration.laboratory = facts.laboratory;
+    calibration.calibrated = facts.calibrated;
+    calibration.due = facts.due;
+  }
 }
 
 std::string calibrated_quantity(const CalibrationRecord& record) {
@@ -192,6 +207,7 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
       tables[i].reject("sha256", "does not match the text below it", Remedy::calibrate_anew);
     check_fit(record, fits, tables[i]);
     apply(record, rig);
+    apply_certificates(tables[i], rig);
     rig.records.push_back(std::move(record));
   }
 }

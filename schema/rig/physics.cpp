@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "schema/base/number/number_text.h"
+#include "schema/calibration/certificate_facts.h"
 #include "schema/rig/rig.h"
 #include "schema/units.h"
 
@@ -154,6 +155,17 @@ bool says_anything(const RigPhysics& physics) {
          });
 }
 
+// u of what the tables of certificates leave, from the records behind the rig.
+void take_certificates(TomlTable& table, const Rig& rig, RigPhysics& physics) {
+  for (TomlTable& record : table.tables("calibration_record"))
+    for (TomlTable& probe : record.tables("probe")) {
+      const CertificateFacts facts = read_certificate(probe);
+      const auto at = rig.probe_index(probe.string("id"));
+      if (at && facts.u_linearity_m > 0)
+        physics.probes[*at].u_linearity = DeclaredUncertainty{facts.u_linearity_m};
+    }
+}
+
 }  // namespace
 
 const std::array<AirQuantity, kAirQuantities>& air_quantities() {
@@ -183,6 +195,7 @@ void read_physics(TomlTable& table, Rig& rig) {
   if (tables.size() != rig.probes.size()) return;  // which parse_rig() refuses
   for (std::size_t k = 0; k < tables.size(); ++k)
     physics.probes.push_back(read_probe_physics(tables[k], rig.probes[k]));
+  take_certificates(table, rig, physics);
   check_needs(table, tables, rig, physics);
   if (!physics.linearity.value_or(true)) leave_linearity_out(rig, physics);
   if (says_anything(physics)) rig.physics = std::make_shared<const RigPhysics>(std::move(physics));

@@ -8,7 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "schema/calibration/certificate_facts.h"
 #include "schema/rig/check/rig_notes.h"
+#include "schema/rig/physics.h"
 #include "tests/algo/rigs.h"
 #include "tests/shown.h"
 
@@ -121,6 +123,44 @@ TEST(CalibratedRig, ALinearityMovesWithTheOffset) {
   for (const double raw : {-40.0, 0.0, 33.0})
     EXPECT_NEAR(p(power.probes[1].calibration.polynomial_um, raw - 2.5),
                 p({0.5, 0.01, 0.002, -0.0001}, raw - 1), 1e-12);
+}
+
+// What a laboratory's certificate states. The record's table is of the record's own offset.
+TEST(CalibratedRig, TakesACertificate) {
+  CalibrationRecord record;
+  record.kind = "sensitivity";
+  record.rig = "test";
+  record.date = "2026-10-30";
+  record.valid_until = "2027-10-30";
+  CalibratedProbe b;
+  b.id = "B";
+  b.offset_um = 2.5;
+  b.linearity = {{-50, 0.2}, {50, -0.1}};
+  record.probes = {b};
+  CertificateFacts facts{"K-4711 \"a\"", "Labor Süd", "17", "2026-10-30", "2027-10-30", 2e-8};
+  const auto with = [&](const CertificateFacts& of) {
+    const std::string text = record_text(record, of);
+    return parse_rig(rig_text("offset_um = 1\nu_linearity_um = 0.5\ndue = \"2020-01-01\"\n") +
+                         text.substr(text.find(kRecordHead)),
+                     "rig.toml");
+  };
+  const auto rig = with(facts);
+  ASSERT_TRUE(rig) << rig.error().message;
+  const Calibration& c = rig->probes[1].calibration;
+  EXPECT_EQ(c.certificate, facts.certificate);
+  EXPECT_EQ(c.laboratory, facts.laboratory);
+  EXPECT_EQ(c.calibrated, facts.calibrated);
+  EXPECT_EQ(c.due, facts.due);
+  EXPECT_EQ(c.linearity, b.linearity);
+  EXPECT_NE(rig->text.find("serial_number = \"17\""), std::string::npos);
+  ASSERT_TRUE(rig->physics);
+  EXPECT_NEAR(rig->physics->probes[1].u_linearity.u, 2e-8, 1e-20);
+  EXPECT_EQ(rig->probes[0].calibration.certificate, "");
+  facts.due = "2027";
+  const auto refused = with(facts);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("due: must be a date"), std::string::npos)
+      << refused.error().message;
 }
 
 TEST(CalibratedRig, OutOfDateIsAWarning) {

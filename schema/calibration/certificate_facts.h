@@ -1,0 +1,23 @@
+// What the certificate of a laboratory states of a probe beside its figures: keys of the one probe
+// in its calibration record (schema/calibration/record.h), and of [[probe]] in a rig.
+#pragma once
+
+#include <string>
+
+#include "schema/base/toml_reader.h"
+#include "schema/calibration/record.h"
+
+namespace mdof {
+
+// Empty: not stated. Dates as YYYY-MM-DD.
+struct CertificateFacts {
+  std::string certificate, laboratory, serial_number, calibrated, due;
+  double u_linearity_m = 0;  // of a displacement after the table's correction; 0: not known
+};
+
+CertificateFacts read_certificate(TomlTable& probe);
+
+// As record_text(record), of a record of one probe.
+std::string record_text(const CalibrationRecord& record, const CertificateFacts& facts);
+
+}  // namespace mdof

@@ -33,7 +33,7 @@ COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid"
 # ... and what states none, or that of other things: of files, of studies, of calibrations, of a machine's description.
 OTHERS = {"clearance", "completion", "demo", "help", "machine kinematics", "machine budget", "milling",
           "form scan", "form compare", "form clamp", "form cut", "form path", "part", "plot", "report",
-          "calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
+          "calibrate certificate", "calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
           "compensation deactivate", "compensation export", "compensation linuxcnc", "compensation list", "device list", "device monitor",
           "device probe", "doctor", "drift", "encoder set", "export", "history", "import", "iso230-2", "live",
           "machine circle", "machine diagonal", "machine error", "machine map", "machine perpendicularity", "machine study", "record", "runs",

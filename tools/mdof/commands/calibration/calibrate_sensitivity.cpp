@@ -24,12 +24,6 @@ struct SensitivityCommand {
   bool reversed = false, json = false;
 };
 
-std::string ids_of(const Rig& rig) {
-  std::vector<std::string> ids;
-  for (const Probe& probe : rig.probes) ids.push_back(probe.id);
-  return joined(ids);
-}
-
 std::string json_of(const SensitivityCalibration& found, const CalibrationRecord& record,
                     const std::string& file, bool rig_declares) {
   JsonWriter json;
@@ -101,7 +95,7 @@ Status calibrate(const SensitivityCommand& command) {
   const auto at = rig.probe_index(command.probe);
   if (!at)
     return fail(ErrorCode::usage, command.rig + ": the rig has no probe \"" + command.probe +
-                                      "\"; its probes are " + ids_of(rig));
+                                      "\"; its probes are " + probe_ids(rig));
   Calibration& calibration = rig.probes[*at].calibration;
   calibration.linearity.clear();  // found anew
   calibration.polynomial_um.clear();

@@ -10,6 +10,7 @@
 #include "daemon/version.h"
 #include "schema/base/output/output_files.h"
 #include "schema/units.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {
@@ -37,20 +38,30 @@ std::string text_of(std::chrono::sys_days day) {
 
 }  // namespace
 
-void add_record_options(CLI::App& command, RecordOptions& options) {
+void add_record_file_options(CLI::App& command, RecordOptions& options) {
   command
       .add_option("--out", options.out,
                   "Write the calibration record to this file, for use by a rig")
       ->type_name("FILE.toml");
   command
-      .add_option("--date", options.date,
-                  "Date of the calibration [default: date of the log, else today]")
-      ->type_name("YYYY-MM-DD");
-  command
       .add_option("--valid-days", options.valid_days,
                   "Number of days for which the calibration is valid")
       ->check(CLI::Range(1, kMostDays))
       ->capture_default_str();
+}
+
+void add_record_options(CLI::App& command, RecordOptions& options) {
+  add_record_file_options(command, options);
+  command
+      .add_option("--date", options.date,
+                  "Date of the calibration [default: date of the log, else today]")
+      ->type_name("YYYY-MM-DD");
+}
+
+std::string probe_ids(const Rig& rig) {
+  std::vector<std::string> ids;
+  for (const Probe& probe : rig.probes) ids.push_back(probe.id);
+  return joined(ids);
 }
 
 Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,

@@ -18,6 +18,11 @@ struct RecordOptions {
   int valid_days = 365;
 };
 void add_record_options(CLI::App& command, RecordOptions& options);
+// Those without --date.
+void add_record_file_options(CLI::App& command, RecordOptions& options);
+
+// "A, B, C".
+std::string probe_ids(const Rig& rig);
 
 // A record of this rig without probes; `started_utc` of the newest log, or empty. Error: no date.
 Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,

@@ -1,0 +1,293 @@
+#include "algo/calibration/certified_probe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/base/number/number_text.h"
+#include "schema/rig/physics.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kLeastRatio = 0.5, kMostRatio = 2;  // of two scales that are one probe's
+constexpr const char* kMeasured = "basic_measuredValue";
+constexpr const char* kReference = "basic_referenceValue";
+constexpr const char* kError = "basic_measurementError";
+
+bool is_sensitivity(const DccQuantity& quantity) {
+  return quantity.unit.is(-1, 1) || quantity.unit.is(1, -1);
+}
+
+bool is_reading(const DccQuantity& quantity) {
+  return quantity.unit.is(1, 0) || quantity.unit.is(0, 1);
+}
+
+// The quantities of a table; `error` or `reference` may be null.
+struct Table {
+  const DccQuantity *measured = nullptr, *error = nullptr, *reference = nullptr;
+  bool whole() const { return measured && (error || reference); }
+};
+
+Table table_of(const std::vector<DccQuantity>& list) {
+  Table table;
+  for (const DccQuantity& quantity : list) {
+    if (!is_reading(quantity)) continue;
+    if (quantity.has_type(kMeasured)) table.measured = &quantity;
+    if (quantity.has_type(kError)) table.error = &quantity;
+    if (quantity.has_type(kReference)) table.reference = &quantity;
+  }
+  return table;
+}
+
+std::string number(double x) {
+  return plain_number(x, 6);
+}
+
+class CertificateReader {
+ public:
+  CertificateReader(const Rig& rig, std::size_t probe, const DccCertificate& certificate)
+      : rig_(rig), own_(rig.probes[probe]), from_(certificate) {
+    found_.probe.id = own_.id;
+    found_.facts = {from_.number,     from_.laboratory, from_.serial_number,
+                    from_.calibrated, from_.due,        0};
+  }
+
+  Result<CertifiedProbe> read(const std::string& result) {
+    MDOF_CHECK(choose(result));
+    if (sensitivities_.empty() && tables_.empty()) return nothing();
+    if (!sensitivities_.empty()) MDOF_CHECK(take_sensitivity());
+    if (!tables_.empty()) MDOF_CHECK(take_table());
+    if (sensitivities_.empty())
+      found_.not_taken.push_back(
+          "no sensitivity (a quantity in volts per length): um_per_V and u_sensitivity_ppm stay as "
+          "the rig has them");
+    if (tables_.empty())
+      found_.not_taken.push_back(
+          "no table (a list with refType basic_measuredValue and basic_measurementError): "
+          "linearity "
+          "and u_linearity_um stay as the rig has them");
+    return std::move(found_);
+  }
+
+ private:
+  std::string at(long line) const { return from_.source + ":" + std::to_string(line) + ": "; }
+
+  Status choose(const std::string& wanted) {
+    bool any = false;
+    for (const DccResult& result : from_.results) {
+      names_ += (names_.empty() ? "\"" : ", \"") + result.name + "\"";
+      const auto& types = result.ref_types;
+      if (!wanted.empty() && result.name != wanted &&
+          std::find(types.begin(), types.end(), wanted) == types.end())
+        continue;
+      any = true;
+      for (const DccQuantity& quantity : result.quantities) look_at(quantity);
+      for (const auto& list : result.lists) {
+        for (const DccQuantity& quantity : list) look_at(quantity);
+        if (const Table table = table_of(list); table.whole()) tables_.push_back(table);
+      }
+    }
+    if (any || wanted.empty()) return {};
+    return fail(ErrorCode::usage, from_.source + ": has no result \"" + wanted +
+                                      "\"; its results are " + (names_.empty() ? "none" : names_));
+  }
+
+  void look_at(const DccQuantity& quantity) {
+    if (is_sensitivity(quantity)) sensitivities_.push_back(&quantity);
+  }
+
+  tl::unexpected<Error> nothing() const {
+    return bad_input(
+        from_.source +
+        ": states neither a sensitivity (a quantity in volts per length) nor a table (a "
+        "list of lengths or volts with refType basic_measuredValue, and "
+        "basic_measurementError or basic_referenceValue); ask the laboratory for a DCC "
+        "with these refTypes, or write um_per_V and linearity into the rig by hand");
+  }
+
+  tl::unexpected<Error> several(const char* what, long line, long other) const {
+    return bad_input(at(line) + "is a second " + what + " (the first: line " +
+                     std::to_string(other) + "); choose one result of the certificate: " + names_);
+  }
+
+  tl::unexpected<Error> no_uncertainty(long line, const char* what) const {
+    return bad_input(at(line) + "the " + what +
+                     " has no uncertainty, and a calibration without one is none; ask the "
+                     "laboratory to complete the DCC");
+  }
+
+  Status take_sensitivity() {
+    const DccQuantity& s = *sensitivities_.front();
+    if (sensitivities_.size() > 1) return several("sensitivity", sensitivities_[1]->line, s.line);
+    if (s.value.size() != 1)
+      return bad_input(
+          at(s.line) + "the sensitivity has " + std::to_string(s.value.size()) +
+          " values, and one is read; ask the laboratory for the mean sensitivity and a "
+          "table of errors");
+    if (s.value[0] == 0) return bad_input(at(s.line) + "the sensitivity is 0; ask the laboratory");
+    if (s.u.empty()) return no_uncertainty(s.line, "sensitivity");
+    const double m_per_V = s.unit.is(1, -1) ? s.value[0] : 1 / s.value[0];
+    const double um_per_V = to_um(m_per_V);
+    MDOF_CHECK(check_scale(s, um_per_V));
+    CalibratedProbe& probe = found_.probe;
+    probe.um_per_V = um_per_V;
+    probe.u_sensitivity_1 = s.u[0] / std::abs(s.value[0]);
+    found_.taken.push_back("um_per_V = " + plain_number(um_per_V, 9) + ", from the sensitivity " +
+                           number(s.value[0] / s.unit.factor) + " " + s.unit_text + " (line " +
+                           std::to_string(s.line) + ")");
+    found_.taken.push_back("u_sensitivity_ppm = " + number(probe.u_sensitivity_1 * 1e6) +
+                           ", with coverage factor " + number(s.coverage_factor[0]) +
+                           "; its degrees of freedom are not stated, infinitely many are taken");
+    take_zero();
+    return {};
+  }
+
+  Status check_scale(const DccQuantity& s, double um_per_V) const {
+    const auto& of_rig = own_.calibration.um_per_V;
+    if (!of_rig) return {};
+    const double ratio = um_per_V / *of_rig;
+    if (ratio >= kLeastRatio && ratio <= kMostRatio) return {};
+    return bad_input(
+        at(s.line) + "the sensitivity makes " + number(um_per_V) + " um_per_V, but probe \"" +
+        own_.id + "\" of " + rig_.source + " has " + number(*of_rig) +
+        "; give the certificate of this probe, or correct um_per_V " + "and reads of the rig");
+  }
+
+  // The zero is a voltage: with another scale it is at another raw_um.
+  void take_zero() {
+    const Calibration& c = own_.calibration;
+    if (!c.um_per_V || c.offset_um == 0) return;
+    CalibratedProbe& probe = found_.probe;
+    probe.offset_um = c.offset_um * (*probe.um_per_V / *c.um_per_V);
+    probe.u_offset_m = own_.uncertainty.calibration.u;
+    found_.taken.push_back("offset_um = " + plain_number(*probe.offset_um, 9) +
+                           ", the rig's zero at the new um_per_V");
+  }
+
+  // um of a reading or an error, as the amplifier shows it.
+  Result<double> scale(const DccQuantity& quantity) const {
+    if (quantity.unit.is(1, 0)) return to_um(1);
+    const auto& um_per_V =
+        found_.probe.um_per_V ? found_.probe.um_per_V : own_.calibration.um_per_V;
+    if (um_per_V) return *um_per_V;
+    return bad_input(at(quantity.line) +
+                     "is in volts, but neither the certificate nor the rig has the sensitivity; "
+                     "add um_per_V to probe \"" +
+                     own_.id + "\" of " + rig_.source);
+  }
+
+  struct Column {
+    std::vector<double> um, u_um;  // u_um empty: not stated
+  };
+  Result<Column> column(const DccQuantity* quantity, std::size_t rows) const {
+    Column column;
+    if (!quantity) return column;
+    if (quantity->value.size() != rows)
+      return bad_input(at(quantity->line) + "has " + std::to_string(quantity->value.size()) +
+                       " values, but the readings of its list are " + std::to_string(rows) +
+                       "; ask the laboratory to correct the DCC");
+    MDOF_TRY(const double um_per_unit, scale(*quantity));
+    for (const double x : quantity->value) column.um.push_back(x * um_per_unit);
+    for (const double u : quantity->u) column.u_um.push_back(u * std::abs(um_per_unit));
+    return column;
+  }
+
+  Status take_table() {
+    const Table& table = tables_.front();
+    const DccQuantity& r = *table.measured;
+    if (tables_.size() > 1) return several("table", tables_[1].measured->line, r.line);
+    if (r.value.size() < 2)
+      return bad_input(at(r.line) + "the table has one row; ask the laboratory for more");
+    MDOF_TRY(const Column read, column(&r, r.value.size()));
+    MDOF_TRY(const Column error, column(table.error, r.value.size()));
+    MDOF_TRY(const Column reference, column(table.reference, r.value.size()));
+    MDOF_CHECK(check_rows(table, read, error, reference));
+    auto& rows = found_.probe.linearity;
+    for (std::size_t i = 0; i < read.um.size(); ++i)
+      rows.push_back({read.um[i], table.error ? -error.um[i] : reference.um[i] - read.um[i]});
+    MDOF_CHECK(about_zero(rows, r.line));
+    const double u_um = largest_u(table, read, error, reference);
+    if (!(u_um > 0)) return no_uncertainty((table.error ? table.error : &r)->line, "table");
+    found_.facts.u_linearity_m = from_um(u_um);
+    found_.taken.push_back("linearity: " + std::to_string(rows.size()) + " corrections from " +
+                           (table.error ? kError : kReference) + " at " + kMeasured + " (line " +
+                           std::to_string(r.line) + "), less the correction at the rig's zero");
+    found_.taken.push_back("u_linearity_um = " + number(u_um) +
+                           ", the largest standard uncertainty of the table");
+    return {};
+  }
+
+  // Errors against readings less reference values; readings grow with reference values.
+  Status check_rows(const Table& table, const Column& read, const Column& error,
+                    const Column& reference) const {
+    if (!table.reference) return {};
+    const auto [least, most] = std::minmax_element(reference.um.begin(), reference.um.end());
+    const double slope =
+        (read.um[most - reference.um.begin()] - read.um[least - reference.um.begin()]) /
+        (*most - *least);
+    if (!(slope >= kLeastRatio && slope <= kMostRatio))
+      return bad_input(
+          at(table.measured->line) + "the readings change by " + number(slope) +
+          " um for 1 um of the reference values; check um_per_V and reads of probe \"" + own_.id +
+          "\" in " + rig_.source + " and the units of the table");
+    for (std::size_t i = 0; table.error && i < read.um.size(); ++i) {
+      // Rounding of the three columns is below the uncertainty of the error.
+      const double off = std::abs(read.um[i] - reference.um[i] - error.um[i]);
+      if (error.u_um.empty() || off <= 2 * error.u_um[i]) continue;
+      return bad_input(
+          at(table.error->line) + "value " + std::to_string(i + 1) + " is " + number(error.um[i]) +
+          " um, but reading less reference is " + number(read.um[i] - reference.um[i]) +
+          " um; an error must be reading less reference: ask the laboratory to correct "
+          "the DCC");
+    }
+    return {};
+  }
+
+  // Rows by t = reading - offset, ascending, 0 at t = 0.
+  Status about_zero(std::vector<std::array<double, 2>>& rows, long line) const {
+    const double offset_um = found_.probe.offset_um.value_or(own_.calibration.offset_um);
+    for (auto& row : rows) row[0] -= offset_um;
+    std::sort(rows.begin(), rows.end());
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      if (rows[i][0] <= rows[i - 1][0])
+        return bad_input(at(line) +
+                         "two rows have the same reading; ask the laboratory for one "
+                         "table of one direction");
+    Calibration own;
+    own.linearity = rows;
+    const double at_zero_um = linearity_um(own, 0);
+    for (auto& row : rows) row[1] -= at_zero_um;
+    return {};
+  }
+
+  // Of the errors, where it is stated; else of readings and reference values together.
+  static double largest_u(const Table& table, const Column& read, const Column& error,
+                          const Column& reference) {
+    if (table.error && !error.u_um.empty())
+      return *std::max_element(error.u_um.begin(), error.u_um.end());
+    double largest = 0;
+    for (std::size_t i = 0; i < read.um.size(); ++i)
+      largest = std::max(largest, std::hypot(read.u_um.empty() ? 0 : read.u_um[i],
+                                             reference.u_um.empty() ? 0 : reference.u_um[i]));
+    return largest;
+  }
+
+  const Rig& rig_;
+  const Probe& own_;
+  const DccCertificate& from_;
+  CertifiedProbe found_;
+  std::string names_;  // of all results
+  std::vector<const DccQuantity*> sensitivities_;
+  std::vector<Table> tables_;
+};
+
+}  // namespace
+
+Result<CertifiedProbe> certified_probe(const Rig& rig, std::size_t probe,
+                                       const DccCertificate& certificate,
+                                       const std::string& result) {
+  return CertificateReader(rig, probe, certificate).read(result);
+}
+
+}  // namespace mdof::algo

@@ -1,7 +1,8 @@
-// run.budget, run.compare, squareness.budget, parallelism.fit.
+// run.budget, run.compare, run.trend, squareness.budget, parallelism.fit.
 #include "daemon/measure/budgets.h"
 
 #include "daemon/measure/several_runs/comparison.h"
+#include "daemon/measure/several_runs/trends_json.h"
 #include "daemon/methods/methods.h"
 #include "schema/units.h"
 
@@ -68,6 +69,20 @@ Result<QueryThread::Work> compare(Methods&, const Params& params) {
   };
 }
 
+Result<QueryThread::Work> trend(Methods&, const Params& params) {
+  TrendRequest request;
+  if (params.has("axis")) {
+    MDOF_TRY(request.axis, axis_param(params));
+  }
+  request.figure = params.string("figure");
+  request.baseline = static_cast<std::size_t>(params.integer("baseline"));
+  request.mixed = params.boolean("mixed");
+  return [request](store::Store& store) -> Result<std::string> {
+    MDOF_TRY(const auto found, trends(store, request));
+    return trends_json(found);
+  };
+}
+
 }  // namespace
 
 void add_budget_methods(rpc::MethodTable& table, Methods& m) {
@@ -104,6 +119,28 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                  "shown (the change is within its U); notes: other differences between the runs",
        .example = R"({"before": 1, "after": 2})",
        .handler = on_query(m, compare)});
+  table.add(
+      {.name = "run.trend",
+       .summary = "Charts figures of the stored runs over time, with control limits (Shewhart).",
+       .params = {{"axis", ParamType::string,
+                   "X, Y or Z: figures of its runs; absent: all, and "
+                   "those of squareness"},
+                  {"figure", ParamType::string,
+                   "only this one, such as EYX_straightness_um or EC0Y_urad"},
+                  {"baseline",
+                   ParamType::integer,
+                   "number of first values that the limits are calculated from; absent: all but "
+                   "the last",
+                   false,
+                   {},
+                   {.least = algo::kFewestOfBaseline, .most = 100'000}},
+                  {"mixed", ParamType::boolean, "also use runs with other rigs and models", false,
+                   "false"}},
+       .result = "figures: for each figure values in time (runs, started_utc, value, u, u_random, "
+                 "low, high, signal), centre, sigma, baseline (all null or 0: too few values for "
+                 "limits), moved (since_runs, by, u_by) or null, what u covers, left_out, notices",
+       .example = R"({"figure": "EYX_straightness_um"})",
+       .handler = on_query(m, trend)});
   table.add({.name = "squareness.budget",
              .summary =
                  "Calculates the uncertainty budget of the squareness of two axes (EC0Y, EB0Z or "

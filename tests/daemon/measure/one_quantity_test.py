@@ -29,7 +29,7 @@ EXACT = 1e-12  # relative
 COMPARED = {"analyse", "budget", "compare", "compensation build", "compensation show", "parallelism", "replay", "show",
             "squareness", "trend"}
 COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid", "compensation.status", "compensation.table",
-                    "parallelism.fit", "run.budget", "run.compare", "run.get", "run.points", "squareness.budget", "squareness.fit"}
+                    "parallelism.fit", "run.budget", "run.compare", "run.get", "run.points", "run.trend", "squareness.budget", "squareness.fit"}
 # ... and what states none, or that of other things: of files, of studies, of calibrations, of a machine's description.
 OTHERS = {"clearance", "completion", "demo", "help", "machine kinematics", "machine budget", "milling",
           "form scan", "form compare", "form clamp", "form cut", "form path", "part", "plot", "report",
@@ -183,6 +183,9 @@ class OneQuantity(unittest.TestCase):
         replies["parallelism.fit"] = client.call("parallelism.fit", run_a=1, run_b=2)
         compared = client.call("run.compare", before=1, after=2)
         replies["run.compare"] = compared | {"figures": {k: f["before"] for k, f in compared["figures"].items()}}
+        trend = client.call("run.trend", axis="X")
+        replies["run.trend"] = trend | {"figures": {k: f | {"value": f["values"][-1]["value"], "u": f["values"][-1]["u"], "U": None}
+                                                    for k, f in trend["figures"].items()}}
         replies["compensation.build"] = client.call("compensation.build", runs=[1])
         replies["compensation.status"] = client.call("compensation.status")
         replies["compensation.grid"] = client.call("compensation.grid", axis="X", offset=0, count=100)
@@ -289,7 +292,7 @@ class OneQuantity(unittest.TestCase):
     def test_one_value_one_u_one_U(self):
         self.assertEqual(self.notes.contradictions(), [])
         self.assertGreater(len(self.notes.said), 2500)
-        self.assertEqual(len(self.notes.places("EYX_slope_urad")), 21)
+        self.assertEqual(len(self.notes.places("EYX_slope_urad")), 22)
         self.assertEqual(len(self.notes.places("EC0Y_urad")), 12)
 
     # A comparison that finds nothing in numbers that differ would prove nothing.

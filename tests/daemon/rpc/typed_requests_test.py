@@ -139,7 +139,7 @@ class Bench:
                       "reference": ["fixture", "carriage", "tool"], "despite_warnings": [True], "offset": [0, 1],
                       # A replay of many targets, or a run over kilometres, is a long one and no wrong one.
                       "machine": [MACHINE], "X_mm": [0, 1], "axes": ["XY"], "step_mm": [1], "incomplete": [True], "approach": ["mean"],
-                      "limit_um": [1000], "limit_um_per_mm": [50], "u_parts": [True], "reason": ["after scraping"],
+                      "limit_um": [1000], "limit_um_per_mm": [50], "u_parts": [True], "reason": ["after scraping"], "baseline": [4],
                       "targets_mm": [[], [0, 1, 2, 3]], "interval_mm": [1], "from_mm": [0], "to_mm": [3]}
         client.socket.close()
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "daemon/measure/several_runs/trends.h"
+#include "daemon/measure/several_runs/trends_json.h"
 #include "daemon/output/charts/plot_files.h"
 #include "daemon/output/charts/run/control_chart.h"
 #include "daemon/words/words.h"
@@ -50,14 +50,6 @@ std::string with_u(const daemon::Trend& trend, double si, double u) {
   return trend.figure.ends_with("_um") ? um_with_u(si, u) : urad_with_u(si, u);
 }
 
-std::string signal_of(const algo::Chart& chart, std::size_t i) {
-  const auto has = [i](const std::vector<std::size_t>& of) {
-    return std::find(of.begin(), of.end(), i) != of.end();
-  };
-  if (has(chart.outside)) return "outside";
-  return has(chart.one_side) ? "8 on one side" : "";
-}
-
 std::string sentence_of(const daemon::Trend& trend) {
   const auto& [figure, values, chart] = std::tie(trend.figure, trend.values, trend.chart);
   if (!chart)
@@ -75,7 +67,7 @@ std::string sentence_of(const daemon::Trend& trend) {
     return figure + " has moved by " + with_u(trend, chart->moved->by, chart->moved->u) + " " +
            unit_of(trend) + " since run " + runs_of(since) + " (" + since.started_utc + "): run " +
            runs_of(values.back()) +
-           (signal_of(*chart, values.size() - 1) == "outside"
+           (daemon::trend_signal(*chart, values.size() - 1) == "outside"
                 ? " is outside the limits (Shewhart, 3 sigma)"
                 : " is at least the eighth in a row on one side of the centre (Western Electric)") +
            provisional;
@@ -95,7 +87,7 @@ std::string text_of(const daemon::Trend& trend) {
     table.add({runs_of(v), v.started_utc, with_u(trend, v.value, v.u),
                has ? shown(trend, trend.chart->low[i]) : "-",
                has ? shown(trend, trend.chart->high[i]) : "-",
-               has ? signal_of(*trend.chart, i) : ""});
+               has ? daemon::trend_signal(*trend.chart, i) : ""});
   }
   std::string out = trend.figure + "\n";
   if (trend.chart)
@@ -125,53 +117,13 @@ std::string text_of(const std::vector<daemon::Trend>& trends) {
   return noise_only_notice(any_noise_only(trends)) + out;
 }
 
-void write_trend(JsonWriter& json, const daemon::Trend& trend) {
-  const auto& chart = trend.chart;
-  const auto number = [&](double si) { return chart ? to_key_unit(si) : kNaN; };
-  json.begin_object().key("values").begin_array();
-  for (std::size_t i = 0; i < trend.values.size(); ++i) {
-    const auto& v = trend.values[i];
-    json.begin_object().key("runs").begin_array();
-    for (const std::int64_t run : v.runs) json.value(run);
-    json.end_array()
-        .field("started_utc", v.started_utc)
-        .field("value", to_key_unit(v.value))
-        .field("u", to_key_unit(v.u))
-        .field("u_random", to_key_unit(v.u_random))
-        .field("low", chart ? number(chart->low[i]) : kNaN)
-        .field("high", chart ? number(chart->high[i]) : kNaN)
-        .field("signal", chart ? signal_of(*chart, i) : "")
-        .end_object();
-  }
-  json.end_array()
-      .field("centre", chart ? number(chart->centre) : kNaN)
-      .field("sigma", chart ? number(chart->sigma) : kNaN)
-      .field("baseline", static_cast<std::uint64_t>(chart ? chart->baseline : 0))
-      .key("moved");
-  if (chart && chart->moved) {
-    json.begin_object().key("since_runs").begin_array();
-    for (const std::int64_t run : trend.values[chart->moved->since].runs) json.value(run);
-    json.end_array()
-        .field("by", number(chart->moved->by))
-        .field("u_by", number(chart->moved->u))
-        .end_object();
-  } else {
-    json.null();
-  }
-  write_covers(json, trend.u_covers, trend.u_not_declared);
-  json.field("says", sentence_of(trend)).key("left_out").begin_array();
-  for (const std::string& why : trend.left_out) json.value(why);
-  json.end_array();
-  write_notices(json, "notices", trend.notices, words::text);
-  json.end_object();
-}
-
 std::string json_of(const std::vector<daemon::Trend>& trends) {
   JsonWriter json;
   json.begin_object().field("reference", "fixture").key("figures").begin_object();
   for (const daemon::Trend& trend : trends) {
-    json.key(trend.figure);
-    write_trend(json, trend);
+    json.key(trend.figure).begin_object();
+    daemon::write_trend(json, trend);
+    json.field("says", sentence_of(trend)).end_object();
   }
   json.end_object().end_object();
   return json.take();
@@ -191,8 +143,8 @@ std::string csv_of(const std::vector<daemon::Trend>& trends) {
       csv.cell(chart ? to_key_unit(chart->centre) : kNaN);
       csv.cell(chart ? to_key_unit(chart->low[i]) : kNaN);
       csv.cell(chart ? to_key_unit(chart->high[i]) : kNaN);
-      csv.cells(
-          {chart ? signal_of(*chart, i) : "", trend.u_covers, joined(trend.u_not_declared, " ")});
+      csv.cells({chart ? daemon::trend_signal(*chart, i) : "", trend.u_covers,
+                 joined(trend.u_not_declared, " ")});
       csv.end_row();
     }
   return noise_only_comment(any_noise_only(trends)) + csv.take();

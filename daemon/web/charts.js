@@ -23,8 +23,9 @@ function withoutLegend() {
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 const kDash = [6, 3];
 
-// series: [{label, name, colour, dash, wide, line, points: [[x, low, value, high]]}]: name is said in the legend, wide is
-// seen below another, line has no marks and no band; points in any order of x.
+// series: [{label, name, colour, dash, wide, line, marks, points: [[x, low, value, high]]}]: name is said in the legend, wide is
+// seen below another, line has no marks and no band, marks have no line; points in any order of x.
+// place: what a place on the x axis is called.
 // Rows for dygraphs with a column a series; a place that a series lacks stays open.
 export function rowsOf(series) {
   const rows = new Map();
@@ -39,8 +40,9 @@ export function rowsOf(series) {
 
 export class Chart {
   // title: what is shown with its unit; summary: the same in words, for those who do not see it.
-  constructor(title, unit, {height_px = kHeight_px, xlabel = "position/mm"} = {}) {
+  constructor(title, unit, {height_px = kHeight_px, xlabel = "position/mm", place = (x) => `${fixed(x, 3)} mm`} = {}) {
     this.unit = unit;
+    this.place = place;
     this.xlabel = xlabel;
     this.canvas = h("div", {class: "canvas", role: "img", "aria-label": title});
     this.canvas.style.height = `${height_px}px`;
@@ -68,7 +70,7 @@ export class Chart {
       colors: this.series.map((one) => colour(one.colour)),
       series: Object.fromEntries(this.series.map((one) => [one.label, {
         strokePattern: one.dash ? kDash : null, drawPoints: one.points.length < 200,
-        pointSize: one.line ? 0 : 3, strokeWidth: one.wide ? 4 : 1.6, fillAlpha: one.line ? 0 : 0.2}])),
+        pointSize: one.line ? 0 : one.marks ? 6 : 3, strokeWidth: one.marks ? 0 : one.wide ? 4 : 1.6, fillAlpha: one.line || one.marks ? 0 : 0.2}])),
       axisLineColor: colour("rule"), gridLineColor: colour("grid"), axisLabelFontSize: 12,
       connectSeparatedPoints: true, highlightCircleSize: 5, xlabel: this.xlabel, xLabelHeight: 16, xRangePad: 8, yRangePad: 12,
       strokeWidth: 1.6, axes: {y: {axisLabelWidth: 62}},
@@ -80,7 +82,7 @@ export class Chart {
   say(x, points) {
     const kinds = [...new Map(this.series.map((one) => [one.name ?? one.label, one])).entries()].sort((a, b) => a[1].dash - b[1].dash);
     const text = points?.length
-      ? `${fixed(x, 3)} mm: ` + points.filter((p) => isNumber(p.yval)).map((p) => `${p.name} ${fixed(p.yval, 3)} ${this.unit}`).join(", ")
+      ? `${this.place(x)}: ` + points.filter((p) => isNumber(p.yval)).map((p) => `${p.name} ${fixed(p.yval, 3)} ${this.unit}`).join(", ")
       : kinds.map(([name, one]) => `${one.dash ? "– –" : "——"} ${name}`).join("   ");
     if (this.legend.textContent !== text) this.legend.textContent = text;
   }

@@ -1,9 +1,10 @@
-// Runs: the list, one run whole, two laid over each other, squareness of two.
+// Runs: the list, one run whole, two laid over each other, squareness of two, control charts.
 import {field, h, problem, select, setRows, table, time} from "./dom.js";
 import * as live from "./live.js";
 import {call} from "./rpc.js";
 import {openRun} from "./run_detail.js";
 import {openPair, openSquareness} from "./run_pair.js";
+import {openTrend} from "./run_trend.js";
 
 const kPage = 100;
 const kStates = ["complete", "partial", "open", "aborted"];
@@ -26,7 +27,7 @@ export class RunList {
     this.element = h("div", {}, h("div", {class: "fields", role: "search", "aria-label": "Filter of runs"},
       field("Axis", choose("axis", "all", ["X", "Y", "Z"])), field("State", choose("state", "all", kStates)),
       field("Note contains", h("input", {type: "search", oninput: (e) => { this.filter.text = e.target.value.toLowerCase(); this.draw(); }}))),
-    this.count, this.table, this.wrong, this.more);
+    h("p", {}, h("a", {href: "#runs/trend"}, "Control charts of the stored runs")), this.count, this.table, this.wrong, this.more);
   }
   async read(again = false) {
     try {
@@ -50,6 +51,7 @@ export class RunList {
 }
 
 export function open(place, [run, how, other]) {
+  if (run === "trend") return openTrend(place);
   if (run && how === "with") return openPair(place, Number(run), Number(other));
   if (run && how === "square") return openSquareness(place, Number(run), Number(other));
   if (run) return openRun(place, Number(run));

@@ -6,7 +6,7 @@ import os from "node:os";
 import path from "node:path";
 import {fileURLToPath} from "node:url";
 
-const kData = fileURLToPath(new URL("../data/five-probe", import.meta.url));
+export const kData = fileURLToPath(new URL("../data/five-probe", import.meta.url));
 const kPatience_ms = 30_000;
 
 const axis = (letter, targets) => `

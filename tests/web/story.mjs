@@ -1,8 +1,9 @@
 // The whole story in a browser: set up, capture, the run, its table built and activated; what the page says is compared
 // with what the Unix socket says. mdofd killed: stale is shown; started again: the page goes on by itself.
 import assert from "node:assert/strict";
+import fs from "node:fs";
 import {accessible, launch, text, watch} from "./browser.mjs";
-import {Daemon} from "./daemon.mjs";
+import {Daemon, kData} from "./daemon.mjs";
 import {units} from "./units.mjs";
 
 const kFirstView_bytes = 200_000;
@@ -79,6 +80,26 @@ async function runs(page) {
   return run;
 }
 
+// A simulated run is in no control chart; a log that is replayed is.
+async function controlCharts(page, run) {
+  await page.getByRole("link", {name: "Runs"}).click();
+  await page.getByRole("link", {name: "Control charts"}).click();
+  await page.getByText("No stored run gives a value for a control chart").waitFor();
+  await page.getByText(new RegExp(`left out: run ${run}: `)).first().waitFor();
+  const replayed = await daemon.call("run.replay", {path: `${kData}/log_X.csv.gz`, rig: fs.readFileSync(`${kData}/rig_X.toml`, "utf8")});
+  await page.getByRole("combobox", {name: /^Axis/}).selectOption("Y");
+  await page.getByRole("combobox", {name: /^Axis/}).selectOption("X");
+  await page.getByText("1 values are too few for control limits").waitFor();
+  const {figures} = await daemon.call("run.trend", {axis: "X"});
+  await page.getByRole("combobox", {name: /^Figure/}).selectOption("EYX_straightness_um");
+  const row = await page.getByRole("row", {name: `run ${replayed.run}`}).innerText();
+  const {value} = figures.EYX_straightness_um.values[0];
+  const shown = Number(row.split("\t")[2].replace("−", "-"));
+  assert.ok(Math.abs(shown - value) <= 5e-3 * Math.abs(value), `${row} is ${value}`);
+  await page.locator(".chart canvas").first().waitFor();
+  await accessible(page, "control charts");
+}
+
 async function compensation(page, run) {
   await page.getByRole("link", {name: "Compensation"}).click();
   await page.getByText("No table is active").waitFor();
@@ -142,6 +163,7 @@ try {
   await compensation(page, run);
   step("its table is active");
   await restart(page);
+  await controlCharts(page, run);
   assert.deepEqual(errors, []);
 } finally {
   await browser?.close();

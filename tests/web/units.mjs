@@ -9,6 +9,7 @@ export async function units(page) {
     const {valueAt} = await import("/compensation.js");
     const {expected} = await import("/capture.js");
     const {rowsOf, means} = await import("/charts.js");
+    const {controlSeries, verdict: control} = await import("/run_trend.js");
     const {hoursLeft} = await import("/health.js");
     const {layer} = await import("/volume.js");
     const {fixed, measured, short} = await import("/dom.js");
@@ -39,6 +40,11 @@ export async function units(page) {
       // 36 MB of 100 s, 3.6 GB left.
       hours: hoursLeft({free_bytes: 3.6e9, newest_recording: {bytes: 36e6}}, {scans: 100_000, plausibility: {rate_hz: 1000}}),
       layer: layer([[0, 0, 0], [0, 0, 5], [1, 0, 5]], "XY", 5).length,
+      // Two values with limits, the second beyond; one value without.
+      control: controlSeries({centre: 1, values: [{value: 1, u: 0.5, low: 0, high: 2, signal: ""}, {value: 9, u: null, low: 0, high: 2, signal: "outside"}]}).map((one) => one.points),
+      no_limits: controlSeries({centre: null, values: [{value: 1, u: 0.5, low: null, high: null, signal: ""}]}).map((one) => one.points.length),
+      controlled: [control("EYX_slope_urad", {values: [1, 2], baseline: 0}), control("EYX_slope_urad", {values: [1], baseline: 8, moved: null}),
+        control("EYX_slope_urad", {values: [1], baseline: 8, moved: {by: -5.9, u_by: 0.2, since_runs: [9]}})],
       numbers: [fixed(-0.0001, 2), fixed(-1.5, 1), fixed(null, 2), measured({value: 1.83045, U: 0.0886, k: 2}, "µm"), measured({value: 1}, "µm"), short(0.000123456)],
     };
   });
@@ -60,5 +66,9 @@ export async function units(page) {
   assert.deepEqual(found.means, [[0, 4]]);
   assert.equal(found.hours, 100 * 100 / 3600);
   assert.equal(found.layer, 2);
+  assert.deepEqual(found.control, [[[1, 0.5, 1, 1.5], [2, 9, 9, 9]], [[2, 9, 9, 9]], [[1, 1, 1, 1], [2, 1, 1, 1]], [[1, 0, 0, 0], [2, 0, 0, 0]], [[1, 2, 2, 2], [2, 2, 2, 2]]]);
+  assert.deepEqual(found.no_limits, [1, 0, 0, 0, 0]);
+  assert.deepEqual(found.controlled, ["● 2 values are too few for control limits.", "● EYX slope has not moved.",
+    "▲ EYX slope has moved by −5.90 µrad (u = 0.200 µrad) since run 9."]);
   assert.deepEqual(found.numbers, ["0.00", "−1.5", "–", "1.830 µm, U = 0.089 µm (k = 2.00)", "1.000 µm, U not known", "0.000123"]);
 }

@@ -55,7 +55,7 @@ TEST(CommonQuantities, OfAPlaneAreItsNameNormalUncertaintyAndLength) {
   const auto named = [](const std::string& name, const Vec3& normal, double u, double length_m) {
     Rig rig = test::rig_x_with(
         "", "", "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n[[plane]]\nnormal = \"+Y\"\n");
-    rig.planes[0].normal = normal;
+    rig.planes[0].normal = rig.planes[1].normal = normal;
     std::vector<Contributor> list = {declared_as(name, "u_flatness_um", u)};
     list[0].surface = std::make_shared<const PlaneFootprints>(PlaneFootprints{u, length_m, {}, {}});
     name_common_surfaces(rig, list);
@@ -67,19 +67,22 @@ TEST(CommonQuantities, OfAPlaneAreItsNameNormalUncertaintyAndLength) {
   EXPECT_NE(top, named("plane top: flatness", {0, 0.1, 0.99}, 1e-7, 0.02));
   EXPECT_NE(top, named("plane top: flatness", {0, 0, 1}, 2e-7, 0.02));
   EXPECT_NE(top, named("plane top: flatness", {0, 0, 1}, 1e-7, 0.03));
-  EXPECT_FALSE(named("plane 2: flatness", {0, 0, 1}, 1e-7, 0.02).empty());  // has no id
+  const std::string second = named("plane 2: flatness", {0, 0, 1}, 1e-7, 0.02);  // has no id
+  EXPECT_FALSE(second.empty());
+  EXPECT_NE(second, top);
   EXPECT_EQ(named("plane 1: flatness", {0, 0, 1}, 1e-7, 0.02), "");
 }
+
+const Eigen::Vector3d kZeroed(0.001, -0.003, 0.02);  // where the probe is at d = 0
 
 // In M at (x, y, z); along Y the local frame has x = +Y, y = -X.
 Contributor over_surface(const std::vector<Eigen::Vector3d>& places, bool along_y) {
   PlaneFootprints surface{1e-7, 0.05, {}, {}, places.size()};
   for (std::size_t j = 0; j < places.size(); ++j) {
-    const Eigen::Vector3d zero(0.001, -0.003, 0.02);
     const auto local = [&](const Eigen::Vector3d& p) {
       return along_y ? Eigen::Vector3d(p.y(), -p.x(), p.z()) : p;
     };
-    surface.footprints.push_back({local(places[j]), local(zero)});
+    surface.footprints.push_back({local(places[j]), local(kZeroed)});
     surface.readings.push_back({j, j, Errors5{1, 0, -2, 0, 0}});
   }
   Contributor contributor = declared_as("plane top: flatness", "u_flatness_um", 1e-7);
@@ -107,6 +110,14 @@ TEST(CommonQuantities, OneSurfaceHasOneHeightAtAPlaceForRunsAlongXAndY) {
       largest = std::max(largest, std::abs(parts.b[0][p][j][0]));
     }
   EXPECT_GT(largest, 1e-8);
+  // The covariance is that of the places in M.
+  const FlatnessCovariance covariance(1e-7, 0.05);
+  for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      double sum = 0;
+      for (const auto& part : parts.b[0]) sum += part[i][0] * part[j][0];
+      EXPECT_NEAR(sum, covariance.zeroed_m2({places[i], kZeroed}, {places[j], kZeroed}), 1e-20);
+    }
   EXPECT_EQ(of_a[1].common_as, "top");
   EXPECT_EQ(of_b[0].common_as, "top");
   EXPECT_EQ(of_a[0].common_as, "");
@@ -120,6 +131,9 @@ TEST(CommonQuantities, TwoSurfacesHaveTheirOwnParts) {
   const PartsOfTwo parts = parts_of_two(of_a, Axis::x, of_b, Axis::y);
   EXPECT_EQ(of_a[0].common_as + of_b[0].common_as, "");
   EXPECT_EQ(parts.a[0][0][0][0], 7);
+  of_a[0].surface_as = "";
+  of_b = {declared_as("probe A: zero", "u_calibration_um", 1e-6)};
+  EXPECT_EQ(parts_of_two(of_a, Axis::x, of_b, Axis::y).b[0][0][0][0], 7);
   EXPECT_EQ(parts.b[0][0][0][0], 7);
 }
 

@@ -120,6 +120,7 @@ TEST(Contributors, AFlatnessCountsByWhatItChangesSinceTheZero) {
   const auto all = of(rig, run);
   ASSERT_EQ(all.size(), 1u);
   EXPECT_EQ(all[0].name, "plane side: flatness");
+  EXPECT_NE(all[0].surface_as.find("plane side"), std::string::npos);
   const auto parts = all[0].parts();
   for (std::size_t j = 0; j < run.points.size(); ++j) {
     double square = 0, top = 0, correlation = 0, norm = 0;
@@ -210,6 +211,46 @@ TEST(Contributors, AnInstallationOffsetAlongTheMotionReadsThePitch) {
   for (std::size_t j = 0; j < run.points.size(); ++j) {
     const double lower = 1e-3 * 0.02 * run.points[j].target_m;
     expect_shift(parts[0][j], {0, -lower, 0, 0, 0}, 0.01 * std::abs(lower) + 1e-12);
+  }
+}
+
+// All probes 1 mm further along y, or z, on a target that is rolled by r: the top is higher there
+// by r times 1 mm, the side further away.
+TEST(Contributors, AnInstallationOffsetAcrossTheMotionReadsTheRoll) {
+  for (const std::size_t c : {1u, 2u}) {
+    const Rig rig = rig_x_with(
+        "", "",
+        std::string("[installation]\nu_offset_mm = ") + (c == 1 ? "[0, 1, 0]\n" : "[0, 0, 1]\n"));
+    SyntheticRun synthetic{.rig = rig, .model = Model::exact};
+    synthetic.truth = [](double d) { return Errors5{0, 0, 0.02 * d, 0, 0}; };
+    const auto run = synthetic.measure();
+    const auto parts = of(rig, run)[0].parts();
+    for (std::size_t j = 0; j < run.points.size(); ++j) {
+      const double by = 1e-3 * 0.02 * run.points[j].target_m;
+      expect_shift(parts[0][j], c == 1 ? Errors5{0, by, 0, 0, 0} : Errors5{-by, 0, 0, 0, 0},
+                   0.01 * by + 1e-12);
+    }
+  }
+}
+
+TEST(Contributors, AnInstallationAngleThatCannotBeIsRefused) {
+  for (const char* angles : {"[300, 0, 0]", "[0, 300, 0]", "[0, 0, 300]"}) {
+    const Rig rig =
+        rig_x_with("", "", std::string("[installation]\nu_angle_mrad = ") + angles + "\n");
+    const auto found = contributors(rig, SyntheticRun{.rig = rig}.measure());
+    ASSERT_FALSE(found) << angles;
+    EXPECT_NE(found.error().message.find("u_angle_mrad"), std::string::npos);
+  }
+}
+
+// Up to 256 parts; of more targets two neighbours share one.
+TEST(Contributors, TheEncoderOfManyTargetsHasFewerParts) {
+  const Rig rig = rig_x_with("", "", "[encoder]\nu_um = 1\n");
+  for (const int targets : {256, 257}) {
+    SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 1};
+    synthetic.targets_m.clear();
+    for (int t = 0; t < targets; ++t) synthetic.targets_m.push_back(1e-4 * t);
+    EXPECT_EQ(of(rig, synthetic.measure())[0].parts().size(), targets == 256 ? 256u : 129u);
   }
 }
 

@@ -53,7 +53,7 @@ TEST(OnTheFlyRun, AnEncoderThatIsSuspectThroughoutGivesNoRun) {
   block.quality[0].assign(block.scans(), Quality::suspect);
   const auto run = run_on_the_fly(std::move(block));
   ASSERT_FALSE(run);
-  EXPECT_NE(run.error().message.find("was suspect"), std::string::npos) << run.error().message;
+  EXPECT_NE(run.error().message.find("were suspect"), std::string::npos) << run.error().message;
 }
 
 // A single late reading, as of a slow USB reply, spoils no point.

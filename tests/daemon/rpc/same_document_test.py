@@ -23,6 +23,7 @@ SAME = [
     ("run.list", {"axis": "Y", "offset": 0, "count": 1}, "runs --axis Y --count 1", {}),
     ("run.budget", {"run": 1, "figure": "EYX_slope_urad"}, "budget 1 --figure EYX_slope_urad", {}),
     ("run.compare", {"before": 1, "after": 3}, "compare 1 3", {}),
+    ("run.trend", {"figure": "EYX_slope_urad"}, "trend --figure EYX_slope_urad", {"says": "the sentence that the command prints of these values"}),
     ("parallelism.fit", {"run_a": 1, "run_b": 3}, "parallelism 1 3", {}),
     ("squareness.fit", {"run_x": 1, "run_y": 2}, "squareness 1 2", {}),
     ("squareness.budget", {"run_x": 1, "run_y": 2}, "budget 1 2", {}),

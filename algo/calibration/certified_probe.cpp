@@ -60,13 +60,14 @@ class CertificateReader {
     if (!tables_.empty()) MDOF_CHECK(take_table());
     if (sensitivities_.empty())
       found_.not_taken.push_back(
-          "no sensitivity (a quantity in volts per length): um_per_V and u_sensitivity_ppm stay as "
-          "the rig has them");
+          "sensitivity: the certificate contains none (a quantity in volts per length), so "
+          "um_per_V "
+          "and u_sensitivity_ppm of the rig stay unchanged");
     if (tables_.empty())
       found_.not_taken.push_back(
-          "no table (a list with refType basic_measuredValue and basic_measurementError): "
-          "linearity "
-          "and u_linearity_um stay as the rig has them");
+          "linearity: the certificate contains no table (a list with refType basic_measuredValue "
+          "and "
+          "basic_measurementError), so linearity and u_linearity_um of the rig stay unchanged");
     return std::move(found_);
   }
 
@@ -227,10 +228,12 @@ class CertificateReader {
         (read.um[most - reference.um.begin()] - read.um[least - reference.um.begin()]) /
         (*most - *least);
     if (!(slope >= kLeastRatio && slope <= kMostRatio))
-      return bad_input(
-          at(table.measured->line) + "the readings change by " + number(slope) +
-          " um for 1 um of the reference values; check um_per_V and reads of probe \"" + own_.id +
-          "\" in " + rig_.source + " and the units of the table");
+      return bad_input(at(table.measured->line) + "the readings change by " + number(slope) +
+                       " um for 1 um of the reference values; check the keys \"um_per_V\" and "
+                       "\"reads\" of probe "
+                       "\"" +
+                       own_.id + "\" in " + rig_.source +
+                       ", and check the units of the table in the certificate");
     for (std::size_t i = 0; table.error && i < read.um.size(); ++i) {
       // Rounding of the three columns is below the uncertainty of the error.
       const double off = std::abs(read.um[i] - reference.um[i] - error.um[i]);

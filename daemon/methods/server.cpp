@@ -122,9 +122,12 @@ HistoryEntry action_with_reason(const Params& params, std::string name) {
 
 std::vector<rpc::Param> limit_params() {
   return {{"limit_um", ParamType::number,
-           "largest value that is allowed, in um (angles: in urad) [1000 um, 10000 urad]", false},
+           "largest error allowed in the table, in um (angles: in urad); default 1000 um and 10000 "
+           "urad",
+           false},
           {"limit_um_per_mm", ParamType::number,
-           "largest slope that is allowed, in um/mm (angles: in urad/mm) [50 um/mm, 500 urad/mm]",
+           "largest slope allowed in the table, in um/mm (angles: in urad/mm); default 50 um/mm "
+           "and 500 urad/mm",
            false}};
 }
 

@@ -81,9 +81,10 @@ struct ClientFiles {
     if (!names_files(request.machine)) return {};
     if (!user || !source.starts_with('/'))
       return fail(ErrorCode::usage, source +
-                                        ": the machine file names other files; call over the Unix "
-                                        "socket and give machine_source as an absolute path in the "
-                                        "folder of these files, or give the tables in the text");
+                                        ": the machine file refers to other files; connect to the "
+                                        "Unix socket and set machine_source to the absolute path "
+                                        "of the machine file, or write the tables into the "
+                                        "machine file");
     std::vector<ClientFile> open;
     const FindFile beside = files_beside(source);
     MDOF_TRY(

@@ -42,12 +42,12 @@ Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<I
     if (uses[i].ain < 0) {
       const auto [other, fresh] = counters.emplace(channels[i].further, channels[i].input);
       if (!fresh)
-        return bad_input(channels[i].where + ": " + other->second +
-                         " is a counter of this axis already, and an axis can use only one counter "
-                         "of a device; connect \"" +
+        return bad_input(channels[i].where + ": \"" + channels[i].id +
+                         "\" is a second counter of this axis (the first is " + other->second +
+                         "), but an axis can use only one counter of a device. Connect \"" +
                          channels[i].id +
-                         "\" to another device, or, if this is the encoder of another axis, "
-                         "declare the channel in the [axis.device] of that axis with same_as");
+                         "\" to another device. If it is the encoder of another axis, declare it "
+                         "in the [axis.device] of that axis, with same_as");
     }
     for (std::size_t other = 0; other < uses.size(); ++other)
       if (uses[i].ain >= 0 && uses[other].negative == uses[i].ain)

@@ -219,7 +219,8 @@ Result<DeclaredMillingPlan> parse_milling_plan(std::string_view text, const std:
     cut.reject("axial_depth_mm", "must not exceed the overhang of the tool");
   if (plan.feed_per_tooth_m * plan.teeth > plan.radius_m())
     cut.reject("feed_per_tooth_um",
-               "multiplied by tool.teeth, must not exceed the radius of the tool");
+               "must be smaller: feed_per_tooth_um times tool.teeth must not exceed the radius of "
+               "the tool");
   if (plan.runout_m + std::abs(plan.runout_tilt) * plan.axial_depth_m > plan.radius_m() / 10)
     root.reject("runout", "must not exceed a tenth of the radius of the tool");
 

@@ -186,11 +186,11 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
   auto tables = table.tables("calibration_record");
   const auto parts = record_parts(text);
   if (names.size() != tables.size() || parts.size() != tables.size())
-    return table.reject("calibration", "names " + std::to_string(names.size()) +
-                                           " files, but this text contains " +
+    return table.reject("calibration", "the rig lists " + std::to_string(names.size()) +
+                                           " record files, but the text of the rig contains " +
                                            std::to_string(parts.size()) +
-                                           " calibration records; give the rig as a file, so that "
-                                           "the records are read from the files");
+                                           " calibration records; give the path of the rig file, "
+                                           "so that mdof reads the records from their files");
   if (parts.size() > kMostRecords)
     return table.reject("calibration", "names " + too_many(parts.size()));
   for (const std::string_view part : parts)

@@ -226,8 +226,8 @@ void read_bins(TomlTable& table, StudyPlan& plan, const std::set<std::string>& g
   if (!quantity || quantity->distribution.kind != Kind::rectangular ||
       quantity->name != plan.binned_key)
     bins->reject("quantity", "\"" + plan.binned_key +
-                                 "\" must be a quantity of this plan, without star, with a "
-                                 "rectangular distribution");
+                                 "\" must be the full name (without \"*\") of one "
+                                 "quantity of this plan that has a rectangular distribution");
   if (grouped.contains(plan.binned_key))
     bins->reject("quantity", "\"" + plan.binned_key +
                                  "\" is correlated with others; bins need an independent quantity");

@@ -178,8 +178,9 @@ TEST(CalibratedRig, ATextWithoutItsRecordOrWithAChangedOneIsRefused) {
     ASSERT_FALSE(rig) << what;
     EXPECT_NE(rig.error().message.find(what), std::string::npos) << rig.error().message;
   };
-  says(rig_text(), "rig.toml:1: calibration: names 1 files, but this text contains 0");
-  says(test::rig_x_toml() + record_part(), "names 0 files");
+  says(rig_text(),
+       "rig.toml:1: calibration: the rig lists 1 record files, but the text of the rig contains 0");
+  says(test::rig_x_toml() + record_part(), "the rig lists 0 record files");
   std::string changed = record_part();
   changed.replace(changed.find("0.01"), 0, "1");
   says(rig_text() + changed.replace(changed.find("u_position_mm = ["), 0, ""), "sha256");

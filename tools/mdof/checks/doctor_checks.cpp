@@ -135,7 +135,8 @@ std::optional<Diagnosis> check_sysfs_device(const fs::path& device, const driver
   return Diagnosis{
       Level::doubtful,
       what + ": " + (service ? "the group mdof" : "this user") + " has no permission to write " +
-          closed->string() + "; the key \"" + of.key + "\" in mdofd.toml needs this permission",
+          closed->string() + "; if mdofd.toml contains the key \"" + of.key +
+          "\", mdofd has to write this file",
       std::string(
           "install the udev rules (60-mdof.rules, above), which give the file to the group mdof. "
           "If the device was connected before the installation, also run: sudo udevadm control "

@@ -40,8 +40,9 @@ void declare_preset(CLI::App& command, SensitivityCommand& o) {
       ->group(group)
       ->type_name("FROM TO");
   command
-      .add_option("--bins", o.bins,
-                  "Number of equal parts of the travel for which mdof also prints results")
+      .add_option(
+          "--bins", o.bins,
+          "Divide the travel into N equal parts, and print the results of each part as well")
       ->check(CLI::Range(1, static_cast<int>(kMostStudyBins)))
       ->group(group)
       ->type_name("N");

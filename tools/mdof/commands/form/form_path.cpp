@@ -80,10 +80,11 @@ Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, doubl
       std::atan2(pixel.y_m - y_centre_m, pixel.x_m - x_centre_m) * 180 / std::numbers::pi;
   return bad_input(
       map.name +
-      ": no pixel at the edge of the map has a height, so the part may be larger than the measured "
-      "area. The farthest measured pixel is at radius " +
-      mm(pixel.radius_m) + " mm, " + plain_number(angle_deg) +
-      " degrees. Measure the edge, or set the start radius of the path: --outer-radius-mm " +
+      ": the outermost rows and columns of the map are empty, so the outer radius of the part is "
+      "unknown (measured to radius " +
+      mm(pixel.radius_m) + " mm, at " + plain_number(angle_deg) +
+      " degrees). Measure the part up to its edge, or give the start radius of the path: "
+      "--outer-radius-mm " +
       mm(pixel.radius_m));
 }
 

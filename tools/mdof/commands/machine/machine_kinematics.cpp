@@ -272,7 +272,8 @@ Action declare_machine_kinematics(CLI::App& command) {
 
 Command machine_kinematics_command() {
   return {.name = "machine kinematics",
-          .summary = "Steps, errors and motion of a co-planar tilt drive",
+          .summary =
+              "Calculate resolution, errors and motion of a co-planar tilt drive from its screws",
           .footer =
               "Axes and screws that are not given with --platform or --screws are at 0.\n"
               "Examples:\n"

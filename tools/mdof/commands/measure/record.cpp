@@ -175,8 +175,9 @@ Status record(RecordCommand command) {
   MDOF_TRY(const std::int64_t id, follow(client, run, command));
   if (id != run)
     say("run " + std::to_string(id) +
-        " is the result: its targets were renumbered after all stops were " +
-        "known. It supersedes run " + std::to_string(run) + ", which mdof runs no longer lists");
+        " is the result. The targets were numbered again after all stops were " +
+        "known, so this run replaces run " + std::to_string(run) +
+        ", which is no longer in the list of \"mdof runs\"");
   JsonWriter params;
   params.begin_object().field("run", id).end_object();
   MDOF_TRY(const std::string result, client.call("run.get", params.text()));

@@ -121,7 +121,7 @@ void write_milling_sensitivity(JsonWriter& json, const MillingSensitivityRequest
 }
 
 std::string milling_sensitivity_text(const MillingSensitivity& found) {
-  std::vector<std::string> head = {"effect of the u of", "u"};
+  std::vector<std::string> head = {"effect on the outputs of u of", "u"};
   for (const std::string& key : algo::milling_outputs()) head.push_back(key);
   TextTable effects(head);
   for (std::size_t i = 0; i < found.inputs.size(); ++i) {

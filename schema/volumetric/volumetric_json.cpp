@@ -8,9 +8,10 @@
 namespace mdof {
 namespace {
 
+// Its beginning is part of the interface: tools/linuxcnc's loader refuses a table of another sense.
 constexpr const char* kSense =
-    "correction: add the correction to the commands of X, Y and Z; the tool then reaches the "
-    "commanded position";
+    "correction: added to the commands of X, Y and Z, so that the tool reaches the commanded "
+    "position";
 constexpr const char* kAxesMm[] = {"X_mm", "Y_mm", "Z_mm"};
 constexpr const char* kAxesUm[] = {"X_um", "Y_um", "Z_um"};
 constexpr double kDegreesByRadian = 180 / std::numbers::pi;

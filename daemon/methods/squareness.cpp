@@ -21,8 +21,8 @@ void squareness(Methods& m, const Params& params, Reply reply) {
   request.action = action_of(params, "squareness.fit");
   answer_with_change(m, std::move(reply), [request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(auto found, calculate_squareness(reader, request));
-    MDOF_TRY(auto by_line, lines_of_squareness(reader, found.squareness));
-    return [fitted = std::move(found), lines = std::move(by_line),
+    MDOF_TRY(const auto by_line, lines_of_squareness(reader, found.squareness));
+    return [fitted = std::move(found), lines = by_line,
             action = request.action](store::Store& store) mutable -> Result<std::string> {
       MDOF_CHECK(store_squareness(store, fitted.squareness, action));
       return squareness_document(fitted, lines);

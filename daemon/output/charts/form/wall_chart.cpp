@@ -72,7 +72,7 @@ std::string wall_svg(const std::vector<algo::WallLine>& lines, double turn_m,
        {LegendSign::line, "rule", phrase(Phrase::wall_range, language)}}};
   draw_legend(svg, top, legend);
   const auto begin = [&](std::size_t i, const char* name, const Range& x, Phrase x_title) {
-    const Panel panel = sheet.panel(i, x, false);
+    Panel panel = sheet.panel(i, x, false);
     svg.data("panel", name).begin_group();
     draw_axes(svg, panel, in_um(x_title, language));
     draw_y_title(svg, panel, in_um(Phrase::wall_outward, language));

@@ -61,13 +61,11 @@ class CertificateReader {
     if (sensitivities_.empty())
       found_.not_taken.push_back(
           "sensitivity: the certificate contains none (a quantity in volts per length), so "
-          "um_per_V "
-          "and u_sensitivity_ppm of the rig stay unchanged");
+          "um_per_V and u_sensitivity_ppm of the rig stay unchanged");
     if (tables_.empty())
       found_.not_taken.push_back(
           "linearity: the certificate contains no table (a list with refType basic_measuredValue "
-          "and "
-          "basic_measurementError), so linearity and u_linearity_um of the rig stay unchanged");
+          "and basic_measurementError), so linearity and u_linearity_um of the rig stay unchanged");
     return std::move(found_);
   }
 
@@ -108,14 +106,15 @@ class CertificateReader {
   }
 
   tl::unexpected<Error> several(const char* what, long line, long other) const {
-    return bad_input(at(line) + "is a second " + what + " (the first: line " +
+    return bad_input(at(line) + "the certificate contains a second " + what + " (the first: line " +
                      std::to_string(other) + "); choose one result of the certificate: " + names_);
   }
 
   tl::unexpected<Error> no_uncertainty(long line, const char* what) const {
-    return bad_input(at(line) + "the " + what +
-                     " has no uncertainty, and a calibration without one is none; ask the "
-                     "laboratory to complete the DCC");
+    return bad_input(
+        at(line) + "the " + what +
+        " has no uncertainty, so it cannot be used; ask the laboratory to complete the "
+        "DCC");
   }
 
   Status take_sensitivity() {
@@ -152,7 +151,8 @@ class CertificateReader {
     return bad_input(
         at(s.line) + "the sensitivity makes " + number(um_per_V) + " um_per_V, but probe \"" +
         own_.id + "\" of " + rig_.source + " has " + number(*of_rig) +
-        "; give the certificate of this probe, or correct um_per_V " + "and reads of the rig");
+        "; give the certificate of this probe, or correct the keys \"um_per_V\" and \"reads\" of "
+        "the rig");
   }
 
   // The zero is a voltage: with another scale it is at another raw_um.
@@ -172,10 +172,11 @@ class CertificateReader {
     const auto& um_per_V =
         found_.probe.um_per_V ? found_.probe.um_per_V : own_.calibration.um_per_V;
     if (um_per_V) return *um_per_V;
-    return bad_input(at(quantity.line) +
-                     "is in volts, but neither the certificate nor the rig has the sensitivity; "
-                     "add um_per_V to probe \"" +
-                     own_.id + "\" of " + rig_.source);
+    return bad_input(
+        at(quantity.line) +
+        "the column is in volts, but neither the certificate nor the rig has the sensitivity; "
+        "add um_per_V to probe \"" +
+        own_.id + "\" of " + rig_.source);
   }
 
   struct Column {
@@ -185,8 +186,9 @@ class CertificateReader {
     Column column;
     if (!quantity) return column;
     if (quantity->value.size() != rows)
-      return bad_input(at(quantity->line) + "has " + std::to_string(quantity->value.size()) +
-                       " values, but the readings of its list are " + std::to_string(rows) +
+      return bad_input(at(quantity->line) + "the column has " +
+                       std::to_string(quantity->value.size()) +
+                       " values, but the readings of its table are " + std::to_string(rows) +
                        "; ask the laboratory to correct the DCC");
     MDOF_TRY(const double um_per_unit, scale(*quantity));
     for (const double x : quantity->value) column.um.push_back(x * um_per_unit);
@@ -230,8 +232,7 @@ class CertificateReader {
     if (!(slope >= kLeastRatio && slope <= kMostRatio))
       return bad_input(at(table.measured->line) + "the readings change by " + number(slope) +
                        " um for 1 um of the reference values; check the keys \"um_per_V\" and "
-                       "\"reads\" of probe "
-                       "\"" +
+                       "\"reads\" of probe \"" +
                        own_.id + "\" in " + rig_.source +
                        ", and check the units of the table in the certificate");
     for (std::size_t i = 0; table.error && i < read.um.size(); ++i) {
@@ -265,10 +266,14 @@ class CertificateReader {
   }
 
   // Of the errors, where it is stated; else of readings and reference values together.
-  static double largest_u(const Table& table, const Column& read, const Column& error,
-                          const Column& reference) {
+  double largest_u(const Table& table, const Column& read, const Column& error,
+                   const Column& reference) {
     if (table.error && !error.u_um.empty())
       return *std::max_element(error.u_um.begin(), error.u_um.end());
+    if (read.u_um.empty() != (reference.u_um.empty() || !table.reference))
+      found_.not_taken.push_back(
+          std::string("u of ") + (read.u_um.empty() ? kMeasured : kReference) +
+          ": the certificate does not state it, so u_linearity_um does not contain it");
     double largest = 0;
     for (std::size_t i = 0; i < read.um.size(); ++i)
       largest = std::max(largest, std::hypot(read.u_um.empty() ? 0 : read.u_um[i],

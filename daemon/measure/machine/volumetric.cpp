@@ -48,9 +48,9 @@ Notices one_sided(const VolumetricTable& table, const std::vector<Run>& runs) {
   Notices found;
   for (const auto& [measured, approaches] : seen)
     if (approaches.size() == 1 && *approaches.begin() != table.approach)
-      found.push_back(notice(
-          NoticeCode::volume_from_one_side, std::string(1, letter(measured.first)),
-          {{"approach", *approaches.begin()}, {"positioning", measured.second ? "yes" : ""}}));
+      found.push_back(
+          notice(NoticeCode::volume_from_one_side, std::string(1, letter(measured.first)),
+                 {{"approach", *approaches.begin()}, {"positioning", measured.second ? 1 : 0}}));
   return found;
 }
 

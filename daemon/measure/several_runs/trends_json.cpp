@@ -20,7 +20,6 @@ std::string trend_signal(const algo::Chart& chart, std::size_t i) {
 
 void write_trend(JsonWriter& json, const Trend& trend) {
   const auto& chart = trend.chart;
-  const auto number = [&](double si) { return chart ? to_key_unit(si) : kNaN; };
   json.key("values").begin_array();
   for (std::size_t i = 0; i < trend.values.size(); ++i) {
     const auto& v = trend.values[i];
@@ -31,22 +30,22 @@ void write_trend(JsonWriter& json, const Trend& trend) {
         .field("value", to_key_unit(v.value))
         .field("u", to_key_unit(v.u))
         .field("u_random", to_key_unit(v.u_random))
-        .field("low", chart ? number(chart->low[i]) : kNaN)
-        .field("high", chart ? number(chart->high[i]) : kNaN)
+        .field("low", chart ? to_key_unit(chart->low[i]) : kNaN)
+        .field("high", chart ? to_key_unit(chart->high[i]) : kNaN)
         .field("signal", chart ? trend_signal(*chart, i) : "")
         .end_object();
   }
   json.end_array()
-      .field("centre", chart ? number(chart->centre) : kNaN)
-      .field("sigma", chart ? number(chart->sigma) : kNaN)
+      .field("centre", chart ? to_key_unit(chart->centre) : kNaN)
+      .field("sigma", chart ? to_key_unit(chart->sigma) : kNaN)
       .field("baseline", static_cast<std::uint64_t>(chart ? chart->baseline : 0))
       .key("moved");
   if (chart && chart->moved) {
     json.begin_object().key("since_runs").begin_array();
     for (const std::int64_t run : trend.values[chart->moved->since].runs) json.value(run);
     json.end_array()
-        .field("by", number(chart->moved->by))
-        .field("u_by", number(chart->moved->u))
+        .field("by", to_key_unit(chart->moved->by))
+        .field("u_by", to_key_unit(chart->moved->u))
         .end_object();
   } else {
     json.null();

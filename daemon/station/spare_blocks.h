@@ -1,4 +1,4 @@
-// Blocks whose samples are used up, for whoever reads the next: their memory is reused.
+// Blocks that were processed: the thread of their device takes them back and reuses their memory.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class SpareBlocks {
     const std::lock_guard lock(mutex_);
     if (blocks_.size() < kMost) blocks_.push_back(std::move(block));
   }
-  // The last one of this device, which fits the next; without memory if there is none.
+  // The newest block of this device, with memory of the right size; without it, an empty block.
   SampleBlock take(const std::string& device) {
     const std::lock_guard lock(mutex_);
     const auto last = std::find_if(blocks_.rbegin(), blocks_.rend(),

@@ -49,7 +49,7 @@ struct DccCertificate {
 };
 
 // Errors name file, line and element: not XML, no DCC or not 3.x, a part that the DCC must have, a
-// list whose uncertainties or units are not as many as its values, a number that is none.
+// list with another number of uncertainties or units than of values, text in place of a number.
 Result<DccCertificate> read_dcc(std::string_view text, const std::string& source);
 
 }  // namespace mdof

@@ -44,7 +44,7 @@ std::optional<int> take_power(std::string_view& text) {
   return power;
 }
 
-// One unit with its prefix and power; false: it is none of ours.
+// One unit with its prefix and power; false: neither a length nor a voltage.
 bool take_unit(std::string_view& text, SiUnit& unit) {
   std::string_view word = take_word(text);
   const bool per = word == "per";

@@ -47,10 +47,10 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
   std::vector<std::shared_ptr<C>> connections;
 
  protected:
-  // Of the one that is next. The time after it.
+  // To the connection that is next; returns the time after its turn.
   virtual Clock::time_point give_turn(Clock::time_point now) = 0;
   virtual bool awaits_turn() const = 0;
-  virtual void wake_due() = 0;  // whoever has a value that is due
+  virtual void wake_due() = 0;  // the connections that have a value to send now
   virtual std::chrono::milliseconds least_limit() const = 0;
 
   void close_all() {

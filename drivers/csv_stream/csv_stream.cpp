@@ -44,7 +44,13 @@ DeviceInfo CsvStream::info() const {
   if (!protocol_ || !protocol_->header()) return info;
   info.channels = protocol_->header()->channels;
   info.simulated = protocol_->header()->says_simulated();
+  if (clock()) info.clock = clock_.state();
   return info;
+}
+
+const DeviceClock* CsvStream::clock() const {
+  const bool own_times = protocol_ && protocol_->header() && protocol_->header()->time_column >= 0;
+  return own_times ? &clock_ : nullptr;
 }
 
 Notices CsvStream::notices() const {
@@ -185,7 +191,7 @@ Status CsvStream::fetch(milliseconds timeout) {
   Status status = protocol_->give(received, rows);
   if (rows.empty()) return status;
   last_row_ns_ = received_ns;
-  if (protocol_->header()->time_column >= 0) MDOF_CHECK(check_pace(rows, received_ns));
+  if (clock()) MDOF_CHECK(check_pace(rows, received_ns));
   take(rows, received_ns);
   return status;
 }
@@ -207,7 +213,7 @@ tl::unexpected<Error> CsvStream::ended(const Error& why) {
 }
 
 void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
-  const bool own_times = protocol_->header()->time_column >= 0;
+  const bool own_times = clock() != nullptr;
   if (own_times) take_device_times(rows, received_ns);
   const bool old = !own_times && last_received_ns_ > 0 && rows.size() > 1 &&
                    received_ns - last_received_ns_ > kTogether_ns;

@@ -41,7 +41,8 @@ class CsvStream final : public Driver {
  public:
   CsvStream(std::string name, CsvStreamOptions options);
 
-  DeviceInfo info() const override;  // channels after open()
+  DeviceInfo info() const override;           // channels after open()
+  const DeviceClock* clock() const override;  // of rows that carry time_s
   // Waits up to options.start for the header.
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;

@@ -55,6 +55,26 @@ TEST(CsvStream, RowsOfATcpServerWithItsOwnTimes) {
   EXPECT_LT(std::abs(monotonic_ns() - all.time_ns.back()), 5'000'000'000);
 }
 
+// The reader of the device marks what comes late as suspect: it asks the clock at each block.
+TEST(CsvStream, RowsThatComeLateMakeItsClockDoubtful) {
+  CsvStream stream("probe", command("printf 'time_s,A_um\\n5.00,1\\n'; sleep 0.5; "
+                                    "printf '5.01,2\\n'; sleep 60"));
+  EXPECT_EQ(stream.clock(), nullptr);  // no header yet
+  ASSERT_TRUE(stream.open());
+  ASSERT_NE(stream.clock(), nullptr);
+  ASSERT_EQ(collect(stream, 1).scans.size(), 1u);
+  EXPECT_FALSE(stream.clock()->doubtful());
+  ASSERT_EQ(collect(stream, 1).scans.size(), 1u);
+  EXPECT_TRUE(stream.clock()->doubtful());
+  ASSERT_TRUE(stream.info().clock);
+  EXPECT_GT(stream.info().clock->late_ns, 100'000'000);
+
+  CsvStream without("probe", command("printf 'A_um\\n1\\n'; sleep 60"));
+  ASSERT_TRUE(without.open());
+  EXPECT_EQ(without.clock(), nullptr);
+  EXPECT_FALSE(without.info().clock);
+}
+
 TEST(CsvStream, APositionInVoltsNeedsTheScaleOfTheRig) {
   SimulatedCsvStream device(counts, {.columns = {"encoder_V", "A_um"}});
   const ServedDevice served(device);

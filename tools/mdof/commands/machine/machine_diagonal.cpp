@@ -5,6 +5,7 @@
 
 #include "algo/machine/diagonal.h"
 #include "drivers/csv/csv_table.h"
+#include "schema/squareness.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/machine/machine_file.h"
@@ -154,6 +155,10 @@ Result<algo::DiagonalLines> lines_of(const drivers::CsvTable& csv, double u_um) 
   return lines;
 }
 
+AxisPair axes_of(const std::string& plane) {
+  return {*axis_from(plane.substr(0, 1)), *axis_from(plane.substr(1))};
+}
+
 const char* covers_of(const MachineDiagonalCommand& o) {
   return o.u_um > 0 ? "repeatability and the declared u of each line" : "repeatability only";
 }
@@ -161,15 +166,17 @@ const char* covers_of(const MachineDiagonalCommand& o) {
 std::string squareness_json(const MachineDiagonalCommand& o, const algo::SquarenessOfDiagonals& s,
                             bool simulated) {
   JsonWriter json;
+  const AxisPair axes = axes_of(o.plane);
   json.begin_object()
-      .field("angle_error_urad", to_urad(s.angle_error_rad))
-      .field("u_angle_error_urad", to_urad(s.u_rad))
+      .field("error", squareness_name(axes))
+      .field("error_urad", squareness_sign(axes) * to_urad(s.angle_error_rad))
+      .field("u_urad", to_urad(s.u_rad))
       .field("u_repeat_urad", to_urad(s.u_repeat_rad))
       .field("U_urad", to_urad(s.U_rad))
       .field("k", s.k)
       .field("nu_eff", s.freedom)
       .field("diagonals", s.two_diagonals ? 2 : 1)
-      .field("sense", "the angle from the first to the second axis is 90 deg + angle_error")
+      .field("sense", squareness_sense(axes, " deg"))
       .field("u_covers", covers_of(o))
       .field("noise_only", !(o.u_um > 0))
       .field("simulated", simulated)
@@ -183,12 +190,14 @@ Status squareness(const MachineDiagonalCommand& o) {
   auto s = algo::squareness_of_diagonals(lines);
   if (!s) return in_context(csv.source, std::move(s.error()));
   if (o.json) return write_line(squareness_json(o, *s, csv.simulated));
+  const AxisPair axes = axes_of(o.plane);
   return write_out(
-      noise_only_notice(!(o.u_um > 0)) + simulated_notice(csv.simulated) +
-      "the angle from the first to the second axis is 90° + " +
-      with_u(urad_to_place(s->angle_error_rad, s->U_rad), urad_to_place(s->u_rad, s->u_rad)) +
-      " µrad, U = " + urad_to_place(s->U_rad, s->U_rad) + " (k = " + fixed(s->k, 2) +
-      ", 95 %)\nfrom " +
+      noise_only_notice(!(o.u_um > 0)) + simulated_notice(csv.simulated) + squareness_name(axes) +
+      " = " +
+      with_u(urad_to_place(squareness_sign(axes) * s->angle_error_rad, s->U_rad),
+             urad_to_place(s->u_rad, s->u_rad)) +
+      " µrad, U = " + urad_to_place(s->U_rad, s->U_rad) + " (k = " + fixed(s->k, 2) + ", 95 %)\n" +
+      squareness_sense(axes, "°") + "\nfrom " +
       (s->two_diagonals ? "both diagonals" : "one diagonal and the lengths of both axes") +
       "; u contains repeatability (" + urad_to_place(s->u_repeat_rad, s->u_repeat_rad) + " µrad)" +
       (o.u_um > 0 ? " and the declared u of each line" : " only (no u of the lines is declared)") +
@@ -215,7 +224,7 @@ Action declare_machine_diagonal(CLI::App& command) {
           "other diagonal), length_mm, deviation_um; repeated measurements are further rows")
       ->required()
       ->type_name("");
-  command.add_option("--plane", o->plane, "The two axes (with MACHINE.toml)")
+  command.add_option("--plane", o->plane, "The first and the second axis")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}))
       ->capture_default_str();
   command.add_option("--steps", o->steps, "Number of steps along each predicted diagonal")

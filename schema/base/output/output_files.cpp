@@ -4,6 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -31,6 +33,34 @@ bool is_direct(const struct stat& status) {
   return S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode) || S_ISSOCK(status.st_mode);
 }
 
+// The first bytes of a regular file; empty: it has none, or cannot be read.
+std::string beginning(const fs::path& path) {
+  std::array<char, 4096> bytes;
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return {};
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const ssize_t n = descriptor < 0 ? 0 : ::read(descriptor, bytes.data(), bytes.size());
+  if (descriptor >= 0) ::close(descriptor);
+  return {bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0))};
+}
+
+// Databases, their logs, recordings and compressed files have control characters early.
+bool is_text(std::string_view bytes) {
+  return std::none_of(bytes.begin(), bytes.end(), [](char c) {
+    return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r';
+  });
+}
+
+bool is_markup(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && text[first] == '<';
+}
+
+tl::unexpected<Error> not_replaced(const fs::path& path, const std::string& why) {
+  return fail(ErrorCode::usage, path.string() + ": is not replaced, because this file " + why +
+                                    "; give another file, or delete this one first");
+}
+
 // Of the file that is there; none: there is none. Error: it must not be replaced.
 Result<std::optional<struct stat>> existing_file(const fs::path& path, Existing existing) {
   struct stat itself {
@@ -49,6 +79,8 @@ Result<std::optional<struct stat>> existing_file(const fs::path& path, Existing 
   if (!S_ISREG(itself.st_mode))
     return io_error(path.string() +
                     ": cannot be written, because it is not a regular file; give another file");
+  if (!is_text(beginning(path)))
+    return not_replaced(path, "is not text: it may be a database, a recording or a log");
   return itself;
 }
 
@@ -170,6 +202,9 @@ Error OutputFiles::undone(Error error) {
 Status write_file(const fs::path& path, std::string_view text, Existing existing) {
   OutputFiles files(existing);
   MDOF_TRY(const std::size_t file, files.add(path));
+  const std::string before = beginning(path);
+  if (!before.empty() && is_markup(text) != is_markup(before))
+    return not_replaced(path, "holds something of another kind");
   MDOF_CHECK(files.write(file, text));
   return files.publish();
 }

@@ -12,6 +12,7 @@
 
 namespace mdof {
 
+// replace: a text; what is no text (a database, a recording, a compressed log) is never replaced.
 enum class Existing { refuse, replace };
 
 // Written to temporary files in the same folders, then flushed to the disk and renamed. A symbolic
@@ -46,6 +47,7 @@ class OutputFiles {
   std::vector<File> files_;
 };
 
+// As a set of one. HTML and XML do not replace what is neither, nor the other way round: usage.
 Status write_file(const std::filesystem::path& path, std::string_view text, Existing existing);
 
 }  // namespace mdof

@@ -78,6 +78,29 @@ TEST_F(Output, IsRefusedWhereAFileIsThere) {
 }
 
 // Also one that came after the look.
+TEST_F(Output, ADatabaseALogOrARecordingIsNotReplaced) {
+  using namespace std::string_literals;
+  const Files valuable = {{"database", "SQLite format 3\0 and pages"s},
+                          {"write-ahead log", "\x37\x7f\x06\x82\0\x2d\xe2\x18"s},
+                          {"log.gz", "\x1f\x8b\x08\0\0"s},
+                          {"chain.head", "{\"entries\": 12}\n"},
+                          {"log.csv", "time_s,encoder_mm\n0,1\n"}};
+  for (const auto& [name, text] : valuable) {
+    make(name, text);
+    const Status written = write_file(folder_ / name, "<html>", Existing::replace);
+    ASSERT_FALSE(written) << name;
+    EXPECT_EQ(written.error().code, ErrorCode::usage);
+    EXPECT_NE(written.error().message.find(folder_ / name), std::string::npos);
+  }
+  OutputFiles files(Existing::replace);
+  EXPECT_FALSE(files.add(folder_ / "database"));
+  EXPECT_EQ(found(), valuable);
+  make("report", "\n<html>");
+  EXPECT_FALSE(write_file(folder_ / "report", "a,b\n", Existing::replace));
+  EXPECT_TRUE(write_file(folder_ / "report", "<!DOCTYPE html>\ttab\r\n", Existing::replace));
+  EXPECT_TRUE(write_file(folder_ / "log.csv", "\xc2\xb5m,b\n", Existing::replace));
+}
+
 TEST_F(Output, AFileThatCameMeanwhileIsNotReplaced) {
   OutputFiles files(Existing::refuse);
   ASSERT_TRUE(files.add(folder_ / "a") && files.add(folder_ / "b"));

@@ -9,6 +9,7 @@
 #include "schema/base/output/output_files.h"
 #include "schema/rig/rig.h"
 #include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/results/chosen_run.h"
 #include "tools/mdof/csv/log_csv.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -144,13 +145,42 @@ Status export_document(ExportCommand& command) {
   return write_line(command.out);
 }
 
-Status export_samples(ExportCommand& command) {
+// A run as mdof show has it: points as CSV, the whole run as JSON.
+Status export_run(const ExportCommand& command) {
+  const std::string& source = command.sources.front();
+  if (const std::string why = run_word_error(source); !why.empty())
+    return fail(ErrorCode::usage, "--format " + command.format + " takes a run: " + why);
+  if (!command.request.set.empty() || !command.request.tolerances.empty())
+    return fail(ErrorCode::usage, "--set and --tolerance are for --format dcc and qif");
+  ChosenRun choice;
+  choice.axis = command.request.axis;
+  choice.reference = command.request.reference;
+  choice.database = command.request.database;
+  choice.run = source;
+  choice.out = command.out;
+  choice.csv = command.format == "csv";
+  choice.json = !choice.csv;
+  return show_run(choice);
+}
+
+Status export_samples_or_run(ExportCommand& command) {
   if (command.sources.size() != 1)
     return fail(ErrorCode::usage,
-                "csv export takes exactly one recording (FILE.mdofrec); to export runs, give "
-                "--format dcc or --format qif");
+                "--format csv and json take exactly one recording (FILE.mdofrec, csv) or one run; "
+                "to export several runs, give --format dcc or --format qif");
+  if (command.format == "json" || run_word_error(command.sources.front()).empty())
+    return export_run(command);
+  if (!command.out.empty())
+    return fail(ErrorCode::usage,
+                "--out is for runs; give --csv OUT.csv for the samples of a "
+                "recording");
   command.recording = command.sources.front();
   return export_recording(command);
+}
+
+Status export_as_asked(ExportCommand& command) {
+  const bool is_document = command.format == "dcc" || command.format == "qif";
+  return is_document ? export_document(command) : export_samples_or_run(command);
 }
 
 Action declare_export(CLI::App& command) {
@@ -158,18 +188,21 @@ Action declare_export(CLI::App& command) {
   command
       .add_option(
           "SOURCE", o->sources,
-          "Recording FILE.mdofrec; with --format dcc or qif: numbers of runs, or \"latest\"")
+          "Recording FILE.mdofrec, or number of a run; with --format dcc or qif: of one or more "
+          "runs; \"latest\"")
       ->required()
       ->type_name("");
   command
-      .add_option("--format", o->format,
-                  "csv: samples of a recording; dcc (Digital Calibration Certificate 3.3.0) or qif "
-                  "(QIF 3.0): results of runs [csv]")
-      ->check(CLI::IsMember({"csv", "dcc", "qif"}))
-      ->type_name("TEXT:{csv,dcc,qif}");
+      .add_option(
+          "--format", o->format,
+          "csv: samples of a recording, or points of a run; json: a run, whole; dcc (Digital "
+          "Calibration Certificate 3.3.0) or qif (QIF 3.0): results of runs [csv]")
+      ->check(CLI::IsMember({"csv", "json", "dcc", "qif"}))
+      ->type_name("TEXT:{csv,json,dcc,qif}");
   auto* out = command
                   .add_option("--out", o->out,
-                              "Document file to write (dcc, qif); an existing file is replaced")
+                              "File to write for runs (csv, json: default standard output); an "
+                              "existing file is replaced")
                   ->type_name("FILE");
   add_report_options(command, o->request);
   command
@@ -181,7 +214,7 @@ Action declare_export(CLI::App& command) {
       .add_option("--rig", o->rig, "Write the rig of the recording to this file, for mdof replay")
       ->type_name("RIG.toml")
       ->excludes(out);
-  return [o] { return o->format == "csv" ? export_samples(*o) : export_document(*o); };
+  return [o] { return export_as_asked(*o); };
 }
 
 }  // namespace
@@ -189,7 +222,7 @@ Action declare_export(CLI::App& command) {
 Command export_command() {
   return {
       .name = "export",
-      .summary = "Write samples of a recording as CSV, or results of runs as DCC or QIF",
+      .summary = "Write samples of a recording as CSV, or runs as CSV, JSON, DCC or QIF",
       .footer =
           "A document is a test report; it states that it is not a calibration certificate of an\n"
           "accredited laboratory. Missing entries read \"not stated\". A DCC needs the country "
@@ -198,6 +231,7 @@ Command export_command() {
           "Examples:\n"
           "  mdof export run-12.mdofrec --csv log_X.csv --rig rig_X.toml\n"
           "  mdof replay log_X.csv --rig rig_X.toml --no-store\n"
+          "  mdof export 1 --format json --out run.json\n"
           "  mdof export 1 2 --format dcc --out axes.xml --set country=DE --set date=2026-11-20",
       .declare = declare_export};
 }

@@ -56,8 +56,7 @@ Status analyse(const ChosenRun& choice) {
   MDOF_CHECK(check_measured(run.header, "an analysis"));
   if (choice.csv) {
     const StatedFigures stated = daemon::figure_budgets(run);
-    return write_csv_of(run, are_noise_only(stated.budgets), figures_csv(run, stated),
-                        choice.all_warnings);
+    return write_csv_of(run, are_noise_only(stated.budgets), figures_csv(run, stated), choice);
   }
   if (choice.json) {
     MDOF_TRY(const Rig rig, daemon::rig_of(run.header));

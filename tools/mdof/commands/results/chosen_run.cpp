@@ -4,6 +4,7 @@
 
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
+#include "schema/base/output/output_files.h"
 #include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -29,10 +30,12 @@ Result<Run> load_run(store::Store& store, const ChosenRun& choice) {
   return daemon::run_stated_at(store, id, reference);
 }
 
-Status write_csv_of(const Run& run, bool noise_only, const std::string& csv, bool all_warnings) {
+Status write_csv_of(const Run& run, bool noise_only, const std::string& csv,
+                    const ChosenRun& choice) {
   if (run.header.simulated) warn("simulated data: no machine was measured");
-  show_notices(run.header.notices, all_warnings);
-  return write_out(noise_only_comment(noise_only) + csv_marks(daemon::marks_of(run)) + csv);
+  show_notices(run.header.notices, choice.all_warnings);
+  const std::string text = noise_only_comment(noise_only) + csv_marks(daemon::marks_of(run)) + csv;
+  return choice.out.empty() ? write_out(text) : write_file(choice.out, text, Existing::replace);
 }
 
 }  // namespace mdof::tools

@@ -13,6 +13,7 @@ namespace mdof::tools {
 struct ChosenRun {
   std::string database, run, axis, reference = "fixture";
   bool csv = false, json = false, all_warnings = false;
+  std::string out;  // file to write; empty: standard output
 };
 
 void add_chosen_run(CLI::App& command, ChosenRun& choice);
@@ -22,6 +23,10 @@ Result<Run> load_run(store::Store& store, const ChosenRun& choice);
 
 // A table of bare numbers, with what people must know of them: lines "# SIMULATED", "# DOUBTFUL"
 // before it, so that the file says it wherever it goes, and notices.
-Status write_csv_of(const Run& run, bool noise_only, const std::string& csv, bool all_warnings);
+Status write_csv_of(const Run& run, bool noise_only, const std::string& csv,
+                    const ChosenRun& choice);
+
+// The run whole, as mdof show and mdof export write it.
+Status show_run(const ChosenRun& choice);
 
 }  // namespace mdof::tools

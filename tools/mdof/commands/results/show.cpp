@@ -3,6 +3,7 @@
 
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
+#include "schema/base/output/output_files.h"
 #include "schema/imported/series.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/results/chosen_run.h"
@@ -18,31 +19,37 @@
 namespace mdof::tools {
 namespace {
 
+Status write_json(const ChosenRun& choice, const std::string& json) {
+  return choice.out.empty() ? write_line(json)
+                            : write_file(choice.out, json + "\n", Existing::replace);
+}
+
 Status show_imported(store::Store& store, const Run& run, const ChosenRun& choice) {
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
-  if (choice.csv) return write_csv_of(run, false, imported_csv(run), choice.all_warnings);
-  if (choice.json) return write_line(imported_json(run, sha256, actions));
+  if (choice.csv) return write_csv_of(run, false, imported_csv(run), choice);
+  if (choice.json) return write_json(choice, imported_json(run, sha256, actions));
   const std::size_t width = terminal_columns();
   return write_out(imported_text(run, sha256, width, choice.all_warnings) +
                    history_text(actions, width));
 }
 
-Status show(const ChosenRun& choice) {
+}  // namespace
+
+Status show_run(const ChosenRun& choice) {
   MDOF_TRY(store::Store store, open_to_read(choice.database));
   MDOF_TRY(const Run run, load_run(store, choice));
   if (is_imported(run.header)) return show_imported(store, run, choice);
   if (choice.csv) {
     const RunUncertainty uncertainty = daemon::uncertainty_of(run);
-    return write_csv_of(run, uncertainty.noise_only, points_csv(run, uncertainty),
-                        choice.all_warnings);
+    return write_csv_of(run, uncertainty.noise_only, points_csv(run, uncertainty), choice);
   }
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
   if (choice.json) {
     const daemon::StatedRun stated = daemon::stated_run(run);
-    return write_line(
-        daemon::run_document({run, run.header, stated.points, stated.figures}, sha256, actions));
+    return write_json(choice, daemon::run_document({run, run.header, stated.points, stated.figures},
+                                                   sha256, actions));
   }
   const std::size_t width = terminal_columns();
   MDOF_TRY(const auto by, store.superseded_by(run.header.id));
@@ -54,10 +61,12 @@ Status show(const ChosenRun& choice) {
                    (drift.empty() ? "" : "\n" + drift) + history_text(actions, width));
 }
 
+namespace {
+
 Action declare_show(CLI::App& command) {
   const auto choice = std::make_shared<ChosenRun>();
   add_chosen_run(command, *choice);
-  return [choice] { return show(*choice); };
+  return [choice] { return show_run(*choice); };
 }
 
 }  // namespace

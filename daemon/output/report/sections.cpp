@@ -82,7 +82,8 @@ void write_conditions(Html& html, const ReportRun& run, Language language) {
   std::string state = output::state_text(h.state, language);
   if (run.superseded_by)
     state += ", " + phrase(Phrase::superseded, language, {std::to_string(*run.superseded_by)});
-  html.facts({{of(Phrase::started), h.started_utc},
+  const bool is_evaluation = h.provenance.recording_kind == "csv";  // nobody knows when it began
+  html.facts({{of(is_evaluation ? Phrase::evaluated : Phrase::started), h.started_utc},
               {of(Phrase::state), state},
               {of(Phrase::temperature), temperature_of(h, language)},
               {of(Phrase::model), h.provenance.model},

@@ -4,6 +4,7 @@ import {ask, covers, field, fixed, h, notices, problem, select, setText} from ".
 import * as live from "./live.js";
 import * as machine from "./machine.js";
 import {call, pages} from "./rpc.js";
+import {kResumable} from "./run_detail.js";
 
 const number = (form, key) => form.get(key) === "" || form.get(key) === null ? undefined : Number(form.get(key));
 
@@ -34,7 +35,7 @@ class Wizard {
     this.wrong = h("div", {});
     const input = (name, value, extra = {}) => h("input", {name, type: "number", step: "any", value, ...extra});
     this.even = h("div", {class: "fields"},
-      field("From/mm", input("from_mm", 0)), field("To/mm", input("to_mm", 30)), field("Interval/mm", input("interval_mm", 5)),
+      field("From/mm", input("from_mm", 0)), field("To/mm", input("to_mm", 30)), field("Interval/mm", input("interval_mm", 10)),
       field("Jitter/mm", input("jitter_mm", 0, {min: 0}), "largest random shift of a target, so that no periodic error stays hidden"),
       field("Seed of the jitter", input("seed", 1, {min: 0, step: 1})));
     this.list = field("Targets/mm", h("textarea", {name: "targets_mm", rows: 2}), "in ascending order, separated by spaces");
@@ -101,6 +102,9 @@ class Progress {
       const page = await pages("run.points", {run: this.run}, "points");
       this.points = page.points;
       this.draw(page);
+      // A daemon that was restarted tells of no end.
+      const {state} = await call("run.get", {run: this.run});
+      if (state !== "open" && !this.over) this.ended({state, run: this.run});
     } catch (error) {
       if (this.points.length === 0) this.end.replaceChildren(problem(error));
     }
@@ -147,7 +151,8 @@ class Progress {
     this.over = true;
     this.buttons.hidden = this.bar.hidden = this.now.hidden = true;
     setText(this.where, `Run ${run} has ended: ${state}`);
-    this.end.replaceChildren(h("p", {}, h("a", {class: "button", href: `#runs/${run}`}, `Show run ${run}`)));
+    this.end.replaceChildren(h("p", {}, h("a", {class: "button", href: `#runs/${run}`}, `Show run ${run}`),
+      kResumable.includes(state) ? " It can be resumed there." : null));
   }
   async stop(abort) {
     if (abort && !await ask(`Abort run ${this.run}?`, h("p", {},

@@ -37,7 +37,7 @@ export const isConnected = () => connected && performance.now() - saidAt < 5 * k
 
 function open() {
   const source = new EventSource(`/events?topics=${kTopics.join(",")}&interval_ms=${kInterval_ms}`);
-  let before = false;  // was it open once?
+  let before = saidAt > -Infinity;  // was it open once, here or in the tab that had it?
   source.onopen = () => {
     send("connected", true);
     if (before) send("gap");

@@ -100,6 +100,8 @@ function partners(run, runs) {
     pick("Squareness with", of((r) => r.axis !== run.axis && r.simulated === run.simulated), "square"));
 }
 
+export const kResumable = ["partial", "aborted"];
+
 async function resume(run, place) {
   try {
     await call("run.resume", {run});
@@ -121,7 +123,7 @@ export function openRun(place, id) {
     const wrong = h("div", {});
     body.replaceChildren(h("h2", {}, `Run ${run.run}, axis ${run.axis}`),
       h("div", {class: "columns"}, head(run), h("div", {}, partners(run, runs),
-        run.state === "open" || run.state === "aborted" ? h("p", {}, h("button", {onclick: () => resume(id, wrong)}, "Resume (continue as a new run)")) : null, wrong,
+        kResumable.includes(run.state) ? h("p", {}, h("button", {onclick: () => resume(id, wrong)}, "Resume (continue as a new run)")) : null, wrong,
         covers(run))), notices([...run.notices, ...run.notes]) ?? "",
       h("h2", {}, "Five errors"), charts.element,
       h("p", {class: "quiet"}, "Errors are actual − nominal. Blue solid line: forward; orange dashed line: reverse. The charts show the newest four passes. Bands: ± U (95 %)."), pointsTable(points),

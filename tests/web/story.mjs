@@ -146,6 +146,18 @@ async function restart(page) {
   step("goes on after the restart");
 }
 
+// mdofd ends while it measures: the run has ended, and the page says so, whatever it missed; it can be resumed.
+async function killedWhileItMeasures(page) {
+  await page.getByRole("link", {name: "Capture"}).click();
+  await page.getByRole("button", {name: "Start the run"}).click();
+  await page.waitForFunction(() => /Now at/.test(document.querySelector(".capture").innerText));
+  await daemon.end("SIGKILL");
+  await daemon.start();
+  await page.waitForFunction(() => /Run \d+ has ended: aborted/.test(document.querySelector(".capture").innerText));
+  await page.getByRole("link", {name: /Show run/}).first().click();
+  await page.getByRole("button", {name: /^Resume/}).waitFor();
+}
+
 let browser;
 try {
   await daemon.start();
@@ -164,6 +176,8 @@ try {
   step("its table is active");
   await restart(page);
   await controlCharts(page, run);
+  await killedWhileItMeasures(page);
+  step("a run that mdofd left has ended");
   assert.deepEqual(errors, []);
 } finally {
   await browser?.close();

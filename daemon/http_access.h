@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::daemon {
 

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "schema/base/compiled_for.h"
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {

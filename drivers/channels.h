@@ -9,7 +9,7 @@
 
 #include "drivers/driver.h"
 #include "schema/base/result.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/rig/rig.h"
 #include "schema/sample.h"
 

@@ -10,7 +10,7 @@
 #include "drivers/linux_node.h"
 #include "drivers/simulated_wiring.h"
 #include "schema/base/result.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::drivers {
 

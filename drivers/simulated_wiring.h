@@ -11,7 +11,7 @@
 
 #include "drivers/simulated_device.h"
 #include "schema/base/result.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/rig/rig.h"
 
 namespace mdof::drivers {

@@ -9,7 +9,7 @@
 
 #include "schema/axis.h"
 #include "schema/notice/notice.h"
-#include "schema/plausibility.h"
+#include "schema/plausibility/plausibility.h"
 #include "schema/point.h"
 #include "schema/rig/reference.h"
 

@@ -5,7 +5,7 @@
 
 #include "schema/imported/series.h"
 #include "schema/iso230/figures_json.h"
-#include "schema/plausibility_json.h"
+#include "schema/plausibility/plausibility_json.h"
 #include "schema/rig/correction.h"
 #include "schema/uncertainty/budget_json.h"
 #include "schema/units.h"

@@ -3,11 +3,11 @@
 
 #include "schema/base/json_writer.h"
 #include "schema/compensation_table.h"
+#include "schema/iso230/squareness.h"
 #include "schema/notice/notice.h"
 #include "schema/notice/notice_json.h"
-#include "schema/plausibility_json.h"
+#include "schema/plausibility/plausibility_json.h"
 #include "schema/run.h"
-#include "schema/squareness.h"
 #include "schema/uncertainty/budget.h"
 #include "schema/uncertainty/run_uncertainty.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "schema/base/number/number_text.h"
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

@@ -4,10 +4,10 @@
 #include <optional>
 
 #include "schema/base/result.h"
+#include "schema/iso230/squareness.h"
 #include "schema/rig/reference.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
-#include "schema/squareness.h"
 
 namespace mdof::algo {
 

@@ -3,8 +3,8 @@
 
 #include "schema/base/result.h"
 #include "schema/iso230/reference_lines.h"
+#include "schema/iso230/squareness.h"
 #include "schema/run.h"
-#include "schema/squareness.h"
 
 namespace mdof::algo {
 

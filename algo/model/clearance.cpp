@@ -5,7 +5,7 @@
 
 #include "algo/model/fixture.h"
 #include "schema/base/number/number_text.h"
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/units.h"
 
 namespace mdof::algo {

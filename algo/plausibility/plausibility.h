@@ -9,7 +9,7 @@
 #include "algo/points/dwell.h"
 #include "algo/sequence/sequence.h"
 #include "schema/notice/notice.h"
-#include "schema/plausibility.h"
+#include "schema/plausibility/plausibility.h"
 #include "schema/rig/rig.h"
 
 namespace mdof::algo {

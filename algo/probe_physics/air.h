@@ -1,7 +1,7 @@
 // The permittivity of air, in which a capacitance probe looks at its target.
 #pragma once
 
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 
 namespace mdof::algo {
 

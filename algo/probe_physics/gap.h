@@ -10,7 +10,7 @@
 
 #include "algo/model/fixture.h"
 #include "schema/axis.h"
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 
 namespace mdof::algo {
 

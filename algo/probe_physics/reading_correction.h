@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "algo/model/solver.h"
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/rig/rig.h"
 
 namespace mdof::algo {

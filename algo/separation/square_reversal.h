@@ -1,6 +1,6 @@
 // Squareness by reversal: the same two axes against the same square in two set-ups, the square
 // turned over in between, so that its angle error goes in with the other sign. With m the
-// squareness by the slopes alone and c the corner (schema/squareness.h)
+// squareness by the slopes alone and c the corner (schema/iso230/squareness.h)
 //   EC0Y = m1 + c1 α = m2 + c2 α, c2 = -c1:   EC0Y = (m1 + m2)/2,   α = c1 (m2 - m1)/2
 #pragma once
 

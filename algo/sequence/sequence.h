@@ -7,7 +7,7 @@
 #include "algo/sequence/sequence_cycle.h"
 #include "schema/base/result.h"
 #include "schema/notice/notice.h"
-#include "schema/plausibility.h"
+#include "schema/plausibility/plausibility.h"
 #include "schema/point.h"
 
 namespace mdof::algo {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "algo/sequence/sequence.h"
-#include "schema/plausibility.h"
+#include "schema/plausibility/plausibility.h"
 #include "schema/point.h"
 
 namespace mdof::algo {

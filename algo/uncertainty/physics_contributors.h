@@ -1,5 +1,5 @@
-// What a rig declares of its probes' physics (schema/rig/physics.h), as contributors: of what is
-// corrected its uncertainty, of what is known and not corrected the whole of it.
+// What a rig declares of its probes' physics (schema/rig/effects/physics.h), as contributors: of
+// what is corrected its uncertainty, of what is known and not corrected the whole of it.
 #pragma once
 
 #include <vector>

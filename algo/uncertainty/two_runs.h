@@ -6,16 +6,17 @@
 #include "algo/iso230/squareness.h"
 #include "algo/uncertainty/budget.h"
 #include "schema/base/result.h"
+#include "schema/iso230/squareness.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
-#include "schema/squareness.h"
 
 namespace mdof::algo {
 
 // EC0Y = -slope(EXY) - slope(EYX) + α (Fig. 6), with a run along Z EB0Z or EA0Z as
-// schema/squareness.h has them, of budgets of the two runs at the fixture. What goes with a probe
-// and the surface of a plane that both rigs have (Contributor::common_as) are common to both runs
-// and add with their signs; all else that the rigs declare is taken as independent between them.
+// schema/iso230/squareness.h has them, of budgets of the two runs at the fixture. What goes with a
+// probe and the surface of a plane that both rigs have (Contributor::common_as) are common to both
+// runs and add with their signs; all else that the rigs declare is taken as independent between
+// them.
 Result<Budget> squareness_budget(const Rig& rig_a, const Run& run_a, const Rig& rig_b,
                                  const Run& run_b, const SquareArtefact& artefact,
                                  const TrialsRequest& request = {});

@@ -15,7 +15,7 @@
 #include "drivers/calibration.h"
 #include "drivers/registry.h"
 #include "schema/base/files.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {

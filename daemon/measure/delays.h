@@ -7,7 +7,7 @@
 #include <string>
 
 #include "daemon/measure/pipeline.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/rig/rig.h"
 
 namespace mdof::daemon {

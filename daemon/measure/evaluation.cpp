@@ -18,7 +18,7 @@
 #include "daemon/paths.h"
 #include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/imported/series.h"
 #include "schema/iso230/iso230_json.h"
 

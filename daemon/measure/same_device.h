@@ -14,7 +14,7 @@
 
 #include "daemon/measure/config.h"
 #include "drivers/channels.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::daemon {
 

@@ -13,7 +13,7 @@
 #include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_page.h"
-#include "schema/plausibility_json.h"
+#include "schema/plausibility/plausibility_json.h"
 #include "schema/run_json.h"
 #include "schema/targets.h"
 #include "schema/uncertainty/budget_json.h"

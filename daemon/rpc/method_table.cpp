@@ -4,7 +4,7 @@
 #include <cassert>
 
 #include "schema/base/json_page.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::rpc {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "daemon/rpc/message.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::rpc {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
-#include "schema/base/sqlite.h"
+#include "schema/base/sqlite/sqlite.h"
 
 namespace mdof::store {
 

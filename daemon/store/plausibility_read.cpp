@@ -1,6 +1,6 @@
 // Store: a run's plausibility, read back from the JSON in which it is stored.
 #include "daemon/store/store.h"
-#include "schema/plausibility_json.h"
+#include "schema/plausibility/plausibility_json.h"
 
 namespace mdof::store {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "schema/base/result.h"
-#include "schema/base/sqlite.h"
+#include "schema/base/sqlite/sqlite.h"
 #include "schema/recording/recording.h"
 #include "schema/sample.h"
 

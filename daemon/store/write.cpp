@@ -9,7 +9,7 @@
 #include "schema/base/json_writer.h"
 #include "schema/base/sha256.h"
 #include "schema/notice/notice_json.h"
-#include "schema/plausibility_json.h"
+#include "schema/plausibility/plausibility_json.h"
 
 namespace mdof::store {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::drivers::labjack {
 

@@ -6,7 +6,7 @@
 
 #include "drivers/channels.h"
 #include "schema/base/result.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::drivers::labjack {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "drivers/driver_spec.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::drivers {
 

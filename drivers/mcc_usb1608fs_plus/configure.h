@@ -3,7 +3,7 @@
 
 #include "drivers/driver_spec.h"
 #include "drivers/mcc_usb1608fs_plus/settings.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::drivers {
 

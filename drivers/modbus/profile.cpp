@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "schema/base/files.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::drivers::modbus {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "drivers/driver.h"
 #include "schema/base/progress.h"
-#include "schema/base/sqlite.h"
+#include "schema/base/sqlite/sqlite.h"
 #include "schema/notice/notice.h"
 #include "schema/recording/recording.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/rig/rig.h"
 
 namespace mdof::drivers {

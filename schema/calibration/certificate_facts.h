@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/calibration/record.h"
 
 namespace mdof {

@@ -7,7 +7,7 @@
 #include "schema/iso230/parallelism.h"
 #include "schema/iso230/positioning.h"
 #include "schema/iso230/reference_lines.h"
-#include "schema/squareness.h"
+#include "schema/iso230/squareness.h"
 
 namespace mdof {
 

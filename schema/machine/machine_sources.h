@@ -1,7 +1,7 @@
 // [[source]] of MACHINE.toml (README.md).
 #pragma once
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/machine/machine.h"
 
 namespace mdof {

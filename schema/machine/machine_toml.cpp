@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/machine/machine.h"
 #include "schema/machine/machine_sources.h"
 #include "schema/units.h"

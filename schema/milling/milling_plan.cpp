@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "schema/base/number/number_text.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof {
 namespace {

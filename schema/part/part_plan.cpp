@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/units.h"
 
 namespace mdof {

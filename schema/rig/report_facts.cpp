@@ -5,7 +5,7 @@
 #include <chrono>
 #include <system_error>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof {
 namespace {

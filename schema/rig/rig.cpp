@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "schema/base/files.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/rig/calibrated.h"
 #include "schema/rig/check/rig_check.h"
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/rig/scan.h"
 #include "schema/units.h"
 

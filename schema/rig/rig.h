@@ -15,7 +15,7 @@
 #include "schema/calibration/record.h"
 #include "schema/notice/notice.h"
 #include "schema/rig/chain.h"
-#include "schema/rig/expansion.h"
+#include "schema/rig/effects/expansion.h"
 #include "schema/rig/report_facts.h"
 #include "schema/rig/uncertainty.h"
 
@@ -73,7 +73,7 @@ struct TargetPlane {
   double flatness_length_m = 0.03;
 };
 
-struct RigPhysics;  // schema/rig/physics.h
+struct RigPhysics;  // schema/rig/effects/physics.h
 
 struct Rig {
   std::string name;

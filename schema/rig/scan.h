@@ -16,7 +16,7 @@
 
 #include "schema/axis.h"
 #include "schema/base/result.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "schema/axis.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof {
 

@@ -1,6 +1,6 @@
 -- What a run looks like as a whole: what was visited how often, what was left out, what encoder and
 -- probes did. For people; no part of the result and of its hash. One JSON object a run, as
--- schema/plausibility_json.h writes it; runs stored before this step have none.
+-- schema/plausibility/plausibility_json.h writes it; runs stored before this step have none.
 CREATE TABLE run_plausibility (
   run INTEGER PRIMARY KEY REFERENCES run (id),
   json TEXT NOT NULL

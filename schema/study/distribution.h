@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/study/plan.h"
 
 namespace mdof {

@@ -5,7 +5,7 @@
 
 #include "schema/axis.h"
 #include "schema/base/files.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/study/plan_parts.h"
 
 namespace mdof {

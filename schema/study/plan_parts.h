@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/study/plan.h"
 
 namespace mdof::plan_parts {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "schema/axis.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof {
 namespace {

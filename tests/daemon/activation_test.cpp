@@ -6,7 +6,7 @@
 
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
-#include "schema/base/sqlite.h"
+#include "schema/base/sqlite/sqlite.h"
 
 namespace mdof::daemon {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "drivers/simulated_device.h"
 #include "schema/base/result.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/rig/rig.h"
 #include "tools/mdof_simulate/sensed.h"
 

@@ -3,7 +3,7 @@
 #include "daemon/measure/forward_model.h"
 #include "drivers/simulator/options.h"
 #include "schema/base/files.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "tools/mdof_simulate/kinds.h"
 
 namespace mdof::simulate {

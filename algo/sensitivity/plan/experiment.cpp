@@ -107,9 +107,10 @@ Result<std::unique_ptr<ScalableExperiment>> PlanExperiment::create(const StudyPl
   return std::unique_ptr<ScalableExperiment>(std::move(e));
 }
 
-// The error of EC0Y = -slope(EXY) - slope(EYX) + corner * artefact (schema/squareness.h), with
-// corner = -1: that of a fixture which is turned from X to Y with the axis. The slopes are measured
-// against the true artefact and corrected by the stated angle, so its error adds to that of EC0Y.
+// The error of EC0Y = -slope(EXY) - slope(EYX) + corner * artefact (schema/iso230/squareness.h),
+// with corner = -1: that of a fixture which is turned from X to Y with the axis. The slopes are
+// measured against the true artefact and corrected by the stated angle, so its error adds to that
+// of EC0Y.
 double PlanExperiment::squareness_error(const AxisReadings& x, const AxisReadings& y, std::size_t j,
                                         Series& series) const {
   double error = x.square_rad[j];

@@ -1,4 +1,5 @@
-// What temperature makes of scale, fixture and target (schema/rig/expansion.h), as contributors.
+// What temperature makes of scale, fixture and target (schema/rig/effects/expansion.h), as
+// contributors.
 //
 // The scale is longer by a part of the travel. The places of all probes move away from M's origin
 // by the same part of their distance. A target whose temperature has the slope g bends: a place r

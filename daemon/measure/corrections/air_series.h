@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/sample.h"
 
 namespace mdof::daemon {

@@ -1,5 +1,6 @@
-// What a rig says of its probes' physics (schema/rig/physics.h), applied to the points of a run:
-// after they were averaged, before they are solved. A rig that says nothing leaves all as it is.
+// What a rig says of its probes' physics (schema/rig/effects/physics.h), applied to the points of a
+// run: after they were averaged, before they are solved. A rig that says nothing leaves all as it
+// is.
 #pragma once
 
 #include <array>

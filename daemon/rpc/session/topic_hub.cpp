@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "daemon/rpc/message.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::rpc {
 namespace {

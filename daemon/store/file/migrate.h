@@ -4,7 +4,7 @@
 #include <span>
 
 #include "schema/base/result.h"
-#include "schema/base/sqlite.h"
+#include "schema/base/sqlite/sqlite.h"
 #include "schema/sql/sql.h"
 
 namespace mdof::store {

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/units.h"
 
 namespace mdof {

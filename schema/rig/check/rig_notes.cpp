@@ -1,7 +1,7 @@
 #include "schema/rig/check/rig_notes.h"
 
 #include "schema/rig/calibrated.h"
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/rig/rig.h"
 
 namespace mdof {

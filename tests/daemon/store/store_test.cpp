@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "daemon/store/result_hash.h"
-#include "schema/plausibility_json.h"
+#include "schema/plausibility/plausibility_json.h"
 #include "schema/sample.h"
 #include "tests/daemon/store/fixtures.h"
 #include "tests/shown.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "schema/base/sqlite.h"
+#include "schema/base/sqlite/sqlite.h"
 
 namespace mdof::sqlite {
 namespace {

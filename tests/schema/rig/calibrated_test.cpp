@@ -10,7 +10,7 @@
 
 #include "schema/calibration/certificate_facts.h"
 #include "schema/rig/check/rig_notes.h"
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 #include "tests/algo/rigs.h"
 #include "tests/shown.h"
 

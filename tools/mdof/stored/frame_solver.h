@@ -41,7 +41,7 @@ class FrameSolver {
   std::uint64_t without_reading() const { return without_reading_; }
   std::uint64_t unsolved() const { return unsolved_; }
   const std::string& why_unsolved() const { return why_unsolved_; }  // of the first such row
-  // What was corrected (schema/rig/physics.h), and by how much at most; one sentence each.
+  // What was corrected (schema/rig/effects/physics.h), and by how much at most; one sentence each.
   Notices correction_notices() const;
   // Height maps of the rig that end before the rows do.
   Notices map_notices(const Rig& rig) const;

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "schema/base/json_writer.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::tools {
 namespace {

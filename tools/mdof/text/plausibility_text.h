@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "schema/plausibility.h"
+#include "schema/plausibility/plausibility.h"
 
 namespace mdof::tools {
 

@@ -11,8 +11,8 @@
 #include "daemon/output/phrases.h"
 #include "schema/compensation_table.h"
 #include "schema/iso230/reference_lines.h"
+#include "schema/iso230/squareness.h"
 #include "schema/run.h"
-#include "schema/squareness.h"
 #include "schema/uncertainty/budget.h"
 #include "schema/uncertainty/run_uncertainty.h"
 

@@ -8,7 +8,7 @@
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number.h"
 #include "schema/base/sha256.h"
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "tools/mdof/study/preset.h"
 #include "tools/mdof/study/running/run_experiment.h"
 

@@ -1,4 +1,4 @@
-#include "schema/base/sqlite.h"
+#include "schema/base/sqlite/sqlite.h"
 
 #include <sqlite3.h>
 #include <unistd.h>

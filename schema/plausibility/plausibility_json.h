@@ -7,7 +7,7 @@
 
 #include "schema/base/json_writer.h"
 #include "schema/base/result.h"
-#include "schema/plausibility.h"
+#include "schema/plausibility/plausibility.h"
 
 namespace mdof {
 

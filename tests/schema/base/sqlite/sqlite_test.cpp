@@ -1,4 +1,4 @@
-#include "schema/base/sqlite.h"
+#include "schema/base/sqlite/sqlite.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

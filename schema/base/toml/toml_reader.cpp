@@ -1,4 +1,4 @@
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 #include <toml++/toml.h>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include "schema/base/toml_depth.h"
+#include "schema/base/toml/toml_depth.h"
 
 namespace mdof {
 

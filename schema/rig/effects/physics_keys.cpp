@@ -1,7 +1,7 @@
 // What a rig leaves open of its probes' physics, by the names of its keys.
 #include <algorithm>
 
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/rig/rig.h"
 
 namespace mdof {

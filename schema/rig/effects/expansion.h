@@ -15,7 +15,7 @@
 
 #include <cmath>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/rig/uncertainty.h"
 
 namespace mdof {

@@ -1,7 +1,7 @@
 // Several readers of one table: each knows some of its keys.
 #include <gtest/gtest.h>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "schema/plausibility_json.h"
+#include "schema/plausibility/plausibility_json.h"
 #include "schema/units.h"
 
 namespace mdof {

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 #include "schema/rig/uncertainty.h"
 
 namespace mdof {

@@ -1,4 +1,4 @@
-#include "schema/squareness.h"
+#include "schema/iso230/squareness.h"
 
 namespace mdof {
 

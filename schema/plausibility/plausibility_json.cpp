@@ -1,4 +1,4 @@
-#include "schema/plausibility_json.h"
+#include "schema/plausibility/plausibility_json.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "schema/base/toml_depth.h"
+#include "schema/base/toml/toml_depth.h"
 
 #include <algorithm>
 #include <vector>

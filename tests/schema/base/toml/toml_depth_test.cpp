@@ -1,8 +1,8 @@
-#include "schema/base/toml_depth.h"
+#include "schema/base/toml/toml_depth.h"
 
 #include <gtest/gtest.h>
 
-#include "schema/base/toml_reader.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof {
 namespace {

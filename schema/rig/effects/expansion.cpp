@@ -1,4 +1,4 @@
-#include "schema/rig/expansion.h"
+#include "schema/rig/effects/expansion.h"
 
 #include <string>
 

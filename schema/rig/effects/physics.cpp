@@ -1,4 +1,4 @@
-#include "schema/rig/physics.h"
+#include "schema/rig/effects/physics.h"
 
 #include <algorithm>
 #include <cmath>

@@ -31,7 +31,7 @@ struct DriverRow {
   std::optional<LinuxNode> node = std::nullopt;           // none: on a network, a file, a script
   std::optional<SimulatedKind> simulated = std::nullopt;  // none: it needs the kernel, or no device
   // Why `index_mm` of an encoder is refused; null: the driver knows for certain that its mark was
-  // passed (index_mark.h).
+  // passed (counter/index_mark.h).
   const char* no_index = "this device has no counter and detects no reference mark";
 };
 const std::vector<DriverRow>& driver_rows();  // by name

@@ -6,7 +6,7 @@
 #include "drivers/calibration.h"
 #include "drivers/csv_stream/csv_stream.h"
 #include "drivers/io/device_lock.h"
-#include "drivers/serial_settings.h"
+#include "drivers/io/serial_settings.h"
 
 namespace mdof::drivers {
 namespace {

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
+#include "drivers/counter/unwrap.h"
 #include "drivers/labjack/count_guard.h"
-#include "drivers/unwrap.h"
 
 namespace mdof::drivers::labjack {
 

@@ -16,12 +16,12 @@
 #include <vector>
 
 #include "drivers/clock/device_clock.h"
+#include "drivers/counter/unwrap.h"
 #include "drivers/driver.h"
 #include "drivers/io/byte_stream.h"
 #include "drivers/labjack/counter.h"
 #include "drivers/labjack_t7/registers.h"
 #include "drivers/labjack_t7/settings.h"
-#include "drivers/unwrap.h"
 
 namespace mdof::drivers::labjack_t7 {
 

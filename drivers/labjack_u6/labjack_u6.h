@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "drivers/clock/device_clock.h"
+#include "drivers/counter/unwrap.h"
 #include "drivers/driver.h"
 #include "drivers/labjack/count_guard.h"
 #include "drivers/labjack_u6/settings.h"
-#include "drivers/unwrap.h"
 
 namespace mdof::drivers::labjack_u6 {
 

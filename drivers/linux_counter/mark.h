@@ -7,7 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "drivers/index_mark.h"
+#include "drivers/counter/index_mark.h"
 #include "schema/base/result.h"
 
 namespace mdof::drivers {

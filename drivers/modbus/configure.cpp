@@ -2,8 +2,8 @@
 
 #include "drivers/channels.h"
 #include "drivers/io/device_lock.h"
+#include "drivers/io/serial_settings.h"
 #include "drivers/modbus/modbus_driver.h"
-#include "drivers/serial_settings.h"
 
 namespace mdof::drivers {
 namespace {

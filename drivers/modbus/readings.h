@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "drivers/counter/unwrap.h"
 #include "drivers/modbus/profile.h"
-#include "drivers/unwrap.h"
 #include "schema/sample.h"
 
 namespace mdof::drivers::modbus {

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "drivers/counter/unwrap.h"
 #include "drivers/driver.h"
 #include "drivers/io/hid.h"
 #include "drivers/pokeys57u/protocol.h"
-#include "drivers/unwrap.h"
 
 namespace mdof::drivers::pokeys57u {
 

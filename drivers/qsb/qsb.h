@@ -11,12 +11,12 @@
 
 #include "drivers/channels.h"
 #include "drivers/clock/device_clock.h"
+#include "drivers/counter/index_mark.h"
+#include "drivers/counter/unwrap.h"
 #include "drivers/driver.h"
-#include "drivers/index_mark.h"
 #include "drivers/io/byte_stream.h"
 #include "drivers/qsb/protocol.h"
 #include "drivers/qsb/tick_length.h"
-#include "drivers/unwrap.h"
 
 namespace mdof::drivers {
 
@@ -38,9 +38,9 @@ struct QsbOptions {
 // meanwhile its datum is lost: from then on its values are Quality::suspect, until it is
 // trusted again, or its reference mark was passed where it has one.
 //
-// The index loads the count with a number of ours (index_mark.h) in the midst of the stream. It is
-// switched off once the mark was passed: what the count loses later shows, and is not put right in
-// silence in the midst of a run.
+// The index loads the count with a number of ours (counter/index_mark.h) in the midst of the
+// stream. It is switched off once the mark was passed: what the count loses later shows, and is not
+// put right in silence in the midst of a run.
 class Qsb final : public Driver {
  public:
   static constexpr int kMalformedAllowed = 10;  // in a row

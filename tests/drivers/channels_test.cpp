@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "drivers/counter/unwrap.h"
 #include "drivers/registry.h"
-#include "drivers/unwrap.h"
 
 namespace mdof::drivers {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "drivers/clock/device_clock.h"
-#include "drivers/unwrap.h"
+#include "drivers/counter/unwrap.h"
 
 namespace mdof::drivers {
 namespace {

@@ -1,4 +1,4 @@
-#include "drivers/serial_settings.h"
+#include "drivers/io/serial_settings.h"
 
 namespace mdof::drivers {
 

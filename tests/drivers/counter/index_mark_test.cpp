@@ -1,9 +1,9 @@
 // Whether a reference mark was passed, told from counts alone.
-#include "drivers/index_mark.h"
+#include "drivers/counter/index_mark.h"
 
 #include <gtest/gtest.h>
 
-#include "drivers/unwrap.h"
+#include "drivers/counter/unwrap.h"
 
 namespace mdof::drivers {
 namespace {

@@ -1,4 +1,4 @@
-#include "drivers/locked_driver.h"
+#include "drivers/io/locked_driver.h"
 
 #include <optional>
 #include <utility>

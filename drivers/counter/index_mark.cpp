@@ -1,4 +1,4 @@
-#include "drivers/index_mark.h"
+#include "drivers/counter/index_mark.h"
 
 #include <cstdlib>
 

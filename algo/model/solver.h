@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "algo/model/fixture.h"
-#include "algo/model/small_angle.h"
+#include "algo/model/small_angle/small_angle.h"
 #include "algo/model/visibility.h"
 #include "schema/point.h"
 #include "schema/rig/rig.h"

@@ -22,8 +22,8 @@ struct VisitStep {
 // Of each probe the likeliest single step, where it is six times what the readings scatter without
 // it and explains them e¹⁰ times better than any smooth change, a polynomial of order 6 over time:
 // a drift, or noise that lasts, is none. A place is a target with its approach; those that are
-// visited once show nothing. Smaller ones than what a dwell shows (probe_watch.h) are found; those
-// that it found are left out.
+// visited once show nothing. Smaller ones than what a dwell shows (probe/probe_watch.h) are found;
+// those that it found are left out.
 std::vector<VisitStep> visit_steps(const Rig& rig, const std::vector<MeasuredPoint>& points);
 
 // None: nothing looks wrong.

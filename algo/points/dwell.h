@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "algo/plausibility/encoder_jump.h"
+#include "algo/plausibility/encoder/encoder_jump.h"
+#include "algo/plausibility/encoder/place_watch.h"
 #include "algo/plausibility/noise_floor.h"
-#include "algo/plausibility/place_watch.h"
-#include "algo/plausibility/probe_watch.h"
+#include "algo/plausibility/probe/probe_watch.h"
 #include "algo/plausibility/resolution.h"
 #include "algo/plausibility/slow_stretch.h"
 #include "algo/points/dwell_event.h"

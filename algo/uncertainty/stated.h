@@ -2,7 +2,7 @@
 // contributors, which are dear.
 #pragma once
 
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "algo/uncertainty/run_uncertainty.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/store/store.h"
 #include "schema/base/result.h"

@@ -11,7 +11,7 @@
 #include "algo/iso230/straightness.h"
 #include "algo/model/restate.h"
 #include "algo/sequence/usable_runs.h"
-#include "algo/uncertainty/two_runs.h"
+#include "algo/uncertainty/budget/two_runs.h"
 #include "daemon/history.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/measure/machine/volumetric.h"

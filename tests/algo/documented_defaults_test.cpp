@@ -7,12 +7,12 @@
 
 #include "algo/compensation/compensation.h"
 #include "algo/compensation/table_limits.h"
-#include "algo/compensation/volumetric.h"
+#include "algo/compensation/volumetric/volumetric.h"
 #include "algo/form/cutting.h"
 #include "algo/form/registration.h"
 #include "algo/form/spiral_path.h"
-#include "algo/machine/circle.h"
-#include "algo/machine/diagonal.h"
+#include "algo/machine/geometric_tests/circle.h"
+#include "algo/machine/geometric_tests/diagonal.h"
 #include "algo/machine/plane_map.h"
 #include "algo/on_the_fly/target_grid.h"
 #include "algo/part/part_error.h"
@@ -24,7 +24,7 @@
 #include "algo/sensitivity/statistics/statistics.h"
 #include "algo/separation/separate.h"
 #include "algo/sequence/sequence.h"
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 
 namespace mdof::algo {
 namespace {

@@ -15,7 +15,7 @@
 #include "algo/form/spiral_path.h"
 #include "algo/form/turn_spectrum.h"
 #include "algo/iso230/line_fit.h"
-#include "algo/machine/perpendicularity.h"
+#include "algo/machine/geometric_tests/perpendicularity.h"
 #include "algo/on_the_fly/bin_fit.h"
 #include "algo/on_the_fly/reading_lag.h"
 #include "algo/plausibility/noise_floor.h"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "algo/model/small_angle.h"
+#include "algo/model/small_angle/small_angle.h"
 #include "schema/rig/rig.h"
 
 namespace {

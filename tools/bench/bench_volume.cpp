@@ -5,7 +5,7 @@
 #include <ctime>
 #include <string>
 
-#include "algo/compensation/volumetric.h"
+#include "algo/compensation/volumetric/volumetric.h"
 
 namespace {
 

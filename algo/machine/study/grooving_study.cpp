@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "algo/compensation/volumetric.h"
+#include "algo/compensation/volumetric/volumetric.h"
 #include "algo/iso230/line_fit.h"
 #include "schema/base/random.h"
 

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "algo/machine/diagonal.h"
-#include "algo/machine/perpendicularity.h"
+#include "algo/machine/geometric_tests/diagonal.h"
+#include "algo/machine/geometric_tests/perpendicularity.h"
 #include "schema/base/result.h"
 #include "schema/volumetric/volumetric_table.h"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "algo/model/small_angle.h"
+#include "algo/model/small_angle/small_angle.h"
 #include "algo/sensitivity/random.h"
 #include "schema/base/instruction_set.h"
 

@@ -1,7 +1,7 @@
 // One vector of trials of the paper's simulations. SI inside.
 #pragma once
 
-#include "algo/model/small_angle_kernel.h"
+#include "algo/model/small_angle/small_angle_kernel.h"
 #include "algo/sensitivity/kernels/circle_kernel.h"
 #include "algo/sensitivity/kernels/kernels.h"
 #include "algo/sensitivity/kernels/random_kernel.h"

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "schema/base/result.h"
 #include "schema/iso230/positioning.h"
 #include "schema/rig/rig.h"

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "algo/uncertainty/budget_draws.h"
-#include "algo/uncertainty/figures.h"
+#include "algo/uncertainty/budget/budget_draws.h"
+#include "algo/uncertainty/budget/figures.h"
 #include "algo/uncertainty/statistics/repeatability.h"
 
 namespace mdof::algo {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "algo/compensation/volumetric.h"
+#include "algo/compensation/volumetric/volumetric.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/store/store.h"
 #include "schema/machine/machine.h"

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/words/error_text.h"
 #include "schema/imported/series.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algo/compensation/volumetric.h"
+#include "algo/compensation/volumetric/volumetric.h"
 #include "daemon/output/controllers/check.h"
 
 namespace mdof::controllers {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algo/compensation/separable.h"
+#include "algo/compensation/volumetric/separable.h"
 #include "daemon/output/controllers/series.h"
 #include "daemon/output/controllers/siemens_steps.h"
 #include "daemon/output/controllers/text_lines.h"

@@ -16,7 +16,7 @@
 #include "algo/compensation/declared_uncertainty.h"
 #include "algo/drift/run_drift.h"
 #include "algo/model/restate.h"
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "algo/uncertainty/run_uncertainty.h"
 #include "tests/algo/rigs.h"
 

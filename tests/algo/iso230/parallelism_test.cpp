@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "algo/iso230/run_readings.h"
+#include "algo/iso230/positioning/run_readings.h"
 #include "algo/sequence/usable_runs.h"
 
 namespace mdof::algo {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "algo/machine/perpendicularity.h"
+#include "algo/machine/geometric_tests/perpendicularity.h"
 #include "algo/machine/tilt_drive.h"
 #include "tests/algo/no_pattern.h"
 

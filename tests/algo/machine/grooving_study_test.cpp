@@ -9,7 +9,7 @@
 #include <functional>
 #include <numbers>
 
-#include "algo/compensation/volumetric.h"
+#include "algo/compensation/volumetric/volumetric.h"
 
 namespace mdof::algo {
 namespace {

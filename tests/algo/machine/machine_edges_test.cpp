@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "algo/machine/circle.h"
 #include "algo/machine/compensating.h"
-#include "algo/machine/diagonal.h"
+#include "algo/machine/geometric_tests/circle.h"
+#include "algo/machine/geometric_tests/diagonal.h"
 #include "algo/machine/plane_map.h"
 
 namespace mdof::algo {

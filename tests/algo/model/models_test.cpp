@@ -8,7 +8,7 @@
 #include <random>
 
 #include "algo/model/rigid.h"
-#include "algo/model/small_angle.h"
+#include "algo/model/small_angle/small_angle.h"
 #include "algo/model/small_rotation.h"
 #include "algo/model/solver.h"
 #include "tests/algo/rigs.h"

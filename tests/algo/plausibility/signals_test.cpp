@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "algo/plausibility/encoder_jump.h"
+#include "algo/plausibility/encoder/encoder_jump.h"
 #include "algo/plausibility/plausibility.h"
 #include "schema/sample.h"
 #include "tests/shown.h"

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <functional>
 
-#include "algo/model/small_angle.h"
+#include "algo/model/small_angle/small_angle.h"
 #include "algo/sensitivity/plan/mounting.h"
 #include "tests/algo/sensitivity/plan_text.h"
 

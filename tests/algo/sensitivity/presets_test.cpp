@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "algo/model/small_angle.h"
+#include "algo/model/small_angle/small_angle.h"
 #include "algo/sensitivity/random.h"
 #include "algo/sensitivity/simulation.h"
 #include "algo/sensitivity/statistics/statistics.h"

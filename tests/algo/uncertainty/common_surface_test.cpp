@@ -5,8 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "algo/uncertainty/budget/two_runs.h"
 #include "algo/uncertainty/statistics/plane_footprints.h"
-#include "algo/uncertainty/two_runs.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/drawn_surface.h"
 #include "tests/algo/uncertainty/faulty_fixture.h"

@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "algo/uncertainty/two_runs.h"
+#include "algo/uncertainty/budget/two_runs.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
 

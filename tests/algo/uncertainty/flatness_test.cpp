@@ -9,7 +9,7 @@
 #include <cmath>
 #include <random>
 
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "algo/uncertainty/run_uncertainty.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/drawn_surface.h"

@@ -9,7 +9,7 @@
 
 #include "algo/compensation/compensation.h"
 #include "algo/sequence/uneven_visits.h"
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "algo/uncertainty/statistics/range_interval.h"
 #include "algo/uncertainty/statistics/run_shifts.h"
 #include "tests/algo/rigs.h"

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "algo/sensitivity/random.h"
-#include "algo/uncertainty/budget_draws.h"
+#include "algo/uncertainty/budget/budget_draws.h"
 #include "algo/uncertainty/point_sensitivity.h"
 #include "algo/uncertainty/statistics/target_noise.h"
 #include "schema/base/random.h"

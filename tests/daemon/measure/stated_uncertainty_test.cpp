@@ -9,9 +9,9 @@
 
 #include "algo/compensation/declared_uncertainty.h"
 #include "algo/model/restate.h"
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
+#include "algo/uncertainty/budget/two_runs.h"
 #include "algo/uncertainty/run_uncertainty.h"
-#include "algo/uncertainty/two_runs.h"
 #include "daemon/measure/pipeline.h"
 #include "tests/algo/compensation/table_lever.h"
 #include "tests/algo/uncertainty/faulty_fixture.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "algo/iso230/positioning.h"
-#include "algo/iso230/run_readings.h"
+#include "algo/iso230/positioning/positioning.h"
+#include "algo/iso230/positioning/run_readings.h"
 #include "algo/sequence/usable_runs.h"
 #include "algo/uncertainty/positioning/positioning_budgets.h"
 #include "daemon/measure/evaluation.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"
 

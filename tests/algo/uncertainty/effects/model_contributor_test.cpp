@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "algo/uncertainty/run_uncertainty.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/synthetic_run.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "algo/machine/circle.h"
+#include "algo/machine/geometric_tests/circle.h"
 #include "drivers/csv/csv_table.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "algo/machine/diagonal.h"
+#include "algo/machine/geometric_tests/diagonal.h"
 #include "drivers/csv/csv_table.h"
 #include "schema/squareness.h"
 #include "schema/units.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "algo/machine/perpendicularity.h"
+#include "algo/machine/geometric_tests/perpendicularity.h"
 #include "drivers/csv/csv_table.h"
 #include "schema/base/json_writer.h"
 #include "schema/sample.h"

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "algo/iso230/positioning.h"
-#include "algo/iso230/positioning_uncertainty.h"
+#include "algo/iso230/positioning/positioning.h"
+#include "algo/iso230/positioning/positioning_uncertainty.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/words/words.h"
 #include "drivers/csv/positioning_csv.h"

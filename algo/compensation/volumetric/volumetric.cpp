@@ -1,0 +1,264 @@
+#include "algo/compensation/volumetric/volumetric.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "algo/compensation/volumetric/volumetric_noise.h"
+#include "algo/machine/compensating.h"
+#include "algo/machine/plane_map.h"
+#include "schema/base/number/number_text.h"
+#include "schema/sample.h"
+#include "schema/units.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::string_view kAxes = "XYZ";
+// A command that is this near to the grid is in it: a number in mm is rounded.
+constexpr double kSamePlace_m = 1e-9;
+
+std::string name_of(std::size_t axis) {
+  return std::string(1, kAxes[axis]);
+}
+
+Result<std::vector<double>> commands_along(const Machine& machine, std::size_t axis,
+                                           double step_m) {
+  const MachineFrame* frame = machine.find(name_of(axis));
+  if (!frame)
+    return bad_input("the chain " + machine.chain.text + " has no axis " + name_of(axis) +
+                     "; name only axes of this chain");
+  MDOF_TRY(const auto range, range_of(*frame));
+  // A step of 0 is refused here as well.
+  if (!((range[1] - range[0]) / step_m < static_cast<double>(kMostVolumetricCommands) - 1))
+    return bad_input("axis " + name_of(axis) + ": " + plain_number(to_mm(range[1] - range[0]), 6) +
+                     " mm in steps of " + plain_number(to_mm(step_m), 6) + " mm give more than " +
+                     std::to_string(kMostVolumetricCommands) + " nodes; take a larger step");
+  return steps_over(range, step_m);
+}
+
+Status set_grid(VolumetricTable& table, const Machine& machine, const VolumetricRequest& request) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (request.along[k]) {
+      MDOF_TRY(table.command_m[k], commands_along(machine, k, request.step_m));
+    } else {
+      table.command_m[k] = {request.others[k]};
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) table.rotary_rad[k] = request.others[3 + k];
+  if (table.nodes() <= kMostVolumetricNodes) return {};
+  return bad_input("the grid has " + std::to_string(table.nodes()) + " nodes (limit " +
+                   std::to_string(kMostVolumetricNodes) + "); take a larger step");
+}
+
+std::string place_text(const Vec3& command_m) {
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k)
+    text += (k ? " " : "") + name_of(k) + " " + plain_number(to_mm(command_m[k]), 6);
+  return text + " mm";
+}
+
+// The machine at one place: the correction, and what else the table says of it.
+class CorrectedPlace {
+ public:
+  static Result<CorrectedPlace> at(const Machine& machine, const VolumetricRequest& request,
+                                   const Vec3& command_m) {
+    CorrectedPlace p;
+    p.command_ = request.others;
+    std::copy(command_m.begin(), command_m.end(), p.command_.begin());
+    MDOF_TRY(p.found_, compensating_command(machine, p.command_, request.approach));
+    if (p.found_.converged) return p;
+    return bad_input("at " + place_text(command_m) +
+                     ": the errors change too steeply to be compensated by any command; check the "
+                     "units of the tables");
+  }
+  Vec3 correction_m() const {
+    Vec3 c{};
+    for (std::size_t k = 0; k < 3; ++k) c[k] = found_.command[k] - command_[k];
+    return c;
+  }
+  const Command& command() const { return command_; }
+  const CompensatingCommand& found() const { return found_; }
+
+ private:
+  Command command_{};
+  CompensatingCommand found_;
+};
+
+// Whether noise is known apart, axis by axis.
+bool has_parts(const VolumetricTable& table) {
+  return std::any_of(table.noise.begin(), table.noise.end(),
+                     [](const auto& axis) { return !axis.empty(); });
+}
+
+Vec3 u_independent(const VolumetricTable& table, std::size_t node) {
+  const std::size_t nx = table.command_m[0].size(), ny = table.command_m[1].size();
+  Vec3 u = noise_variance(table, {{{node % nx}, {node / nx % ny}, {node / (nx * ny)}}},
+                          table.command_at(node));
+  for (double& of : u) of = std::sqrt(of);
+  return u;
+}
+
+Status add_node(VolumetricTable& table, const Machine& machine, const VolumetricRequest& request,
+                std::size_t node) {
+  MDOF_TRY(const CorrectedPlace place,
+           CorrectedPlace::at(machine, request, table.command_at(node)));
+  const ToolError error = tool_error(machine, place.command(), request.approach);
+  table.correction_m.push_back(place.correction_m());
+  table.u_m.push_back({error.u[0], error.u[1], error.u[2]});
+  if (has_parts(table)) table.u_independent_m.push_back(u_independent(table, node));
+  table.place_left_m = std::max(table.place_left_m, place.found().residual_m.norm());
+  table.turn_left_rad = std::max(table.turn_left_rad, place.found().angles_rad.norm());
+  for (std::size_t k = 0; k < 3; ++k) {
+    add_new(error.not_measured[k], table.not_measured);
+    add_new(error.no_u[k], table.u_not_declared);
+  }
+  add_new(error.beyond, table.beyond_tables);
+  return {};
+}
+
+// Half a cell further along each axis of `half`; false: there is no cell.
+bool half_a_cell(const VolumetricTable& table, std::size_t node, unsigned half, Vec3& command_m) {
+  command_m = table.command_at(node);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!(half >> k & 1U)) continue;
+    const auto& all = table.command_m[k];
+    const auto here = std::lower_bound(all.begin(), all.end(), command_m[k]);
+    if (std::next(here) == all.end()) return false;
+    command_m[k] = (*here + *std::next(here)) / 2;
+  }
+  return true;
+}
+
+Status find_interpolation(VolumetricTable& table, const Machine& machine,
+                          const VolumetricRequest& request) {
+  Vec3 middle{};
+  for (std::size_t node = 0; node < table.nodes(); ++node) {
+    for (unsigned half = 1; half < 8; ++half) {
+      if (!half_a_cell(table, node, half, middle)) continue;
+      MDOF_TRY(const CorrectedPlace place, CorrectedPlace::at(machine, request, middle));
+      const Vec3 there = place.correction_m(), straight = volumetric_at(table, middle).correction_m;
+      for (std::size_t k = 0; k < 3; ++k)
+        table.interpolation_m[k] =
+            std::max(table.interpolation_m[k], std::abs(there[k] - straight[k]));
+    }
+  }
+  return {};
+}
+
+// Along each line of nodes that goes along an axis.
+Status check_lines(const VolumetricTable& table, std::size_t axis, const TableLimits& limits) {
+  const auto& commands = table.command_m[axis];
+  for (std::size_t node = 0; node < table.nodes(); ++node) {
+    const Vec3 from = table.command_at(node);
+    if (from[axis] != commands.front()) continue;
+    const std::size_t stride = axis == 0   ? 1
+                               : axis == 1 ? table.command_m[0].size()
+                                           : table.command_m[0].size() * table.command_m[1].size();
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::vector<double> values;
+      for (std::size_t i = 0; i < commands.size(); ++i)
+        values.push_back(table.correction_m[node + i * stride][k]);
+      MDOF_CHECK(check_limits("the correction of " + name_of(k) + " along " + name_of(axis) +
+                                  " from " + place_text(from),
+                              false, commands, values, limits));
+    }
+  }
+  return {};
+}
+
+Status check_measured(const VolumetricTable& table, const VolumetricRequest& request) {
+  if (table.not_measured.empty() || request.incomplete) return {};
+  std::string names;
+  for (const std::string& name : table.not_measured) names += (names.empty() ? "" : ", ") + name;
+  return bad_input("the table would not correct errors that were not measured: " + names +
+                       "; add these errors to the machine file, with the value 0 where an error is "
+                       "known to be 0",
+                   Remedy::allow_incomplete);
+}
+
+GridCell cell_of(const std::vector<double>& commands, double command) {
+  const double low = commands.front(), high = commands.back();
+  if (command <= low) return {0, 0, command > low - kSamePlace_m};
+  const bool inside = command < high + kSamePlace_m;
+  if (command >= high) return {commands.size() - 1, 0, inside};
+  const auto next = std::upper_bound(commands.begin(), commands.end(), command);
+  const auto index = static_cast<std::size_t>(next - commands.begin()) - 1;
+  return {index, (command - commands[index]) / (commands[index + 1] - commands[index]), true};
+}
+
+// u and its parts, from u_common_m. Of a table whose parts are not known, that is the whole.
+void set_u(const VolumetricTable& table, const std::array<GridCell, 3>& cell, const Vec3& command_m,
+           VolumetricValue& value) {
+  value.u_m = value.u_common_m;
+  if (!has_parts(table)) {
+    value.u_common_m = value.u_independent_m = {kNaN, kNaN, kNaN};
+    return;
+  }
+  const Vec3 variance = noise_variance(table, cell, command_m);
+  for (std::size_t k = 0; k < 3; ++k) {
+    value.u_independent_m[k] = std::sqrt(variance[k]);
+    value.u_m[k] = std::hypot(value.u_common_m[k], value.u_independent_m[k]);
+  }
+}
+
+}  // namespace
+
+Result<VolumetricTable> build_volumetric(const Machine& machine, const VolumetricRequest& request) {
+  VolumetricTable table;
+  table.name = machine.name;
+  table.machine = machine.chain;
+  table.simulated = machine.simulated;
+  table.noise_only = machine.noise_only;
+  table.approach = request.approach == MachineApproach::forward   ? "forward"
+                   : request.approach == MachineApproach::reverse ? "reverse"
+                                                                  : "mean";
+  table.tool_m = machine.tool_m;
+  MDOF_CHECK(set_grid(table, machine, request));
+  set_noise_of_axes(table, machine, request.others, request.approach);
+  for (std::size_t node = 0; node < table.nodes(); ++node)
+    MDOF_CHECK(add_node(table, machine, request, node));
+  MDOF_CHECK(check_measured(table, request));
+  MDOF_CHECK(check_limits(table, request.limits));
+  MDOF_CHECK(find_interpolation(table, machine, request));
+  return table;
+}
+
+Status check_limits(const VolumetricTable& table, const TableLimits& limits) {
+  for (std::size_t axis = 0; axis < 3; ++axis) MDOF_CHECK(check_lines(table, axis, limits));
+  return {};
+}
+
+VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m) {
+  std::array<GridCell, 3> cell;
+  VolumetricValue value;
+  bool at_a_node = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    cell[k] = cell_of(table.command_m[k], command_m[k]);
+    value.inside = value.inside && cell[k].inside;
+    at_a_node = at_a_node && cell[k].part == 0;
+  }
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    double weight = 1;
+    std::array<std::size_t, 3> index{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool next = corner >> k & 1U;
+      weight *= next ? cell[k].part : 1 - cell[k].part;
+      index[k] = cell[k].index + (next ? 1 : 0);
+    }
+    if (weight == 0) continue;  // of a last node there is no next
+    const std::size_t node = table.node(index[0], index[1], index[2]);
+    const Vec3 common = has_parts(table) ? table.u_common_at(node) : table.u_m[node];
+    for (std::size_t k = 0; k < 3; ++k) {
+      value.correction_m[k] += weight * table.correction_m[node][k];
+      value.u_common_m[k] += weight * common[k];
+    }
+  }
+  for (std::size_t k = 0; k < 3 && !at_a_node; ++k)
+    value.u_common_m[k] =
+        std::hypot(value.u_common_m[k], table.interpolation_m[k] / std::numbers::sqrt3);
+  set_u(table, cell, command_m, value);
+  return value;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,64 @@
+#include "algo/plausibility/encoder/encoder_jump.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kReach = 5;  // rows before and after
+constexpr double kGreatest_m_s2 = 10;
+
+double middle(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+// In m a scan, of four rows: the middle one of their three steps, so that neither a jump between
+// two of them nor a spike of one counts.
+double speed_from(std::span<const double> x, std::size_t first) {
+  return middle(x[first + 1] - x[first], x[first + 2] - x[first + 1], x[first + 3] - x[first + 2]);
+}
+
+// Voted by its neighbours, each brought here at the speed of the axis: a spike of one scan is no
+// jump, and a jump keeps its size whichever way the axis moves.
+double voted(std::span<const double> x, std::size_t i, double speed) {
+  return middle(x[i - 1] + speed, x[i], x[i + 1] - speed);
+}
+
+struct Step {
+  double size = 0, speed_change = 0;  // m, m per scan
+};
+
+// The step from i - 1 to i that is left when the axis goes on as before and after.
+Step step_at(std::span<const double> x, std::size_t i) {
+  const double speed_before = speed_from(x, i - 4), speed_after = speed_from(x, i);
+  const double last = voted(x, i - 1, speed_before), next = voted(x, i, speed_after);
+  const double before = (last - voted(x, i - 4, speed_before)) / 3;
+  const double after = (voted(x, i + 3, speed_after) - next) / 3;
+  return {next - last - 0.5 * (before + after), after - before};
+}
+
+}  // namespace
+
+std::optional<EncoderJump> find_jump(std::span<const std::int64_t> time_ns,
+                                     std::span<const double> encoder_m, std::size_t first,
+                                     std::size_t last, std::int64_t period_ns, double least_m) {
+  std::optional<EncoderJump> largest;
+  const double period_s = 1e-9 * static_cast<double>(period_ns);
+  for (std::size_t i = std::max(first, kReach + 1); i < last && i + kReach + 1 < encoder_m.size();
+       ++i) {
+    const Step step = step_at(encoder_m, i);
+    const double size = std::abs(step.size);
+    if (!(size > least_m) || 4 * size < kGreatest_m_s2 * period_s * period_s) continue;
+    if (size < 3 * std::abs(step.speed_change)) continue;
+    // Where the axis itself moves that fast, the neighbours show the like.
+    const double beside = std::max(std::abs(step_at(encoder_m, i - 1).size),
+                                   std::abs(step_at(encoder_m, i + 1).size));
+    if (size < 4 * beside || (largest && size < std::abs(largest->size_m))) continue;
+    if (time_ns[i + 1] - time_ns[i - 2] > 6 * period_ns) continue;  // a hole
+    largest = {time_ns[i], encoder_m[i - 1], step.size};
+  }
+  return largest;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,87 @@
+#include "algo/plausibility/probe/probe_step.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kLanes = 8;
+constexpr double kAbove = 8;         // what the probe does around
+constexpr double kOthers = 0.25;     // of the step, at most, in the other probes
+constexpr double kStays = 0.6;       // of the step, at least, some scans later
+constexpr std::size_t kSettled = 3;  // rows of which the reading before and after is taken
+constexpr double kAxis_m = 2e-6;     // the noise of an encoder
+
+// Largest |x[i] - x[i-1]| for i = first ... last - 1, in lanes so that it becomes vectors.
+double largest_change(const double* x, std::size_t first, std::size_t last) {
+  std::array<double, kLanes> most{};
+  std::size_t i = first;
+  for (; i + kLanes <= last; i += kLanes) {
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      const double change = std::abs(x[i + k] - x[i + k - 1]);
+      most[k] = change > most[k] ? change : most[k];
+    }
+  }
+  for (; i < last; ++i) most[0] = std::max(most[0], std::abs(x[i] - x[i - 1]));
+  return *std::max_element(most.begin(), most.end());
+}
+
+// Largest change in the rows of begin ... end outside first ... last, whose ends are left out too.
+double around(const double* x, std::size_t begin, std::size_t first, std::size_t last,
+              std::size_t end) {
+  return std::max(largest_change(x, begin + 1, std::max(begin + 1, first - 1)),
+                  largest_change(x, std::min(end, last + 2), end));
+}
+
+double middle(const double* x) {
+  std::array<double, kSettled> rows;
+  std::copy(x, x + kSettled, rows.begin());
+  std::sort(rows.begin(), rows.end());
+  return rows[kSettled / 2];
+}
+
+// How far the reading has gone from before `row` to some scans after it; 0 where that is not known.
+double lasting_change(const double* x, std::size_t begin, std::size_t row, std::size_t end) {
+  if (row < begin + kSettled + 1 || row + kSettled + 1 > end) return 0;
+  return middle(x + row + 1) - middle(x + row - kSettled - 1);
+}
+
+bool good(const FrameBlock& frames, std::size_t probe, std::size_t begin, std::size_t end) {
+  const auto& quality = frames.probe_quality[probe];
+  return quality.empty() || std::all_of(quality.begin() + static_cast<std::ptrdiff_t>(begin),
+                                        quality.begin() + static_cast<std::ptrdiff_t>(end), usable);
+}
+
+}  // namespace
+
+std::vector<ProbeStep> find_steps(const FrameBlock& frames, std::size_t begin, std::size_t first,
+                                  std::size_t last, std::size_t end) {
+  std::vector<ProbeStep> found;
+  if (first < begin + 2 || last + 2 > end) return found;
+  const std::size_t probes = frames.probe_m.size();
+  std::vector<double> most(probes);
+  for (std::size_t k = 0; k < probes; ++k)
+    most[k] = largest_change(frames.probe_m[k].data(), first, last);
+  for (std::size_t k = 0; k < probes; ++k) {
+    const double* const x = frames.probe_m[k].data();
+    const bool alone = std::none_of(most.begin(), most.end(), [&](const double& other) {
+      return &other != &most[k] && other >= kOthers * most[k];
+    });
+    if (!(most[k] > 0) || !alone || !good(frames, k, begin, end)) continue;
+    if (most[k] < kAbove * around(x, begin, first, last, end)) continue;
+    const double* const axis = frames.encoder_m.data();
+    if (largest_change(axis, first, last) > 2 * around(axis, begin, first, last, end) + kAxis_m)
+      continue;
+    std::size_t row = first;
+    while (row < last && std::abs(x[row] - x[row - 1]) < most[k]) ++row;
+    const double size_m = row < last ? lasting_change(x, begin, row, end) : 0;
+    if (std::abs(size_m) >= kStays * most[k] && size_m * (x[row] - x[row - 1]) > 0)
+      found.push_back({k, row, size_m});
+  }
+  return found;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,388 @@
+#include "algo/uncertainty/budget/budget.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "algo/drift/removed_drift.h"
+#include "algo/uncertainty/budget/budget_draws.h"
+#include "algo/uncertainty/coverage.h"
+#include "algo/uncertainty/statistics/range_interval.h"
+#include "algo/uncertainty/statistics/target_noise.h"
+#include "schema/sample.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::uint64_t kTrialsOfU = 2000;    // U is then right to 2 %
+constexpr std::uint64_t kTrialsOfBlock = 64;  // their shifts stay in the cache
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
+  return {run.header.sides, target_means(run.header.moving(), points, Approach::both)};
+}
+
+std::vector<MeanErrors> means_of_each_run(const Run& run) {
+  std::map<int, std::vector<MeasuredPoint>> by_run;
+  for (const auto& p : run.points) by_run[p.run].push_back(p);
+  std::vector<MeanErrors> means;
+  for (const auto& [number, points] : by_run) means.push_back(means_of(run, points));
+  return means;
+}
+
+double sum_of_squares(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double v : values) sum += v * v;
+  return sum;
+}
+
+// Some parts, to be added to the shifts of all trials at once, one after the other: a sum is read
+// and written a fourth as often.
+class SomeParts {
+ public:
+  void add(const std::vector<double>& part, std::vector<double> drawn) {
+    part_[n_] = part.data();
+    width_ = part.size();
+    drawn_[n_++] = std::move(drawn);
+  }
+  bool full() const { return n_ == kMost; }
+  // `sums`: of each trial.
+  void add_to(std::vector<double>& sums) {
+    for (std::size_t t = 0; n_ > 0 && t < drawn_[0].size(); ++t) {
+      double* sum = sums.data() + t * width_;
+      if (full())
+        add_four(sum, t);
+      else
+        for (std::size_t p = 0; p < n_; ++p)
+          for (std::size_t i = 0; i < width_; ++i) sum[i] += drawn_[p][t] * part_[p][i];
+    }
+    n_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 4;
+
+  void add_four(double* sum, std::size_t t) const {
+    const double a = drawn_[0][t], b = drawn_[1][t], c = drawn_[2][t], d = drawn_[3][t];
+    const double *pa = part_[0], *pb = part_[1], *pc = part_[2], *pd = part_[3];
+    for (std::size_t i = 0; i < width_; ++i)
+      sum[i] = sum[i] + a * pa[i] + b * pb[i] + c * pc[i] + d * pd[i];
+  }
+
+  std::array<const double*, kMost> part_{};
+  std::array<std::vector<double>, kMost> drawn_;
+  std::size_t n_ = 0, width_ = 0;
+};
+
+}  // namespace
+
+RunBudgets::RunBudgets(const Rig& rig, const Run& run)
+    : means_(means_of(run, run.points)),
+      repeatability_(repeatability(run.header.moving(), run.points, means_.targets)),
+      changes_(run.header.moving(), run.points),
+      runs_(means_of_each_run(run)),
+      not_declared_(rig.undeclared_uncertainties()) {}
+
+Result<RunBudgets> RunBudgets::create(const Rig& rig, const Run& run) {
+  MDOF_TRY(const auto declared, contributors(rig, run));
+  RunBudgets budgets(rig, run);
+  for (const Contributor& contributor : declared) budgets.add(contributor, contributor.parts());
+  return budgets;
+}
+
+std::size_t RunBudgets::cost() const {
+  std::size_t parts = 1 + repeatability_.together.size() + repeatability_.of_passes.size();
+  for (const Shifted& shifted : shifted_) parts += shifted.parts.size();
+  return parts * means_.targets.size();
+}
+
+void RunBudgets::add(const Contributor& contributor, const std::vector<PointShifts>& parts) {
+  Shifted& shifted = shifted_.emplace_back(Shifted{contributor, {}});
+  shifted.contributor.parts = nullptr;  // they hold the whole run
+  for (const PointShifts& part : parts) {
+    MeanShifts& shifts = shifted.parts.emplace_back();
+    for (const Errors5& at_target : changes_.of(part))
+      shifts.insert(shifts.end(), at_target.begin(), at_target.end());
+  }
+}
+
+MeanErrors RunBudgets::moved(std::span<const double> shifts, double factor) const {
+  MeanErrors means = means_;
+  for (std::size_t i = 0; i < means.targets.size(); ++i)
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      means.targets[i].named[k] += factor * shifts[i * kErrorCount + k];
+  return means;
+}
+
+double RunBudgets::half_difference(const Figure& figure, const MeanShifts& shifts) const {
+  return (figure.of(moved(shifts, 1)) - figure.of(moved(shifts, -1))) / 2;
+}
+
+std::vector<RunBudgets::Contribution> RunBudgets::contributions(const Figure& figure) const {
+  std::vector<Contribution> all;
+  for (const Shifted& shifted : shifted_) {
+    Contribution& of = all.emplace_back(Contribution{&shifted.contributor, {}});
+    for (const MeanShifts& part : shifted.parts) of.parts.push_back(half_difference(figure, part));
+  }
+  return all;
+}
+
+BudgetLine RunBudgets::line(const Contributor& c, const std::vector<double>& parts) {
+  BudgetLine line;
+  line.name = c.name;
+  line.key = c.key;
+  line.distribution = to_string(c.declared.shape);
+  line.value = c.declared.u * c.to_unit;
+  line.unit = c.unit;
+  line.contribution = parts.size() == 1 ? parts.front() : std::sqrt(sum_of_squares(parts));
+  line.freedom = c.declared.freedom;
+  return line;
+}
+
+RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
+  const std::size_t targets = means_.targets.size();
+  double square = 0, freedom = kInfinite;
+  bool asked = false;  // whether what the figure is made of is known by the scatter
+  MeanShifts together;
+  for (std::size_t i = 0; i < targets; ++i) {
+    MeanShifts alone(targets * kErrorCount), scattered = alone;
+    for (std::size_t k = 0; k < kErrorCount; ++k) {
+      alone[i * kErrorCount + k] = repeatability_.u[i][k];
+      if (repeatability_.by_scatter[k]) scattered[i * kErrorCount + k] = repeatability_.u[i][k];
+    }
+    const double part = half_difference(figure, alone);
+    square += part * part;
+    if (part != 0 && !std::exchange(asked, true) && half_difference(figure, scattered) != 0)
+      freedom = repeatability_.freedom;
+    together.insert(together.end(), repeatability_.u_shift.begin(), repeatability_.u_shift.end());
+  }
+  const auto square_by = [&](const std::vector<std::vector<Errors5>>& parts) {
+    double sum = 0;
+    for (const std::vector<Errors5>& part : parts) {
+      MeanShifts shifts;
+      for (const Errors5& at_target : part)
+        shifts.insert(shifts.end(), at_target.begin(), at_target.end());
+      sum += std::pow(half_difference(figure, shifts), 2);
+    }
+    return sum;
+  };
+  square += square_by(repeatability_.together);
+  const double by_passes = square_by(repeatability_.of_passes);
+  const double shift = std::abs(half_difference(figure, together));
+  const std::array<UncertaintyPart, 3> all = {
+      {{std::sqrt(square), freedom},
+       {std::sqrt(by_passes), repeatability_.passes_freedom},
+       {shift, repeatability_.shift_freedom}}};
+  return {std::sqrt(square + by_passes + shift * shift), effective_freedom(all)};
+}
+
+RunBudgets::Random RunBudgets::random_of_runs(const Figure& figure) const {
+  std::vector<double> values;
+  for (const MeanErrors& run : runs_)
+    if (run.targets.size() == means_.targets.size()) values.push_back(figure.of(run));
+  const auto n = static_cast<double>(values.size());
+  if (values.size() < 2) return {0, kInfinite};
+  double mean = 0;
+  for (const double v : values) mean += v / n;
+  for (double& v : values) v -= mean;
+  return {std::sqrt(sum_of_squares(values) / (n - 1) / n), n - 1};
+}
+
+// The slow noise of a removed drift scatters from run to run, too: the variance of that.
+double RunBudgets::by_removed_drift(const Figure& figure) const {
+  double square = 0;
+  for (const Shifted& shifted : shifted_) {
+    if (shifted.contributor.name != kRemovedDrift) continue;
+    for (const MeanShifts& part : shifted.parts)
+      square += std::pow(half_difference(figure, part), 2);
+  }
+  return square;
+}
+
+RunBudgets::Random RunBudgets::random_of(const Figure& figure) const {
+  const Random targets = random_of_targets(figure), runs = random_of_runs(figure);
+  const double seen = targets.u * targets.u + by_removed_drift(figure);
+  const double excess = runs.u * runs.u - seen;
+  if (!(runs.u * runs.u > kRunsScatterMore * seen)) return targets;
+  const std::array<UncertaintyPart, 2> both = {{targets.part(), {std::sqrt(excess), runs.freedom}}};
+  const double u = std::sqrt(targets.u * targets.u + excess);
+  return {u, effective_freedom(both), targets.u > 0 ? u / targets.u : 1};
+}
+
+Budget RunBudgets::first_order(const Figure& figure) const {
+  Budget budget;
+  budget.figure = figure.name;
+  budget.value = figure.of(means_);
+  const Random random = random_of(figure);
+  budget.u_random = random.u;
+  budget.is_single_run = runs_.size() < 2;
+  budget.not_declared = not_declared_;
+  BudgetLine noise;
+  noise.name = "noise and repeatability";
+  noise.distribution = "normal";
+  noise.contribution = random.u;
+  noise.freedom = random.freedom;
+  budget.lines.push_back(noise);
+  for (const auto& [contributor, parts] : contributions(figure))
+    budget.lines.push_back(line(*contributor, parts));
+  complete(budget);
+  return budget;
+}
+
+Budget RunBudgets::of(const Figure& figure) const {
+  return of(std::vector{figure}).front();
+}
+
+std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
+  std::vector<Budget> budgets;
+  std::vector<Figure> ranges;
+  std::vector<std::size_t> place;  // of each range among the budgets
+  for (const Figure& figure : figures) {
+    budgets.push_back(first_order(figure));
+    if (!figure.is_range() || !std::isfinite(budgets.back().value)) continue;
+    ranges.push_back(figure);
+    place.push_back(budgets.size() - 1);
+  }
+  if (ranges.empty()) return budgets;
+  auto trials = drawn(ranges, {kTrialsOfU, 1}, 0);
+  for (std::size_t r = 0; r < ranges.size(); ++r) {
+    Budget& budget = budgets[place[r]];
+    const RangeTrials range(ranges[r].deviations(means_), std::move(trials[r].changes));
+    const double U = range.U();
+    if (!(U > 0)) continue;
+    budget.U = U;
+    // Of deviations that are all equal the range changes as much up as down: no first order.
+    if (!(budget.u > 0)) budget.u = range.root_mean_square();
+    budget.coverage_factor = budget.U / budget.u;
+    budget.U_by_trials = true;
+  }
+  return budgets;
+}
+
+// Of each trial the shifts of the means; `quantities`: of each contributor.
+std::vector<double> RunBudgets::moved_by(BlockOfDraws& draws, std::size_t trials,
+                                         const std::vector<OneU>& quantities) const {
+  std::vector<double> moved(trials * means_.targets.size() * kErrorCount);
+  SomeParts some;
+  for (std::size_t s = 0; s < shifted_.size(); ++s)
+    for (const MeanShifts& part : shifted_[s].parts) {
+      some.add(part, draws.next(quantities[s]));
+      if (some.full()) some.add_to(moved);
+    }
+  some.add_to(moved);
+  return moved;
+}
+
+std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figures,
+                                                 const TrialsRequest& request,
+                                                 std::uint32_t stream) const {
+  std::vector<Random> random;
+  std::map<double, OneU> noise;  // by degrees of freedom: a table of t is dear
+  std::vector<std::vector<double>> measured;
+  bool any_range = false;
+  for (const Figure& figure : figures) {
+    random.push_back(random_of(figure));
+    noise.try_emplace(random.back().freedom, random.back().freedom);
+    measured.push_back(figure.is_range() ? figure.deviations(means_) : std::vector<double>());
+    any_range = any_range || !measured.back().empty();
+  }
+  std::vector<OneU> quantities;
+  for (const Shifted& s : shifted_)
+    quantities.push_back(s.parts.size() == 1 ? OneU(s.contributor.declared) : OneU(kInfinite));
+  std::vector<Drawn> all(figures.size());
+  for (Drawn& of : all) of.values.resize(request.trials);
+  for (std::uint64_t first = 0; first < request.trials; first += kTrialsOfBlock) {
+    const std::size_t trials = std::min(kTrialsOfBlock, request.trials - first);
+    BlockOfDraws draws({request.seed, stream}, first, trials);
+    const std::vector<double> uniform = draws.next();
+    const std::vector<double> shifts = moved_by(draws, trials, quantities);
+    const std::size_t width = shifts.size() / trials;
+    std::map<double, std::vector<double>> of_noise;
+    for (const auto& [freedom, quantity] : noise)
+      quantity.quantiles(of_noise.try_emplace(freedom, uniform).first->second);
+    std::optional<TargetNoise> of_targets;
+    if (any_range) of_targets.emplace(draws, repeatability_);
+    for (std::size_t t = 0; t < trials; ++t) {
+      const MeanErrors means = moved(std::span(shifts).subspan(t * width, width), 1);
+      std::optional<MeanErrors> noisy;
+      double by = 0;  // of `noisy`
+      for (std::size_t f = 0; f < figures.size(); ++f) {
+        if (measured[f].empty()) {
+          all[f].values[first + t] =
+              figures[f].of(means) + random[f].u * of_noise.at(random[f].freedom)[t];
+          continue;
+        }
+        const double factor = random[f].widened * of_targets->student(t, random[f].freedom);
+        if (!noisy || factor != by) {
+          noisy = means;
+          of_targets->add_to(*noisy, t, by = factor);
+        }
+        std::vector<double> deviations = figures[f].deviations(*noisy);
+        const auto [least, most] = std::minmax_element(deviations.begin(), deviations.end());
+        all[f].values[first + t] = *most - *least;
+        for (std::size_t i = 0; i < deviations.size(); ++i)
+          all[f].changes.push_back(deviations[i] - measured[f][i]);
+      }
+    }
+  }
+  return all;
+}
+
+std::vector<std::vector<double>> RunBudgets::draw(const std::vector<Figure>& figures,
+                                                  const TrialsRequest& request,
+                                                  std::uint32_t stream) const {
+  std::vector<std::vector<double>> values;
+  for (Drawn& of : drawn(figures, request, stream)) values.push_back(std::move(of.values));
+  return values;
+}
+
+BudgetTrials RunBudgets::trials(const Figure& figure, const TrialsRequest& request) const {
+  Drawn of = std::move(drawn({figure}, request, 0).front());
+  if (of.changes.empty()) return summary_of(std::move(of.values), request.seed);
+  const RangeTrials range(figure.deviations(means_), std::move(of.changes));
+  const double value = figure.of(means_), U = range.U();
+  return {request.trials, request.seed, range.standard_deviation(), std::max(0.0, value - U),
+          value + U};
+}
+
+void complete(Budget& budget) {
+  std::vector<UncertaintyPart> parts;
+  double square = 0;
+  for (const BudgetLine& line : budget.lines) {
+    square += line.contribution * line.contribution;
+    parts.push_back({std::abs(line.contribution), line.freedom});
+  }
+  budget.u = std::sqrt(square);
+  for (BudgetLine& line : budget.lines)
+    line.share = square > 0 ? line.contribution * line.contribution / square : 0;
+  std::stable_sort(budget.lines.begin(), budget.lines.end(),
+                   [](const BudgetLine& a, const BudgetLine& b) { return a.share > b.share; });
+  budget.freedom = effective_freedom(parts);
+  budget.coverage_factor = coverage_factor(budget.freedom);
+  budget.U = budget.coverage_factor * budget.u;
+  budget.noise_only = is_noise_only(budget);
+}
+
+BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed) {
+  BudgetTrials summary{trials.size(), seed, 0, 0, 0};
+  const auto n = static_cast<double>(trials.size());
+  double mean = 0;
+  for (const double v : trials) mean += v / n;
+  double square = 0;
+  for (const double v : trials) square += (v - mean) * (v - mean);
+  summary.u = std::sqrt(square / (n - 1));
+  std::sort(trials.begin(), trials.end());
+  const auto at = [&](double p) {
+    return trials[std::min(trials.size() - 1, static_cast<std::size_t>(p * n))];
+  };
+  summary.low = at(0.025);
+  summary.high = at(0.975);
+  return summary;
+}
+
+}  // namespace mdof::algo

@@ -1,0 +1,280 @@
+// The parts of u of a volumetric table against simulated measurements: the tool by matrices in long
+// double, errors drawn anew in each trial.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "algo/compensation/volumetric/volumetric.h"
+#include "algo/machine/compensating.h"
+#include "schema/sample.h"
+#include "tests/algo/machine/random_machine.h"
+#include "tests/coverage_runs.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kTravelOfParts_m = 0.1;
+constexpr int kTrialsOfParts = 8000;
+constexpr double kSameSpread = 0.05;  // six standard deviations of such an estimate
+
+using NoiseMixing = std::array<std::array<double, kBodyErrors>, kBodyErrors>;
+
+// What one of six independent parts of the noise of an axis does to each error, m or rad.
+struct Axis6 {
+  NoiseMixing noise{};
+  std::array<double, kBodyErrors> common{};  // u of a shift of the whole table
+};
+
+struct Simulated {
+  Machine machine;
+  std::array<Axis6, 3> axes;
+  double u_EC0Y = 3e-6;
+};
+
+ErrorCorrelation same_everywhere(const Axis6& axis, bool with_common) {
+  ErrorCorrelation correlation;
+  correlation.position = {0, kTravelOfParts_m};
+  correlation.at.resize(2);
+  const auto covariance = [&](std::size_t k, std::size_t l) {
+    double sum = k == l && with_common ? axis.common[k] * axis.common[k] : 0;
+    for (std::size_t q = 0; q < kBodyErrors; ++q) sum += axis.noise[k][q] * axis.noise[l][q];
+    return sum;
+  };
+  for (auto& at : correlation.at)
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      for (std::size_t l = 0; l < kBodyErrors; ++l)
+        at[k][l] = covariance(k, l) / std::sqrt(covariance(k, k) * covariance(l, l));
+  return correlation;
+}
+
+Simulated simulated_axes(unsigned seed) {
+  test::RandomMachines random(seed);
+  Simulated s;
+  s.machine = random.machine("XYZ", 1e-6, 1e-5, kTravelOfParts_m);
+  for (MachineFrame& frame : s.machine.frames) {
+    Axis6& axis = s.axes[frame.direction];
+    frame.range = {0, kTravelOfParts_m};
+    for (std::size_t k = 0; k < kBodyErrors; ++k) {
+      const double size = k < 3 ? 1e-7 : 1e-6;
+      double noise = 0;
+      for (double& part : axis.noise[k])
+        noise = std::hypot(noise, part = random.between(-size, size));
+      axis.common[k] = random.between(0, size);
+      frame.error[k].u_independent = {noise, noise};
+      frame.error[k].u.assign(2, std::hypot(noise, axis.common[k]));
+    }
+    frame.correlation = same_everywhere(axis, true);
+    frame.noise_correlation = same_everywhere(axis, false);
+    if (frame.direction == 1) frame.location[5] = {0.0, s.u_EC0Y};
+  }
+  return s;
+}
+
+Machine measured_anew(const Simulated& s, std::mt19937_64& source, bool with_common,
+                      bool with_noise) {
+  std::normal_distribution<double> normal;
+  Machine machine = s.machine;
+  for (MachineFrame& frame : machine.frames) {
+    const Axis6& axis = s.axes[frame.direction];
+    std::array<std::array<double, kBodyErrors>, 2> parts;
+    for (auto& of_position : parts)
+      for (double& part : of_position) part = with_noise ? normal(source) : 0;
+    for (std::size_t k = 0; k < kBodyErrors; ++k) {
+      const double shift = with_common ? axis.common[k] * normal(source) : 0;
+      for (std::size_t i = 0; i < 2; ++i) {
+        frame.error[k].forward[i] += shift;
+        for (std::size_t q = 0; q < kBodyErrors; ++q)
+          frame.error[k].forward[i] += axis.noise[k][q] * parts[i][q];
+      }
+    }
+    if (frame.direction == 1 && with_common) *frame.location[5].value += s.u_EC0Y * normal(source);
+  }
+  return machine;
+}
+
+struct SpreadOfNodes {
+  Vec3 first{}, last{}, product{};  // sums over the trials, about the truth
+};
+
+SpreadOfNodes spread_of_nodes(const Simulated& s, unsigned seed, bool with_common,
+                              bool with_noise) {
+  std::mt19937_64 source(seed);
+  const Command first{}, last{kTravelOfParts_m, kTravelOfParts_m, kTravelOfParts_m, 0, 0, 0};
+  const auto at_first = test::true_error(s.machine, first).place;
+  const auto at_last = test::true_error(s.machine, last).place;
+  SpreadOfNodes sums;
+  for (int trial = 0; trial < kTrialsOfParts; ++trial) {
+    const Machine machine = measured_anew(s, source, with_common, with_noise);
+    const auto one = test::true_error(machine, first).place;
+    const auto other = test::true_error(machine, last).place;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = static_cast<double>(one[k] - at_first[k]);
+      const auto b = static_cast<double>(other[k] - at_last[k]);
+      sums.first[k] += a * a / kTrialsOfParts;
+      sums.last[k] += b * b / kTrialsOfParts;
+      sums.product[k] += a * b / kTrialsOfParts;
+    }
+  }
+  return sums;
+}
+
+TEST(VolumetricParts, AreTheSpreadOfTheirCauses) {
+  for (unsigned seed = 1; seed <= 2; ++seed) {
+    const Simulated s = simulated_axes(seed);
+    VolumetricRequest request;
+    request.step_m = kTravelOfParts_m;
+    request.incomplete = true;
+    const auto table = build_volumetric(s.machine, request);
+    ASSERT_TRUE(table) << table.error().message;
+    ASSERT_EQ(table->nodes(), 8U);
+    const SpreadOfNodes all = spread_of_nodes(s, seed, true, true),
+                        noise = spread_of_nodes(s, seed, false, true),
+                        common = spread_of_nodes(s, seed, true, false);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto near = [&](double variance, double u_m) {
+        EXPECT_NEAR(std::sqrt(variance) / u_m, 1, kSameSpread) << "seed " << seed << " of " << k;
+      };
+      near(all.first[k], table->u_m[0][k]);
+      near(all.last[k], table->u_m[7][k]);
+      near(noise.first[k], table->u_independent_at(0)[k]);
+      near(noise.last[k], table->u_independent_at(7)[k]);
+      near(common.first[k], table->u_common_at(0)[k]);
+      near(common.last[k], table->u_common_at(7)[k]);
+      // Nodes without a common command have no noise in common.
+      EXPECT_NEAR(noise.product[k] / std::sqrt(noise.first[k] * noise.last[k]), 0, 0.05);
+    }
+    const VolumetricValue value = volumetric_at(*table, {0.03, 0.05, 0.07});
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(std::hypot(value.u_common_m[k], value.u_independent_m[k]), value.u_m[k], 1e-15);
+  }
+}
+
+// Noise of an axis at two neighbouring nodes counted as one number: the rule that is wrong.
+double u_if_noise_were_common(const VolumetricTable& table, const Vec3& part, std::size_t k) {
+  double common = 0, noise = 0;
+  for (std::size_t node = 0; node < 8; ++node) {
+    double weight = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      weight *= (node >> axis & 1U) != 0 ? part[axis] : 1 - part[axis];
+    common += weight * table.u_common_at(node)[k];
+    noise += weight * table.u_independent_at(node)[k];
+  }
+  return std::hypot(common, noise, table.interpolation_m[k] / std::sqrt(3.0));
+}
+
+// Two nodes; then drawn anew in each simulation: within the cell, on a face of it, on an edge.
+using FivePlaces = std::array<Vec3, 5>;
+FivePlaces drawn_places(std::mt19937_64& source) {
+  std::uniform_real_distribution<double> along(0, kTravelOfParts_m);
+  return {{{0, 0, 0},
+           {kTravelOfParts_m, kTravelOfParts_m, kTravelOfParts_m},
+           {along(source), along(source), along(source)},
+           {along(source), along(source), 0},
+           {kTravelOfParts_m, along(source), 0}}};
+}
+using Held = std::array<std::array<int, 3>, 5>;
+
+Vec3 true_correction(const Machine& machine, const Vec3& place) {
+  const Command at{place[0], place[1], place[2], 0, 0, 0};
+  const auto found = compensating_command(machine, at, MachineApproach::mean);
+  Vec3 correction{kNaN, kNaN, kNaN};
+  for (std::size_t k = 0; found && k < 3; ++k) correction[k] = found->command[k] - at[k];
+  return correction;
+}
+
+void measure_often(const Simulated& s, int simulations, std::mt19937_64& source, Held& held,
+                   Held& held_by_the_wrong_rule) {
+  constexpr double k95 = 1.959964;
+  VolumetricRequest request;
+  request.step_m = kTravelOfParts_m;
+  request.incomplete = true;
+  for (int n = 0; n < simulations; ++n) {
+    const auto table = build_volumetric(measured_anew(s, source, true, true), request);
+    ASSERT_TRUE(table) << table.error().message;
+    const FivePlaces places = drawn_places(source);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const VolumetricValue value = volumetric_at(*table, places[i]);
+      const Vec3 truth = true_correction(s.machine, places[i]);
+      Vec3 part = places[i];
+      for (double& x : part) x /= kTravelOfParts_m;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double off = std::abs(value.correction_m[k] - truth[k]);
+        held[i][k] += off <= k95 * value.u_m[k] ? 1 : 0;
+        held_by_the_wrong_rule[i][k] += off <= k95 * u_if_noise_were_common(*table, part, k);
+      }
+    }
+  }
+}
+
+// Bar: 94 ... 96.5 % at nodes and between them, over all places of the cell: what straight lines
+// are off there has a rectangular distribution in u.
+TEST(VolumetricParts, ValuesHoldTheTruth) {
+  const int machines = 10, simulations = test::coverage_runs(300);
+  Held held{}, by_the_wrong_rule{};
+  std::mt19937_64 source(test::coverage_seed(8));
+  for (unsigned seed = 1; seed <= machines; ++seed)
+    measure_often(simulated_axes(seed), simulations, source, held, by_the_wrong_rule);
+  int too_often = 0;
+  for (std::size_t i = 0; i < held.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double share = static_cast<double>(held[i][k]) / machines / simulations;
+      RecordProperty("held_" + std::to_string(i) + std::to_string(k), std::to_string(share));
+      EXPECT_GE(share, 0.94) << i << " of " << k;
+      EXPECT_LE(share, 0.965) << i << " of " << k;
+      too_often += by_the_wrong_rule[i][k] > 0.965 * machines * simulations ? 1 : 0;
+    }
+  EXPECT_GE(too_often, 7);  // of nine between nodes
+}
+
+// Nodes between two targets have the noise of both, so that between such nodes less is averaged:
+// the spread of the value over many measurements.
+TEST(VolumetricParts, OfAGridThatIsFinerThanTheTargets) {
+  Simulated s = simulated_axes(3);
+  VolumetricRequest request;
+  request.step_m = kTravelOfParts_m;
+  request.incomplete = true;
+  const auto coarse = build_volumetric(s.machine, request);
+  request.step_m = kTravelOfParts_m / 4;
+  const auto fine = build_volumetric(s.machine, request);
+  ASSERT_TRUE(coarse && fine);
+  // At the first target nothing has changed; beside it, where the nodes' noise is mostly that of
+  // one target, nearly nothing is averaged.
+  const Vec3 at{0.00625, 0.00625, 0.00625};
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(fine->u_independent_at(0)[k], coarse->u_independent_at(0)[k], 1e-18);
+    const double u = volumetric_at(*fine, at).u_independent_m[k];
+    const double exact = volumetric_at(*coarse, at).u_independent_m[k];
+    EXPECT_GE(u, exact * (1 - 1e-9)) << k;
+    EXPECT_LE(u, exact * 1.1) << k;
+  }
+}
+
+// Noise that differs from node to node, on a grid of another number of nodes along each axis: what
+// a node has is what is read there.
+TEST(VolumetricParts, OfANodeAreItsOwn) {
+  Simulated s = simulated_axes(3);
+  for (MachineFrame& frame : s.machine.frames) {
+    frame.range = {0, kTravelOfParts_m / static_cast<double>(1 + frame.direction)};
+    for (std::size_t k = 0; k < kBodyErrors; ++k) {
+      const double noise = frame.error[k].u_independent[0];
+      frame.error[k].u_independent = {noise, 3 * noise};
+      frame.error[k].u.assign(2, 4 * noise);
+    }
+  }
+  VolumetricRequest request;
+  request.step_m = kTravelOfParts_m / 6;
+  request.incomplete = true;
+  const auto table = build_volumetric(s.machine, request);
+  ASSERT_TRUE(table) << table.error().message;
+  ASSERT_EQ(table->nodes(), 7U * 4U * 3U);
+  for (std::size_t node = 0; node < table->nodes(); ++node) {
+    const VolumetricValue read = volumetric_at(*table, table->command_at(node));
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(table->u_independent_at(node)[k] / read.u_independent_m[k], 1, 1e-9)
+          << node << " of " << k;
+  }
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,195 @@
+// The circular test against what follows by hand from one error of the machine at a time.
+#include "algo/machine/geometric_tests/circle.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kCircle_m = 0.02;
+
+Machine flat_machine(const std::string& x, const std::string& y,
+                     const std::string& chain = "w-b-X-Y-t") {
+  const auto axis = [](const std::string& id, const std::string& errors) {
+    return "[[axis]]\nid = \"" + id + "\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n" + errors +
+           "\n";
+  };
+  const auto parsed = parse_machine(
+      "name = \"m\"\nmachine = {chain = \"" + chain + "\"}\n" + axis("X", x) + axis("Y", y),
+      "m.toml");
+  EXPECT_TRUE(parsed) << parsed.error().message;
+  return *parsed;
+}
+
+PredictedCircle predicted(const Machine& machine, std::size_t angles = 360) {
+  CircleRequest request;
+  request.centre = {0.05, 0.04};
+  request.radius_m = kCircle_m;
+  request.angles = angles;
+  const auto circle = predicted_circle(machine, request);
+  EXPECT_TRUE(circle) << circle.error().message;
+  return *circle;
+}
+
+CircularFigures figures(const Machine& machine) {
+  const auto found = circular_figures(predicted(machine).path);
+  EXPECT_TRUE(found) << found.error().message;
+  return *found;
+}
+
+TEST(CircularTest, APerfectMachineGoesOnACircle) {
+  const CircularFigures f = figures(flat_machine("", ""));
+  for (const double figure : {f.G_ccw_m, f.G_cw_m, f.Gb_m, f.H_m, f.D_m, f.F_ccw_m[0], f.F_cw_m[1]})
+    EXPECT_NEAR(figure, 0, 1e-12);
+}
+
+TEST(CircularTest, SquarenessIsAnEllipseAt45Degrees) {
+  // EC0Y = a: the tool is at x - a y; its radius R - a R sin cos: ± a R / 2, smallest at 45°.
+  const Machine m = flat_machine("", "EC0Y_urad = 100");
+  const CircularFigures f = figures(m);
+  EXPECT_NEAR(f.G_ccw_m, 100e-6 * kCircle_m, 1e-9);
+  EXPECT_NEAR(f.G_cw_m, f.G_ccw_m, 1e-12);
+  EXPECT_NEAR(f.Gb_m, f.G_ccw_m, 1e-12);
+  EXPECT_NEAR(f.F_ccw_m[0], +50e-6 * kCircle_m, 1e-9);
+  EXPECT_NEAR(f.F_ccw_m[1], -50e-6 * kCircle_m, 1e-9);
+  EXPECT_NEAR(f.H_m, 0, 1e-12);
+  const auto path = predicted(m, 8).path;
+  EXPECT_NEAR(path.ccw_m[1], -50e-6 * kCircle_m, 1e-9);  // at 45°
+  EXPECT_NEAR(path.ccw_m[3], +50e-6 * kCircle_m, 1e-9);
+}
+
+TEST(CircularTest, AScaleOfOneAxisIsAnEllipseAlongItAndALargerRadius) {
+  // EXX = s x: r = R + s R cos²: mean s R / 2, range s R.
+  const CircularFigures f = figures(flat_machine("EXX_um = [[0, 0], [100, 30]]", ""));
+  EXPECT_NEAR(f.G_ccw_m, 300e-6 * kCircle_m, 2e-9);
+  EXPECT_NEAR(f.D_m, 150e-6 * kCircle_m, 1e-9);
+  EXPECT_NEAR(f.F_ccw_m[0], 300e-6 * kCircle_m, 2e-9);
+  EXPECT_NEAR(f.F_ccw_m[1], 0, 2e-9);
+}
+
+TEST(CircularTest, BacklashIsAStepWhereTheAxisTurnsAndHysteresisBetweenTheWays) {
+  // X is 4 µm further as it falls. Counter-clockwise it falls from 0° to 180°: there r is larger by
+  // 4 µm cos, in the other half by nothing; clockwise the halves are the other ones.
+  const auto path = predicted(flat_machine("EXX_um = [[0, 0, 4], [100, 0, 4]]", "")).path;
+  // The ball stands where the mean of both ways was: 2 µm at +X.
+  EXPECT_NEAR(path.ccw_m[30], +2e-6 * std::cos(30 * std::numbers::pi / 180), 1e-9);
+  EXPECT_NEAR(path.cw_m[30], -2e-6 * std::cos(30 * std::numbers::pi / 180), 1e-9);
+  EXPECT_NEAR(path.ccw_m[210], -2e-6 * std::cos(210 * std::numbers::pi / 180), 1e-9);
+  EXPECT_NEAR(path.ccw_m[0], -2e-6, 1e-9);  // it turns here: still as it came, growing
+  EXPECT_NEAR(path.cw_m[0], -2e-6, 1e-9);
+  const auto f = circular_figures(path);
+  ASSERT_TRUE(f);
+  EXPECT_NEAR(f->H_m, 4e-6, 1e-9);
+  EXPECT_NEAR(f->D_m, 0, 0.05e-6);
+  EXPECT_GT(f->Gb_m, 3.9e-6);
+}
+
+TEST(CircularTest, WhereTheWorkIsCarriedTheRadiusIsTheSame) {
+  const CircularFigures tool = figures(flat_machine("EYX_um = [[0, 0], [100, 9]]", "")),
+                        work =
+                            figures(flat_machine("EYX_um = [[0, 0], [100, 9]]", "", "w-X-b-Y-t"));
+  EXPECT_NEAR(tool.G_ccw_m, 90e-6 * kCircle_m, 1e-9);
+  EXPECT_NEAR(work.G_ccw_m, tool.G_ccw_m, 1e-9);
+}
+
+TEST(CircularTest, FiguresOfAPathByHand) {
+  // 16 angles: an offset of the centre, a radius of +3 µm, one spike; clockwise 1 µm less.
+  CircularPath path;
+  for (int i = 0; i < 16; ++i) {
+    const double a = 2 * std::numbers::pi * i / 16;
+    path.angle_rad.push_back(a);
+    path.ccw_m.push_back(3e-6 + 5e-6 * std::cos(a) - 2e-6 * std::sin(a));
+    path.cw_m.push_back(path.ccw_m.back() - 1e-6);
+  }
+  auto f = circular_figures(path);
+  ASSERT_TRUE(f) << f.error().message;
+  EXPECT_NEAR(f->centre_m[0], 5e-6, 1e-15);
+  EXPECT_NEAR(f->centre_m[1], -2e-6, 1e-15);
+  EXPECT_NEAR(f->D_m, 2.5e-6, 1e-15);
+  EXPECT_NEAR(f->Gb_m, 1e-6, 1e-15);
+  EXPECT_NEAR(f->G_ccw_m, 0, 1e-15);
+  EXPECT_NEAR(f->H_m, 1e-6, 1e-15);
+  EXPECT_NEAR(f->F_ccw_m[0], 3e-6, 1e-15);
+  EXPECT_NEAR(f->F_cw_m[1], 2e-6, 1e-15);
+  EXPECT_NEAR(centred(path, *f).ccw_m[4], 3e-6, 1e-15);
+  path.cw_m.clear();
+  f = circular_figures(path);
+  ASSERT_TRUE(f);
+  EXPECT_TRUE(std::isnan(f->Gb_m) && std::isnan(f->H_m) && std::isnan(f->D_m) &&
+              std::isnan(f->G_cw_m) && std::isnan(f->F_cw_m[0]));
+  EXPECT_NEAR(f->F_ccw_m[1], 3e-6, 1e-15);
+}
+
+TEST(CircularTest, WhatIsNoCircleIsRefused) {
+  CircularPath path = predicted(flat_machine("", ""), 8).path;
+  EXPECT_TRUE(circular_figures(path));
+  path.cw_m.pop_back();
+  EXPECT_FALSE(circular_figures(path));
+  path = predicted(flat_machine("", ""), 8).path;
+  path.ccw_m[3] = std::nan("");
+  EXPECT_FALSE(circular_figures(path));
+  EXPECT_FALSE(circular_figures({}));
+  CircularPath arc;
+  for (int i = 0; i < 100; ++i) arc.angle_rad.push_back(0.04 * i), arc.ccw_m.push_back(0);
+  EXPECT_FALSE(circular_figures(arc));  // 3.96 of 6.28
+  CircleRequest request;
+  request.radius_m = 0.01;
+  request.second = 2;
+  EXPECT_FALSE(predicted_circle(flat_machine("", ""), request));  // no Z
+  request.second = 1;
+  EXPECT_TRUE(predicted_circle(flat_machine("", ""), request));
+  for (const double radius : {0.0, -1.0, std::nan(""), 11.0}) {
+    request.radius_m = radius;
+    EXPECT_FALSE(predicted_circle(flat_machine("", ""), request)) << radius;
+  }
+  request.radius_m = 0.01;
+  request.angles = 7;
+  EXPECT_FALSE(predicted_circle(flat_machine("", ""), request));
+}
+
+// Harmonics over equal angles: the radius and the centre take those of order 0 and 1; what is left
+// of each way is its own.
+TEST(CircularTest, FiguresOfHarmonicsByHand) {
+  CircularPath path;
+  for (int i = 0; i < 72; ++i) {
+    const double a = 2 * std::numbers::pi * i / 72;
+    path.angle_rad.push_back(a);
+    path.ccw_m.push_back(5 + 3 * std::cos(a) + 1 * std::cos(2 * a));
+    path.cw_m.push_back(1 - 1 * std::cos(a) + 4 * std::sin(a) + 2 * std::cos(2 * a));
+  }
+  const auto f = circular_figures(path);
+  ASSERT_TRUE(f) << f.error().message;
+  EXPECT_NEAR(f->G_ccw_m, 2, 1e-12);
+  EXPECT_NEAR(f->G_cw_m, 4, 1e-12);
+  EXPECT_NEAR(f->D_m, 3, 1e-12);
+  EXPECT_NEAR(f->centre_m[0], 1, 1e-12);
+  EXPECT_NEAR(f->centre_m[1], 2, 1e-12);
+  double hysteresis = 0, low = 1e9, high = -1e9, low_ccw = 1e9, high_cw = -1e9;
+  for (std::size_t i = 0; i < 72; ++i) {
+    const double a = path.angle_rad[i], centre = std::cos(a) + 2 * std::sin(a);
+    hysteresis = std::max(hysteresis, std::abs(path.ccw_m[i] - path.cw_m[i]));
+    low = std::min({low, path.ccw_m[i] - centre, path.cw_m[i] - centre});
+    high = std::max({high, path.ccw_m[i] - centre, path.cw_m[i] - centre});
+    low_ccw = std::min(low_ccw, path.ccw_m[i] - centre);
+    high_cw = std::max(high_cw, path.cw_m[i] - centre);
+  }
+  EXPECT_NEAR(f->H_m, hysteresis, 1e-12);
+  EXPECT_NEAR(f->Gb_m, high - low, 1e-12);
+  EXPECT_NEAR(f->F_ccw_m[1], low_ccw, 1e-12);
+  EXPECT_NEAR(f->F_cw_m[0], high_cw, 1e-12);
+  path.ccw_m.clear();
+  const auto one_way = circular_figures(path);
+  EXPECT_NEAR(one_way->G_cw_m, 4, 1e-12);
+  EXPECT_NEAR(one_way->centre_m[0], -1, 1e-12);
+  EXPECT_TRUE(std::isnan(one_way->G_ccw_m));
+  EXPECT_TRUE(std::isnan(one_way->Gb_m));
+  EXPECT_TRUE(std::isnan(one_way->H_m));
+  EXPECT_TRUE(std::isnan(one_way->D_m));
+  EXPECT_TRUE(std::isnan(one_way->F_ccw_m[0]));
+}
+
+}  // namespace
+}  // namespace mdof::algo

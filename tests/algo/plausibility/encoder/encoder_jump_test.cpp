@@ -1,0 +1,166 @@
+// Jumps of known size on an axis that moves, and single spikes, at speeds to 10 mm/s either way.
+#include "algo/plausibility/encoder/encoder_jump.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "schema/sample.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::int64_t kScan_ns = 1'000'000;
+constexpr std::size_t kRows = 60, kAt = 30;
+
+// Scans of 1 ms.
+struct Motion {
+  double speed_mm_s = 0, acceleration_m_s2 = 0, jump_um = 0, noise_um = 0;
+  std::uint64_t seed = 1;
+
+  std::vector<double> encoder_m() const {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<> unit;
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < kRows; ++i) {
+      const double t_s = 1e-3 * static_cast<double>(i);
+      rows.push_back(1e-3 * speed_mm_s * t_s + 0.5 * acceleration_m_s2 * t_s * t_s +
+                     (i >= kAt ? 1e-6 * jump_um : 0) + 1e-6 * noise_um * unit(random));
+    }
+    return rows;
+  }
+};
+
+std::optional<EncoderJump> jump_among(const std::vector<double>& encoder_m, double least_um = 5) {
+  std::vector<std::int64_t> time_ns;
+  for (std::size_t i = 0; i < encoder_m.size(); ++i)
+    time_ns.push_back(static_cast<std::int64_t>(i) * kScan_ns);
+  return find_jump(time_ns, encoder_m, 0, encoder_m.size(), kScan_ns, 1e-6 * least_um);
+}
+
+const std::vector<double> kSpeeds_mm_s = {-10, -9.9, -5, -2, -0.3, 0, 0.3, 2, 5, 9.9, 10};
+
+TEST(EncoderJumpInMotion, ItsSizeIsToldWithTheMotionAndAgainstIt) {
+  for (const double speed : kSpeeds_mm_s) {
+    for (const double size : {-500.0, -100.0, -20.0, -6.0, 6.0, 20.0, 100.0, 500.0}) {
+      const auto jump = jump_among(Motion{.speed_mm_s = speed, .jump_um = size}.encoder_m());
+      ASSERT_TRUE(jump) << speed << " mm/s, " << size << " um";
+      EXPECT_NEAR(jump->size_m, 1e-6 * size, 1e-12) << speed << " mm/s";
+      EXPECT_EQ(jump->time_ns, static_cast<std::int64_t>(kAt) * kScan_ns);
+      EXPECT_NEAR(jump->position_m, 1e-6 * speed * (kAt - 1), 1e-12);
+    }
+  }
+}
+
+TEST(EncoderJumpInMotion, ASpikeOfOneScanIsNoneAtAnySpeed) {
+  for (const double speed : kSpeeds_mm_s) {
+    for (const double spike_um : {-500.0, -30.0, -8.0, 8.0, 30.0, 500.0, 2e8}) {
+      for (std::size_t at = 10; at < 50; at += 3) {
+        auto rows = Motion{.speed_mm_s = speed}.encoder_m();
+        rows[at] += 1e-6 * spike_um;
+        EXPECT_FALSE(jump_among(rows)) << speed << " mm/s, spike of " << spike_um << " at " << at;
+      }
+    }
+  }
+}
+
+// An axis that gathers speed. A jump's size is then off by at most twice what a scan adds to the
+// speed.
+TEST(EncoderJumpInMotion, AccelerationAloneIsNone) {
+  for (const double speed : kSpeeds_mm_s) {
+    for (const double acceleration : {-5.0, -1.0, 1.0, 5.0}) {
+      Motion motion{.speed_mm_s = speed, .acceleration_m_s2 = acceleration};
+      EXPECT_FALSE(jump_among(motion.encoder_m(), 0.1)) << speed << " " << acceleration;
+      for (const double size : {-100.0, 100.0}) {
+        motion.jump_um = size;
+        const auto jump = jump_among(motion.encoder_m());
+        ASSERT_TRUE(jump) << speed << " " << acceleration << " " << size;
+        EXPECT_NEAR(jump->size_m, 1e-6 * size, 2e-6 * std::abs(acceleration)) << speed;
+      }
+    }
+  }
+}
+
+// Nor a start or stop from one scan to the next.
+TEST(EncoderJumpInMotion, AStartOrAStopIsNone) {
+  for (const double speed : kSpeeds_mm_s) {
+    std::vector<double> start(kRows), stop(kRows);
+    for (std::size_t i = 0; i < kRows; ++i) {
+      const double before = static_cast<double>(std::min(i, kAt));
+      start[i] = 1e-6 * speed * (static_cast<double>(i) - before);
+      stop[i] = 1e-6 * speed * before;
+    }
+    EXPECT_FALSE(jump_among(start, 1)) << speed;
+    EXPECT_FALSE(jump_among(stop, 1)) << speed;
+  }
+}
+
+// Of a count that its device hands out again in two or three scans.
+TEST(EncoderJumpInMotion, AStairOfTwoOrThreeScansIsNone) {
+  for (const double speed : kSpeeds_mm_s) {
+    for (const std::size_t scans : {2u, 3u}) {
+      auto rows = Motion{.speed_mm_s = speed}.encoder_m();
+      for (std::size_t i = 0; i < kRows; ++i) rows[i] = rows[i - i % scans];
+      EXPECT_FALSE(jump_among(rows, 1)) << speed << " mm/s, " << scans << " scans";
+    }
+  }
+}
+
+// 0.2 um of noise: none is found where there is none, and a size is right within what four readings
+// leave of it.
+TEST(EncoderJumpInMotion, NoiseNeitherMakesNorHidesOne) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const double speed = kSpeeds_mm_s[seed % kSpeeds_mm_s.size()];
+    Motion motion{.speed_mm_s = speed, .noise_um = 0.2, .seed = seed};
+    EXPECT_FALSE(jump_among(motion.encoder_m())) << seed;
+    motion.jump_um = seed % 2 == 0 ? 20 : -20;
+    const auto jump = jump_among(motion.encoder_m());
+    ASSERT_TRUE(jump) << seed;
+    EXPECT_NEAR(jump->size_m, 1e-6 * motion.jump_um, 1.5e-6) << seed;
+  }
+}
+
+// Gone over in two scans, the neighbour shows as much: the axis itself went that far.
+TEST(EncoderJumpInMotion, AJumpOverTwoScansIsNone) {
+  for (const double speed : kSpeeds_mm_s) {
+    auto rows = Motion{.speed_mm_s = speed, .jump_um = 100}.encoder_m();
+    rows[kAt] -= 50e-6;
+    EXPECT_FALSE(jump_among(rows)) << speed;
+    rows[kAt] += 40e-6;  // 90 and 10 um: more than four times as much
+    EXPECT_TRUE(jump_among(rows)) << speed;
+  }
+}
+
+// Another one three scans later, or earlier, is in the speed after it, or before: a sixth of it in
+// the size of this one, and of both in that of its neighbour, which a jump is four times as large
+// as.
+TEST(EncoderJumpInMotion, OneWithAnotherBesideItIsNone) {
+  for (const std::size_t other : {kAt - 3, kAt + 3}) {
+    for (const double size_um : {30.0, 50.0}) {
+      auto rows = Motion{.speed_mm_s = 2, .jump_um = 100}.encoder_m();
+      for (std::size_t i = other; i < kRows; ++i) rows[i] += 1e-6 * size_um;
+      const auto jump = jump_among(rows);
+      ASSERT_EQ(jump.has_value(), size_um == 30) << other;
+      if (jump) {
+        EXPECT_NEAR(jump->size_m, 95e-6, 1e-12);
+      }
+    }
+  }
+}
+
+TEST(EncoderJumpInMotion, MissingPlacesAreNone) {
+  auto rows = Motion{.speed_mm_s = 10}.encoder_m();
+  for (std::size_t i = 25; i < 35; ++i) rows[i] = kNaN;
+  EXPECT_FALSE(jump_among(rows));
+  rows.assign(kRows, kNaN);
+  EXPECT_FALSE(jump_among(rows));
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -1,0 +1,97 @@
+// Positions that an axis of 100 m/s can have reached, and those that it cannot.
+#include "algo/plausibility/encoder/place_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "algo/points/frame_rows.h"
+#include "schema/sample.h"
+#include "tests/shown.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+struct TimedPlace {
+  std::int64_t ms;
+  double at_m;
+};
+
+FrameBlock frames_at(const std::vector<TimedPlace>& places) {
+  FrameBlock frames = empty_frames(0);
+  for (const auto& [ms, at_m] : places) {
+    frames.time_ns.push_back(ms * kMs);
+    frames.encoder_m.push_back(at_m);
+  }
+  return frames;
+}
+
+// Which of the frames have a place, '+', and which have none, '-', after one at 0 m and 0 ms.
+std::string placed(PlaceWatch& watch, const std::vector<TimedPlace>& places) {
+  const FrameBlock frames = frames_at(places);
+  std::string text;
+  for (std::size_t from = 0; from < frames.size();) {
+    const std::size_t to = watch.end_of_placed(frames, from);
+    text.append(to - from, '+');
+    from = watch.end_of_unplaced(frames, to);
+    text.append(from - to, '-');
+  }
+  return text;
+}
+std::string placed(const std::vector<TimedPlace>& places) {
+  PlaceWatch watch(100);
+  watch.begin_at(0, 0);
+  return placed(watch, places);
+}
+
+// 0.1 m in a millisecond, and 50 um for noise.
+TEST(PlaceWatch, AnAxisReachesItsSpeedTimesTheTime) {
+  EXPECT_EQ(placed({{1, 0.10004}}), "+");
+  EXPECT_EQ(placed({{1, 0.10006}}), "-");
+  EXPECT_EQ(placed({{1, -0.10004}}), "+");
+  EXPECT_EQ(placed({{1, -0.10006}}), "-");
+  EXPECT_EQ(placed({{1, 0.1}, {2, 0.2}, {3, 0.1}, {5, -0.1}, {6, 0.2}}), "++++-");
+  EXPECT_EQ(placed({{1, kNaN}, {2, 0.2}, {3, kNaN}}), "-+-");
+}
+
+// What goes on from a stray position is stray, though the axis could have got there in the time.
+TEST(PlaceWatch, WhatGoesOnFromAStrayPositionIsStray) {
+  EXPECT_EQ(placed({{1, 1}, {5, 1}, {20, 1.001}}), "---");
+  // It jumps back to where the axis can be: 0.7 m from the stray one in 3 ms.
+  EXPECT_EQ(placed({{1, 1}, {4, 0.3}, {5, 0.35}}), "-++");
+  EXPECT_EQ(placed({{1, 1}, {4, 0.5}}), "--");  // 0.5 m from either in 4 and 3 ms
+  // A tenth as near to where it was as to the stray one: it is back, however long that took.
+  EXPECT_EQ(placed({{1, 1}, {40, 0.09}}), "-+");
+  EXPECT_EQ(placed({{1, 1}, {40, 0.095}}), "--");
+  EXPECT_EQ(placed({{1, 1}, {40, -0.1}}), "-+");
+  EXPECT_EQ(placed({{1, 1}, {40, -0.12}}), "--");
+}
+
+TEST(PlaceWatch, BeforeItBeginsOnlyMissingPositionsAreLeftOut) {
+  PlaceWatch watch(100);
+  EXPECT_EQ(placed(watch, {{1, 0}, {2, 50}, {3, kNaN}, {4, -50}}), "++-+");
+  EXPECT_EQ(watch.left_out(), 1u);
+  // The last of them is where it was.
+  watch.begin_at(4 * kMs, -50);
+  EXPECT_EQ(placed(watch, {{5, -49.9}, {6, 0}}), "+-");
+}
+
+TEST(PlaceWatch, TellsHowManyAndTheFirst) {
+  PlaceWatch watch(100);
+  watch.begin_at(0, 0);
+  EXPECT_TRUE(watch.notices(0).empty());
+  EXPECT_EQ(placed(watch, {{1000, 0.5}, {1001, kNaN}, {1002, 2.5}, {1003, 2.5}, {1004, kNaN}}),
+            "+----");
+  EXPECT_EQ(watch.left_out(), 4u);
+  EXPECT_EQ(test::shown(watch.notices(500 * kMs)),
+            "position_missing scans=2 first_s=0.501\n"
+            "position_unreachable scans=2 jump_mm=2000 position_mm=500 first_s=0.502 "
+            "max_speed_mm_s=100000 is_lost=1\n");
+  EXPECT_EQ(placed(watch, {{1005, 0.5}}), "+");
+  EXPECT_NE(test::shown(watch.notices(500 * kMs)).find("is_lost=0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mdof::algo

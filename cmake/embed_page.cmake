@@ -1,5 +1,5 @@
 # embed_page(OUTPUT FILE...): writes OUTPUT, a source file for daemon/rpc/web/page_files.h with the texts of these
-# files under their names. Runs again when one of them changes.
+# files under their names, those of daemon/web/ by the path in it. Runs again when one of them changes.
 function(embed_page output)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${ARGN})
   foreach(file ${ARGN})
@@ -7,6 +7,11 @@ function(embed_page output)
       message(FATAL_ERROR "${file} is not there: tools/install-dependencies installs it (libjs-dygraphs)")
     endif()
     get_filename_component(name ${file} NAME)
+    set(page ${PROJECT_SOURCE_DIR}/daemon/web)
+    cmake_path(IS_PREFIX page ${file} of_page)
+    if(of_page)
+      cmake_path(RELATIVE_PATH file BASE_DIRECTORY ${page} OUTPUT_VARIABLE name)
+    endif()
     file(READ ${file} text)
     string(APPEND rows "    {\"${name}\", R\"the_page(${text})the_page\"},\n")
   endforeach()

@@ -13,7 +13,7 @@
 #include "daemon/rpc/web/token.h"
 #include "daemon/station/check_start.h"
 #include "daemon/station/clock_watch.h"
-#include "daemon/station/hotplug.h"
+#include "daemon/station/device/hotplug.h"
 #include "daemon/store/file/announced_head.h"
 #include "daemon/systemd/notify.h"
 #include "daemon/version.h"

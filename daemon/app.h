@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "daemon/measure/config.h"
+#include "daemon/measure/configuration/config.h"
 #include "schema/base/result.h"
 
 namespace mdof::daemon {

@@ -10,7 +10,7 @@
 #include <system_error>
 
 #include "daemon/app.h"
-#include "daemon/methods/replayer.h"
+#include "daemon/methods/files/replayer.h"
 #include "daemon/station/check_start.h"
 #include "daemon/version.h"
 #include "daemon/words/error_text.h"

@@ -9,7 +9,7 @@
 #include "daemon/methods/methods.h"
 #include "daemon/methods/volume.h"
 #include "daemon/paths.h"
-#include "daemon/rpc/list_page.h"
+#include "daemon/rpc/params/list_page.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_page.h"
 #include "schema/rig/correction.h"

@@ -1,6 +1,6 @@
 // history.list.
 #include "daemon/methods/methods.h"
-#include "daemon/rpc/list_page.h"
+#include "daemon/rpc/params/list_page.h"
 #include "schema/base/json_page.h"
 
 namespace mdof::daemon {

@@ -7,7 +7,7 @@
 #include "daemon/methods/methods.h"
 #include "daemon/methods/run_pages.h"
 #include "daemon/paths.h"
-#include "daemon/rpc/list_page.h"
+#include "daemon/rpc/params/list_page.h"
 #include "daemon/run_item.h"
 #include "daemon/station/resume.h"
 #include "daemon/words/error_text.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "daemon/rpc/list_page.h"
+#include "daemon/rpc/params/list_page.h"
 #include "daemon/store/store.h"
 #include "schema/base/result.h"
 #include "schema/rig/reference.h"

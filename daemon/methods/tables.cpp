@@ -5,7 +5,7 @@
 #include "daemon/measure/gate/active_json.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/methods/methods.h"
-#include "daemon/rpc/list_page.h"
+#include "daemon/rpc/params/list_page.h"
 #include "schema/base/json_page.h"
 #include "schema/run_json.h"
 #include "schema/volumetric/volumetric_json.h"

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "daemon/rpc/params.h"
+#include "daemon/rpc/params/params.h"
 #include "daemon/rpc/reply.h"
 #include "schema/base/result.h"
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "daemon/measure/config.h"
+#include "daemon/measure/configuration/config.h"
 #include "schema/base/result.h"
 
 namespace mdof::daemon {

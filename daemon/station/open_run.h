@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "daemon/station/device/trouble.h"
 #include "daemon/station/resume.h"
 #include "daemon/station/station.h"
-#include "daemon/station/trouble.h"
 #include "daemon/station/unrecorded.h"
 
 namespace mdof::daemon {

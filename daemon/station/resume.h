@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-#include "daemon/measure/config.h"
+#include "daemon/measure/configuration/config.h"
 #include "daemon/measure/pipeline.h"
 #include "daemon/measure/run_request.h"
 #include "daemon/store/store.h"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "daemon/measure/configuration/slow_channels.h"
 #include "daemon/measure/replay/request_json.h"
-#include "daemon/measure/slow_channels.h"
 #include "daemon/paths.h"
 #include "daemon/station/live_json.h"
 #include "daemon/station/open_run.h"

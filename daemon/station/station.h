@@ -1,5 +1,5 @@
-// One axis at work: its devices, each with its thread (acquisition.h; device/, where other
-// axes have it too), and its thread "measure-X".
+// One axis at work: its devices, each with its thread (device/acquisition.h; where other axes have
+// it too, device/shared_device.h), and its thread "measure-X".
 //
 //   devices -> queue      measure: queue -> recording (store thread) -> pipeline -> points
 //
@@ -17,13 +17,13 @@
 #include <variant>
 #include <vector>
 
-#include "daemon/measure/config.h"
+#include "daemon/measure/configuration/config.h"
 #include "daemon/measure/pipeline.h"
 #include "daemon/measure/run_request.h"
 #include "daemon/station/device/device_reader.h"
 #include "daemon/station/device/shared_device.h"
+#include "daemon/station/device/spare_blocks.h"
 #include "daemon/station/encoder_zero.h"
-#include "daemon/station/spare_blocks.h"
 #include "daemon/storekeeper/storekeeper.h"
 #include "schema/base/bounded_queue.h"
 #include "schema/notice/notice.h"

@@ -24,7 +24,7 @@ async function show() {
   links.forEach((link, i) => kViews[i][0] === view
     ? link.setAttribute("aria-current", "page") : link.removeAttribute("aria-current"));
   document.title = `${title} – mdof`;
-  const module = await import(`./${view}.js`);
+  const module = await import(`./views/${view}.js`);
   if (number !== shown) return;
   close?.();
   const place = h("div", {class: `view ${view}`}, h("h1", {}, title));

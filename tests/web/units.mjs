@@ -3,15 +3,15 @@ import assert from "node:assert/strict";
 
 export async function units(page) {
   const found = await page.evaluate(async () => {
-    const {Noise, verdict, shimText, stateOf} = await import("/setup.js");
-    const {lineThrough} = await import("/run_detail.js");
-    const {difference} = await import("/run_pair.js");
-    const {valueAt} = await import("/compensation.js");
-    const {expected} = await import("/capture.js");
+    const {Noise, verdict, shimText, stateOf} = await import("/views/setup.js");
+    const {lineThrough} = await import("/views/run_detail.js");
+    const {difference} = await import("/views/run_pair.js");
+    const {valueAt} = await import("/views/compensation.js");
+    const {expected} = await import("/views/capture.js");
     const {rowsOf, means} = await import("/charts.js");
-    const {controlSeries, verdict: control} = await import("/run_trend.js");
-    const {hoursLeft} = await import("/health.js");
-    const {layer} = await import("/volume.js");
+    const {controlSeries, verdict: control} = await import("/views/run_trend.js");
+    const {hoursLeft} = await import("/views/health.js");
+    const {layer} = await import("/views/volume.js");
     const {fixed, measured, short} = await import("/dom.js");
     const probe = {id: "A", direction: [0, 0, 1], low_um: -100, high_um: 100};
     const card = {probe, noise: {pooled: [0.01, 60]}};

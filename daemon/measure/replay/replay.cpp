@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "daemon/measure/config.h"
+#include "daemon/measure/configuration/config.h"
 #include "daemon/measure/corrections/air_series.h"
 #include "daemon/measure/replay/on_the_fly_run.h"
 #include "daemon/paths.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "daemon/measure/config.h"
+#include "daemon/measure/configuration/config.h"
 #include "daemon/measure/delays.h"
 #include "daemon/measure/replay/replay_options.h"
 #include "daemon/paths.h"

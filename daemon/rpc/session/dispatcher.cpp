@@ -7,7 +7,7 @@
 
 #include "daemon/rpc/codes.h"
 #include "daemon/rpc/message.h"
-#include "daemon/rpc/param_values.h"
+#include "daemon/rpc/params/param_values.h"
 #include "daemon/rpc/request.h"
 #include "daemon/words/error_text.h"
 

@@ -8,7 +8,7 @@
 
 #include "daemon/rpc/message.h"
 #include "daemon/rpc/net/peer.h"
-#include "daemon/rpc/web/event_query.h"
+#include "daemon/rpc/web/events/event_query.h"
 #include "daemon/rpc/web/http_server_core.h"
 #include "daemon/rpc/web/same_site.h"
 #include "daemon/rpc/web/token.h"

@@ -9,9 +9,9 @@
 #include <string_view>
 
 #include "daemon/rpc/net/client_set.h"
+#include "daemon/rpc/web/events/kept_events.h"
 #include "daemon/rpc/web/http_connection.h"
 #include "daemon/rpc/web/http_server.h"
-#include "daemon/rpc/web/kept_events.h"
 #include "daemon/rpc/web/served_files.h"
 
 namespace mdof::rpc {

@@ -7,7 +7,7 @@
 namespace mdof::rpc {
 
 struct PageFile {
-  std::string_view name;  // "index.html"
+  std::string_view name;  // "index.html", "views/runs.js"
   std::string_view text;
 };
 

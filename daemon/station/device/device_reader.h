@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/station/trouble.h"
+#include "daemon/station/device/trouble.h"
 #include "drivers/driver_spec.h"
 #include "schema/sample.h"
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "daemon/measure/config.h"
-#include "daemon/station/acquisition.h"
+#include "daemon/measure/configuration/config.h"
+#include "daemon/station/device/acquisition.h"
 #include "daemon/station/device/device_reader.h"
 
 namespace mdof::daemon {

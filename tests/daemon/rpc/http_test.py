@@ -101,7 +101,7 @@ class Http(unittest.TestCase):
         return made.stdout.strip()
 
     def test_files_of_the_page(self):
-        files = {p.name: p for p in PAGE.iterdir() if p.is_file()}
+        files = {str(p.relative_to(PAGE)): p for p in (*PAGE.glob("*.*"), *PAGE.glob("views/*.*"))}
         files |= {n: pathlib.Path("/usr/share/javascript/dygraphs", n) for n in ("dygraph.min.js", "dygraph.min.css")}
         sent = 0
         for name, path in files.items():

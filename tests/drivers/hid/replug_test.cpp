@@ -12,7 +12,7 @@
 #include <fstream>
 #include <thread>
 
-#include "daemon/station/acquisition.h"
+#include "daemon/station/device/acquisition.h"
 #include "drivers/io/hid.h"
 #include "drivers/pokeys57u/pokeys57u.h"
 #include "drivers/pokeys57u/simulated_pokeys57u.h"

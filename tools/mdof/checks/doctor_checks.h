@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/measure/config.h"
+#include "daemon/measure/configuration/config.h"
 
 namespace mdof::tools {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "daemon/measure/config.h"
+#include "daemon/measure/configuration/config.h"
 #include "schema/base/result.h"
 
 namespace CLI {

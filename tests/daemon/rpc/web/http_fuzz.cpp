@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/rpc/web/event_query.h"
+#include "daemon/rpc/web/events/event_query.h"
 #include "daemon/rpc/web/http_head.h"
 #include "daemon/rpc/web/http_server_core.h"
 #include "daemon/rpc/web/same_site.h"

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "daemon/rpc/web/event_query.h"
-#include "daemon/rpc/web/kept_events.h"
+#include "daemon/rpc/web/events/event_query.h"
+#include "daemon/rpc/web/events/kept_events.h"
 #include "daemon/rpc/web/same_site.h"
 #include "daemon/rpc/web/served_files.h"
 #include "daemon/rpc/web/token.h"

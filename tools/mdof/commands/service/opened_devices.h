@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/measure/config.h"
+#include "daemon/measure/configuration/config.h"
 #include "schema/base/result.h"
 
 namespace CLI {

@@ -1,0 +1,94 @@
+#include "daemon/methods/files/replayer.h"
+
+#include <pthread.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+#include "daemon/measure/budgets.h"
+
+namespace mdof::daemon {
+namespace {
+
+constexpr int kNiceness = 10;  // after everything that measures
+constexpr std::chrono::seconds kPatience{2};
+
+std::atomic<bool> left_behind{false};
+
+}  // namespace
+
+struct Replayer::Shared {
+  explicit Shared(Storekeeper& to) : keeper(to) {}
+
+  void work(const Make& make, const HistoryEntry& action, const Done& done);
+  void store(Result<Run> run, const HistoryEntry& action, const Done& done);
+
+  std::atomic<bool> busy{false}, stopping{false};
+  std::mutex mutex;  // guards the next two
+  std::condition_variable ended;
+  bool working = false;
+  Storekeeper& keeper;  // only under the mutex and before `stopping`: it goes after that
+};
+
+void Replayer::Shared::work(const Make& make, const HistoryEntry& action, const Done& done) {
+  ::pthread_setname_np(::pthread_self(), "replay");
+  // Linux: of this thread alone.
+  (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
+  auto run = make([this](const Progress&) { return !stopping; });
+  const std::lock_guard lock(mutex);
+  busy = false;  // before the answer: who has it may ask for the next
+  if (!stopping) store(std::move(run), action, done);
+  working = false;
+  ended.notify_all();
+}
+
+void Replayer::Shared::store(Result<Run> run, const HistoryEntry& action, const Done& done) {
+  if (!run) return done(tl::unexpected(run.error()));
+  const auto whole = std::make_shared<Run>(std::move(*run));
+  const bool posted =
+      keeper.post([whole, action, done, uncertainty = uncertainty_of(*whole)](store::Store& store) {
+        done(store.add_run(*whole, action, uncertainty));
+      });
+  if (!posted) done(io_error("too many writes to the database are pending; try again"));
+}
+
+Replayer::Replayer(Storekeeper& keeper) : shared_(std::make_shared<Shared>(keeper)) {}
+
+Replayer::~Replayer() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->stopping = true;
+  const bool done = shared_->ended.wait_for(lock, kPatience, [this] { return !shared_->working; });
+  lock.unlock();
+  if (!thread_.joinable()) return;
+  if (done) {
+    thread_.join();
+  } else {
+    left_behind = true;
+    thread_.detach();
+  }
+}
+
+bool Replayer::was_left_behind() {
+  return left_behind;
+}
+
+void Replayer::start(Make make, const HistoryEntry& action, Done done) {
+  if (shared_->busy.exchange(true))
+    return done(
+        fail(ErrorCode::conflict,
+             "mdofd is replaying or importing another file; try again when mdofd has finished"));
+  if (thread_.joinable()) thread_.join();  // it has done its work, or is about to have
+  {
+    const std::lock_guard lock(shared_->mutex);
+    shared_->working = true;
+  }
+  thread_ = std::thread([shared = shared_, make = std::move(make), action, done = std::move(done)] {
+    shared->work(make, action, done);
+  });
+}
+
+}  // namespace mdof::daemon

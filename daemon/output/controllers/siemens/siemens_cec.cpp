@@ -1,0 +1,392 @@
+#include "daemon/output/controllers/siemens/siemens_cec.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "algo/compensation/volumetric/separable.h"
+#include "daemon/output/controllers/series.h"
+#include "daemon/output/controllers/siemens/siemens_steps.h"
+#include "daemon/output/controllers/text_lines.h"
+#include "daemon/output/controllers/volume_files.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::controllers {
+namespace {
+
+constexpr std::size_t kTablesOf828D = 8;
+constexpr double kSamePlace_m = 1e-10;
+constexpr const char* kFile = "NC_CEC.INI";
+
+// One table of the control.
+struct CecTable {
+  char input = 'X', output = 'X';
+  int direction = 0;  // of the input axis: 1 positive, -1 negative, 0 both
+  double first_m = 0, step_m = 0;
+  std::vector<double> correction_m;  // of a product: one factor of it
+  std::size_t multiply_by = 0;       // number of the table with the other factor: its index + 1
+};
+
+constexpr int kDecimalsOfAxis = 6;    // mm
+constexpr int kDecimalsOfVolume = 9;  // a dozen tables add up
+
+std::string cec_text(std::size_t t, const CecTable& table, const std::string& error,
+                     int decimals = kDecimalsOfAxis) {
+  const std::string index = "[" + std::to_string(t) + "]=";
+  std::string text = "; " + error + "\n";
+  for (std::size_t i = 0; i < table.correction_m.size(); ++i)
+    text += "$AN_CEC[" + std::to_string(t) + "," + std::to_string(i) +
+            "]=" + fixed(to_mm(table.correction_m[i]), decimals) + "\n";
+  const double last_m =
+      table.first_m + table.step_m * static_cast<double>(table.correction_m.size() - 1);
+  return text + "$AN_CEC_INPUT_AXIS" + index + "(" + siemens_axis(table.input) +
+         ")\n$AN_CEC_OUTPUT_AXIS" + index + "(" + siemens_axis(table.output) + ")\n$AN_CEC_STEP" +
+         index + fixed(to_mm(table.step_m), decimals) + "\n$AN_CEC_MIN" + index +
+         fixed(to_mm(table.first_m), decimals) + "\n$AN_CEC_MAX" + index +
+         fixed(to_mm(last_m), decimals) + "\n$AN_CEC_DIRECTION" + index +
+         std::to_string(table.direction) + "\n$AN_CEC_MULT_BY_TABLE" + index +
+         std::to_string(table.multiply_by) + "\n$AN_CEC_IS_MODULO" + index + "0\n";
+}
+
+CecTable table_of(const Series& s, const EqualSteps& e, const std::vector<double>& errors,
+                  int direction) {
+  CecTable table{s.along, s.command, direction, e.first_m, e.step_m, {}, 0};
+  for (const double error : errors) table.correction_m.push_back(s.factor * error);
+  return table;
+}
+
+// The errors of one table of mdof; `t` is the control's next one.
+Status add_errors(const CompensationTable& table, const ExportOptions& options, Export& out,
+                  std::string& text, std::size_t& t) {
+  const std::string of_table = " of table " + std::to_string(table.id) + ": ";
+  const std::size_t before = t;
+  for (const Series& measured : series_of(table)) {
+    if (measured.angle || measured.factor == 0) {
+      out.left_out.push_back(measured.error + of_table +
+                             (measured.angle ? "the effect of an angle depends on a lever arm, but "
+                                               "a CEC table uses the position of one axis only"
+                                             : measured.gap));
+      continue;
+    }
+    MDOF_TRY(const Series s, fitted(measured, table.id, kMostBeforeSteps, options, out));
+    MDOF_TRY(const EqualSteps e, equal_steps(s, out));
+    const bool both = e.forward == e.reverse;
+    text += cec_text(t++, table_of(s, e, e.forward, both ? 0 : 1), s.error);
+    if (!both) text += cec_text(t++, table_of(s, e, e.reverse, -1), s.error);
+    if (s.along != s.command)
+      out.notes.push_back(s.error + ": the CEC table does not contain the squareness of " +
+                          s.along + " and " + s.command);
+  }
+  if (t == before)
+    return bad_input("table " + std::to_string(table.id) +
+                     " contains no error that CEC can store; CEC stores positioning errors, and "
+                     "straightness errors whose correction sign is known");
+  return {};
+}
+
+// The lines of one file, one after the other.
+class Lines {
+ public:
+  explicit Lines(const ControllerFile& file) : name_(file.name), lines_(lines_of(file.text)) {}
+  bool take(std::string_view line) {
+    skip();
+    if (at_ >= lines_.size() || lines_[at_] != line) return false;
+    ++at_;
+    return true;
+  }
+  // "KEY=value" with this key.
+  std::optional<std::string_view> value(const std::string& key) {
+    skip();
+    if (at_ >= lines_.size() || !lines_[at_].starts_with(key + "=")) return std::nullopt;
+    return lines_[at_++].substr(key.size() + 1);
+  }
+  std::optional<double> number(const std::string& key) {
+    const auto text = value(key);
+    return text ? decimal_from(*text) : std::nullopt;
+  }
+  bool at_end() const { return at_ == lines_.size(); }
+  tl::unexpected<Error> expected(const std::string& what) const {
+    return wrong_at(name_, at_ + 1, what + " is expected");
+  }
+
+ private:
+  void skip() {
+    while (at_ < lines_.size() && lines_[at_].starts_with(";")) ++at_;
+  }
+  std::string name_;
+  std::vector<std::string_view> lines_;
+  std::size_t at_ = 0;
+};
+
+// "(AX2)"
+std::optional<char> axis_in(const std::optional<std::string_view>& text) {
+  for (const char axis : {'X', 'Y', 'Z'})
+    if (text && *text == "(" + siemens_axis(axis) + ")") return axis;
+  return std::nullopt;
+}
+
+Result<CecTable> read_table(Lines& lines, std::size_t t) {
+  const std::string index = "[" + std::to_string(t) + "]";
+  CecTable table;
+  while (const auto x = lines.number("$AN_CEC[" + std::to_string(t) + "," +
+                                     std::to_string(table.correction_m.size()) + "]"))
+    table.correction_m.push_back(from_mm(*x));
+  const auto input = axis_in(lines.value("$AN_CEC_INPUT_AXIS" + index));
+  if (!input) return lines.expected("$AN_CEC_INPUT_AXIS" + index);
+  const auto output = axis_in(lines.value("$AN_CEC_OUTPUT_AXIS" + index));
+  if (!output) return lines.expected("$AN_CEC_OUTPUT_AXIS" + index);
+  double figures[6] = {};
+  const char* const keys[] = {"STEP", "MIN", "MAX", "DIRECTION", "MULT_BY_TABLE", "IS_MODULO"};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto x = lines.number(std::string("$AN_CEC_") + keys[k] + index);
+    if (!x) return lines.expected(std::string("$AN_CEC_") + keys[k] + index);
+    figures[k] = *x;
+  }
+  const std::size_t n = table.correction_m.size();
+  const double last = figures[1] + figures[0] * (static_cast<double>(n) - 1);
+  if (n < 2 || n > kMostOfSiemens || std::abs(last - figures[2]) > 1e-6 || figures[4] < 0 ||
+      figures[5] != 0)
+    return lines.expected("a table of 2 to " + std::to_string(kMostOfSiemens) +
+                          " points with MAX = MIN + (points - 1) * STEP, MULT_BY_TABLE 0 or more "
+                          "and IS_MODULO 0");
+  table.input = *input;
+  table.output = *output;
+  table.step_m = from_mm(figures[0]);
+  table.first_m = from_mm(figures[1]);
+  table.direction = static_cast<int>(figures[3]);
+  table.multiply_by = static_cast<std::size_t>(figures[4]);
+  return table;
+}
+
+AppliedCorrection applied_by(const CecTable& table) {
+  AppliedCorrection applied{
+      {'E', table.output, table.input}, table.input, table.output, {}, {}, {}};
+  for (std::size_t i = 0; i < table.correction_m.size(); ++i)
+    applied.position_m.push_back(table.first_m + table.step_m * static_cast<double>(i));
+  const std::vector<double> none(table.correction_m.size(), 0.0);
+  applied.forward = table.direction >= 0 ? table.correction_m : none;
+  applied.reverse = table.direction <= 0 ? table.correction_m : none;
+  return applied;
+}
+
+// The control adds up its tables of one output axis; those of one error stand at the same places.
+bool add_to(std::vector<AppliedCorrection>& all, const AppliedCorrection& more) {
+  for (AppliedCorrection& one : all) {
+    if (one.error != more.error) continue;
+    if (one.position_m.size() != more.position_m.size() ||
+        std::abs(one.position_m.back() - more.position_m.back()) > kSamePlace_m)
+      return false;
+    for (std::size_t i = 0; i < one.position_m.size(); ++i) {
+      one.forward[i] += more.forward[i];
+      one.reverse[i] += more.reverse[i];
+    }
+    return true;
+  }
+  all.push_back(more);
+  return true;
+}
+
+Result<std::vector<CecTable>> read_tables(const std::vector<ControllerFile>& files) {
+  const ControllerFile* file = find_file(files, kFile);
+  if (!file) return bad_input(std::string(kFile) + ": the file is missing");
+  Lines lines(*file);
+  if (!lines.take("CHANDATA(1)")) return lines.expected("CHANDATA(1)");
+  std::vector<CecTable> tables;
+  while (!lines.take("M17")) {
+    MDOF_TRY(CecTable table, read_table(lines, tables.size()));
+    tables.push_back(std::move(table));
+  }
+  if (!lines.at_end()) return lines.expected("the end of the file after M17");
+  for (const CecTable& table : tables)
+    if (table.multiply_by > tables.size())
+      return bad_input(std::string(kFile) + ": $AN_CEC_MULT_BY_TABLE names table " +
+                       std::to_string(table.multiply_by) + ", but the file has " +
+                       std::to_string(tables.size()) + " tables");
+  return tables;
+}
+
+std::string file_text(const std::string& head, const std::string& tables) {
+  return head +
+         "; AX1, AX2, AX3 are assumed to be the machine axes X, Y, Z. Load this file with\n"
+         "; MD32710 = 0. Then set MD32710 = 1 for each output axis and SD41300 = 1 for each\n"
+         "; table, and reset the control. The input axes must be referenced.\n"
+         "CHANDATA(1)\n" +
+         tables + "M17\n";
+}
+
+void note_count(std::size_t tables, Export& out) {
+  if (tables > kTablesOf828D)
+    out.notes.push_back(std::to_string(tables) + " CEC tables, but an 828D allows only " +
+                        std::to_string(kTablesOf828D) +
+                        "; on other controls MD18342 sets the limit");
+}
+
+}  // namespace
+
+Result<Export> write_cec(const std::vector<CompensationTable>& tables,
+                         const ExportOptions& options) {
+  MDOF_CHECK(check_one_table_an_axis(tables));
+  Export out;
+  const ExportOptions as_measured = without_tolerance(options, out);
+  if (options.home_m)
+    out.notes.emplace_back("home_mm has no effect, because CEC contains the errors unchanged");
+  std::string head, text;
+  std::size_t t = 0;
+  for (const CompensationTable& table : tables) {
+    for (const std::string& line : head_lines(
+             table, options, "mm; value = correction, added to the command of the output axis"))
+      head += "; " + line + "\n";
+    MDOF_CHECK(add_errors(table, as_measured, out, text, t));
+  }
+  note_count(t, out);
+  out.files.push_back({kFile, file_text(head, text)});
+  return out;
+}
+
+Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile>& files) {
+  MDOF_TRY(const auto tables, read_tables(files));
+  std::vector<AppliedCorrection> all;
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    const std::string place = std::string(kFile) + ": table " + std::to_string(t) + ": ";
+    if (tables[t].multiply_by != 0)
+      return bad_input(place + "$AN_CEC_MULT_BY_TABLE must be 0 in a correction of single axes");
+    if (!add_to(all, applied_by(tables[t])))
+      return bad_input(place + "the positions differ from the earlier table of the same axes");
+  }
+  return all;
+}
+
+namespace {
+
+constexpr std::string_view kLinearAxes = "XYZ";
+constexpr double kEnough_m = 2e-9;  // of what two axes do together
+
+// A factor in √m as the number that is written in mm: the product of two numbers is in mm.
+std::vector<double> in_root_mm(std::vector<double> factor) {
+  for (double& x : factor) x *= std::sqrt(1e-3);
+  return factor;
+}
+
+double largest_factor(const std::vector<CecTable>& tables) {
+  double most = 0;
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    if (tables[i].multiply_by > 0)
+      for (const double x : tables[i].correction_m) most = std::max(most, std::abs(x));
+  return most;
+}
+
+// The tables of one output axis, one behind the other.
+void add_correction(const VolumetricTable& t, const std::array<double, 3>& step_m, char output,
+                    const algo::SeparableCorrection& sum, std::vector<CecTable>& tables) {
+  const auto add = [&](std::size_t axis, const std::vector<double>& values, bool multiply) {
+    tables.push_back({kLinearAxes[axis], output, 0, t.command_m[axis].front(), step_m[axis], values,
+                      multiply ? tables.size() + 2 : 0});
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!sum.along[axis].empty()) add(axis, sum.along[axis], false);
+  for (const algo::AxisProduct& product : sum.products) {
+    add(product.first, in_root_mm(product.of_first), true);
+    add(product.second, in_root_mm(product.of_second), false);
+  }
+}
+
+// The commands of the nodes along an axis: those of its tables, which are the same.
+Result<std::vector<double>> commands_of(const std::vector<CecTable>& tables, char axis) {
+  std::vector<double> commands;
+  for (const CecTable& table : tables) {
+    if (table.input != axis) continue;
+    std::vector<double> own;
+    for (std::size_t i = 0; i < table.correction_m.size(); ++i)
+      own.push_back(table.first_m + table.step_m * static_cast<double>(i));
+    if (!commands.empty() && commands != own)
+      return bad_input(std::string(kFile) + ": the tables of axis " + axis +
+                       " have different positions");
+    commands = std::move(own);
+  }
+  if (commands.empty()) commands = {0};
+  return commands;
+}
+
+// What the control adds at a node: the sum of its tables and products. A table that another one is
+// multiplied with counts in the product alone.
+Vec3 sum_at(const std::vector<CecTable>& tables, const std::array<std::size_t, 3>& index) {
+  const auto value = [&](const CecTable& table) {
+    return table.correction_m[index[kLinearAxes.find(table.input)]];
+  };
+  std::vector<bool> is_factor(tables.size(), false);
+  for (const CecTable& table : tables)
+    if (table.multiply_by > 0) is_factor[table.multiply_by - 1] = true;
+  Vec3 sum{};
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    if (is_factor[t]) continue;
+    const std::size_t by = tables[t].multiply_by;
+    // Factors are numbers in mm, and so is their product.
+    const double factor = by > 0 ? to_mm(value(tables[by - 1])) : 1;
+    sum[kLinearAxes.find(tables[t].output)] += value(tables[t]) * factor;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& options) {
+  Export out;
+  note_options(options, out);
+  std::array<double, 3> step_m{};
+  for (const std::size_t axis : axes_of_grid(t)) {
+    MDOF_TRY(step_m[axis], equal_step(t, axis, "CEC"));
+    if (t.command_m[axis].size() > kMostOfSiemens)
+      return bad_input("table " + std::to_string(t.id) + ": " +
+                       std::to_string(t.command_m[axis].size()) + " positions of " +
+                       kLinearAxes[axis] + ", but a CEC table has at most " +
+                       std::to_string(kMostOfSiemens) + " points; build a table with larger steps");
+  }
+  std::vector<CecTable> tables;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!t.machine.find(kLinearAxes[k])) continue;
+    const auto sum = algo::separate(t, k, kEnough_m);
+    out.left_m = std::max(out.left_m, sum.left_m);
+    add_correction(t, step_m, kLinearAxes[k], sum, tables);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < tables.size(); ++i)
+    text += cec_text(i, tables[i],
+                     tables[i].multiply_by > 0 ? "first factor of a product"
+                     : i > 0 && tables[i - 1].multiply_by > 0
+                         ? "second factor of the product"
+                         : std::string("correction of ") + tables[i].output +
+                               " by the position of " + tables[i].input,
+                     kDecimalsOfVolume);
+  const auto head =
+      head_of(t, options, "mm; value = correction, added to the command of the output axis");
+  out.files.push_back({kFile, file_text(commented(head, ";"), text)});
+  out.notes.push_back(
+      "largest residual that sums and products of one-axis tables cannot represent: " +
+      plain_number(to_um(out.left_m), 2) + " um");
+  if (std::any_of(tables.begin(), tables.end(),
+                  [](const CecTable& one) { return one.multiply_by > 0; }))
+    out.notes.emplace_back(
+        "products (MULT_BY_TABLE): in the example of the manual, the control adds only the "
+        "product; check on the machine that the control does not add the single factors too; each "
+        "factor is below " +
+        plain_number(to_um(largest_factor(tables)), 2) + " um");
+  note_count(tables.size(), out);
+  count_nodes(t, out);
+  return out;
+}
+
+Result<VolumetricTable> read_cec_volume(const std::vector<ControllerFile>& files) {
+  MDOF_TRY(const auto tables, read_tables(files));
+  VolumetricTable t;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    MDOF_TRY(t.command_m[axis], commands_of(tables, kLinearAxes[axis]));
+  }
+  for (std::size_t node = 0; node < t.nodes(); ++node) {
+    const std::size_t nx = t.command_m[0].size(), ny = t.command_m[1].size();
+    t.correction_m.push_back(sum_at(tables, {node % nx, node / nx % ny, node / (nx * ny)}));
+  }
+  t.u_m.assign(t.nodes(), Vec3{});
+  return t;
+}
+
+}  // namespace mdof::controllers

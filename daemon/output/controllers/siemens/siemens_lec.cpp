@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+
+#include "daemon/output/controllers/error_rows.h"
+#include "daemon/output/controllers/series.h"
+#include "daemon/output/controllers/siemens/siemens_steps.h"
+#include "daemon/output/controllers/text_lines.h"
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::controllers {
+namespace {
+
+// ENC_COMP has one value for both approaches.
+Series mean_of_approaches(Series s) {
+  for (std::size_t i = 0; i < s.position_m.size(); ++i)
+    s.forward[i] = s.reverse[i] = 0.5 * (s.forward[i] + s.reverse[i]);
+  return s;
+}
+
+std::string lec_text(const CompensationTable& table, const Series& s, const EqualSteps& e,
+                     const ExportOptions& options) {
+  const std::string axis = siemens_axis(s.along);
+  const std::string of = "[0," + axis + "]=";
+  std::string text;
+  for (const std::string& line :
+       head_lines(table, options,
+                  "mm; value = +" + s.error +
+                      ", mean of both approaches; a positive value moves the "
+                      "axis in the negative direction"))
+    text += "; " + line + "\n";
+  text += "; " + axis + " is assumed to be the machine axis " + s.along +
+          ".\n; Load this file with MD32700 = 0. Then set MD32700 = 1 and reset the control.\n"
+          "; The axis must be referenced.\n"
+          "CHANDATA(1)\n";
+  for (std::size_t i = 0; i < e.forward.size(); ++i)
+    text += "$AA_ENC_COMP[0," + std::to_string(i) + "," + axis +
+            "]=" + fixed(to_mm(e.forward[i]), 6) + "\n";
+  return text + "$AA_ENC_COMP_STEP" + of + fixed(to_mm(e.step_m), 6) + "\n$AA_ENC_COMP_MIN" + of +
+         fixed(to_mm(e.first_m), 6) + "\n$AA_ENC_COMP_MAX" + of + fixed(to_mm(e.last_m()), 6) +
+         "\n$AA_ENC_COMP_IS_MODULO" + of + "0\nM17\n";
+}
+
+// "$KEY[...]=number" of a line that begins so; nothing: it does not.
+std::optional<double> assigned(std::string_view line, const std::string& to) {
+  if (!line.starts_with(to + "=")) return std::nullopt;
+  return decimal_from(line.substr(to.size() + 1));
+}
+
+Result<AppliedCorrection> read_lec_file(const ControllerFile& file) {
+  const char letter_of_axis = file.name.at(0);
+  const std::string axis = siemens_axis(letter_of_axis);
+  AppliedCorrection read{
+      {'E', letter_of_axis, letter_of_axis}, letter_of_axis, letter_of_axis, {}, {}, {}};
+  auto lines = lines_of(file.text);
+  std::erase_if(lines, [](std::string_view line) { return line.starts_with(";"); });
+  std::size_t at = 0;
+  if (lines.empty() || lines[at++] != "CHANDATA(1)")
+    return bad_input(file.name + ": the first line below the comments must be CHANDATA(1)");
+  for (; at < lines.size(); ++at) {
+    const auto value = assigned(
+        lines[at], "$AA_ENC_COMP[0," + std::to_string(read.forward.size()) + "," + axis + "]");
+    if (!value) break;
+    read.forward.push_back(-from_mm(*value));
+  }
+  double figures[4] = {};
+  const char* const keys[] = {"STEP", "MIN", "MAX", "IS_MODULO"};
+  for (std::size_t k = 0; k < 4; ++k, ++at) {
+    const auto value =
+        at < lines.size()
+            ? assigned(lines[at], std::string("$AA_ENC_COMP_") + keys[k] + "[0," + axis + "]")
+            : std::nullopt;
+    if (!value)
+      return bad_input(file.name + ": $AA_ENC_COMP_" + keys[k] + " with a number is expected");
+    figures[k] = *value;
+  }
+  const auto n = static_cast<double>(read.forward.size());
+  if (at + 1 != lines.size() || lines[at] != "M17" || n < 2 || n > kMostOfSiemens ||
+      figures[3] != 0 || std::abs(figures[1] + figures[0] * (n - 1) - figures[2]) > 1e-7)
+    return bad_input(file.name + ": 2 to " + std::to_string(kMostOfSiemens) +
+                     " points are expected, with MAX = MIN + (points - 1) * STEP, IS_MODULO = 0 "
+                     "and M17 as the last line");
+  for (std::size_t i = 0; i < read.forward.size(); ++i)
+    read.position_m.push_back(from_mm(figures[1] + figures[0] * static_cast<double>(i)));
+  read.reverse = read.forward;
+  return read;
+}
+
+}  // namespace
+
+Result<Export> write_lec(const std::vector<CompensationTable>& tables,
+                         const ExportOptions& options) {
+  MDOF_CHECK(check_one_table_an_axis(tables));
+  Export out;
+  const ExportOptions as_measured = without_tolerance(options, out);
+  for (const CompensationTable& table : tables) {
+    MDOF_TRY(const Series s, positioning_of(table, kMostBeforeSteps, as_measured, "ENC_COMP", out));
+    double reversal = 0;
+    for (std::size_t i = 0; i < s.position_m.size(); ++i)
+      reversal = std::max(reversal, std::abs(s.forward[i] - s.reverse[i]));
+    if (reversal > 0)
+      out.left_out.push_back(s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +
+                             " um, because ENC_COMP stores only the mean of both approaches");
+    MDOF_TRY(const EqualSteps e, equal_steps(mean_of_approaches(s), out));
+    out.files.push_back({std::string(1, s.along) + "_EEC.INI", lec_text(table, s, e, options)});
+  }
+  return out;
+}
+
+Result<std::vector<AppliedCorrection>> read_lec(const std::vector<ControllerFile>& files) {
+  std::vector<AppliedCorrection> all;
+  for (const ControllerFile& file : files) {
+    MDOF_TRY(AppliedCorrection read, read_lec_file(file));
+    all.push_back(std::move(read));
+  }
+  return all;
+}
+
+}  // namespace mdof::controllers

@@ -1,0 +1,75 @@
+#include "daemon/output/controllers/siemens/siemens_steps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::controllers {
+namespace {
+
+constexpr double kSameStep_m = 1e-9;
+
+double value_at(const EqualSteps& e, const std::vector<double>& values, double at_m) {
+  const double place =
+      std::clamp((at_m - e.first_m) / e.step_m, 0.0, static_cast<double>(values.size() - 1));
+  const auto i = std::min(static_cast<std::size_t>(place), values.size() - 2);
+  return values[i] + (values[i + 1] - values[i]) * (place - static_cast<double>(i));
+}
+
+// One approach of `s`, `steps` + 1 values.
+std::vector<double> resampled(const Series& s, const std::vector<double>& approach,
+                              std::size_t steps, EqualSteps& e) {
+  Series one = s;
+  one.forward = one.reverse = approach;
+  std::vector<double> values;
+  for (std::size_t i = 0; i <= steps; ++i)
+    values.push_back(mean_error_at(one, e.first_m + static_cast<double>(i) * e.step_m));
+  for (std::size_t i = 0; i < s.position_m.size(); ++i)
+    e.loss_m = std::max(e.loss_m, std::abs(value_at(e, values, s.position_m[i]) - approach[i]));
+  return values;
+}
+
+}  // namespace
+
+Result<EqualSteps> equal_steps(const Series& s, Export& out) {
+  const auto& x = s.position_m;
+  if (x.size() < 2)
+    return bad_input(s.error +
+                     ": only one point, but a table of equal steps needs at least two points");
+  const double range = x.back() - x.front();
+  double smallest = range;
+  for (std::size_t i = 1; i < x.size(); ++i) smallest = std::min(smallest, x[i] - x[i - 1]);
+  const double wanted = std::max(
+      1.0, std::min(std::round(range / smallest), static_cast<double>(kMostOfSiemens - 1)));
+  EqualSteps e;
+  e.first_m = std::round(x.front() / kSameStep_m) * kSameStep_m;
+  e.step_m = std::round(range / wanted / kSameStep_m) * kSameStep_m;
+  const auto steps = static_cast<std::size_t>(wanted);
+  e.forward = resampled(s, s.forward, steps, e);
+  e.reverse = resampled(s, s.reverse, steps, e);
+  if (e.loss_m > kSameStep_m)
+    out.notes.push_back(s.error + ": " + std::to_string(x.size()) +
+                        " points were interpolated to " + std::to_string(e.forward.size()) +
+                        " at equal steps of " + plain_number(to_mm(e.step_m), 7) +
+                        " mm, which changes values by up to " + plain_number(to_um(e.loss_m)) +
+                        " um");
+  out.written.back().points = e.forward.size();
+  out.written.back().largest_deviation = e.loss_m;
+  return e;
+}
+
+ExportOptions without_tolerance(const ExportOptions& options, Export& out) {
+  if (options.tolerance_m > 0)
+    out.notes.emplace_back("tolerance_um has no effect, because the points are at equal steps");
+  ExportOptions all_points = options;
+  all_points.tolerance_m = 0;
+  return all_points;
+}
+
+std::string siemens_axis(char axis) {
+  return "AX" + std::to_string(axis - 'X' + 1);
+}
+
+}  // namespace mdof::controllers

@@ -1,0 +1,392 @@
+#include "daemon/station/device/acquisition.h"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "daemon/paths.h"
+#include "daemon/words/error_text.h"
+#include "drivers/long_step.h"
+
+namespace mdof::daemon {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds kReadTimeout{100};
+constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{250};
+constexpr milliseconds kNap{10}, kRefresh{1000};
+// Some devices take seconds to be found, asked and set up; to be in there is no hang-up.
+constexpr milliseconds kOpening{20'000};
+
+// The rate is looked at over this time: below the first share of it a device is slow, above the
+// second it is well again.
+constexpr std::chrono::seconds kWindow{5};
+constexpr double kSlow = 0.8, kWell = 0.95;
+
+std::string with_one_decimal(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", x);
+  return text;
+}
+
+// Names of threads end after 15 characters.
+void name_thread(const std::string& device) {
+  pthread_setname_np(pthread_self(), ("acq-" + device).substr(0, 15).c_str());
+}
+
+// Devices that fail together are not to be asked again together: from 3/4 to all of the pause.
+milliseconds jittered(milliseconds pause, const std::string& device, std::uint64_t attempt) {
+  const std::size_t hash = std::hash<std::string>{}(device + std::to_string(attempt));
+  return pause * 3 / 4 + pause * (hash % 256) / 1024;
+}
+
+void mark_suspect(SampleBlock& block) {
+  block.quality.resize(block.channels.size());
+  for (auto& quality : block.quality) {
+    quality.resize(block.scans(), Quality::good);
+    for (Quality& q : quality) q = std::max(q, Quality::suspect);
+  }
+}
+
+}  // namespace
+
+Acquisition::Acquisition(drivers::DriverSpec spec, Sink sink)
+    : spec_(std::move(spec)), sink_(std::move(sink)), turn_(steady_clock::now()) {
+  status_.info.name = spec_.name;
+  status_.info.driver = spec_.driver;
+  status_.info.simulated = spec_.simulated;
+}
+
+Acquisition::~Acquisition() {
+  stop();
+}
+
+void Acquisition::start() {
+  stop();
+  acquiring_ = true;
+  turn_ = steady_clock::now();
+  thread_ = std::thread([this, pass = ++pass_] { acquire(pass); });
+}
+
+void Acquisition::stop() {
+  acquiring_ = false;
+  if (thread_.joinable()) thread_.join();
+}
+
+void Acquisition::set_state(const std::string& state) {
+  const std::lock_guard lock(status_mutex_);
+  status_.state = state;
+}
+
+void Acquisition::fail(const std::string& error) {
+  {
+    const std::lock_guard lock(status_mutex_);
+    status_.state = "failed: reopening";
+    status_.error = error;
+  }
+  if (lost_since_) return;  // reported once
+  lost_since_ = steady_clock::now();
+  // Who it is has been said.
+  const std::string who = "device \"" + spec_.name + "\"";
+  const std::size_t begin = error.starts_with(who) ? error.find_first_not_of(": ", who.size()) : 0;
+  report(Trouble::Kind::lost, begin == std::string::npos ? error : error.substr(begin));
+}
+
+// What holds now is in the status, too, for those who come later.
+void Acquisition::report(Trouble::Kind kind, const std::string& text, const std::string& channel) {
+  const Trouble trouble{kind, spec_.name, text, utc_now(), channel};
+  {
+    const std::lock_guard lock(status_mutex_);
+    auto& standing = status_.standing;
+    const bool back = kind == Trouble::Kind::back;
+    std::erase_if(standing, [&](const Trouble& t) {
+      return (t.kind == kind && t.channel == channel) || (back && t.kind != Trouble::Kind::suspect);
+    });
+    if (!back) standing.push_back(trouble);
+  }
+  if (sink_.trouble) sink_.trouble(trouble);
+}
+
+void Acquisition::acquire(std::uint64_t pass) {
+  name_thread(spec_.name);
+  backoff_ = kFirstBackoff;
+  last_ns_.reset();
+  lost_since_.reset();
+  datum_lost_.clear();
+  clock_is_uncertain_ = false;
+  marks_passed_ = 0;
+  clock_steps_ = 0;
+  {
+    const std::lock_guard lock(status_mutex_);
+    status_.standing.clear();
+  }
+  drivers::long_step_watcher() = [this](steady_clock::time_point until) {
+    turn_ = std::max(turn_.load(), until);
+  };
+  auto driver = spec_.make();
+  if (!driver) fail(words::text(driver.error()));
+  while (acquiring_) {
+    turn_ = steady_clock::now();
+    if (driver && open_and_read(**driver, pass)) {
+      set_state("ended");
+      return sink_.ended(pass, "", spec_.source_info(**driver));
+    }
+    if (!acquiring_) break;
+    if (!spec_.live) {  // a replay that cannot be read will not recover
+      const std::string why = status().error;
+      set_state("ended");
+      return sink_.ended(pass, why, {});
+    }
+    pause();
+  }
+  set_state("closed");
+}
+
+// True: the source has ended. False: an error (kept in the status) or no longer wanted.
+bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
+  turn_ = steady_clock::now() + kOpening;
+  const Status opened = driver.open();
+  turn_ = steady_clock::now();
+  if (!opened) {
+    fail(words::text(opened.error()));
+    return false;
+  }
+  set_state("open");
+  window_end_ = steady_clock::now() + kWindow;
+  scans_in_window_ = lost_in_window_ = 0;
+  refresh_info(driver);
+  just_opened_ = true;
+  return read_until_trouble(driver, pass);
+}
+
+void Acquisition::trust_count_of(const std::string& encoder) {
+  const std::lock_guard lock(status_mutex_);
+  forget_suspicion(encoder);
+  trusted_.insert(encoder);
+}
+
+void Acquisition::forget_suspicion(const std::string& encoder) {
+  std::erase_if(status_.standing, [&](const Trouble& t) {
+    return t.kind == Trouble::Kind::suspect && t.channel == encoder;
+  });
+}
+
+// Reported before the block that is counted from the mark.
+void Acquisition::watch_mark(const drivers::Driver& driver) {
+  const int marks = driver.marks_passed();
+  if (std::exchange(marks_passed_, marks) == marks) return;
+  datum_lost_.erase(kEncoderChannel);
+  {
+    const std::lock_guard lock(status_mutex_);
+    forget_suspicion(kEncoderChannel);
+  }
+  next_refresh_ = steady_clock::now();
+  if (sink_.mark) sink_.mark(spec_.name);
+}
+
+void Acquisition::trust_counts(drivers::Driver& driver) {
+  std::set<std::string> trusted;
+  {
+    const std::lock_guard lock(status_mutex_);
+    trusted.swap(trusted_);
+  }
+  for (const std::string& encoder : trusted) {
+    encoder == kEncoderChannel ? driver.trust_count() : driver.trust_further_count(encoder);
+    datum_lost_.erase(encoder);
+  }
+}
+
+// What the device says of itself grows with time: its clock.
+void Acquisition::refresh_info(const drivers::Driver& driver) {
+  next_refresh_ = steady_clock::now() + kRefresh;
+  const drivers::DeviceInfo info = driver.info();
+  assert(info.clock.has_value() == (driver.clock() != nullptr));
+  {
+    const std::lock_guard lock(status_mutex_);
+    status_.info = info;
+  }
+  watch_datum(info);
+}
+
+// A datum that is lost stays lost: reported once.
+void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
+  std::map<std::string, std::string> lost = info.further_datum_lost;
+  lost[kEncoderChannel] = info.datum_lost;
+  for (const auto& [encoder, why] : lost) {
+    if (why.empty() || !datum_lost_.insert(encoder).second) continue;
+    report(Trouble::Kind::suspect,
+           "the encoder's datum is lost, so the positions of further stops are unknown: " + why +
+               "; " + words::remedy(info.datum_remedy) + " and measure again",
+           encoder);
+  }
+}
+
+// While the time of the samples is uncertain, no place belongs to them: they are suspect, in the
+// recording, too.
+void Acquisition::watch_clock(const drivers::Driver& driver, SampleBlock& block) {
+  if (!spec_.live) return;
+  const drivers::DeviceClock* clock = driver.clock();
+  if (!clock) return;
+  if (clock->doubtful()) mark_suspect(block);
+  if (clock->doubtful() != clock_is_uncertain_ || clock->steps() != clock_steps_)
+    report_clock(clock->state());
+}
+
+void Acquisition::report_clock(const drivers::ClockState& clock) {
+  const bool stepped = std::exchange(clock_steps_, clock.steps) != clock.steps;
+  const bool was = std::exchange(clock_is_uncertain_, clock.doubtful);
+  if (stepped)
+    report(Trouble::Kind::clock,
+           "the device clock jumped, or the link was slow for a long time. The times of the "
+           "samples are unknown while the clock settles (4 s). Stops in this time are left out, or "
+           "lack the probes of the device. Check power and network, then measure the points of "
+           "this time again");
+  else if (clock.doubtful && !was)
+    report(Trouble::Kind::clock,
+           "the packets arrive " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
+               " s late, or the device clock stood still; the samples are suspect while this "
+               "lasts; check the network and the load of this computer");
+  else if (was && !clock.doubtful)
+    report(Trouble::Kind::back, "the times of the samples are valid again");
+}
+
+bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass) {
+  SampleBlock block;
+  while (acquiring_) {
+    turn_ = steady_clock::now();
+    trust_counts(driver);
+    const auto state = driver.read(block, kReadTimeout);
+    if (!state) {
+      fail(words::text(state.error()));
+      return false;
+    }
+    if (block.scans() > 0) {
+      backoff_ = kFirstBackoff;  // it works; to be opened alone is no proof of that
+      watch_mark(driver);
+      if (steady_clock::now() > next_refresh_) refresh_info(driver);
+      note_loss(block);
+      watch_clock(driver, block);
+      const bool came_back = recover(block);
+      watch_rate(block.scans(), came_back ? 0 : block.lost);
+      deliver(block, pass);
+    } else {
+      watch_rate(0, 0);
+    }
+    if (*state == drivers::ReadState::end) return true;
+  }
+  return false;
+}
+
+// With the first samples: to be open alone is no proof that it works. Whether it was lost.
+bool Acquisition::recover(const SampleBlock& block) {
+  if (!lost_since_) return false;
+  const std::chrono::duration<double> away = steady_clock::now() - *lost_since_;
+  lost_since_.reset();
+  {
+    const std::lock_guard lock(status_mutex_);
+    status_.last_error = std::exchange(status_.error, "");
+    status_.recovered_utc = utc_now();
+  }
+  std::string text =
+      "the device sends samples again after a break of " + with_one_decimal(away.count()) + " s";
+  if (block.lost > 0) text += "; scans lost in this time: " + std::to_string(block.lost);
+  report(Trouble::Kind::back, text);
+  return true;
+}
+
+// Fewer scans than the device states, or scans lost on the way.
+void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
+  scans_in_window_ += scans;
+  lost_in_window_ += lost;
+  const auto now = steady_clock::now();
+  if (!spec_.live || now < window_end_) return;
+  const DeviceStatus is = status();
+  const double window_s = std::chrono::duration<double>(now - window_end_ + kWindow).count();
+  const double rate_hz = static_cast<double>(scans_in_window_) / window_s;
+  const bool was_slow = std::any_of(is.standing.begin(), is.standing.end(),
+                                    [](const Trouble& t) { return t.kind == Trouble::Kind::slow; });
+  const bool slow = lost_in_window_ > 0 || rate_hz < (was_slow ? kWell : kSlow) * is.info.rate_hz;
+  if (slow && !was_slow) {
+    report(Trouble::Kind::slow, "the device sends " + with_one_decimal(rate_hz) + " of " +
+                                    with_one_decimal(is.info.rate_hz) + " scans per second, and " +
+                                    std::to_string(lost_in_window_) +
+                                    " scans were lost in 5 s; check the network or cable and the "
+                                    "load of this computer, or lower the rate of the device");
+  }
+  if (was_slow && !slow) report(Trouble::Kind::back, "the device sends all scans again");
+  window_end_ = now + kWindow;
+  scans_in_window_ = lost_in_window_ = 0;
+}
+
+// Scans of a device that was away, at least one, where it cannot count them itself, and those
+// dropped here.
+void Acquisition::note_loss(SampleBlock& block) {
+  const std::lock_guard lock(status_mutex_);
+  measure_rate(block);
+  if (std::exchange(just_opened_, false) && last_ns_ && block.lost == 0) {
+    const double away_s = static_cast<double>(block.time_ns.front() - *last_ns_) * 1e-9;
+    const double scans = away_s * status_.info.rate_hz;
+    block.lost = static_cast<std::uint64_t>(std::llround(std::max(1.0, scans - 1)));
+  }
+  last_ns_ = block.time_ns.back();
+  status_.lost += block.lost;
+  block.lost += std::exchange(dropped_scans_, 0);
+  status_.scans += block.scans();
+}
+
+// Of devices that do not state their rate: as fast as they answer. status_mutex_ is held.
+void Acquisition::measure_rate(const SampleBlock& block) {
+  if (just_opened_) {
+    opened_ns_ = block.time_ns.front();
+    scans_since_opened_ = 0;
+  }
+  scans_since_opened_ += block.scans();
+  const std::int64_t passed_ns = block.time_ns.back() - opened_ns_;
+  if (passed_ns > 0)
+    status_.measured_hz =
+        1e9 * static_cast<double>(scans_since_opened_ - 1) / static_cast<double>(passed_ns);
+}
+
+void Acquisition::deliver(SampleBlock& block, std::uint64_t pass) {
+  if (!spec_.live) {
+    while (acquiring_ && !sink_.samples(block, pass, kReadTimeout)) turn_ = steady_clock::now();
+    return;
+  }
+  if (sink_.samples(block, pass, milliseconds(0))) return;
+  dropped_scans_ += block.lost + block.scans();
+  const std::lock_guard lock(status_mutex_);
+  ++status_.dropped;
+  status_.lost += block.scans();
+}
+
+void Acquisition::pause() {
+  const auto until = steady_clock::now() + jittered(backoff_, spec_.name, status().reopened);
+  backoff_ = std::min(2 * backoff_, kLongestBackoff);
+  while (acquiring_ && steady_clock::now() < until) {
+    std::this_thread::sleep_for(kNap);
+    turn_ = steady_clock::now();
+    if (!woken_.exchange(false)) continue;
+    backoff_ = kFirstBackoff;
+    break;
+  }
+  const std::lock_guard lock(status_mutex_);
+  ++status_.reopened;
+}
+
+DeviceStatus Acquisition::status() const {
+  const std::lock_guard lock(status_mutex_);
+  return status_;
+}
+
+bool Acquisition::healthy(steady_clock::duration limit) const {
+  if (!acquiring_ || status().state == "ended") return true;
+  return steady_clock::now() - turn_.load() < limit;
+}
+
+}  // namespace mdof::daemon

@@ -1,0 +1,93 @@
+// One device at work: its thread "acq-<device>" makes the driver, opens it, reads it, and opens it
+// again after an error, with growing pauses. What was lost on the way is reported with the next
+// block; that a device is lost, back, suspect or slow is reported at once.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "daemon/station/device/device_reader.h"
+#include "daemon/station/device/trouble.h"
+#include "drivers/driver_spec.h"
+#include "schema/sample.h"
+
+namespace mdof::daemon {
+
+class Acquisition final : public DeviceReader {
+ public:
+  using Sink = DeviceSink;
+
+  Acquisition(drivers::DriverSpec spec, Sink sink);
+  ~Acquisition() override;
+
+  void start() override;
+  void stop() override;  // joins: at most a read's time-out and an open later
+  void cease() override { acquiring_ = false; }
+  void trust_count() override { trust_count_of(kEncoderChannel); }
+  // Of this channel of the device.
+  void trust_count_of(const std::string& encoder);
+  void wake() override { woken_ = true; }
+
+  std::uint64_t pass() const override { return pass_; }
+  const drivers::DriverSpec& spec() const override { return spec_; }
+  DeviceStatus status() const override;
+  bool healthy(std::chrono::steady_clock::duration limit) const override;
+
+ private:
+  void acquire(std::uint64_t pass);
+  bool open_and_read(drivers::Driver& driver, std::uint64_t pass);
+  bool read_until_trouble(drivers::Driver& driver, std::uint64_t pass);
+  void deliver(SampleBlock& block, std::uint64_t pass);
+  void note_loss(SampleBlock& block);
+  void measure_rate(const SampleBlock& block);
+  void refresh_info(const drivers::Driver& driver);
+  void pause();
+  void set_state(const std::string& state);
+  void fail(const std::string& error);
+  bool recover(const SampleBlock& block);
+  void watch_rate(std::uint64_t scans, std::uint64_t lost);
+  void watch_datum(const drivers::DeviceInfo& info);
+  void watch_mark(const drivers::Driver& driver);
+  void forget_suspicion(const std::string& encoder);  // with status_mutex_ locked
+  void watch_clock(const drivers::Driver& driver, SampleBlock& block);
+  void report_clock(const drivers::ClockState& clock);
+  void report(Trouble::Kind kind, const std::string& text, const std::string& channel = "");
+  void trust_counts(drivers::Driver& driver);
+
+  const drivers::DriverSpec spec_;
+  const Sink sink_;
+  std::atomic<bool> acquiring_{false}, woken_{false};
+  std::atomic<std::chrono::steady_clock::time_point> turn_;
+  mutable std::mutex status_mutex_;
+  DeviceStatus status_;  // guarded by status_mutex_
+  std::set<std::string>
+      trusted_;  // encoders, the driver does not know it yet; guarded by status_mutex_
+
+  // Acquiring thread only.
+  std::chrono::milliseconds backoff_{0};
+  std::optional<std::int64_t> last_ns_;  // of the last scan that was read
+  bool just_opened_ = false;             // no block since
+  std::int64_t opened_ns_ = 0;           // of the first scan since, and how many there were
+  std::uint64_t scans_since_opened_ = 0;
+  std::chrono::steady_clock::time_point next_refresh_;
+  std::uint64_t dropped_scans_ = 0;  // to be reported with the next block
+  std::optional<std::chrono::steady_clock::time_point> lost_since_;
+  std::set<std::string> datum_lost_;  // of these encoders
+  int marks_passed_ = 0;
+  bool clock_is_uncertain_ = false;
+  std::uint64_t clock_steps_ = 0;
+  std::chrono::steady_clock::time_point window_end_;  // of watch_rate()
+  std::uint64_t scans_in_window_ = 0, lost_in_window_ = 0;
+
+  std::uint64_t pass_ = 0;  // by whoever calls start()
+  std::thread thread_;
+};
+
+}  // namespace mdof::daemon

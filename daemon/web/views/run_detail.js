@@ -1,0 +1,136 @@
+// One run whole: what it is, its errors, straightness with its reference line, angles, budgets, who did what.
+import {Chart, ErrorCharts, approach, errorKeys, means, plain} from "../charts.js";
+import {covers, decimals, field, fixed, h, isNumber, measured, nameOf, notices, problem, select, table, time, titleOf, unitOf} from "../dom.js";
+import {budgetBars} from "../pictures.js";
+import {call, pages} from "../rpc.js";
+
+export const facts = (list) => h("dl", {}, list.filter(([, x]) => x !== null && x !== undefined && x !== "")
+  .map(([name, x]) => [h("dt", {}, name), h("dd", {}, x)]));
+
+function head(run) {
+  const t = run.temperature_C;
+  return facts([["State", run.state], ["Data", run.simulated ? "SIMULATED: no machine was measured" : "measured"],
+    ["Started", time(run.started_utc)], ["Note", run.note], ["Supersedes", run.supersedes && `run ${run.supersedes}`],
+    ["Points", String(run.points_total)], ["Reference point", run.reference + (run.reference_mm ? ` (${run.reference_mm.map((x) => fixed(x, 3)).join(", ")}) mm` : "")],
+    ["Temperature", isNumber(t?.mean) ? `${fixed(t.mean, 2)} °C` : null],
+    ["Lost scans", `${run.scans_lost} of ${run.scans}`], ["Model", run.model],
+    ["Recording", run.recording.path], ["SHA-256 of the recording", run.recording.sha256]]);
+}
+
+// Least squares or through both ends, as [x, y] of both ends of the line.
+export function lineThrough(points, kind) {
+  const n = points.length, first = points[0], last = points[n - 1];
+  if (n < 2) return [];
+  if (kind === "end_point") return [first, last];
+  const mx = points.reduce((a, [x]) => a + x, 0) / n, my = points.reduce((a, [, y]) => a + y, 0) / n;
+  const slope = points.reduce((a, [x, y]) => a + (x - mx) * (y - my), 0) / points.reduce((a, [x]) => a + (x - mx) ** 2, 0);
+  return [first, last].map(([x]) => [x, my + slope * (x - mx)]);
+}
+
+const kLines = [["least_squares", "least squares line"], ["end_point", "line through both ends"]];
+
+class Straightness {
+  constructor(run, points) {
+    this.run = run;
+    this.points = points;
+    this.charts = Object.keys(run.straightness ?? {}).map((key) => [key, new Chart(`${nameOf(key)} in µm with its reference line`, "µm"), h("p", {})]);
+    this.element = h("section", {}, h("h2", {}, "Straightness"),
+      field("Reference line", select(kLines, "least_squares", (kind) => this.draw(kind))),
+      h("div", {class: "charts"}, this.charts.map(([, chart, text]) => h("div", {}, chart.element, text))));
+  }
+  draw(kind = "least_squares") {
+    for (const [key, chart, text] of this.charts) {
+      const mean = [...means(this.points, key)], of = this.run.straightness[key].mean, name = nameOf(key);
+      const {uncertainty} = this.run;
+      const least = kind === "least_squares";
+      text.textContent = `Straightness ${measured(least ? uncertainty?.[`${name}_straightness_um`] ?? {value: of.least_squares_um} : {value: of.end_point_um}, "µm")}; ` +
+        `slope ${measured(least ? uncertainty?.[`${name}_slope_urad`] ?? {value: of.slope_least_squares_urad} : {value: of.slope_end_point_urad}, "µrad")}. Mean of both approaches.`;
+      chart.set([
+        ...[1, -1].map((d) => ({label: approach(d).name, ...approach(d), points: plain(means(this.points, key, d))})),
+        {label: "reference line", colour: "text", line: true, dash: true, points: lineThrough(mean, kind).map(([x, y]) => [x, y, y, y])},
+      ], text.textContent);
+    }
+  }
+}
+
+function angles(run) {
+  return table("Angles: range over the travel, mean of both approaches", [["error"], ["range", "w"], ["at start/µrad", "n"], ["smallest/µrad", "n"], ["largest/µrad", "n"]],
+    Object.entries(run.angles ?? {}).map(([key, {mean}]) => [nameOf(key), measured(run.uncertainty?.[key.replace("_urad", "_range_urad")] ?? {value: mean.range_urad}, "µrad"),
+      fixed(mean.start_urad, 3), fixed(mean.min_urad, 3), fixed(mean.max_urad, 3)]));
+}
+
+class Budget {
+  constructor(run) {
+    this.place = h("div", {"aria-live": "polite"});
+    const figures = Object.keys(run.uncertainty ?? {});
+    this.element = h("section", {}, h("h2", {}, "Uncertainty budget"), figures.length === 0 ? h("p", {}, "No result of this run has an uncertainty budget.")
+      : field("Result", select(figures.map((key) => [key, `${titleOf(key)}/${unitOf(key)}`]), figures[0], (key) => this.read(run.run, key))), this.place);
+    if (figures.length) this.read(run.run, figures[0]);
+  }
+  async read(run, figure) {
+    try {
+      const reply = await call("run.budget", {run, figure});
+      const budget = reply.figures[figure], unit = unitOf(figure);
+      this.place.replaceChildren(h("p", {class: "result"}, `${titleOf(figure)}: ${measured(budget, unit)}; u = ${fixed(budget.u, decimals(budget.u))} ${unit}`),
+        budgetBars(budget, unit), covers({u_covers: budget.u_covers, u_not_declared: budget.not_declared}) ?? "");
+    } catch (error) {
+      this.place.replaceChildren(problem(error));
+    }
+  }
+}
+
+// All numbers of the charts, for those who do not see them or want them.
+export function pointsTable(points) {
+  const keys = errorKeys(points.find((p) => errorKeys(p).length));
+  return h("details", {}, h("summary", {}, `All ${points.length} points with U`), table("Points in the order measured",
+    [["target/mm", "n"], ["pass", "n"], ["approach"], ["position/mm", "n"], ...keys.flatMap((key) => [[`${nameOf(key)}/${unitOf(key)}`, "n"], [`U/${unitOf(key)}`, "n"]]), ["flags"]],
+    points.map((p) => [fixed(p.target_mm, 3), String(p.run), p.direction > 0 ? "forward" : "reverse", fixed(p.position_mm, 4),
+      ...keys.flatMap((key) => [fixed(p[key], decimals(p.U?.[key])), fixed(p.U?.[key], decimals(p.U?.[key]))]), [p.reason, ...p.flags].filter(Boolean).join(", ")])));
+}
+
+const deeds = (list) => list.length === 0 ? null : h("section", {}, h("h2", {}, "History"), h("ul", {},
+  list.map((d) => h("li", {}, `${time(d.utc)}: ${d.deed} by ${d.user || `uid ${d.uid}`}${d.detail ? `: ${d.detail}` : ""}`))));
+
+// Runs that can be laid over this one, or make a squareness with it.
+function partners(run, runs) {
+  const of = (test) => runs.filter((r) => r.run !== run.run && test(r)).map((r) => [r.run, `run ${r.run}, ${r.axis}, ${time(r.started_utc)} ${r.note ?? ""}`]);
+  const pick = (label, options, how) => options.length === 0 ? null
+    : field(label, select([["", "choose …"], ...options], "", (other) => { if (other) location.hash = `runs/${run.run}/${how}/${other}`; }));
+  return h("div", {class: "fields"}, pick("Compare with", of((r) => r.axis === run.axis), "with"),
+    pick("Squareness with", of((r) => r.axis !== run.axis && r.simulated === run.simulated), "square"));
+}
+
+export const kResumable = ["partial", "aborted"];
+
+async function resume(run, place) {
+  try {
+    await call("run.resume", {run});
+    location.hash = "capture";
+  } catch (error) {
+    place.replaceChildren(problem(error));
+  }
+}
+
+export function openRun(place, id) {
+  const body = h("div", {}, h("p", {class: "quiet"}, "Loading …"));
+  const opened = [];
+  place.append(h("p", {}, h("a", {href: "#runs"}, "← All runs")), body);
+  async function read() {
+    const [run, {points}, {runs}] = await Promise.all([call("run.get", {run: id}), pages("run.points", {run: id}, "points"), call("run.list", {count: 100})]);
+    const charts = new ErrorCharts(errorKeys(points.find((p) => errorKeys(p).length)));
+    const straightness = new Straightness(run, points);
+    opened.push(charts, ...straightness.charts.map(([, chart]) => chart));
+    const wrong = h("div", {});
+    body.replaceChildren(h("h2", {}, `Run ${run.run}, axis ${run.axis}`),
+      h("div", {class: "columns"}, head(run), h("div", {}, partners(run, runs),
+        kResumable.includes(run.state) ? h("p", {}, h("button", {onclick: () => resume(id, wrong)}, "Resume (continue as a new run)")) : null, wrong,
+        covers(run))), notices([...run.notices, ...run.notes]) ?? "",
+      h("h2", {}, "Five errors"), charts.element,
+      h("p", {class: "quiet"}, "Errors are actual − nominal. Blue solid line: forward; orange dashed line: reverse. The charts show the newest four passes. Bands: ± U (95 %)."), pointsTable(points),
+      straightness.element, h("h2", {}, "Angles"), angles(run), new Budget(run).element, deeds(run.history) ?? "");
+    charts.set(points);
+    straightness.draw();
+  }
+  read().catch((error) => body.replaceChildren(problem(error)));
+  return () => opened.forEach((chart) => chart.close());
+}

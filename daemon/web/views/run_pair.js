@@ -1,0 +1,99 @@
+// Two runs: laid over each other with their difference element by element; the squareness of two axes.
+import {Chart, errorKeys, means, plain} from "../charts.js";
+import {covers, h, measured, nameOf, notices, problem, short, table, time, titleOf, unitOf} from "../dom.js";
+import {budgetBars, squarenessPicture} from "../pictures.js";
+import {call, pages} from "../rpc.js";
+
+const kSame_mm = 0.01;  // targets of two runs that are one
+
+// Map target -> a - b, where both have the target.
+export function difference(a, b) {
+  const found = new Map();
+  for (const [x, value] of a)
+    for (const [other, y] of b) if (Math.abs(x - other) <= kSame_mm) found.set(x, value - y);
+  return found;
+}
+
+function seriesOf(name, points, key, colour, wide) {
+  return [1, -1].map((d) => ({label: `${name} ${d > 0 ? "forward" : "reverse"}`, colour, wide, dash: d < 0, points: plain(means(points, key, d))}));
+}
+
+function pairCharts(key, a, b) {
+  const unit = unitOf(key), gap = difference(means(a.points, key), means(b.points, key));
+  const over = new Chart(`${nameOf(key)} in ${unit}: both runs`, unit, {height_px: 200});
+  const apart = new Chart(`${nameOf(key)} in ${unit}: run ${a.run} − run ${b.run}`, unit, {height_px: 140});
+  const largest = Math.max(...[...gap.values()].map(Math.abs));
+  const draw = () => {
+    over.set([...seriesOf(`run ${a.run}`, a.points, key, "blue", true), ...seriesOf(`run ${b.run}`, b.points, key, "orange")]);
+    apart.set([{label: "difference", colour: "text", points: plain(gap)}], `Largest difference ${short(largest)} ${unit}`);
+  };
+  return {charts: [over, apart], draw, element: h("div", {}, over.element, apart.element,
+    h("p", {}, gap.size === 0 ? "The runs have no target in common." : `Largest difference of the means of both approaches: ${short(largest)} ${unit}`))};
+}
+
+const effects = {reduced: "▼ reduced", increased: "▲ increased", "not shown": "● not shown"};
+
+const figures = (found, first, second) => table(`Results of run ${first} (before) and run ${second} (after). “not shown”: the change is smaller than its U`,
+  [["result"], [`run ${first}`, "w"], [`run ${second}`, "w"], ["change of |value|", "w"], ["effect", "w"]],
+  Object.entries(found.figures).map(([key, f]) => [titleOf(key), measured(f.before, unitOf(key), {with_k: false}), measured(f.after, unitOf(key), {with_k: false}),
+    measured(f.change, unitOf(key), {with_k: false}), effects[f.effect] ?? f.effect]));
+
+function back(run) {
+  return h("p", {}, h("a", {href: `#runs/${run}`}, `← Run ${run}`));
+}
+
+export function openPair(place, first, second) {
+  const body = h("div", {}, h("p", {class: "quiet"}, "Loading …"));
+  const opened = [];
+  place.append(back(first), body);
+  async function read() {
+    const [before, after] = [Math.min(first, second), Math.max(first, second)];
+    const [a, b] = await Promise.all([after, before].map((run) => pages("run.points", {run}, "points")));
+    const pairs = errorKeys(a.points.find((p) => errorKeys(p).length)).map((key) => pairCharts(key, a, b));
+    const table = h("div", {});
+    opened.push(...pairs.flatMap((pair) => pair.charts));
+    body.replaceChildren(h("h2", {}, `Run ${after} compared with run ${before}`),
+      h("p", {class: "quiet"}, `Means over all passes. Blue: run ${after}, orange: run ${before}; solid: forward, dashed: reverse. U is calculated for the results below, not for single differences.`),
+      h("div", {class: "charts"}, pairs.map((pair) => pair.element)), h("h2", {}, "Results"), table);
+    pairs.forEach((pair) => pair.draw());
+    try {
+      const found = await call("run.compare", {before, after});
+      table.replaceChildren(figures(found, before, after), covers(found) ?? "", notices([...(found.notices ?? []), ...(found.notes ?? [])]) ?? "");
+    } catch (error) {
+      table.replaceChildren(problem(error));
+    }
+  }
+  read().catch((error) => body.replaceChildren(problem(error)));
+  return () => opened.forEach((chart) => chart.close());
+}
+
+export function openSquareness(place, first, second) {
+  const body = h("div", {}, h("p", {class: "quiet"}, "Loading …"));
+  place.append(back(first), body);
+  async function read() {
+    const heads = await Promise.all([first, second].map((run) => call("run.get", {run})));
+    heads.sort((a, b) => a.axis < b.axis ? -1 : 1);
+    const params = Object.fromEntries(heads.map((run) => [`run_${run.axis.toLowerCase()}`, run.run]));
+    const found = await call("squareness.budget", params);
+    const [key, budget] = Object.entries(found.figures)[0];
+    const [a, b] = heads.map((run) => run.axis);
+    const stored = h("div", {});
+    const store = async () => {
+      try {
+        const fit = await call("squareness.fit", params);
+        stored.replaceChildren(h("p", {class: "notice", role: "status"}, `● Stored as squareness ${fit.squareness}.`));
+      } catch (error) {
+        stored.replaceChildren(problem(error));
+      }
+    };
+    body.replaceChildren(h("h2", {}, `Squareness of ${a} and ${b}: runs ${heads.map((run) => run.run).join(" and ")}`),
+      h("div", {class: "columns"}, squarenessPicture(a, b, budget.value),
+        h("div", {}, h("p", {class: "result"}, `${nameOf(key)} = ${measured(budget, "µrad")}`),
+          h("p", {}, `The angle from +${a} to +${b} is 90° + ${nameOf(key)}. The picture exaggerates the deviation from 90°.`),
+          heads.map((run) => h("p", {class: "quiet"}, `${run.axis}: run ${run.run}, ${time(run.started_utc)}, ${run.state}${run.simulated ? ", SIMULATED" : ""}`)),
+          h("p", {}, h("button", {onclick: store}, "Store this squareness")), stored)),
+      notices(found.notices) ?? "", h("h2", {}, "Uncertainty budget"), budgetBars(budget, "µrad"),
+      covers({u_covers: budget.u_covers, u_not_declared: budget.not_declared}) ?? "");
+  }
+  read().catch((error) => body.replaceChildren(problem(error)));
+}

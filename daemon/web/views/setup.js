@@ -1,0 +1,244 @@
+// Set up: each gap against its range, what to shim, whether the signs are right, the devices behind.
+import {age, field, fixed, h, isNumber, problem, select, setRows, setText, table} from "../dom.js";
+import * as live from "../live.js";
+import * as machine from "../machine.js";
+import {call} from "../rpc.js";
+
+const kText_ms = 120;      // numbers change no faster than they can be read
+const kNoise = 60;         // values at rest that make the noise
+const kLeastFreedom = 9;   // below it the noise is not shown
+const kOffCentre = 0.5, kNearEnd = 0.8;  // shares of half the range
+const kCentred = 0.1;      // no shim within this share
+const kUsable = ["good", "simulated"];
+
+// "+Z", or the vector where it is along none of the axes.
+export function along(direction) {
+  const k = direction.findIndex((x) => Math.abs(Math.abs(x) - 1) < 1e-6);
+  return k < 0 ? `(${direction.map((x) => fixed(x, 3)).join(", ")})` : (direction[k] < 0 ? "−" : "+") + "XYZ"[k];
+}
+const opposite = (direction) => along(direction.map((x) => -x));
+
+// Standard deviation about the mean of each stop, pooled over the last ones: what the axis does between two stops is no noise.
+export class Noise {
+  values = [];  // of the stop that lasts
+  stops = [];   // before: [degrees of freedom, sum of squares]
+  add(x, still) {
+    if (still && isNumber(x)) {
+      this.values.push(x);
+      if (this.values.length > kNoise) this.values.shift();
+    } else if (!still && this.values.length > 0) {
+      this.stops.push(this.now());
+      this.values = [];
+      while (this.stops.length > 1 && this.stops.slice(1).reduce((n, [freedom]) => n + freedom, 0) >= kNoise) this.stops.shift();
+    }
+  }
+  get mean() { return this.values.reduce((a, x) => a + x, 0) / this.values.length; }
+  now() {
+    const {values, mean} = this;
+    return [Math.max(values.length - 1, 0), values.reduce((a, x) => a + (x - mean) ** 2, 0)];
+  }
+  // [s, degrees of freedom]; null: too few values.
+  get pooled() {
+    const parts = [...this.stops, this.now()];
+    const freedom = parts.reduce((n, [f]) => n + f, 0);
+    return freedom < kLeastFreedom ? null : [Math.sqrt(parts.reduce((sum, [, ss]) => sum + ss, 0) / freedom), freedom];
+  }
+}
+
+// The state of a probe: class, shape, word.
+export function stateOf(um, quality, low, high, stale) {
+  if (stale) return ["invalid", "✕", "stale"];
+  if (!kUsable.includes(quality)) return ["invalid", "■", quality.replaceAll("_", " ")];
+  const share = Math.abs(um - (low + high) / 2) / ((high - low) / 2);
+  if (share > kNearEnd) return ["doubtful", "▲", "near the end of its range"];
+  return share > kOffCentre ? ["doubtful", "◆", "off centre"] : ["good", "●", "in range"];
+}
+
+export function shimText(um, probe) {
+  const off = um - (probe.low_um + probe.high_um) / 2;
+  if (!isNumber(off)) return "Shim: not known without a reading";
+  if (Math.abs(off) < kCentred * (probe.high_um - probe.low_um) / 2) return "Centred: no shim needed";
+  const probeTowards = off > 0 ? along(probe.direction) : opposite(probe.direction);
+  const targetTowards = off > 0 ? opposite(probe.direction) : along(probe.direction);
+  return `Shim ${fixed(Math.abs(off), 1)} µm: move the probe towards ${probeTowards}, or the target towards ${targetTowards}`;
+}
+
+class ProbeCard {
+  noise = new Noise();
+  constructor(probe) {
+    this.probe = probe;
+    this.value = h("span", {class: "value"}, "–");
+    this.needle = h("span", {class: "needle"});
+    this.bar = h("div", {class: "bar", role: "meter", "aria-label": `Probe ${probe.id} within its range`,
+      "aria-valuemin": probe.low_um, "aria-valuemax": probe.high_um, "aria-valuenow": 0}, h("span", {class: "middle"}), this.needle);
+    this.shape = h("span", {class: "shape", "aria-hidden": "true"});
+    this.word = h("span", {});
+    this.state = h("p", {class: "state"}, this.shape, " ", this.word);
+    this.shim = h("p", {class: "shim"});
+    this.quiet = h("p", {class: "quiet"});
+    this.element = h("section", {class: "probe", "aria-label": `Probe ${probe.id}`},
+      h("div", {class: "head"}, h("h2", {}, probe.id, h("small", {}, ` ${along(probe.direction)}`)), this.state),
+      h("p", {class: "number"}, this.value, h("span", {class: "unit"}, " µm")), this.bar,
+      h("p", {class: "ends"}, h("span", {}, `${fixed(probe.low_um, 0)} µm`), h("span", {}, `${fixed(probe.high_um, 0)} µm`)),
+      this.shim, this.quiet);
+  }
+  draw({um, quality}, stale) {
+    const {low_um: low, high_um: high} = this.probe;
+    const [kind, shape, word] = stateOf(um, quality, low, high, stale);
+    if (this.element.dataset.state !== kind) this.element.dataset.state = kind;
+    setText(this.shape, shape);
+    setText(this.word, word);
+    setText(this.value, fixed(um, 2));
+    this.bar.setAttribute("aria-valuenow", isNumber(um) ? um.toFixed(2) : low);
+    this.needle.hidden = !isNumber(um);
+    this.needle.style.left = `${Math.min(Math.max((um - low) / (high - low), 0), 1) * 100}%`;
+    setText(this.shim, stale ? "Shim: not known, because no new values arrive" : shimText(um, this.probe));
+    const {pooled} = this.noise;
+    setText(this.quiet, pooled === null ? "Noise: shown when the axis is at rest" : `Noise s = ${fixed(pooled[0], 4)} µm (${pooled[1]} degrees of freedom, at rest)`);
+  }
+}
+
+// Push the target and see whether each probe goes the way that the rig says.
+class SignCheck {
+  base = null;
+  constructor(cards) {
+    this.cards = cards;
+    this.push = select([["", "choose …"], ...["+X", "−X", "+Y", "−Y", "+Z", "−Z"].map((d) => [d, d])], "", () => this.draw());
+    this.rows = cards.map((card) => [h("td", {class: "n"}, "–"), h("td", {}, "–")]);
+    this.start = h("button", {type: "button", onclick: () => this.begin()}, "Start: use these readings as zero");
+    this.element = h("section", {class: "panel"}, h("h2", {}, "Sign check"),
+      h("p", {}, "Stop the axis and press Start. Then push the target lightly along one direction of the machine. Each probe that " +
+        "measures along this direction must rise or fall as the rig states. With a reversed sign, a compensation would double the error."),
+      h("div", {class: "buttons"}, field("I push the target towards", this.push), this.start),
+      table("Change since the start", [["probe"], ["measures"], ["change/µm", "n"], ["verdict"]],
+        cards.map((card, i) => h("tr", {}, h("th", {scope: "row"}, card.probe.id), h("td", {}, along(card.probe.direction)), ...this.rows[i]))));
+  }
+  begin() {
+    this.base = this.cards.map((card) => card.noise.values.length ? card.noise.mean : card.last);
+    this.start.textContent = "Start again";
+    this.draw();
+  }
+  draw() {
+    if (!this.base) return;
+    const push = this.push.value && [0, 1, 2].map((k) => "XYZ"[k] !== this.push.value[1] ? 0 : this.push.value[0] === "+" ? 1 : -1);
+    this.cards.forEach((card, i) => {
+      const change = card.last - this.base[i];
+      setText(this.rows[i][0], fixed(change, 2));
+      setText(this.rows[i][1], verdict(change, card, push));
+    });
+  }
+}
+
+export function verdict(change, card, push) {
+  const least = Math.max(0.5, 6 * (card.noise.pooled?.[0] ?? 0));
+  if (!isNumber(change)) return "✕ no reading";
+  if (Math.abs(change) < least) return "no change yet";
+  if (!push) return change > 0 ? "rises" : "falls";
+  const expected = push.reduce((a, x, k) => a + x * card.probe.direction[k], 0);
+  if (Math.abs(expected) < 0.2) return "◆ changes, although it measures across the push";
+  return expected * change > 0 ? "● as the rig states"
+    : `■ REVERSED: check "measures" and "reads" of probe ${card.probe.id} in the rig`;
+}
+
+class Devices {
+  before = new Map();  // device -> {scans, at}
+  constructor() {
+    this.table = table("Devices of this axis",
+      [["device", "w"], ["driver"], ["state", "w"], ["rate/Hz", "n"], ["nominal/Hz", "n"], ["lost scans", "n"], ["problem"]], []);
+    this.wrong = h("div", {});
+    this.element = h("section", {class: "panel"}, h("h2", {}, "Devices"), this.table, this.wrong);
+  }
+  async read(axis) {
+    if (document.hidden) return;
+    try {
+      const {devices} = await call("device.list");
+      setRows(this.table, devices.filter((d) => d.axis === axis).map((d) => this.row(d)));
+      this.wrong.replaceChildren();
+    } catch (error) {
+      this.wrong.replaceChildren(problem(error));
+    }
+  }
+  row(d) {
+    const now = performance.now(), last = this.before.get(d.device);
+    this.before.set(d.device, {scans: d.scans, at: now});
+    const rate = last && now > last.at ? (d.scans - last.scans) / (now - last.at) * 1000 : null;
+    return [d.device, d.driver, (d.state === "open" ? "● " : "■ ") + d.state, rate === null ? "–" : fixed(rate, 0),
+      fixed(d.rate_hz, 0), String(d.scans_lost), [d.error, ...d.trouble].filter(Boolean).join("; ") || "none"];
+  }
+}
+
+function errorsText(errors) {
+  return errors ? Object.entries(errors).map(([key, x]) => key.endsWith("_urad")
+    ? [key.slice(0, 3), fixed(x, 2), "µrad"] : [key.slice(0, 3), fixed(x, 3), "µm"]) : [];
+}
+
+export function open(place, [asked]) {
+  const axes = machine.axes();
+  const axis = axes.includes(asked) ? asked : axes[0];
+  if (!axis) {
+    place.append(machine.state.error ? problem(machine.state.error)
+      : h("p", {class: "notice"}, "mdofd has no axis to measure; add an [[axis]] to mdofd.toml and restart mdofd."));
+    return machine.onChange(() => { if (machine.axes().length) location.reload(); });
+  }
+  const rig = machine.state.rigs.get(axis);
+  const cards = rig.probes.map((probe) => new ProbeCard(probe));
+  const check = new SignCheck(cards), devices = new Devices();
+  const where = h("p", {class: "where"}), stale = h("p", {class: "quiet"}), errors = h("dl", {class: "errors"});
+  place.append(
+    h("div", {class: "buttons"}, axes.map((a) => h("a", {class: "button", href: `#setup/${a}`, "aria-current": a === axis ? "true" : null}, `Axis ${a}`)),
+      h("span", {class: "quiet"}, rig.rig)),
+    where, stale, h("div", {class: "probes"}, cards.map((card) => card.element)),
+    h("div", {class: "columns"},
+      h("section", {class: "panel"}, h("h2", {}, "Errors now"), h("p", {class: "quiet"},
+        "Errors of this instant at the fixture, actual − nominal. U is calculated for the points of a run, not for an instant."), errors),
+      devices.element),
+    check.element);
+
+  const keys = new Map();  // error -> its <dd>
+  function drawErrors(value) {
+    for (const [name, x, unit] of errorsText(value)) {
+      if (!keys.has(name)) {
+        keys.set(name, h("dd", {}));
+        errors.append(h("dt", {}, name), keys.get(name));
+      }
+      setText(keys.get(name), `${x} ${unit}`);
+    }
+    if (!value) for (const dd of keys.values()) setText(dd, "no value");
+  }
+
+  let drawn = 0;
+  function draw(value) {
+    if (document.hidden) return;
+    const now = performance.now();
+    if (now - drawn < kText_ms) return;
+    drawn = now;
+    const old = machine.isStale(axis);
+    value.probes.forEach((p, i) => cards[i]?.draw(p, old));
+    setText(where, `${axis} at ${fixed(value.encoder_mm, 4)} mm, ${value.still ? "at rest" : "moving"}` +
+      (value.run ? `, run ${value.run}` : "") + (value.waiting_for ? `, waiting for ${value.waiting_for}` : ""));
+    drawErrors(old ? null : value.errors);
+    check.draw();
+  }
+  function take(value) {
+    if (value.axis !== axis) return;
+    value.probes.forEach((p, i) => {
+      if (!cards[i]) return;
+      cards[i].last = p.um;
+      cards[i].noise.add(p.um, value.still && kUsable.includes(p.quality));
+    });
+    draw(value);
+  }
+  const newest = machine.state.newest.get(axis);
+  if (newest) draw(newest.value);
+  devices.read(axis);
+  const timers = [
+    setInterval(() => devices.read(axis), 2000),
+    setInterval(() => {
+      const last = machine.state.newest.get(axis);
+      setText(stale, last ? `Age of the values: ${age(machine.ageOf(axis))}` : "No values yet");
+      place.classList.toggle("stale", machine.isStale(axis));
+      if (last && machine.isStale(axis)) draw(last.value);
+    }, 300)];
+  const off = live.on("live.update", take);
+  return () => { off(); timers.forEach(clearInterval); };
+}

@@ -1,0 +1,136 @@
+// The corrections over a plane or a volume: arrows and heat map, as seen from before the machine.
+import {change} from "../activation.js";
+import {covers, decimals, field, fixed, h, isNumber, problem, s, select, table, time} from "../dom.js";
+import * as live from "../live.js";
+import {call} from "../rpc.js";
+import {facts} from "./run_detail.js";
+
+const kAxes = "XYZ";
+// To the right, up, and from where one looks.
+const kPlanes = {XY: [0, 1, "from above: X to the right, Y away"], XZ: [0, 2, "from the front: X to the right, Z up"],
+  YZ: [1, 2, "from the right side: Y to the right, Z up"]};
+const kWidth = 760, kEdge = 60;
+const kMostRows = 1000;  // of the table of nodes
+
+const size = ([, , , x, y, z]) => Math.hypot(x, y, z);
+
+// The nodes of one layer: those where the third axis is at `at_mm`.
+export function layer(nodes, plane, at_mm) {
+  const third = [0, 1, 2].find((k) => k !== kPlanes[plane][0] && k !== kPlanes[plane][1]);
+  return nodes.filter((n) => Math.abs(n[third] - at_mm) < 1e-6);
+}
+
+function arrow(x, y, dx, dy) {
+  const length = Math.hypot(dx, dy);
+  if (length < 1) return s("circle", {class: "ink-dot", cx: x, cy: y, r: 1.5});
+  const [ux, uy] = [dx / length, dy / length], head = Math.min(6, length);
+  const [tx, ty] = [x + dx, y + dy], [bx, by] = [tx - head * ux, ty - head * uy];
+  return s("path", {class: "ink", d: `M${x} ${y}L${tx} ${ty}M${bx - head / 2 * uy} ${by + head / 2 * ux}L${tx} ${ty}L${bx + head / 2 * uy} ${by - head / 2 * ux}`});
+}
+
+// True proportions: a millimetre is as long to the right as upwards. Largest arrow: one grid step.
+export function planePicture(nodes, plane, largest_um) {
+  const [a, b, view] = kPlanes[plane];
+  const values = (k) => [...new Set(nodes.map((n) => n[k]))].sort((x, y) => x - y);
+  const xs = values(a), ys = values(b);
+  const step = Math.min(...[xs, ys].flatMap((list) => list.slice(1).map((x, i) => x - list[i])), 1e9);
+  const span = Math.max(xs.at(-1) - xs[0], 1e-9), tall = Math.max(ys.at(-1) - ys[0], 1e-9);
+  const scale = Math.min((kWidth - 2 * kEdge) / (span + step), 600 / (tall + step)), cell = step * scale;
+  const edge = kEdge + cell / 2, height = tall * scale + 2 * edge;
+  const place = (n) => [edge + (n[a] - xs[0]) * scale, height - edge - (n[b] - ys[0]) * scale];
+  const largestInPlane = Math.max(...nodes.map((n) => Math.hypot(n[3 + a], n[3 + b])), 1e-12);
+  const long = 0.9 * cell / largestInPlane;
+  const text = (x, y, content, anchor = "middle") => s("text", {x, y, "text-anchor": anchor}, content);
+  return [s("svg", {class: "picture wide", viewBox: `0 0 ${span * scale + 2 * edge} ${height}`, role: "img",
+    "aria-label": `Corrections in the plane ${plane}, seen ${view}; the largest is ${fixed(largest_um, 3)} µm`},
+  nodes.map((n) => { const [x, y] = place(n); return s("rect", {class: "heat", x: x - cell / 2, y: y - cell / 2, width: cell, height: cell,
+    "fill-opacity": 0.75 * size(n) / largest_um}); }),
+  nodes.map((n) => arrow(...place(n), n[3 + a] * long, -n[3 + b] * long)),
+  [xs[0], xs.at(-1)].map((x) => text(edge + (x - xs[0]) * scale, height - kEdge + 22, fixed(x, 1))), text(edge + span * scale / 2, height - kEdge + 22, `${kAxes[a]}/mm`),
+  [ys[0], ys.at(-1)].map((y) => text(kEdge - 26, height - edge - (y - ys[0]) * scale + 4, fixed(y, 1))), text(kEdge - 26, kEdge - 14, `${kAxes[b]}/mm`)),
+  h("p", {class: "quiet"}, `Seen ${view}. Longest arrow: ${fixed(largestInPlane, 3)} µm in the plane. A stronger blue shows a larger correction in space (0 to ${fixed(largest_um, 3)} µm).`)];
+}
+
+async function grid() {
+  const nodes = [];
+  for (;;) {
+    const page = await call("compensation.grid", {axis: "volume", offset: nodes.length});
+    nodes.push(...page.points);
+    if (page.points.length === 0 || nodes.length >= page.nodes) return nodes;
+  }
+}
+
+function largestText(nodes) {
+  const n = nodes.reduce((a, b) => size(b) > size(a) ? b : a);
+  return "Largest correction at " + [0, 1, 2].map((k) => `${kAxes[k]} ${fixed(n[k], 2)}`).join(", ") + " mm: " +
+    [0, 1, 2].map((k) => `${kAxes[k]} ${fixed(n[3 + k], decimals(n[6 + k]))} µm (u ${isNumber(n[6 + k]) ? `${fixed(n[6 + k], decimals(n[6 + k]))} µm` : "not known"})`).join(", ");
+}
+
+function pictures(volume, nodes) {
+  const several = [0, 1, 2].filter((k) => volume.command_mm[kAxes[k]].length > 1);
+  const planes = Object.keys(kPlanes).filter((p) => several.includes(kPlanes[p][0]) && several.includes(kPlanes[p][1]));
+  if (planes.length === 0) return h("p", {}, "The table has no plane to draw.");
+  let plane = planes[0], at = null;
+  const place = h("div", {}), layers = h("div", {});
+  const largest = Math.max(...nodes.map(size), 1e-12);
+  const draw = () => place.replaceChildren(...planePicture(layer(nodes, plane, at), plane, largest));
+  const choose = (name) => {
+    plane = name;
+    const third = kAxes[[0, 1, 2].find((k) => !plane.includes(kAxes[k]))], places = volume.command_mm[third];
+    at = places[0];
+    layers.replaceChildren(field(`Layer at ${third}/mm`, select(places.map((x) => [x, fixed(x, 3)]), at, (x) => { at = Number(x); draw(); })));
+    draw();
+  };
+  choose(plane);
+  return h("div", {}, h("div", {class: "fields"}, field("Plane", select(planes.map((p) => [p, `${p}, ${kPlanes[p][2]}`]), plane, choose)), layers), place);
+}
+
+function activeOf(volume, nodes) {
+  return [h("h2", {}, `Table ${volume.table} of ${volume.machine}, generation ${volume.generation}`),
+    h("p", {class: "result"}, largestText(nodes)),
+    volume.simulated ? h("p", {class: "notice doubtful"}, "▲ SIMULATED: no machine was measured") : "",
+    volume.not_measured.length ? h("p", {class: "notice doubtful"}, `▲ Not measured, so not corrected: ${volume.not_measured.join(", ")}`) : "",
+    covers({u_covers: volume.u_covers, u_not_declared: volume.not_declared}) ?? "", pictures(volume, nodes),
+    facts([["Approach", volume.approach], ["Errors whose table does not cover the grid", volume.beyond_tables.join(", ")],
+      ["Interpolation error", Object.entries(volume.interpolation).map(([k, x]) => `${k[0]} ${isNumber(x) ? fixed(x, 4) : "–"} µm`).join(", ")],
+      ["Active since", `${time(volume.activated_utc)}, by ${volume.activated_by}`], ["Sense", volume.sense]]),
+    h("details", {}, h("summary", {}, "All nodes with u"), table("Corrections of the nodes; u: standard uncertainty",
+      [...["X/mm", "Y/mm", "Z/mm", "correction X/µm", "correction Y/µm", "correction Z/µm", "u X/µm", "u Y/µm", "u Z/µm"].map((c) => [c, "n"])],
+      nodes.slice(0, kMostRows).map((n) => n.slice(0, 9).map((x, i) => fixed(x, i < 3 ? 3 : 4)))))];
+}
+
+// Activating one of the volume while one of an axis is active is refused by mdofd: both would correct twice.
+function stored(tables, active, done) {
+  const act = async (method, params, question) => {
+    try {
+      await change(method, params, question);
+      done();
+    } catch (error) {
+      done(error);
+    }
+  };
+  const on = (t) => h("button", {"aria-label": `Activate table ${t.table} of the volume`, onclick: () => act("compensation.activate", {table: t.table},
+    {title: `Activate table ${t.table} of the volume?`, action: "Activate", marks: {simulated: t.simulated, doubtful: null},
+      text: h("p", {}, `${t.machine}, ${t.nodes} nodes, built ${time(t.created_utc)}.${active ? ` This table replaces table ${active.table}.` : ""}`)})}, "Activate …");
+  const off = (t) => h("button", {class: "danger", "aria-label": `Deactivate table ${t.table} of the volume`, onclick: () => act("compensation.deactivate", {axis: "volume"},
+    {title: "Deactivate the table of the volume?", action: "Deactivate", text: h("p", {}, `mdofd no longer serves table ${t.table}; the volume is no longer corrected.`)})}, "Deactivate …");
+  return table("Stored tables of the volume, newest first", [["table"], ["state", "w"], ["machine"], ["nodes", "n"], ["data"], ["built", "w"], ["actions"]],
+    tables.map((t) => [String(t.table), t.active ? "● active" : "stored", t.machine, String(t.nodes), t.simulated ? "SIMULATED" : "measured", time(t.created_utc), t.active ? off(t) : on(t)]));
+}
+
+export function openVolume(place) {
+  const wrong = h("div", {}), body = h("div", {});
+  place.append(wrong, body);
+  async function read() {
+    const [{volume}, {tables}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis: "volume"})]);
+    const now = volume ? activeOf(volume, await grid())
+      : [h("p", {class: "notice"}, "No table of the volume is active. Build a table with mdof compensation build --machine, then activate it here.")];
+    body.replaceChildren(...now, tables.length ? stored(tables, volume, again) : "");
+  }
+  function again(error) {
+    wrong.replaceChildren(...error ? [problem(error)] : []);
+    return read().catch((e) => wrong.replaceChildren(problem(e)));
+  }
+  again();
+  return live.on("run.event", ({type}) => { if (type === "compensation") again(); });
+}

@@ -1,6 +1,6 @@
 // A budget of the co-planar machine with all its 84 part errors varying, by the full product of its
 // 14 frames, on one thread; in nanoseconds of processor time a trial. Beside it
-// tools/bench/machine_numpy.py does the same in NumPy.
+// tools/bench/peers/machine_numpy.py does the same in NumPy.
 //   bench_machine [TRIALS] [baseline|avx2|avx512]
 //   bench_machine --frames   prints the nominal machine for the peer, one row a frame from the tool
 //                            to the work: side, nominal rotation and translation, point

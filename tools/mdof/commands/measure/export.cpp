@@ -13,7 +13,7 @@
 #include "tools/mdof/csv/log_csv.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/stored/report_of_runs.h"
+#include "tools/mdof/report/report_of_runs.h"
 #include "tools/mdof/stored/run_choice.h"
 #include "tools/mdof/text/notice_lines.h"
 

@@ -8,8 +8,8 @@
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/stored/frame_solver.h"
-#include "tools/mdof/text/error_rows.h"
+#include "tools/mdof/solve/error_rows.h"
+#include "tools/mdof/solve/frame_solver.h"
 #include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {

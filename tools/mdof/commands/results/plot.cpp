@@ -10,10 +10,10 @@
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/report/stated_results.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/raw_stop.h"
 #include "tools/mdof/stored/run_choice.h"
-#include "tools/mdof/stored/stated_results.h"
 
 namespace mdof::tools {
 namespace {

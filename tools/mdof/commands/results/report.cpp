@@ -12,8 +12,8 @@
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
-#include "tools/mdof/stored/print_pdf.h"
-#include "tools/mdof/stored/report_of_runs.h"
+#include "tools/mdof/report/print_pdf.h"
+#include "tools/mdof/report/report_of_runs.h"
 #include "tools/mdof/stored/run_choice.h"
 
 namespace mdof::tools {

@@ -1,5 +1,5 @@
 // What reports and documents of stored runs are made from.
-#include "tools/mdof/stored/report_of_runs.h"
+#include "tools/mdof/report/report_of_runs.h"
 
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -12,9 +12,9 @@
 #include "schema/units.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/report/stated_results.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/run_choice.h"
-#include "tools/mdof/stored/stated_results.h"
 #include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {

@@ -1,4 +1,4 @@
-#include "tools/mdof/stored/stated_results.h"
+#include "tools/mdof/report/stated_results.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/stored/print_pdf.h"
+#include "tools/mdof/report/print_pdf.h"
 
 #include <fcntl.h>
 #include <spawn.h>

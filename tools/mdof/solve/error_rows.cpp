@@ -1,4 +1,4 @@
-#include "tools/mdof/text/error_rows.h"
+#include "tools/mdof/solve/error_rows.h"
 
 #include <fcntl.h>
 #include <pthread.h>

@@ -1,4 +1,4 @@
-#include "tools/mdof/stored/frame_solver.h"
+#include "tools/mdof/solve/frame_solver.h"
 
 #include <algorithm>
 #include <functional>

@@ -10,7 +10,7 @@
 #include "schema/base/bounded_queue.h"
 #include "schema/base/result.h"
 #include "schema/point.h"
-#include "tools/mdof/stored/frame_solver.h"
+#include "tools/mdof/solve/frame_solver.h"
 
 namespace mdof::tools {
 

@@ -25,7 +25,7 @@ import tempfile
 import threading
 import time
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from mdofd import Daemon, simulator  # noqa: E402
 from storekeeper.others import Others  # noqa: E402
 

@@ -17,7 +17,7 @@ import tempfile
 import threading
 import time
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from kill_test import Acknowledged, check  # noqa: E402
 from mdofd import Daemon, RpcError, simulator  # noqa: E402
 

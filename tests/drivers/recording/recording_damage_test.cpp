@@ -3,7 +3,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/drivers/recording_fixture.h"
+#include "tests/drivers/recording/recording_fixture.h"
 
 namespace mdof::drivers {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <bit>
 
-#include "tests/drivers/recording_fixture.h"
+#include "tests/drivers/recording/recording_fixture.h"
 #include "tests/shown.h"
 
 namespace mdof::drivers {

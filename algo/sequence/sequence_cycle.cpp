@@ -36,8 +36,8 @@ int out_of_order(const std::vector<Visit>& visits, const RunNumbers& runs) {
     const Visit& v = visits[i];
     const auto [pass, first] = last.try_emplace({v.direction, runs[i]}, v.target);
     const bool onward = (v.target - pass->second) * v.direction > 0;
-    const bool at_once = i > 0 && visits[i - 1].direction == v.direction && runs[i - 1] == runs[i];
-    count += !first && !(onward && at_once);
+    // The numbers of the passes of one direction ascend: one before is of the same pass.
+    count += !first && !(onward && visits[i - 1].direction == v.direction);
     pass->second = v.target;
   }
   return count;

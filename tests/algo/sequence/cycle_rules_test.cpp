@@ -40,6 +40,8 @@ TEST(CycleRule, ThreeRepeatedVisitsAreForgivenInAShortRun) {
 
 TEST(CycleRule, ThreeOfTwentyAreForgivenInALongOne) {
   EXPECT_TRUE(by_passes(over_and_back(3, 7)));  // 7 of 49
+  // The first two visits are in order, three are not.
+  EXPECT_TRUE(by_passes({1, 2, 3, 4, 4, 5, 5, 6, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
   auto more = over_and_back(3, 7);
   more.insert(more.begin(), 1);
   EXPECT_FALSE(by_passes(more));  // 8 of 50
@@ -60,7 +62,9 @@ TEST(CycleRule, AShortFirstPassIsARun) {
     for (int t = 7; t >= 1; --t) row.push_back(-at(t));
     const Runs expected = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 2};
     EXPECT_EQ(recognise_cycle(visits_of(row), 7).run, expected) << up;
-    row.erase(row.begin(), row.begin() + 2);  // a single stop is none
+    row.erase(row.begin());  // two stops are enough
+    EXPECT_EQ(recognise_cycle(visits_of(row), 7).run, Runs(expected.begin() + 1, expected.end()));
+    row.erase(row.begin());  // a single stop is none
     EXPECT_EQ(recognise_cycle(visits_of(row), 7).run, Runs(15, 1)) << up;
   }
 }

@@ -160,5 +160,135 @@ TEST(OddStops, AParkedStartOffTheGridOfASinglePass) {
   EXPECT_TRUE(kept(-6.1, 2));  // three places tell nothing
 }
 
+// ---- what is typical of the others ----
+
+// Rows of places without an order of visits that matters.
+std::vector<double> kept_of(const std::vector<Visited>& places) {
+  return odd_stops_of(places).kept_mm;
+}
+
+void expect_kept(const std::vector<Visited>& places, const std::vector<double>& expected_mm) {
+  const std::vector<double> kept_mm = kept_of(places);
+  ASSERT_EQ(kept_mm.size(), expected_mm.size());
+  for (std::size_t i = 0; i < kept_mm.size(); ++i) EXPECT_NEAR(kept_mm[i], expected_mm[i], 1e-9);
+}
+
+// Three quarters of the stops are at places that are visited no more often: 12 of 16 at such of two
+// visits and less, so that 3 mm from a target is none; of one visit less than four of seven, so
+// that two are typical, and no two places have them.
+TEST(OddStopsTypical, ThreeQuartersOfTheStops) {
+  expect_kept({{0, 2, 0},
+               {3, 1, 0},
+               {10, 2, 0},
+               {20, 2, 0},
+               {30, 1, 0},
+               {40, 2, 0},
+               {50, 2, 0},
+               {60, 4, 0}},
+              {0, 10, 20, 30, 40, 50, 60});
+  EXPECT_TRUE(
+      odd_stops_of({{4.1, 1, 0}, {10, 1, 0}, {20, 1, 0}, {30, 2, 0}, {40, 1, 0}, {50, 1, 0}}, true)
+          .reasons.empty());
+}
+
+// Whether targets are visited from both sides: most of the places decide that have three quarters
+// of the typical visits.
+TEST(OddStopsTypical, BothSidesOrOne) {
+  expect_kept({{0, 3, 3}, {3, 6, 0}, {10, 3, 3}, {13, 6, 0}}, {0, 10});
+  // Two against three; a place of one and one does not count.
+  expect_kept({{0, 3, 3}, {3, 6, 0}, {10, 3, 3}, {13, 6, 0}, {23, 6, 0}, {33, 1, 1}},
+              {3, 13, 23, 33});
+  // Three visits of four do.
+  expect_kept({{0, 2, 2}, {3, 4, 0}, {10, 2, 2}, {13, 4, 0}, {23, 3, 0}}, {3, 13, 23});
+}
+
+// 11 visits from below, 12 from above.
+TEST(OddStopsTypical, TheSideOfMoreVisits) {
+  expect_kept({{0, 0, 4}, {3, 4, 0}, {10, 0, 4}, {13, 4, 0}, {20, 0, 4}, {23, 3, 0}}, {0, 10, 20});
+}
+
+TEST(OddStopsTypical, FromAboveAloneIsNotFromBothSides) {
+  EXPECT_FALSE(is_target({3, 0, 6}, 5, 5));
+}
+
+// 5, 5, 20, 20 mm: 7 mm is too near to a target.
+TEST(OddStopsTypical, TheLargerOfTheMiddleIntervals) {
+  expect_kept({{0, 3, 3}, {5, 3, 3}, {10, 3, 3}, {30, 3, 3}, {37, 1, 1}, {50, 3, 3}},
+              {0, 5, 10, 30, 50});
+}
+
+// 6.5 mm beyond the last of three typical visits it is none; 8.5 mm on from there it may begin a
+// row of new ones.
+TEST(OddStopsTypical, VisitedOnceItIsNoneBesideATarget) {
+  for (const bool below : {false, true}) {
+    std::vector<Visited> places;
+    for (int i = 0; i < 7; ++i) places.push_back({10.0 * i, 3, 3});
+    const double near_mm = below ? -6.5 : 66.5, far_mm = below ? -15 : 75;
+    places.insert(below ? places.begin() : places.end(), {near_mm, 1, 0});
+    places.insert(below ? places.begin() : places.end(), {far_mm, 1, 0});
+    const std::vector<double> kept_mm = kept_of(places);
+    ASSERT_EQ(kept_mm.size(), 8u);
+    EXPECT_NEAR(below ? kept_mm.front() : kept_mm.back(), far_mm, 1e-9);
+  }
+}
+
+// ---- logs of a given order ----
+
+struct Stop {
+  double position_mm;
+  int direction;
+};
+
+std::vector<std::string> reasons_of(const std::vector<Stop>& stops, bool parked_first = false) {
+  std::vector<double> targets_m;
+  for (const Stop& stop : stops) targets_m.push_back(1e-3 * stop.position_mm);
+  std::sort(targets_m.begin(), targets_m.end());
+  targets_m.erase(std::unique(targets_m.begin(), targets_m.end()), targets_m.end());
+  std::vector<MeasuredPoint> points;
+  for (const Stop& stop : stops) {
+    MeasuredPoint p;
+    p.point.position_m = 1e-3 * stop.position_mm;
+    p.point.direction = stop.direction;
+    p.target = static_cast<int>(nearest_target(targets_m, p.point.position_m)) + 1;
+    points.push_back(p);
+  }
+  if (parked_first) add_flag(points.front().point, Flag::approach_assumed);
+  std::vector<std::string> reasons;
+  for (const StopLeftOut& stop : leave_out_odd_stops(points, targets_m))
+    reasons.push_back(stop.reason);
+  return reasons;
+}
+
+TEST(OddStopsOfALog, TheLastStopIsNamedAsTheEnd) {
+  std::vector<Stop> stops;
+  for (int pass = 0; pass < 5; ++pass)
+    for (int i = 0; i < 7; ++i) stops.push_back({10.0 * i, 1});
+  stops.push_back({63, 1});
+  EXPECT_EQ(reasons_of(stops), std::vector<std::string>{"stop_at_end_of_log"});
+  stops.push_back({60, 1});  // no longer the last
+  EXPECT_EQ(reasons_of(stops), std::vector<std::string>{"stop_beyond_targets"});
+  stops.push_back({63, 1});  // again, as the last
+  EXPECT_EQ(reasons_of(stops), std::vector<std::string>(2, "stop_beyond_targets"));
+}
+
+// Parked above the targets, then a single pass down.
+TEST(OddStopsOfALog, AParkedStartAboveTheTargets) {
+  const auto kept = [](double parked_mm, bool parked) {
+    std::vector<Stop> stops = {{parked_mm, -1}};
+    for (int i = 4; i >= 1; --i) stops.push_back({10.0 * i, -1});
+    return reasons_of(stops, parked).empty();
+  };
+  EXPECT_FALSE(kept(45.9, true));
+  EXPECT_TRUE(kept(46.1, true));
+  EXPECT_TRUE(kept(55.9, true));
+  EXPECT_FALSE(kept(56.1, true));
+  EXPECT_TRUE(kept(56.1, false));
+}
+
+// With one visit each nothing tells the sides apart.
+TEST(OddStopsOfALog, OfOneVisitEachAllAreKept) {
+  EXPECT_TRUE(reasons_of({{0, 1}, {10, 1}, {30, 1}, {20, -1}}).empty());
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -1,0 +1,369 @@
+// Certificates as a laboratory may write them, given in SI as read_dcc() does. All numbers by hand.
+#include "algo/calibration/certified_probe.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mdof::algo::certificates {
+namespace {
+
+constexpr SiUnit kMetre{1e-6, 1, 0}, kVolt{1, 0, 1};
+
+DccQuantity quantity(const std::vector<std::string>& types, SiUnit unit, std::vector<double> value,
+                     std::vector<double> u, long line) {
+  DccQuantity q;
+  q.ref_types = types;
+  q.unit = unit;
+  q.coverage_factor.assign(u.size(), 2);
+  q.value = std::move(value);
+  q.u = std::move(u);
+  q.line = line;
+  return q;
+}
+
+DccQuantity measured(SiUnit unit, std::vector<double> value, std::vector<double> u = {}) {
+  return quantity({"x_raw", "basic_measuredValue"}, unit, std::move(value), std::move(u), 31);
+}
+
+DccQuantity error(SiUnit unit, std::vector<double> value, std::vector<double> u = {}) {
+  return quantity({"basic_measurementError"}, unit, std::move(value), std::move(u), 47);
+}
+
+DccQuantity reference(SiUnit unit, std::vector<double> value, std::vector<double> u = {}) {
+  return quantity({"basic_referenceValue"}, unit, std::move(value), std::move(u), 53);
+}
+
+// 21 V/mm with U = 0.168 V/mm, k = 2: 47.619 µm/V, u = 0.4 %.
+DccQuantity sensitivity() {
+  DccQuantity s = quantity({}, {1000, -1, 1}, {21000}, {84}, 17);
+  s.unit_text = "\\volt\\per\\milli\\metre";
+  return s;
+}
+
+DccCertificate certificate(std::vector<DccQuantity> alone,
+                           std::vector<std::vector<DccQuantity>> lists = {}) {
+  DccCertificate c;
+  c.source = "c.xml";
+  c.number = "N-17";
+  c.laboratory = "Lab";
+  c.calibrated = "2026-03-04";
+  c.due = "2027-05-06";
+  c.serial_number = "S-99";
+  c.results = {{"as found", {"basic_asFound"}, std::move(lists), std::move(alone), 11}};
+  return c;
+}
+
+Rig rig_of(std::optional<double> um_per_V, double offset_um) {
+  Rig rig;
+  rig.source = "r.toml";
+  rig.probes.resize(3);
+  rig.probes[0].id = "A";
+  rig.probes[1].id = "B";
+  rig.probes[1].calibration.um_per_V = um_per_V;
+  rig.probes[1].calibration.offset_um = offset_um;
+  rig.probes[1].uncertainty.calibration.u = 0.7e-6;
+  rig.probes[2].id = "C";
+  return rig;
+}
+
+Result<CertifiedProbe> of_b(const Rig& rig, const DccCertificate& c,
+                            const std::string& which = "") {
+  return certified_probe(rig, 1, c, which);
+}
+
+// Whether it is refused with a message that has all of these; else what was said.
+testing::AssertionResult refused(const Result<CertifiedProbe>& found,
+                                 const std::vector<std::string>& parts,
+                                 ErrorCode code = ErrorCode::bad_input) {
+  if (found) return testing::AssertionFailure() << "taken";
+  const Error& e = found.error();
+  if (e.code != code) return testing::AssertionFailure() << "another code: " << e.message;
+  for (const std::string& part : parts)
+    if (e.message.find(part) == std::string::npos)
+      return testing::AssertionFailure() << "no \"" << part << "\" in " << e.message;
+  return testing::AssertionSuccess();
+}
+
+bool has(const std::vector<std::string>& lines, const std::vector<std::string>& parts) {
+  for (const std::string& line : lines) {
+    bool all = true;
+    for (const std::string& part : parts) all = all && line.find(part) != std::string::npos;
+    if (all) return true;
+  }
+  return false;
+}
+
+void expect_rows(const std::vector<std::array<double, 2>>& rows,
+                 const std::vector<std::array<double, 2>>& expected) {
+  ASSERT_EQ(rows.size(), expected.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(rows[i][c], expected[i][c], 1e-9) << i << c;
+}
+
+TEST(CertifiedProbe, SensitivityOfVoltsPerLengthWithTheZeroOfTheRig) {
+  const auto found = of_b(rig_of(40, 12), certificate({sensitivity()}));
+  ASSERT_TRUE(found) << found.error().message;
+  const CalibratedProbe& p = found->probe;
+  EXPECT_EQ(p.id, "B");
+  EXPECT_NEAR(p.um_per_V.value(), 1000.0 / 21, 1e-9);
+  EXPECT_NEAR(p.u_sensitivity_1, 0.004, 1e-15);
+  // The zero is 0.3 V: 12 µm at 40 µm/V.
+  EXPECT_NEAR(p.offset_um.value(), 0.3 * 1000 / 21, 1e-9);
+  EXPECT_EQ(p.u_offset_m, 0.7e-6);
+  EXPECT_TRUE(p.linearity.empty());
+  EXPECT_EQ(found->taken.size(), 3u);
+  EXPECT_TRUE(has(found->taken, {"um_per_V = 47.6190476", " 21 \\volt\\per\\milli", "line 17"}));
+  EXPECT_TRUE(has(found->taken, {"u_sensitivity_ppm = 4000", "factor 2"}));
+  EXPECT_TRUE(has(found->taken, {"offset_um = 14.2857143"}));
+  ASSERT_EQ(found->not_taken.size(), 1u);
+  EXPECT_TRUE(has(found->not_taken, {"linearity:"}));
+  const CertificateFacts& f = found->facts;
+  EXPECT_EQ(f.certificate, "N-17");
+  EXPECT_EQ(f.laboratory, "Lab");
+  EXPECT_EQ(f.serial_number, "S-99");
+  EXPECT_EQ(f.calibrated, "2026-03-04");
+  EXPECT_EQ(f.due, "2027-05-06");
+  EXPECT_EQ(f.u_linearity_m, 0);
+}
+
+// -50 µm/V with u = 0.1 µm/V. A rig without a scale or a zero has none to be moved.
+TEST(CertifiedProbe, SensitivityOfLengthPerVolt) {
+  const DccQuantity s = quantity({}, {1e-6, 1, -1}, {-50e-6}, {0.1e-6}, 17);
+  for (const auto& [um_per_V, offset_um] :
+       {std::pair<std::optional<double>, double>{-40, 12}, {-40, 0}, {std::nullopt, 12}}) {
+    const auto found = of_b(rig_of(um_per_V, offset_um), certificate({s}));
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_NEAR(found->probe.um_per_V.value(), -50, 1e-9);
+    EXPECT_NEAR(found->probe.u_sensitivity_1, 0.002, 1e-15);
+    const bool moved = um_per_V && offset_um != 0;
+    EXPECT_EQ(found->probe.offset_um.has_value(), moved);
+    EXPECT_EQ(found->taken.size(), moved ? 3u : 2u);
+    if (moved) {
+      EXPECT_NEAR(*found->probe.offset_um, 15, 1e-9);
+    }
+  }
+}
+
+TEST(CertifiedProbe, RefusesAScaleThatIsNotThatOfTheRig) {
+  const double um_per_V = 30e-6 * 1e6;
+  const DccCertificate c = certificate({quantity({}, {1e-6, 1, -1}, {30e-6}, {1e-8}, 17)});
+  for (const double factor : {0.5, 1.3, 2.0})  // of the rig's: ratios of 2, 0.77 and 0.5
+    EXPECT_TRUE(of_b(rig_of(um_per_V * factor, 0), c)) << factor;
+  for (const double factor : {0.49, 2.05, -1.0})
+    EXPECT_TRUE(refused(of_b(rig_of(um_per_V * factor, 0), c),
+                        {"c.xml:17: ", " 30 um_per_V", "\"B\" of r.toml"}))
+        << factor;
+  EXPECT_TRUE(refused(of_b(rig_of(12.5, 0), c), {" has 12.5"}));
+}
+
+TEST(CertifiedProbe, RefusesASensitivityThatIsNotOneNumberWithItsUncertainty) {
+  const Rig rig = rig_of(40, 0);
+  DccQuantity s = sensitivity();
+  s.u.clear();
+  EXPECT_TRUE(
+      refused(of_b(rig, certificate({s})), {"c.xml:17: ", "sensitivity", "no uncertainty"}));
+  s = sensitivity();
+  s.value = {0};
+  EXPECT_TRUE(refused(of_b(rig, certificate({s})), {"c.xml:17: ", " is 0"}));
+  s.value = {21000, 22000, 23000};
+  EXPECT_TRUE(refused(of_b(rig, certificate({s})), {"c.xml:17: ", " 3 values"}));
+  s.value.clear();
+  EXPECT_TRUE(refused(of_b(rig, certificate({s})), {"c.xml:17: ", " 0 values"}));
+  s = sensitivity();
+  s.line = 23;
+  EXPECT_TRUE(refused(of_b(rig, certificate({sensitivity(), s})),
+                      {"c.xml:23: ", "second sensitivity", "line 17", "\"as found\""}));
+  EXPECT_TRUE(refused(of_b(rig, certificate({sensitivity()}, {{s}})), {"c.xml:23: ", "line 17"}));
+}
+
+// Errors in µm; readings in another order than theirs. By the zero of 5 µm they are at -25, 5 and
+// 25 µm with corrections of 0.4, -0.11 and -0.3 µm; that at 0 lies 25/30 of the way from the first
+// to the second: -0.025 µm.
+TEST(CertifiedProbe, TableOfErrorsByHand) {
+  const auto found =
+      of_b(rig_of(std::nullopt, 5),
+           certificate({}, {{error(kMetre, {0.3e-6, -0.4e-6, 0.11e-6}, {0.05e-6, 0.08e-6, 0.06e-6}),
+                             measured(kMetre, {30e-6, -20e-6, 10e-6}, {1e-6, 2e-6, 3e-6})}}));
+  ASSERT_TRUE(found) << found.error().message;
+  expect_rows(found->probe.linearity, {{-25, 0.425}, {5, -0.085}, {25, -0.275}});
+  EXPECT_NEAR(found->facts.u_linearity_m, 0.08e-6, 1e-18);
+  EXPECT_FALSE(found->probe.um_per_V);
+  EXPECT_FALSE(found->probe.offset_um);
+  EXPECT_EQ(found->taken.size(), 2u);
+  EXPECT_TRUE(has(found->taken, {"3 corrections from basic_measurementError", "line 31"}));
+  EXPECT_TRUE(has(found->taken, {"u_linearity_um = 0.08,"}));
+  ASSERT_EQ(found->not_taken.size(), 1u);
+  EXPECT_TRUE(has(found->not_taken, {"sensitivity:"}));
+}
+
+// In volts at -40 µm/V: readings of -10, 30 µm and errors of -2, 1.2 µm; u is positive.
+TEST(CertifiedProbe, TableOfVoltsByTheScaleOfTheRig) {
+  const std::vector<DccQuantity> table = {measured(kVolt, {0.25, -0.75}),
+                                          error(kVolt, {0.05, -0.03}, {0.002, 0.003})};
+  const auto found = of_b(rig_of(-40, 0), certificate({}, {table}));
+  ASSERT_TRUE(found) << found.error().message;
+  // Corrections of 2 and -1.2 µm; at 0, a quarter of the way, 1.2 µm.
+  expect_rows(found->probe.linearity, {{-10, 0.8}, {30, -2.4}});
+  EXPECT_NEAR(found->facts.u_linearity_m, 0.12e-6, 1e-18);
+  EXPECT_TRUE(refused(of_b(rig_of(std::nullopt, 0), certificate({}, {table})),
+                      {"c.xml:31: ", "\"B\" of r.toml"}));
+}
+
+// The certificate's own scale and the zero by it come before the rig's: 50 µm/V, zero 0.2 V.
+TEST(CertifiedProbe, TableOfVoltsByTheScaleOfTheCertificate) {
+  const DccQuantity s = quantity({}, {1, 1, -1}, {50e-6}, {1e-6}, 17);
+  const auto found =
+      of_b(rig_of(40, 8), certificate({s}, {{measured(kVolt, {0.6, -0.6}),
+                                             error(kMetre, {1.5e-6, -0.3e-6}, {3e-8, 2e-8})}}));
+  ASSERT_TRUE(found) << found.error().message;
+  // At 30 - 10 and -30 - 10 µm; two thirds of the way from 0.3 to -1.5 µm is -0.9.
+  expect_rows(found->probe.linearity, {{-40, 1.2}, {20, -0.6}});
+  EXPECT_NEAR(found->facts.u_linearity_m, 0.03e-6, 1e-18);
+  EXPECT_EQ(found->taken.size(), 5u);
+  EXPECT_TRUE(found->not_taken.empty());
+}
+
+// Reference values in the place of errors: corrections of 2, -3 and 1 µm at -19, 0 and 41 µm.
+TEST(CertifiedProbe, TableOfReferenceValuesByHand) {
+  const std::vector<double> read = {41e-6, -19e-6, 0.5e-6}, x = {42e-6, -17e-6, -2.5e-6};
+  const std::vector<double> u_read = {3e-8, 5e-8, 4e-8}, u_x = {4e-8, 1e-8, 5e-8};
+  const auto found = [&](const std::vector<double>& ur, const std::vector<double>& ux) {
+    return of_b(rig_of(std::nullopt, 0.5),
+                certificate({}, {{measured(kMetre, read, ur), reference(kMetre, x, ux)}}));
+  };
+  const auto both = found(u_read, u_x);
+  ASSERT_TRUE(both) << both.error().message;
+  expect_rows(both->probe.linearity, {{-19.5, 5}, {0, 0}, {40.5, 4}});
+  // Of each row together: 5, 5.1 and √41 times 10 nm.
+  EXPECT_NEAR(both->facts.u_linearity_m, std::sqrt(41.0) * 1e-8, 1e-18);
+  EXPECT_TRUE(has(both->taken, {"3 corrections from basic_referenceValue"}));
+  EXPECT_EQ(both->not_taken.size(), 1u);
+  const auto of_read = found(u_read, {});
+  ASSERT_TRUE(of_read) << of_read.error().message;
+  EXPECT_NEAR(of_read->facts.u_linearity_m, 5e-8, 1e-18);
+  EXPECT_TRUE(has(of_read->not_taken, {"u of basic_referenceValue"}));
+  const auto of_x = found({}, u_x);
+  ASSERT_TRUE(of_x) << of_x.error().message;
+  EXPECT_NEAR(of_x->facts.u_linearity_m, 5e-8, 1e-18);
+  EXPECT_TRUE(has(of_x->not_taken, {"u of basic_measuredValue"}));
+  EXPECT_TRUE(refused(found({}, {}), {"c.xml:31: ", "table", "no uncertainty"}));
+}
+
+// Errors without an uncertainty take that of the readings, and those without either are refused.
+TEST(CertifiedProbe, ErrorsWithoutUncertainty) {
+  const auto found = [](const std::vector<double>& u_read) {
+    return of_b(rig_of(std::nullopt, 0), certificate({}, {{measured(kMetre, {4e-6, 9e-6}, u_read),
+                                                           error(kMetre, {0.2e-6, 0.5e-6})}}));
+  };
+  const auto of_read = found({6e-8, 2e-8});
+  ASSERT_TRUE(of_read) << of_read.error().message;
+  EXPECT_NEAR(of_read->facts.u_linearity_m, 6e-8, 1e-18);
+  EXPECT_TRUE(has(of_read->not_taken, {"u of basic_referenceValue"}));
+  EXPECT_TRUE(refused(found({}), {"c.xml:47: ", "table", "no uncertainty"}));
+}
+
+// At 32 µm/V all numbers are exact, so that both sides of a bound can be asked for.
+TEST(CertifiedProbe, ErrorsAreReadingsLessReferenceWithinTheirUncertainty) {
+  const auto found = [](double error_V, const std::vector<double>& u_V, double read_V = 0.5) {
+    return of_b(rig_of(32, 0),
+                certificate({}, {{measured(kVolt, {-0.25, read_V, 1.0}, {0.001, 0.001, 0.001}),
+                                  reference(kVolt, {-0.375, 0.25, 0.9375}),
+                                  error(kVolt, {0.125, error_V, 0.0625}, u_V)}}));
+  };
+  const std::vector<double> u = {0.0625, 0.03125, 0.125};
+  ASSERT_TRUE(found(0.25, u)) << found(0.25, u).error().message;
+  EXPECT_NEAR(found(0.25, u)->facts.u_linearity_m, 4e-6, 1e-18);
+  for (const double off : {-0.0625, 0.0625}) {  // 2 u
+    EXPECT_TRUE(found(0.25 + off, u)) << off;
+    const double error_V = 0.25 + 1.05 * off, more_um = 32 * error_V;
+    EXPECT_TRUE(refused(found(error_V, u), {"c.xml:47: ", "value 2 is ", off < 0 ? "5.9" : "10.1",
+                                            "reference is 8 um"}))
+        << more_um;
+  }
+  EXPECT_TRUE(found(3, {}));
+  // The lines of each row count: the reading alone is off.
+  EXPECT_TRUE(refused(found(0.25, u, 0.75), {"value 2 is 8 um", "reference is 16 um"}));
+}
+
+// Readings by reference values over their whole way, lowest to highest: from half to double.
+TEST(CertifiedProbe, ReadingsGrowWithReferenceValues) {
+  const auto found = [](double slope) {
+    // Reference -0.25 (second) to 0.75 V (third); the first reading lies off the line.
+    return of_b(rig_of(32, 0),
+                certificate({}, {{measured(kVolt, {0.9, -0.5, -0.5 + slope}),
+                                  reference(kVolt, {0.5, -0.25, 0.75}, {1, 1, 1})}}));
+  };
+  for (const double slope : {0.5, 2.0}) EXPECT_TRUE(found(slope)) << slope;
+  for (const double slope : {0.4375, 2.125, -1.0})
+    EXPECT_TRUE(refused(found(slope), {"c.xml:31: ", "\"B\"", "r.toml"})) << slope;
+  EXPECT_TRUE(refused(found(2.125), {" 2.125 um for 1 um"}));
+}
+
+TEST(CertifiedProbe, RefusesTablesThatCannotBeRead) {
+  const Rig rig = rig_of(40, 0);
+  const DccQuantity r = measured(kMetre, {4e-6, 9e-6, 7e-6}),
+                    e = error(kMetre, {1e-7, 2e-7}, {1e-8});
+  EXPECT_TRUE(refused(of_b(rig, certificate({}, {{r, e}})), {"c.xml:47: ", " 2 values", "are 3"}));
+  EXPECT_TRUE(refused(of_b(rig, certificate({}, {{r, reference(kMetre, {1e-6})}})),
+                      {"c.xml:53: ", " 1 values", "are 3"}));
+  EXPECT_TRUE(refused(
+      of_b(rig, certificate({}, {{measured(kMetre, {4e-6}), error(kMetre, {1e-7}, {1e-8})}})),
+      {"c.xml:31: ", "one row"}));
+  EXPECT_TRUE(
+      refused(of_b(rig, certificate({}, {{measured(kMetre, {4e-6, 9e-6, 4e-6}),
+                                          error(kMetre, {1e-7, 2e-7, 3e-7}, {1e-8, 1e-8, 1e-8})}})),
+              {"c.xml:31: ", "same reading"}));
+}
+
+// A second table; which result to read by its name or its type.
+TEST(CertifiedProbe, OneOfSeveralResults) {
+  DccCertificate c = certificate(
+      {}, {{measured(kMetre, {4e-6, 9e-6}), error(kMetre, {0.2e-6, 0.5e-6}, {1e-8, 2e-8})}});
+  c.results.push_back(c.results[0]);
+  c.results[1].name = "as left";
+  c.results[1].ref_types = {"x_more", "basic_asLeft"};
+  c.results[1].lists[0][0].line = 131;
+  c.results[1].lists[0][1].value = {0.3e-6, 0.7e-6};
+  c.results[1].quantities = {sensitivity()};
+  const Rig rig = rig_of(40, 4);
+  EXPECT_TRUE(refused(of_b(rig, c),
+                      {"c.xml:131: ", "second table", "line 31", "\"as found\", \"as left\""}));
+  for (const char* which : {"as left", "basic_asLeft", "x_more"}) {
+    const auto found = of_b(rig, c, which);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_TRUE(found->probe.um_per_V) << which;
+    EXPECT_TRUE(has(found->taken, {"line 131"})) << which;
+  }
+  const auto before = of_b(rig, c, "as found");
+  ASSERT_TRUE(before) << before.error().message;
+  EXPECT_FALSE(before->probe.um_per_V);
+  EXPECT_TRUE(has(before->taken, {"line 31"}));
+  EXPECT_TRUE(refused(of_b(rig, c, "left"), {"c.xml: ", "\"left\"", "\"as found\", \"as left\""},
+                      ErrorCode::usage));
+  c.results.clear();
+  EXPECT_TRUE(refused(of_b(rig, c, "left"), {"c.xml: ", "none"}, ErrorCode::usage));
+  EXPECT_TRUE(refused(of_b(rig, c), {"c.xml: ", "neither"}));
+}
+
+// What has another unit, no other column or no list beside it, is neither sensitivity nor table.
+TEST(CertifiedProbe, LeavesOutWhatIsNeither) {
+  std::vector<DccQuantity> others;
+  for (const SiUnit unit :
+       {SiUnit{1, 0, 0}, {1, 1, 1}, {1, -1, -1}, {1, -1, 0}, {1, 0, -1}, {1, -1, 2}, {1, 2, -1}})
+    others.push_back(
+        quantity({"basic_measuredValue", "basic_measurementError"}, unit, {3, 4}, {}, 9));
+  const DccQuantity r = measured(kMetre, {4e-6, 9e-6}),
+                    e = error(kMetre, {1e-7, 3e-7}, {1e-8, 2e-8});
+  const Rig rig = rig_of(40, 0);
+  others.push_back(e);
+  EXPECT_TRUE(refused(of_b(rig, certificate({r, e}, {{r}, others})), {"c.xml: ", "neither"}));
+  others.push_back(r);
+  EXPECT_TRUE(of_b(rig, certificate({}, {others})));
+}
+
+}  // namespace
+}  // namespace mdof::algo::certificates

@@ -166,5 +166,43 @@ TEST(ImportedTable, GoesWithTheTravelOfTheMachine) {
   }
 }
 
+// Of the sense "body" the readings count with - where the table goes back; of the command never.
+TEST(ImportedTable, TheSenseOfTheBodyIsTurnedByTheTravel) {
+  const auto built = [](const char* options, std::optional<bool> against = std::nullopt) {
+    mdof::Run run = imported(7, 1);
+    run.header.provenance.options_json = options;
+    return build_positioning_table({run}, against);
+  };
+  const auto middle = [](const Result<CompensationTable>& table) {
+    return table ? table->positioning.forward[1] * 1e6 : std::nan("");
+  };
+  const char* const body = R"({"imported":{"sense":"body"}})";
+  EXPECT_NEAR(middle(built(R"({"imported":{"sense":"body","travel":"-"}})")), -1.1, 1e-9);
+  EXPECT_NEAR(middle(built(R"({"imported":{"sense":"body","travel":"+"}})")), 1.1, 1e-9);
+  EXPECT_NEAR(middle(built(R"({"imported":{"travel":"-"}})")), 1.1, 1e-9);
+  EXPECT_NEAR(middle(built(body, true)), -1.1, 1e-9);
+  EXPECT_NEAR(middle(built(body, false)), 1.1, 1e-9);
+  const auto unknown = built(body);
+  ASSERT_FALSE(unknown);
+  EXPECT_NE(unknown.error().message.find("run 7 was imported with the sense \"body\""),
+            std::string::npos);
+}
+
+// Two targets are enough, and so are two readings: 3.1 and 3.5 µm have s = 0.4/√2 and u = 0.2 µm.
+TEST(ImportedTable, TwoReadingsAtEachOfTwoTargets) {
+  mdof::Run run = imported(1, 2, 0.3e-6);
+  std::erase_if(run.points, [](const MeasuredPoint& p) { return p.target_m > 15e-3; });
+  run.points[1].point.probe_m = {3.1e-6};  // the second target, forward, first and second time
+  run.points[5].point.probe_m = {3.5e-6};
+  const auto table = build_positioning_table({run});
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_NEAR(table->positioning.forward[1], 3.3e-6, 1e-18);
+  EXPECT_NEAR(table->positioning.u_forward[1], 0.2e-6, 1e-18);
+  for (const auto& u : table->u_declared) {
+    ASSERT_EQ(u.size(), 2u);
+    EXPECT_TRUE(std::isnan(u[0]) && std::isnan(u[1]));
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

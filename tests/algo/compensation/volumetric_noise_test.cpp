@@ -1,0 +1,124 @@
+// Noise of the tables of axes in a volumetric table, from numbers by hand.
+#include "algo/compensation/volumetric_noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "algo/machine/tool_error.h"
+
+namespace mdof::algo::axis_noise {
+namespace {
+
+double form(const AxisNoise::SquareForm& c, double p, double q) {
+  return c[0] + c[1] * p + c[2] * q + c[3] * p * p + c[4] * p * q + c[5] * q * q;
+}
+
+// Y and Z have noise: (1-part)² V0 + 2 part (1-part) C + part² V1 of each; beyond the grid the
+// commands of the other two axes are those of its ends.
+TEST(VolumetricNoise, IsThatOfTheSumOfTwoNodesAxisByAxis) {
+  VolumetricTable table;
+  table.command_m = {std::vector<double>{0.2, 0.5}, {0.1, 0.4, 0.9}, {-0.3, 0.7}};
+  double next = 3;
+  const auto fill = [&](std::array<AxisNoise::SquareForm, 3>& forms) {
+    for (auto& of_component : forms)
+      for (double& c : of_component) c = next = std::fmod(next * 1.37 + 2.1, 7) + 0.4;
+  };
+  table.noise[1].resize(3);
+  table.noise[2].resize(2);
+  for (const std::size_t axis : {1, 2})
+    for (AxisNoise& node : table.noise[axis]) {
+      fill(node.variance);
+      fill(node.with_next);
+    }
+  const std::array<GridCell, 3> cell{{{0, 0.6, true}, {1, 0.3, true}, {0, 0.8, true}}};
+  const auto& [y0, y1] = std::tie(table.noise[1][1], table.noise[1][2]);
+  const auto& [z0, z1] = std::tie(table.noise[2][0], table.noise[2][1]);
+  for (const double x : {0.35, 1.5, -1.0}) {
+    const double at_x = x > 1 ? 0.5 : x < 0 ? 0.2 : x, y = 0.55, z = 0.45;
+    const Vec3 variance = noise_variance(table, cell, {x, y, z});
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double of_y = 0.49 * form(y0.variance[k], at_x, z) +
+                          0.42 * form(y0.with_next[k], at_x, z) +
+                          0.09 * form(y1.variance[k], at_x, z);
+      const double of_z = 0.04 * form(z0.variance[k], at_x, y) +
+                          0.32 * form(z0.with_next[k], at_x, y) +
+                          0.64 * form(z1.variance[k], at_x, y);
+      EXPECT_NEAR(variance[k], of_y + of_z, 1e-12) << x << k;
+    }
+  }
+  // At the last node there is no next one.
+  const Vec3 last =
+      noise_variance(table, {{{0, 0, true}, {2, 0, true}, {1, 0, true}}}, {0.35, 0.9, 0.7});
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(last[k],
+                form(table.noise[1][2].variance[k], 0.35, 0.7) +
+                    form(table.noise[2][1].variance[k], 0.35, 0.9),
+                1e-12);
+  for (auto& forms : {&table.noise[1][2].variance, &table.noise[2][1].variance})
+    forms->fill({-1, 0, 0, 0, 0, 0});
+  EXPECT_EQ(noise_variance(table, {{{0, 0, true}, {2, 0, true}, {1, 0, true}}}, {0.35, 0.9, 0.7}),
+            Vec3{});  // below 0 it is rounding
+}
+
+// EYX and ECX of X at 0, 10, 20 mm; nodes at 4, 7 and 13 mm. Those at 4 and 7 mm share the targets
+// at 0 (0.6 · 0.3) and 10 mm (0.4 · 0.7), those at 7 and 13 mm the one at 10 mm (0.7 · 0.7). The
+// correlation goes from 0.2 at 4 mm to -0.6 at 20 mm: 0.2 at 0 mm, -0.1 at 10 mm.
+TEST(VolumetricNoise, NodesSharePartsOfTheirTargets) {
+  auto machine = parse_machine(
+      "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\ntool = {point_mm = [40, 30, 20]}\n"
+      "[[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\nrange_mm = [0, 20]\n",
+      "m.toml");
+  ASSERT_TRUE(machine) << machine.error().message;
+  const std::size_t x = static_cast<std::size_t>(machine->find("X") - machine->frames.data());
+  MachineFrame& frame = machine->frames[x];
+  const std::vector<double> targets = {0, 0.01, 0.02}, u_yx = {2e-7, 3e-7, 7e-7},
+                            u_cx = {4e-6, 5e-6, 11e-6};
+  for (const std::size_t k : {1, 5}) {
+    frame.error[k].position = targets;
+    frame.error[k].forward = {1e-7, 2e-7, 4e-7};
+    frame.error[k].u = frame.error[k].u_independent = k == 1 ? u_yx : u_cx;
+  }
+  auto& correlation = frame.noise_correlation;
+  correlation.position = {0.004, 0.02};
+  correlation.at.resize(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    double other = 0.01;  // of errors that have no noise
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      for (std::size_t l = 0; l < kBodyErrors; ++l)
+        correlation.at[i][k][l] = k == l ? 1 : (other += 0.013);
+    correlation.at[i][1][5] = correlation.at[i][5][1] = i == 0 ? 0.2 : -0.6;
+  }
+  VolumetricTable table;
+  table.command_m = {std::vector<double>{0.004, 0.007, 0.013}, {0}, {0}};
+  set_noise_of_axes(table, *machine, {}, MachineApproach::forward);
+  ASSERT_EQ(table.noise[0].size(), 3u);
+  EXPECT_TRUE(table.noise[1].empty() && table.noise[2].empty());
+
+  const auto on_y = [&](double at_m, std::size_t k) {
+    for (const ErrorDerivative& d : derivatives(*machine, {at_m}))
+      if (d.frame == x && d.k == k && !d.of_line) return d.d(1);
+    return std::nan("");
+  };
+  const auto shared = [&](double at_m, double there_m, std::size_t t, double r) {
+    const double y = u_yx[t], c = u_cx[t];
+    return on_y(at_m, 1) * on_y(there_m, 1) * y * y + on_y(at_m, 5) * on_y(there_m, 5) * c * c +
+           (on_y(at_m, 1) * on_y(there_m, 5) + on_y(at_m, 5) * on_y(there_m, 1)) * r * y * c;
+  };
+  const double first = 0.18 * shared(0.004, 0.007, 0, 0.2) + 0.28 * shared(0.004, 0.007, 1, -0.1);
+  const double second = 0.49 * shared(0.007, 0.013, 1, -0.1);
+  EXPECT_GT(std::abs(second), 1e-15);
+  EXPECT_NEAR(table.noise[0][0].with_next[1][0] / first, 1, 1e-12);
+  EXPECT_NEAR(table.noise[0][1].with_next[1][0] / second, 1, 1e-12);
+  // Without a common grid of targets nothing is known of what two errors share.
+  frame.error[5].position[2] = 0.021;
+  set_noise_of_axes(table, *machine, {}, MachineApproach::forward);
+  EXPECT_NEAR(table.noise[0][1].with_next[1][0] /
+                  (0.49 * (on_y(0.007, 1) * on_y(0.013, 1) * 9e-14 +
+                           on_y(0.007, 5) * on_y(0.013, 5) * 25e-12 * (8.0 / 11 / 0.7))),
+              1, 1e-12);
+}
+
+}  // namespace
+}  // namespace mdof::algo::axis_noise

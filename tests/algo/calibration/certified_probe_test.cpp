@@ -274,13 +274,13 @@ TEST(CertifiedProbe, ErrorsAreReadingsLessReferenceWithinTheirUncertainty) {
                                   reference(kVolt, {-0.375, 0.25, 0.9375}),
                                   error(kVolt, {0.125, error_V, 0.0625}, u_V)}}));
   };
-  const std::vector<double> u = {0.0625, 0.03125, 0.125};
+  const std::vector<double> u = {0.03125, 0.0625, 0.125};
   ASSERT_TRUE(found(0.25, u)) << found(0.25, u).error().message;
   EXPECT_NEAR(found(0.25, u)->facts.u_linearity_m, 4e-6, 1e-18);
-  for (const double off : {-0.0625, 0.0625}) {  // 2 u
+  for (const double off : {-0.125, 0.125}) {  // 2 u
     EXPECT_TRUE(found(0.25 + off, u)) << off;
     const double error_V = 0.25 + 1.05 * off, more_um = 32 * error_V;
-    EXPECT_TRUE(refused(found(error_V, u), {"c.xml:47: ", "value 2 is ", off < 0 ? "5.9" : "10.1",
+    EXPECT_TRUE(refused(found(error_V, u), {"c.xml:47: ", "value 2 is ", off < 0 ? "3.8" : "12.2",
                                             "reference is 8 um"}))
         << more_um;
   }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
 
 #include "algo/uncertainty/budget/two_runs.h"
@@ -314,6 +316,68 @@ TEST(Budget, TwoRunsScatter) {
       budget(RunBudgets::create(rig, synthetic.measure()).value(), "EYX_slope_urad");
   EXPECT_NEAR(slope.u_random, 1e-6, 1e-10);
   EXPECT_FALSE(slope.is_single_run);
+}
+
+// Runs that lack visits, with levels of their passes: parts that move several means together, and
+// parts by the passes. One run alone has all targets, so that the scatter of runs adds nothing.
+TEST(Budget, PartsOfSeveralMeansAddBySquaresAndCost) {
+  const Rig rig = rig_x_with("", "");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
+  synthetic.u_reading_m = 1e-9;
+  constexpr std::array<double, 6> kLevel_nm = {170, -60, 230, -310, 40, -120};
+  int reading = 0;
+  synthetic.added = [&](std::size_t k, double, double, double time_s) {
+    ++reading;
+    const double white_nm = 20 * std::sin(1.7 * reading * reading);
+    const double level_nm = kLevel_nm.at(static_cast<std::size_t>((time_s - 5) / 90));
+    return 1e-9 * (white_nm + (k < 3 ? 0 : level_nm));
+  };
+  auto run = synthetic.measure();
+  std::erase_if(run.points, [](const MeasuredPoint& p) {
+    const bool forward = p.point.direction > 0;
+    return (p.run == 2 && (p.target == 9 || (!forward && p.target < 6))) ||
+           (p.run == 3 && (!forward || p.target > 3));
+  });
+  RunBudgets budgets(rig, run);
+  const Repeatability random =
+      repeatability(run.header.moving(), run.points, budgets.means().targets);
+  const std::size_t parts = random.together.size() + random.of_passes.size();
+  ASSERT_FALSE(random.together.empty());
+  ASSERT_FALSE(random.of_passes.empty());
+  EXPECT_EQ(budgets.cost(), 9 * (1 + parts));
+
+  const auto weight = [](std::size_t i, std::size_t k) {
+    const double x = static_cast<double>(i);
+    return k == 0 ? 1.3 - 0.4 * x : k == 4 ? 0.002 * x * x - 0.05 : 0;
+  };
+  const auto along = [&](auto&& value) {  // the figure of values [target][error]
+    double sum = 0;
+    for (std::size_t i = 0; i < 9; ++i)
+      for (std::size_t k = 0; k < kErrorCount; ++k) sum += weight(i, k) * value(i, k);
+    return sum;
+  };
+  const Figure figure{
+      "f", [&](const MeanErrors& means) {
+        return along([&](std::size_t i, std::size_t k) { return means.targets[i].named[k]; });
+      }};
+  double square = std::pow(along([&](std::size_t, std::size_t k) { return random.u_shift[k]; }), 2);
+  for (std::size_t i = 0; i < 9; ++i)
+    square += std::pow(
+        along([&](std::size_t j, std::size_t k) { return i == j ? random.u[i][k] : 0; }), 2);
+  const double alone = square;
+  for (const auto* all : {&random.together, &random.of_passes}) {
+    const double before = square;
+    for (const auto& part : *all)
+      square += std::pow(along([&](std::size_t i, std::size_t k) { return part[i][k]; }), 2);
+    EXPECT_GT(square, before + 1e-3 * alone);
+  }
+  EXPECT_NEAR(budgets.first_order(figure).u_random, std::sqrt(square), 1e-7 * std::sqrt(square));
+
+  budgets.add({"c", "key", {1e-9}, 1e6, "um", nullptr},
+              std::vector<PointShifts>(4, PointShifts(run.points.size())));
+  budgets.add({"d", "key", {1e-9}, 1e6, "um", nullptr},
+              std::vector<PointShifts>(3, PointShifts(run.points.size())));
+  EXPECT_EQ(budgets.cost(), 9 * (1 + parts + 7));
 }
 
 }  // namespace

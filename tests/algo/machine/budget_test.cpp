@@ -278,6 +278,28 @@ TEST(MachineBudget, ACauseIsRefusedFromItsLargestValueOn) {
   }
 }
 
+// 10 mm for each of the three lengths, 0.1 rad for each of the three angles, and what is meant is
+// named.
+TEST(MachineBudget, EachErrorOfABodyHasItsLimit) {
+  const auto refusal = [](std::size_t k, double u) {
+    Machine machine;
+    machine.frames.resize(1);
+    machine.frames[0].id = "Y";
+    machine.frames[0].kind = FrameKind::linear;
+    machine.sources = {{"s", "um", u, SourceShape::rectangular, {{0, k, false, -1e-6, 0, 0}}}};
+    const auto model = budget_model(machine, {}, MachineApproach::mean, BudgetStage::designed);
+    return model ? std::string() : model.error().message;
+  };
+  const char* const names[] = {"EXY", "EYY", "EZY", "EAY", "EBY", "ECY"};
+  for (std::size_t k = 0; k < kBodyErrors; ++k) {
+    const double u = (k < 3 ? 10e3 : 100e3) / std::sqrt(3.0);
+    EXPECT_EQ(refusal(k, 0.99 * u), "") << k;
+    const std::string said = refusal(k, 1.01 * u);
+    EXPECT_NE(said.find(std::string(names[k]) + " at this command"), std::string::npos) << said;
+    EXPECT_NE(said.find(k < 3 ? "10 mm" : "0.1 rad"), std::string::npos) << said;
+  }
+}
+
 // Each of three causes moves one coordinate. Those marked are of a second, independent draw.
 TEST(MachineBudgetTrials, MixedTrialsTakeTheMarkedCausesFromTheSecondDraw) {
   Machine machine;

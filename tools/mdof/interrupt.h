@@ -3,8 +3,8 @@
 
 namespace mdof::tools {
 
-// While one lives, the first SIGINT or SIGTERM only makes requested() true; a second one ends the
-// program as usual. One at a time.
+// While one lives, the first SIGINT, SIGTERM or SIGHUP (unless ignored) only makes requested()
+// true; a second one ends the program as usual. One at a time.
 class Interrupt {
  public:
   Interrupt();

@@ -14,6 +14,8 @@
 namespace mdof::tools {
 namespace {
 
+constexpr double kMostMargin_mm = 5;  // far more than any correction, less than a mistyped one
+
 struct LinuxCncCommand {
   std::string ini, folder;
   LiveRequest request;
@@ -87,7 +89,7 @@ Action declare_linuxcnc(CLI::App& command) {
   command
       .add_option("--margin-mm", o->request.margin_mm,
                   "Distance from the soft limits to the hard stops; no correction may be larger")
-      ->check(positive_number())
+      ->check(number_in(0.001, kMostMargin_mm))
       ->capture_default_str();
   add_consent_flags(command, o->consent, "a table");
   command.add_flag("--one-approach", o->request.one_approach,

@@ -52,6 +52,11 @@ void attach_certificate(report::Report& report) {
 }
 
 Status write_report(const ReportCommand& command) {
+  const std::filesystem::path out = command.out;
+  if (command.pdf && out.extension() == ".pdf")
+    return fail(ErrorCode::usage, "--out " + command.out +
+                                      ": the HTML file and the PDF file would have this name; "
+                                      "give --out FILE.html, and FILE.pdf is written beside it");
   MDOF_TRY(report::Report report, report_of_runs(command.request));
   output::language_from(command.language, report.language);  // the option takes no other
   MDOF_TRY(report.head, company_head(command.head));
@@ -59,7 +64,7 @@ Status write_report(const ReportCommand& command) {
   MDOF_CHECK(write_file(command.out, report::report_html(report), Existing::replace));
   warn_of(report);
   const std::string pdf =
-      command.pdf ? std::filesystem::path(command.out).replace_extension(".pdf").string() : "";
+      command.pdf ? std::filesystem::path(out).replace_extension(".pdf").string() : "";
   if (command.pdf) MDOF_CHECK(print_pdf(command.out, pdf));
   if (!command.json) return write_line(command.out + (pdf.empty() ? "" : "\n" + pdf));
   JsonWriter json;

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -82,6 +83,7 @@ Result<std::string> welcome(rpc::Client& mdofd, const DemoFolder& folder) {
 
 Status demo(const DemoCommand& command) {
   const Interrupt interrupt;
+  std::signal(SIGPIPE, SIG_IGN);  // an error of writing ends mdofd as well
   MDOF_TRY(const fs::path program, find_mdofd(command.mdofd));
   MDOF_TRY(const DemoFolder folder, DemoFolder::make(command.folder));
   MDOF_TRY(DemoDaemon daemon, DemoDaemon::start(program, folder.path(), command.http));

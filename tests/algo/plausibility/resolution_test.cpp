@@ -74,5 +74,58 @@ TEST(Resolution, IsInTheUncertaintyUnlessNoiseDithers) {
   EXPECT_NEAR(with_resolution(0, 0, 6), 6 / std::sqrt(12), 1e-12);
 }
 
+// Readings that stay for long have no steps of nothing between them.
+TEST(Resolution, StaysMayBeLong) {
+  std::vector<double> readings;
+  for (const double x : {0.5, 2.5, 0.5, 2.5}) readings.insert(readings.end(), 40, x);
+  Resolution resolution;
+  resolution.add(readings);
+  EXPECT_EQ(resolution.step(), 2);
+}
+
+// Steps of 1 from a reading that stayed to one that does not, and the other way; the other steps
+// differ.
+TEST(Resolution, AStepStaysOnBothSides) {
+  Resolution left, right;
+  left.add(std::vector<double>{0, 0, 1, 3, 3, 4, 8, 8, 9, 17, 17, 18, 34, 34, 35, 67, 67});
+  EXPECT_EQ(left.step(), 0);
+  right.add(std::vector<double>{0, 0, 2, 3, 3, 7, 8, 8, 16, 17, 17, 33, 34, 34, 66, 67, 67});
+  EXPECT_EQ(right.step(), 0);
+}
+
+// Strays that grow by 6 % do not agree. Of 64 steps eight do, whatever larger ones come later.
+TEST(Resolution, AnEighthOfSixtyFourAgrees) {
+  const auto with_strays = [](std::size_t strays, std::size_t equal) {
+    std::vector<double> steps;
+    for (std::size_t i = 0; i < strays; ++i) steps.push_back(std::pow(1.06, i));
+    return repeated(128, equal, steps);
+  };
+  EXPECT_NEAR(step_of(with_strays(56, 8)), 128, 1e-9);
+  EXPECT_EQ(step_of(with_strays(57, 7)), 0);
+  std::vector<double> later = with_strays(56, 8);
+  later.push_back(1024);
+  EXPECT_NEAR(step_of(later), 128, 1e-9);
+}
+
+// Rows 2 to 9 alone. Probe B repeats its reading in the fifth of them: from there on it has no
+// step.
+TEST(ProbeResolution, OfAProbeSlowerThanTheEncoderThereIsNone) {
+  FrameBlock frames;
+  frames.probe_m = {{0, 1, 0, 0, 2, 2, 0, 0, 2, 2, 7}, {0, 1, 0, 0, 3, 3, 0, 0, 3, 3, 7}};
+  frames.probe_fresh = {std::vector<std::uint8_t>(11, 1), {1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 0}};
+  ProbeResolution resolution(2);
+  resolution.add(frames, 2, 10);
+  EXPECT_EQ(resolution.step_m(0), 2);
+  EXPECT_EQ(resolution.step_m(1), 3);
+  ProbeResolution slow(2);
+  frames.probe_fresh[1][6] = 0;
+  slow.add(frames, 2, 10);
+  EXPECT_EQ(slow.step_m(0), 2);
+  EXPECT_EQ(slow.step_m(1), 0);
+  frames.probe_fresh.clear();
+  slow.add(frames, 2, 10);
+  EXPECT_EQ(slow.step_m(1), 0);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -90,5 +90,17 @@ TEST(HiddenPeriods, AreTheGreatestCommonDivisorAndItsParts) {
   EXPECT_EQ(mm({}, 2), (std::vector<double>{}));
 }
 
+// A shape is unseen where less than a millionth of it is seen, whatever its number of places. The
+// columns are an offset turned by so little towards +1, -1 ..., which is as long.
+TEST(UnseenShapes, AMillionthOfAShapeMayBeSeen) {
+  const auto turned = [](double by) {
+    std::vector<double> shape;
+    for (int i = 0; i < 6; ++i) shape.push_back(1 + (i % 2 == 0 ? by : -by));
+    return shape;
+  };
+  EXPECT_EQ(named({turned(6e-7)}), "offset (1)\n");
+  EXPECT_EQ(named({turned(1.2e-6)}), "1 more shape symmetric about 25 mm (1)\n");
+}
+
 }  // namespace
 }  // namespace mdof::algo

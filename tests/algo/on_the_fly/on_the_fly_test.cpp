@@ -239,5 +239,75 @@ TEST(OnTheFlyRun, AGapBetweenTwoBinsIsOfNeither) {
     EXPECT_FALSE(has_flag(p.point, Flag::gap)) << p.target;
 }
 
+// The same way about 30 mm and about -50 mm; the bins lie as before.
+TEST(OnTheFlyRun, HasTheEndsOfItsWayWhereverItIs) {
+  for (const double off_m : {30e-3, -50e-3}) {
+    OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
+    FrameBlock frames = MotionLog().frames();
+    for (double& x : frames.encoder_m) x += off_m;
+    EXPECT_TRUE(run.push(frames));
+    run.flush();
+    EXPECT_NEAR(run.summary().encoder_min_m, off_m, 1e-9);
+    EXPECT_NEAR(run.summary().encoder_max_m, off_m + kTravel_m, 1e-9);
+    EXPECT_EQ(run.sequence().cycle, Cycle::standard);
+    EXPECT_TRUE(run.sequence().by_passes);
+  }
+}
+
+// The first row is 5 m away, three have no position.
+TEST(OnTheFlyRun, CountsTheRowsWithoutAPlace) {
+  OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
+  FrameBlock frames = MotionLog().frames();
+  frames.encoder_m[0] = 5;
+  for (const std::size_t i : {500U, 901U, 902U}) frames.encoder_m[i] = NAN;
+  EXPECT_TRUE(run.push(frames));
+  run.flush();
+  EXPECT_EQ(run.summary().unplaced, 4U);
+  EXPECT_EQ(run.summary().scans, frames.size() - 4);
+  EXPECT_NEAR(run.summary().encoder_max_m, kTravel_m, 1e-9);
+}
+
+// A gap is more than three periods: two scans that are lost are none, three are one. The first
+// interval of the log, one on the way out and one back are.
+TEST(OnTheFlyRun, AGapIsMoreThanThreePeriods) {
+  const OnTheFly run = measured({.scanned = [](std::int64_t ms) {
+    return !(ms >= 1 && ms < 4) && !(ms >= 601 && ms < 603) && !(ms >= 1201 && ms < 1204) &&
+           !(ms >= 3601 && ms < 3603) && !(ms >= 4601 && ms < 4604);
+  }});
+  EXPECT_EQ(run.summary().gaps, 3U);
+}
+
+// Passes between these places, a bin a millimetre at 10 mm/s: those of 1 to 7 mm are crossed twice
+// of five times, then twice of four.
+TEST(OnTheFlyRun, ATargetIsTakenByHalfOfThePasses) {
+  const auto sequence_over = [](const std::vector<double>& ends_mm) {
+    FrameBlock frames = empty_frames(1);
+    std::int64_t ms = 0;
+    for (std::size_t k = 0; k + 1 < ends_mm.size(); ++k) {
+      const double way_mm = ends_mm[k + 1] - ends_mm[k];
+      const auto rows = std::lround(std::abs(way_mm) * 100);
+      for (std::int64_t i = 0; i < rows; ++i, ++ms) {
+        const double at_m = 1e-3 * (ends_mm[k] + way_mm * static_cast<double>(i) / rows);
+        frames.time_ns.push_back(kFirst_ns + ms * 1'000'000);
+        frames.encoder_m.push_back(at_m);
+        frames.probe_m[0].push_back(1e-3 * at_m + (ms % 2 == 0 ? 1e-9 : -1e-9));
+      }
+    }
+    OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
+    EXPECT_TRUE(run.push(frames));
+    run.flush();
+    return run.sequence();
+  };
+  const Sequence few = sequence_over({20, 0, 20, 8, 20, 8});
+  EXPECT_NEAR(few.targets_m.front(), 9e-3, 1e-12);
+  EXPECT_EQ(few.targets, 11);
+  ASSERT_EQ(few.left_out.size(), 16U);
+  EXPECT_NEAR(few.left_out[1].position_m, 7e-3, 1e-5);  // after 8 mm, where it turned
+  EXPECT_EQ(few.points.size(), 55U);
+  const Sequence half = sequence_over({20, 0, 20, 8, 20});
+  EXPECT_NEAR(half.targets_m.front(), 1e-3, 1e-12);
+  EXPECT_TRUE(half.left_out.empty());
+}
+
 }  // namespace
 }  // namespace mdof::algo

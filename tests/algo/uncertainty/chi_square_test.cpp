@@ -234,5 +234,19 @@ TEST(ChiSquare, IsFlaggedFromNoiseAndLinearityOn) {
   }
 }
 
+// Four top probes of which each three determine the plane: where the probe is wrong in every run,
+// each of the four may be the one.
+TEST(ChiSquare, NamesNobodyWhereSeveralMayBeIt) {
+  SteppingLog log;
+  log.probes = 6;
+  log.runs = 1;
+  FrameBlock frames = log.frames();
+  for (double& reading_m : frames.probe_m[1]) reading_m += 0.5e-6;
+  const auto result = measure(log, frames);
+  ASSERT_TRUE(result.contradiction);
+  EXPECT_EQ(result.contradiction->subject, "");
+  EXPECT_EQ(test::number(*result.contradiction, "points"), 26);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -56,8 +56,7 @@ std::uint64_t quantile_rank(double p, std::uint64_t trials) {
 
 IntervalRanks symmetric_ranks(double coverage, std::uint64_t trials) {
   const std::uint64_t q = covered(coverage, trials);
-  const std::uint64_t rest = trials - q;
-  const std::uint64_t r = rest % 2 == 0 ? rest / 2 : (rest + 1) / 2;
+  const std::uint64_t r = (trials - q + 1) / 2;  // of an even number less q its half
   return {r, r + q};
 }
 

@@ -155,5 +155,15 @@ TEST(FormCompare, WhatIsNotToldIsNoneInTheMiddle) {
   EXPECT_NEAR(found->pose.shift_y_m, y_mid_m - (s * x_mid_m + c * y_mid_m), 2e-5);
 }
 
+// Turned about the middle of A, and no shift: the turn alone says that it is not yet fitted.
+TEST(FormCompare, ATurnAlone) {
+  const SurfaceMap a = map_of(bumps);
+  const auto found = compare(a, moved(0, 0, -3, -40e-3, 0.41e-3, 196), Register::rigid);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_NEAR(found->pose.turn_rad / kDeg, -3, 5e-5);
+  EXPECT_NEAR(found->pose.shift_x_m, 0, 2e-8);
+  EXPECT_NEAR(found->pose.shift_y_m, 0, 2e-8);
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -5,7 +5,7 @@
 
 #include "algo/machine/geometric_tests/diagonal.h"
 #include "drivers/csv/csv_table.h"
-#include "schema/squareness.h"
+#include "schema/iso230/squareness.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/machine/machine_file.h"

@@ -1,5 +1,5 @@
 // Noise of the tables of axes in a volumetric table, from numbers by hand.
-#include "algo/compensation/volumetric_noise.h"
+#include "algo/compensation/volumetric/volumetric_noise.h"
 
 #include <gtest/gtest.h>
 

@@ -14,6 +14,7 @@
 #include "algo/separation/unseen.h"
 #include "algo/uncertainty/chi_square.h"
 #include "schema/base/number/number_text.h"
+#include "schema/uncertainty/budget.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -159,7 +160,9 @@ double chi_square_of(const Equations& e, const Solution& solution, const VectorX
 
 std::string declared_text(const Separation& result, const Equations& e) {
   if (e.declared.cols() > 0) return " and the declared uncertainties";
-  return result.noise_only ? " (noise and repeatability only: no uncertainties are declared)" : "";
+  return result.noise_only
+             ? std::string(" (noise and repeatability only: ") + kNothingDeclared + ")"
+             : "";
 }
 
 // u of each reading, by which u of the results is made.

@@ -27,7 +27,7 @@ std::string covers_text(const Budget& budget) {
   if (!budget.noise_only) return "noise, repeatability and the declared uncertainties" + slow;
   return std::string("noise and repeatability only (") +
          (declares(budget) ? "the declared uncertainties contribute at most 1 % of u"
-                           : "no uncertainties are declared") +
+                           : kNothingDeclared) +
          ")" + slow;
 }
 

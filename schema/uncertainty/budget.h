@@ -62,6 +62,8 @@ bool is_noise_only(const Budget& budget);
 // A line of it is of a rig's key.
 bool declares(const Budget& budget);
 
+// Why a u has noise alone, wherever that is said.
+inline constexpr const char* kNothingDeclared = "no uncertainties are declared";
 // What its u is made of: one sentence for people, without a full stop.
 std::string covers_text(const Budget& budget);
 // Of several figures of the same rigs: what that covers which covers most.

@@ -42,7 +42,7 @@ std::string covers_text(const RunUncertainty& uncertainty) {
            std::string(" and the uncertainties that the rig declares") + slow;
   return random + " only (" +
          (uncertainty.declares ? "the uncertainties that the rig declares contribute zero"
-                               : "the rig declares no uncertainties") +
+                               : kNothingDeclared) +
          ")" + slow;
 }
 

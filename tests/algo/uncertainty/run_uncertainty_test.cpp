@@ -34,7 +34,7 @@ TEST(RunUncertainty, OfARigThatDeclaresNothingIsTheNoise) {
   const Rig rig = rig_x_with("", "");
   const auto u = run_uncertainty(rig, measured(rig, 10e-9));
   EXPECT_TRUE(u.noise_only);
-  EXPECT_EQ(covers_text(u), "noise and repeatability only (the rig declares no uncertainties)");
+  EXPECT_EQ(covers_text(u), "noise and repeatability only (no uncertainties are declared)");
   EXPECT_EQ(u.not_declared.size(), 12u);
   ASSERT_EQ(u.points.size(), 54u);
   for (const auto& point : u.points) {

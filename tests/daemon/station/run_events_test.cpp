@@ -27,7 +27,7 @@ TEST(RunEvents, ManyPointsComeInMessagesThatALineHolds) {
     const auto json = parser.parse(message);
     EXPECT_EQ(std::uint64_t(json["offset"]), next);
     EXPECT_EQ(std::string_view(json["u_covers"]),
-              "noise only (the rig declares no uncertainties); repeatability is not included (u of "
+              "noise only (no uncertainties are declared); repeatability is not included (u of "
               "each stop alone)");
     for (const auto point : json["points"]) EXPECT_EQ(std::uint64_t(point["target"]), ++next - 40);
   }

@@ -109,7 +109,7 @@ std::string not_declared_text(const std::vector<Budget>& budgets) {
   return std::string(!only ? "the rig does not declare all uncertainties"
                      : declares(first)
                          ? "noise only: the uncertainties that the rig declares contribute zero"
-                         : "noise only: the rig declares no uncertainties") +
+                         : std::string("noise only: ") + kNothingDeclared) +
          ", so U is too small. Not declared: " + joined(named_once(first.not_declared));
 }
 

@@ -59,13 +59,8 @@ class CertificateReader {
     if (!sensitivities_.empty()) MDOF_CHECK(take_sensitivity());
     if (!tables_.empty()) MDOF_CHECK(take_table());
     if (sensitivities_.empty())
-      found_.not_taken.push_back(
-          "sensitivity: the certificate contains none (a quantity in volts per length), so "
-          "um_per_V and u_sensitivity_ppm of the rig stay unchanged");
-    if (tables_.empty())
-      found_.not_taken.push_back(
-          "linearity: the certificate contains no table (a list with refType basic_measuredValue "
-          "and basic_measurementError), so linearity and u_linearity_um of the rig stay unchanged");
+      found_.not_taken.push_back(notice(NoticeCode::sensitivity_not_certified));
+    if (tables_.empty()) found_.not_taken.push_back(notice(NoticeCode::linearity_not_certified));
     return std::move(found_);
   }
 
@@ -133,12 +128,14 @@ class CertificateReader {
     CalibratedProbe& probe = found_.probe;
     probe.um_per_V = um_per_V;
     probe.u_sensitivity_1 = s.u[0] / std::abs(s.value[0]);
-    found_.taken.push_back("um_per_V = " + plain_number(um_per_V, 9) + ", from the sensitivity " +
-                           number(s.value[0] / s.unit.factor) + " " + s.unit_text + " (line " +
-                           std::to_string(s.line) + ")");
-    found_.taken.push_back("u_sensitivity_ppm = " + number(probe.u_sensitivity_1 * 1e6) +
-                           ", with coverage factor " + number(s.coverage_factor[0]) +
-                           "; its degrees of freedom are not stated, infinitely many are taken");
+    found_.taken.push_back(notice(NoticeCode::certified_sensitivity, "",
+                                  {{"um_per_V", um_per_V},
+                                   {"sensitivity", s.value[0] / s.unit.factor},
+                                   {"unit", s.unit_text},
+                                   {"line", s.line}}));
+    found_.taken.push_back(notice(NoticeCode::certified_u_sensitivity, "",
+                                  {{"u_sensitivity_ppm", probe.u_sensitivity_1 * 1e6},
+                                   {"coverage_factor", s.coverage_factor[0]}}));
     take_zero();
     return {};
   }
@@ -162,8 +159,8 @@ class CertificateReader {
     CalibratedProbe& probe = found_.probe;
     probe.offset_um = c.offset_um * (*probe.um_per_V / *c.um_per_V);
     probe.u_offset_m = own_.uncertainty.calibration.u;
-    found_.taken.push_back("offset_um = " + plain_number(*probe.offset_um, 9) +
-                           ", the rig's zero at the new um_per_V");
+    found_.taken.push_back(
+        notice(NoticeCode::certified_zero, "", {{"offset_um", *probe.offset_um}}));
   }
 
   // um of a reading or an error, as the amplifier shows it.
@@ -213,11 +210,12 @@ class CertificateReader {
     const double u_um = largest_u(table, read, error, reference);
     if (!(u_um > 0)) return no_uncertainty((table.error ? table.error : &r)->line, "table");
     found_.facts.u_linearity_m = from_um(u_um);
-    found_.taken.push_back("linearity: " + std::to_string(rows.size()) + " corrections from " +
-                           (table.error ? kError : kReference) + " at " + kMeasured + " (line " +
-                           std::to_string(r.line) + "), less the correction at the rig's zero");
-    found_.taken.push_back("u_linearity_um = " + number(u_um) +
-                           ", the largest standard uncertainty of the table");
+    found_.taken.push_back(notice(NoticeCode::certified_linearity, "",
+                                  {{"corrections", rows.size()},
+                                   {"ref_type", table.error ? kError : kReference},
+                                   {"line", r.line}}));
+    found_.taken.push_back(
+        notice(NoticeCode::certified_u_linearity, "", {{"u_linearity_um", u_um}}));
     return {};
   }
 
@@ -272,8 +270,8 @@ class CertificateReader {
       return *std::max_element(error.u_um.begin(), error.u_um.end());
     if (read.u_um.empty() != (reference.u_um.empty() || !table.reference))
       found_.not_taken.push_back(
-          std::string("u of ") + (read.u_um.empty() ? kMeasured : kReference) +
-          ": the certificate does not state it, so u_linearity_um does not contain it");
+          notice(NoticeCode::u_not_certified, "",
+                 {{"ref_type", read.u_um.empty() ? kMeasured : kReference}}));
     double largest = 0;
     for (std::size_t i = 0; i < read.um.size(); ++i)
       largest = std::max(largest, std::hypot(read.u_um.empty() ? 0 : read.u_um[i],

@@ -15,6 +15,7 @@
 #include "schema/calibration/certificate_facts.h"
 #include "schema/calibration/record.h"
 #include "schema/dcc/certificate.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 
 namespace mdof::algo {
@@ -22,8 +23,8 @@ namespace mdof::algo {
 struct CertifiedProbe {
   CalibratedProbe probe;
   CertificateFacts facts;
-  std::vector<std::string> taken;      // what was taken from where, a sentence each
-  std::vector<std::string> not_taken;  // what the certificate leaves open
+  Notices taken;      // what was taken from where: information
+  Notices not_taken;  // what the certificate leaves open: information
 };
 
 // `result`: the name or refType of the dcc:result to read, where a certificate has several (before

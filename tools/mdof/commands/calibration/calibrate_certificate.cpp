@@ -2,10 +2,12 @@
 #include <CLI/CLI.hpp>
 
 #include "algo/calibration/certified_probe.h"
+#include "daemon/words/words.h"
 #include "schema/base/files.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/sha256.h"
 #include "schema/dcc/certificate.h"
+#include "schema/notice/notice_json.h"
 #include "schema/sample.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/calibration/record_file.h"
@@ -49,12 +51,8 @@ std::string json_of(const Certified& certified, const std::string& file) {
   for (const auto& [reading_um, correction_um] : probe.linearity)
     json.begin_array().value(reading_um).value(correction_um).end_array();
   json.end_array().field("u_linearity_um", number(to_um(facts.u_linearity_m)));
-  for (const auto& [key, sentences] :
-       {std::pair{"taken", &found.taken}, {"not_taken", &found.not_taken}}) {
-    json.key(key).begin_array();
-    for (const std::string& sentence : *sentences) json.value(sentence);
-    json.end_array();
-  }
+  write_notices(json, "taken", found.taken, words::text);
+  write_notices(json, "not_taken", found.not_taken, words::text);
   json.field("signature", certificate.is_signed ? "not verified" : "none").end_object();
   return json.take();
 }
@@ -71,12 +69,12 @@ std::string text_of(const Certified& certified) {
                      facts.calibrated + "\ncalibrated item: " + or_not_stated(certificate.item) +
                      ", serial number " + or_not_stated(facts.serial_number) +
                      "\ntaken for probe " + probe.id + ":\n";
-  for (const std::string& sentence : found.taken) text += "- " + sentence + "\n";
+  for (const Notice& each : found.taken) text += "- " + words::text(each) + "\n";
   text +=
       "- valid until " + record.valid_until +
       (facts.due.empty() ? ", by --valid-days: the certificate states no date of recalibration\n"
                          : ", the date of recalibration in the certificate\n");
-  for (const std::string& sentence : found.not_taken) text += "not taken: " + sentence + "\n";
+  for (const Notice& each : found.not_taken) text += "not taken: " + words::text(each) + "\n";
   return text + (certificate.is_signed ? "The signature of the certificate is not verified.\n"
                                        : "The certificate is not signed.\n");
 }
@@ -96,7 +94,7 @@ Result<Certified> read_certificate(const CertificateCommand& command) {
            begin_record("sensitivity", rig, command.record, certified.certificate.calibrated));
   if (!due.empty()) record.valid_until = due;
   record.sources = {{command.file, sha256_hex(text)}};
-  record.not_seen = certified.found.not_taken;
+  for (const Notice& each : certified.found.not_taken) record.not_seen.push_back(words::text(each));
   record.probes = {certified.found.probe};
   certified.record = std::move(record);
   return certified;

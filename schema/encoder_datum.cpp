@@ -43,12 +43,9 @@ bool datum_kind_from(const std::string& name, Kind& kind) {
   return false;
 }
 
-std::string datum_note(Kind kind, const std::string& device) {
-  if (kind != Kind::none) return "";
-  return "the encoder (device \"" + device +
-         "\") has no datum: it counts from its switch-on position, so positions are not machine "
-         "positions; differences between errors are correct, but a compensation table is shifted "
-         "unless counting began at machine zero";
+Notices datum_notices(const EncoderDatum& datum) {
+  if (datum.kind != Kind::none) return {};
+  return {notice(NoticeCode::datum_missing, datum.device)};
 }
 
 std::string datum_text(const EncoderDatum& datum) {

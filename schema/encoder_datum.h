@@ -5,6 +5,7 @@
 #include <string>
 
 #include "schema/axis.h"
+#include "schema/notice/notice.h"
 
 namespace mdof {
 
@@ -27,10 +28,10 @@ struct EncoderDatum {
 const char* to_string(EncoderDatum::Kind kind);
 bool datum_kind_from(const std::string& name, EncoderDatum::Kind& kind);
 
-// For people, of a run; "" where positions are known.
-std::string datum_note(EncoderDatum::Kind kind, const std::string& device);
+// What a reader of positions should know: `datum_missing`, or none where they are known.
+Notices datum_notices(const EncoderDatum& datum);
 // For people: "index at 12.5 mm, passed on 2026-11-23T07:00:00Z"; "" of Kind::none, which has its
-// note, and of Kind::absolute.
+// notice, and of Kind::absolute.
 std::string datum_text(const EncoderDatum& datum);
 
 // What encoder.set said of an axis once, as it is stored.

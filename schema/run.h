@@ -72,7 +72,6 @@ struct RunHeader {
   Provenance provenance;
   std::uint64_t scans = 0, scans_lost = 0;
   Notices notices;
-  std::vector<std::string> notes;          // what a reader should know, though nothing is doubtful
   std::optional<Temperature> temperature;  // none: nobody read it
 
   MovingAxis moving() const { return {axis, sides}; }

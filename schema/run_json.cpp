@@ -176,7 +176,6 @@ void write_header_members(JsonWriter& json, const RunHeader& h, NoticeWords word
   json.key("options");
   h.provenance.options_json.empty() ? json.null() : json.raw(h.provenance.options_json);
   write_notices(json, "notices", h.notices, words);
-  write_strings(json, "notes", h.notes);
 }
 
 const Budget* budget_of_slope(const std::vector<Budget>& budgets,
@@ -282,16 +281,6 @@ std::string with_notices(std::string json, const Notices& notices, NoticeWords w
   write_notices(list.begin_object(), "notices", notices, words);
   json.pop_back();
   return json + "," + list.text().substr(1) + "}";
-}
-
-std::string with_texts(std::string json, const std::string& name,
-                       const std::vector<std::string>& texts) {
-  JsonWriter list;
-  list.begin_array();
-  for (const auto& text : texts) list.value(text);
-  list.end_array();
-  json.pop_back();
-  return json + ",\"" + name + "\":" + list.text() + "}";
 }
 
 void write_table_row(JsonWriter& json, const CompensationTable& t, std::size_t row) {

@@ -52,9 +52,7 @@ void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
 void write_squareness_members(JsonWriter& json, const Squareness& squareness,
                               const std::vector<Budget>& budgets);
 
-// A JSON object with one member more: a list of texts, or "notices".
-std::string with_texts(std::string json, const std::string& name,
-                       const std::vector<std::string>& texts);
+// A JSON object with one member more: "notices".
 std::string with_notices(std::string json, const Notices& notices, NoticeWords words);
 
 // One grid point: {"position_mm", "forward": {...}, "reverse": {...}}: errors, with "u" inside.

@@ -193,21 +193,18 @@ Result<CompensationTable> build_positioning_table(const std::vector<Run>& runs,
   return table;
 }
 
-std::vector<std::string> positioning_notes(const std::vector<Run>& runs) {
-  std::vector<std::string> notes;
+Notices positioning_notices(const std::vector<Run>& runs) {
+  Notices notices;
   bool one_reading = false;
   for (const Run& run : runs) {
     const bool unknown = std::any_of(run.points.begin(), run.points.end(),
                                      [](const auto& p) { return p.point.direction == 0; });
     if (unknown)
-      notes.push_back(name_of(run) +
-                      " does not state from which side the targets were approached: the table is "
-                      "the same for forward and reverse and does not correct the reversal error");
+      notices.push_back(inherited(name_of(run), notice(NoticeCode::approach_not_stated)));
     one_reading = one_reading || run.points.size() == targets_of(run).size();
   }
-  if (runs.size() == 1 && one_reading)
-    notes.push_back("one reading per target: the repeatability is unknown, so u is unknown (null)");
-  return notes;
+  if (runs.size() == 1 && one_reading) notices.push_back(notice(NoticeCode::single_readings));
+  return notices;
 }
 
 }  // namespace mdof::algo

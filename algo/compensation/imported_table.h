@@ -2,12 +2,12 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "schema/base/result.h"
 #include "schema/compensation_table.h"
 #include "schema/imported/series.h"
+#include "schema/notice/notice.h"
 #include "schema/run.h"
 
 namespace mdof::algo {
@@ -30,7 +30,7 @@ Result<CompensationTable> build_positioning_table(
 // Error: the run says another travel.
 Status check_travel(const RunHeader& run, bool against_command);
 
-// What a reader of that table should know.
-std::vector<std::string> positioning_notes(const std::vector<Run>& runs);
+// What a reader of that table should know, beside the notices of the runs.
+Notices positioning_notices(const std::vector<Run>& runs);
 
 }  // namespace mdof::algo

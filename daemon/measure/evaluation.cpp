@@ -99,14 +99,6 @@ Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& ru
 
 }  // namespace
 
-std::vector<std::string> table_notes(const std::vector<Run>& runs) {
-  std::vector<std::string> notes;
-  for (const Run& run : runs)
-    for (const auto& note : run.header.notes)
-      notes.push_back("run " + std::to_string(run.header.id) + ": " + note);
-  return notes;
-}
-
 Status store_table(store::Store& store, CompensationTable& table,
                    const std::optional<HistoryEntry>& action) {
   table.created_utc = utc_now();
@@ -126,10 +118,9 @@ Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& re
   }
   MDOF_TRY(CompensationTable table, algo::build_positioning_table(runs, request.against_command));
   MDOF_CHECK(algo::check_limits(table, request.limits));
-  auto notes = table_notes(runs);
-  for (auto& note : algo::positioning_notes(runs)) notes.push_back(std::move(note));
-  return BuiltTable{std::move(table), algo::inherited_notices(algo::all_of(runs)), std::move(notes),
-                    doubtful_notices(runs)};
+  Notices notices = algo::inherited_notices(algo::all_of(runs));
+  append(notices, algo::positioning_notices(runs));
+  return BuiltTable{std::move(table), std::move(notices), doubtful_notices(runs)};
 }
 
 }  // namespace
@@ -175,7 +166,7 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
     notices.push_back(
         notice(NoticeCode::declared_not_in_u, "", {{"reason", words::text(declared.error())}}));
   MDOF_TRY(Notices doubtful, doubtful_notices(store, table));
-  return BuiltTable{std::move(table), std::move(notices), table_notes(runs), std::move(doubtful)};
+  return BuiltTable{std::move(table), std::move(notices), std::move(doubtful)};
 }
 
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request) {

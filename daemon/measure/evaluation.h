@@ -50,9 +50,8 @@ struct TableRequest {
 };
 struct BuiltTable {
   CompensationTable table;
-  Notices notices;                 // of the runs it is made from
-  std::vector<std::string> notes;  // likewise
-  Notices doubtful;                // what of these keeps it from a controller
+  Notices notices;   // of the runs it is made from
+  Notices doubtful;  // what of these keeps it from a controller
 };
 // Built and stored. Errors: those of algo::build_table() and algo::check_limits(); runs of rigs
 // with other machines.
@@ -61,9 +60,6 @@ Result<BuiltTable> build_table(store::Store& store, const TableRequest& request)
 Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& request);
 Status store_table(store::Store& store, CompensationTable& table,
                    const std::optional<HistoryEntry>& action);
-
-// What a table inherits of its runs beside notices.
-std::vector<std::string> table_notes(const std::vector<Run>& runs);
 
 struct ActivationRequest {
   std::int64_t table = 0;

@@ -26,7 +26,6 @@ struct RunRequest {
   std::vector<double> targets_m;     // empty: recognised
   int repeats = 0;                   // 0: until stopped; else complete after so many, both ways
   Notices notices;                   // to be kept with the run
-  std::vector<std::string> notes;    // for whoever asks; they follow from its options
   std::optional<CutOffRun> resumes;  // goes on from there
   std::optional<HistoryEntry> action = std::nullopt;  // who asks for it
 };

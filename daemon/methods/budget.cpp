@@ -114,9 +114,11 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
        .params = {{"before", ParamType::integer, "id of the run before the compensation", true},
                   {"after", ParamType::integer, "id of the run after the compensation", true},
                   reference},
-       .result = "figures: for each result before, after and change (|after| - |before|), each "
-                 "with value, u, u_random, nu_eff, k, U (95 %); effect: reduced, increased, or not "
-                 "shown (the change is within its U); notes: other differences between the runs",
+       .result =
+           "figures: for each result before, after and change (|after| - |before|), each "
+           "with value, u, u_random, nu_eff, k, U (95 %); effect: reduced, increased, or not "
+           "shown (the change is within its U); notices: other differences between the runs, and "
+           "the notices of both",
        .example = R"({"before": 1, "after": 2})",
        .handler = on_query(m, compare)});
   table.add(

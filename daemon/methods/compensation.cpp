@@ -69,8 +69,7 @@ void build(Methods& m, const Params& params, Reply reply) {
           json.field("doubtful", !built.doubtful.empty());
           write_active(json, 0);
           json.end_object();
-          return with_texts(with_notices(json.take(), built.notices, words::text), "notes",
-                            built.notes);
+          return with_notices(json.take(), built.notices, words::text);
         };
       });
 }
@@ -241,7 +240,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                  "Builds a table of one axis from runs and stores the table without activating it.",
              .params = std::move(build_params),
              .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
-                       "simulated, doubtful, notices, notes",
+                       "simulated, doubtful, notices",
              .example = R"({"runs": [1]})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});

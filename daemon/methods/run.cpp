@@ -41,9 +41,7 @@ std::string run_reply(std::int64_t id, Axis axis, const RunRequest& request) {
   for (const double target_m : request.targets_m) json.value(to_mm(target_m));
   json.end_array();
   write_notices(json, "notices", request.notices, words::text);
-  json.key("notes").begin_array();
-  for (const auto& note : request.notes) json.value(note);
-  json.end_array().end_object();
+  json.end_object();
   return json.take();
 }
 
@@ -153,11 +151,10 @@ void begin_run(const Methods& m, Station& station, RunRequest request, Reply rep
   append(request.notices, standing_trouble(station));
   append(request.notices, unsettled_clocks(station));
   append(request.notices, settings_of_devices(station));
-  EncoderState encoder = station.encoder();
-  const bool known = encoder.datum.kind == EncoderDatum::Kind::set ||
-                     encoder.datum.kind == EncoderDatum::Kind::index;
-  if (!known && !encoder.note.empty()) request.notes.push_back(std::move(encoder.note));
-  auto done = answer_with_run(std::move(reply), station.config().rig.axis, request);
+  // The run has its datum among its options, and takes no notice of it from here.
+  RunRequest told = request;
+  if (auto missing = station.encoder().notice) told.notices.push_back(std::move(*missing));
+  auto done = answer_with_run(std::move(reply), station.config().rig.axis, told);
   station.start_run(request, done);
 }
 
@@ -314,7 +311,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              "0",
              {.least = 0, .most = 10'000}},
             {"note", ParamType::string, "free text, stored with the run", false, "\"\""}},
-       .result = "run, axis, targets_mm, notices, notes. The reply is sent after the run is on the "
+       .result = "run, axis, targets_mm, notices. The reply is sent after the run is on the "
                  "disk and has begun to measure",
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "daemon/words/error_text.h"
+#include "daemon/words/words.h"
 #include "drivers/clock/monotonic.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -16,24 +16,14 @@ constexpr int kDigits = 9;        // nanometres of a metre
 constexpr double kRest_m = 5e-6;  // an axis that holds its place may tremble so far
 constexpr std::int64_t kRest_ns = 200'000'000, kStale_ns = 1'000'000'000;
 
-std::string advised_datum_note(const EncoderDatum& datum) {
-  const std::string note = datum_note(datum.kind, datum.device);
-  return note.empty() ? note : note + "; " + words::remedy(Remedy::set_encoder);
-}
-
 // Of what was said and does not hold any more.
-std::string lost_note(const DatumSetting& said, bool since_start, const EncoderDatum& now) {
-  const std::string note =
-      "the position was set to " + plain_number(to_mm(said.position_m), kDigits) + " mm on " +
-      said.utc + ", but was lost " +
-      (since_start ? "when the device lost power" : "by a restart of mdofd") + "; ";
-  const std::string none = advised_datum_note(now);
-  if (!none.empty()) return note + none;
-  return note +
-         (now.kind == EncoderDatum::Kind::configured
-              ? "now offset_mm of the configuration applies; "
-              : "now positions are as the device shows them; ") +
-         words::remedy(Remedy::set_encoder_again, std::string(1, letter(said.axis)));
+Notice position_lost(const DatumSetting& said, bool since_start, const EncoderDatum& now) {
+  return notice(NoticeCode::position_lost, std::string(1, letter(said.axis)),
+                {{"position_mm", to_mm(said.position_m)},
+                 {"utc", said.utc},
+                 {"without_power", since_start ? 1 : 0},
+                 {"configured", now.kind == EncoderDatum::Kind::configured ? 1 : 0},
+                 {"counted", now.kind == EncoderDatum::Kind::none ? 1 : 0}});
 }
 
 }  // namespace
@@ -66,17 +56,25 @@ EncoderDatum EncoderZero::datum() const {
 
 EncoderState EncoderZero::state() const {
   const std::lock_guard lock(mutex_);
-  if (datum_.kind == EncoderDatum::Kind::index) return {datum_, datum_text(datum_)};
-  if (index_m_ && datum_.kind == EncoderDatum::Kind::none)
-    return {datum_, "the encoder (device \"" + datum_.device +
-                        "\") has not passed its reference mark, so positions are not machine "
-                        "positions; " +
-                        words::remedy(Remedy::pass_reference_mark)};
-  if (!last_) return {datum_, advised_datum_note(datum_)};
-  if (datum_.kind != EncoderDatum::Kind::set)
-    return {datum_, lost_note(*last_, since_start_, datum_)};
-  return {datum_, "set to " + plain_number(to_mm(last_->position_m), kDigits) + " mm on " +
-                      datum_.utc + " by " + datum_.by};
+  EncoderState state{datum_, missing(), ""};
+  if (state.notice)
+    state.note = words::text(*state.notice);
+  else if (datum_.kind == EncoderDatum::Kind::index)
+    state.note = datum_text(datum_);
+  else if (last_ && datum_.kind == EncoderDatum::Kind::set)
+    state.note = "set to " + plain_number(to_mm(last_->position_m), kDigits) + " mm on " +
+                 datum_.utc + " by " + datum_.by;
+  return state;
+}
+
+std::optional<Notice> EncoderZero::missing() const {
+  using Kind = EncoderDatum::Kind;
+  if (datum_.kind == Kind::index) return {};
+  if (index_m_ && datum_.kind == Kind::none)
+    return notice(NoticeCode::reference_mark_not_passed, datum_.device);
+  if (last_ && datum_.kind != Kind::set) return position_lost(*last_, since_start_, datum_);
+  if (datum_.kind == Kind::none) return notice(NoticeCode::datum_missing, datum_.device);
+  return {};
 }
 
 std::string EncoderZero::device() const {

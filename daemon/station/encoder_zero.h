@@ -16,9 +16,11 @@
 
 namespace mdof::daemon {
 
-// What holds now, and for people what was said of it and what of that is lost; "": nothing.
+// What holds now, and what is missing of it or lost. For people the words of that, else what was
+// said; "": nothing.
 struct EncoderState {
   EncoderDatum datum;
+  std::optional<Notice> notice;
   std::string note;
 };
 
@@ -53,6 +55,7 @@ class EncoderZero {
   std::string device() const;
 
  private:
+  std::optional<Notice> missing() const;
   double metres_per(Unit unit) const;
   void watch(double shown_m, std::int64_t time_ns);
 

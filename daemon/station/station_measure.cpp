@@ -309,7 +309,7 @@ void Station::finish(RunState state, Notices why, const drivers::SourceInfo& sou
   append(notices, open->request.notices);
   append(notices, open->troubles.summary());
   append(notices, overdue_calibrations(config_.rig, utc_now()));
-  for (auto& note : calibration_notes(config_.rig)) run.header.notes.push_back(std::move(note));
+  append(notices, calibration_notices(config_.rig));
   append(notices, doubtful_values(config_.rig));
   append(notices, std::move(why));
   if (open->blocks_not_recorded > 0)

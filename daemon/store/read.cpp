@@ -7,7 +7,7 @@
 #include "daemon/store/store.h"
 #include "schema/encoder_datum.h"
 #include "schema/notice/notice_json.h"
-#include "schema/rig/check/rig_notes.h"
+#include "schema/rig/calibrated.h"
 
 namespace mdof::store {
 
@@ -67,6 +67,13 @@ Provenance provenance_of(const Statement& row) {
   return from;
 }
 
+// What follows from other columns: runs of older versions, and open ones, do not store it.
+void add_missing(Notices& notices, Notices derived) {
+  for (Notice& each : derived)
+    if (std::find(notices.begin(), notices.end(), each) == notices.end())
+      notices.push_back(std::move(each));
+}
+
 AxisErrors errors_of(const Statement& row, int first) {
   AxisErrors errors;
   errors.valid = row.is_null(first);  // no reason why there are none
@@ -123,10 +130,6 @@ Result<RunHeader> Store::header_of(Statement& row) {
   header.provenance = provenance_of(row);
   header.sides = {row.text(18) == "fixture", row.text(19) == "-"};
   header.stated = row.text(20) == "carriage" ? kAtCarriage : kAtFixture;
-  EncoderDatum::Kind datum{};
-  if (datum_kind_from(std::string(row.text(21)), datum) && datum == EncoderDatum::Kind::none)
-    header.notes.push_back(datum_note(datum, std::string(row.text(22))));
-  for (auto& note : rig_notes(header.provenance.rig_text)) header.notes.push_back(std::move(note));
   if (!row.is_null(14)) {
     header.state = state_from(row.text(14));
     header.scans = natural(row.integer(15));
@@ -137,6 +140,11 @@ Result<RunHeader> Store::header_of(Statement& row) {
     header.state = RunState::aborted;  // the next writer will store it so
     header.notices = {notice(NoticeCode::interrupted)};
   }
+  EncoderDatum datum;
+  datum_kind_from(std::string(row.text(21)), datum.kind);
+  datum.device = row.text(22);
+  add_missing(header.notices, datum_notices(datum));
+  add_missing(header.notices, calibration_notices(header.provenance.rig_text));
   return header;
 }
 

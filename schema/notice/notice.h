@@ -42,7 +42,8 @@ struct NoticeValue : std::variant<double, std::string> {
 
 struct Notice {
   NoticeCode code = NoticeCode::legacy;
-  Severity severity = Severity::doubtful;  // of its code; of `legacy` and `more_alike` its own
+  // Of its code; of `legacy`, `more_alike`, `not_shown` and a table's `datum_missing` its own.
+  Severity severity = Severity::doubtful;
   std::string subject;  // a probe, a plane, a device by its name; empty: the whole
   std::vector<std::pair<std::string, NoticeValue>> values;
   std::string source;  // the result that it is inherited from, "run 3"; empty: this one

@@ -157,10 +157,6 @@ void apply_certificates(TomlTable& record, Rig& rig) {
   }
 }
 
-std::string calibrated_quantity(const CalibrationRecord& record) {
-  return record.kind == "mounting" ? "positions of the probes" : "sensitivity";
-}
-
 }  // namespace
 
 Result<std::string> load_rig_text(const std::filesystem::path& file) {
@@ -212,12 +208,21 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
   }
 }
 
-std::vector<std::string> calibration_notes(const Rig& rig) {
-  std::vector<std::string> notes;
+Notices calibration_notices(const Rig& rig) {
+  Notices notices;
   for (const CalibrationRecord& record : rig.records)
-    notes.push_back(calibrated_quantity(record) + " from the calibration \"" + record.id +
-                    "\" of " + record.date + ", valid until " + record.valid_until);
-  return notes;
+    notices.push_back(notice(record.kind == "mounting" ? NoticeCode::positions_calibrated
+                                                       : NoticeCode::sensitivity_calibrated,
+                             record.id,
+                             {{"date", record.date}, {"valid_until", record.valid_until}}));
+  return notices;
+}
+
+// A rig is read only where it can name a record: lists have thousands of runs.
+Notices calibration_notices(std::string_view rig_text) {
+  if (rig_text.find("calibration_record") == rig_text.npos) return {};
+  const auto rig = parse_rig(rig_text, "rig");
+  return rig ? calibration_notices(*rig) : Notices();
 }
 
 }  // namespace mdof

@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "schema/base/result.h"
 #include "schema/base/toml/toml_reader.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 
 namespace mdof {
@@ -25,7 +25,9 @@ Result<std::string> load_rig_text(const std::filesystem::path& file);
 // `u_calibration_um` are taken only where the rig does not declare them.
 void apply_records(TomlTable& table, std::string_view text, Rig& rig);
 
-// What results of such a rig say of it, one sentence a record; none for other rigs.
-std::vector<std::string> calibration_notes(const Rig& rig);
+// What results of such a rig say of it, one notice a record; none for other rigs.
+Notices calibration_notices(const Rig& rig);
+// The same of a stored rig; none for a text that is no rig.
+Notices calibration_notices(std::string_view rig_text);
 
 }  // namespace mdof

@@ -22,6 +22,10 @@ MDOFD, MDOF, SIMULATE = sys.argv[1:4]
 TARGETS = [0, 2, 4.1]
 
 
+def datum_notices(*documents):
+    return [n for document in documents for n in document["notices"] if n["code"] in ("datum_missing", "position_lost")]
+
+
 class EncoderDatum(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -101,23 +105,22 @@ class EncoderDatum(unittest.TestCase):
     def test_a_run_without_datum_says_so_and_one_with_it_does_not(self):
         self.begin()
         started, header, _ = self.measured()
-        for notes in (started["notes"], header["notes"]):
-            self.assertEqual(len(notes), 1)
-            self.assertIn('device "t7") has no datum', notes[0])
-        self.assertIn("mdof encoder set", started["notes"][0])
-        self.assertNotIn("datum", " ".join(notice_lines(header)))
+        for notices in (started["notices"], header["notices"]):
+            (notice,) = [n for n in notices if "datum" in n["text"]]
+            self.assertEqual((notice["code"], notice["severity"], notice["subject"]), ("datum_missing", "information", "t7"))
+            self.assertIn("mdof encoder set", notice["text"])
         code, out, err = self.mdof("show", header["run"], "--db", self.daemon.database)
         self.assertEqual(code, 0, err)
         self.assertIn("has no datum", " ".join(out.split()))
         self.assertIn("mdof encoder set", " ".join(out.split()))
-        # A note of the run, no warning: what the axis does is right. A table would be at another place.
+        # Information of the run, no warning: what the axis does is right. A table would be at another place.
         code, out, err = self.mdof("compensation", "build", header["run"], "--db", self.daemon.database,
                                    "--socket", self.daemon.socket, "--json")
         self.assertEqual(code, 0, err)
         self.assertIn("has no datum", err)
         table = json.loads(out)
-        self.assertIn(f"run {header['run']}: the encoder", table["notes"][0])
-        self.assertNotIn("datum", " ".join(notice_lines(table)))
+        (notice,) = [n for n in table["notices"] if n["code"] == "datum_missing"]
+        self.assertEqual((notice["source"], notice["severity"]), (f"run {header['run']}", "information"))
         with self.assertRaisesRegex(RpcError, "has no datum.*mdof encoder set"):
             self.client.call("compensation.activate", table=table["table"])
         self.client.call("compensation.activate", table=table["table"], despite_warnings=True)
@@ -125,7 +128,7 @@ class EncoderDatum(unittest.TestCase):
 
         self.set_at_rest(112.5, self.set_by_rpc)
         started, header, points = self.measured(112.5)
-        self.assertEqual(started["notes"] + header["notes"], [])
+        self.assertEqual(datum_notices(started, header), [])
         self.assertEqual(header["state"], "complete", notice_lines(header))
         datum = header["options"]["encoder_datum"]
         self.assertEqual((datum["kind"], datum["device"]), ("set", "t7"))
@@ -142,8 +145,9 @@ class EncoderDatum(unittest.TestCase):
         self.assertEqual(code, 0, err)
         again = json.loads(out)
         self.assertEqual(again["points"], self.client.points(header["run"]))
-        for key in ("options", "notes", "straightness"):
+        for key in ("options", "straightness"):
             self.assertEqual(again[key], header[key], key)
+        self.assertEqual(datum_notices(again), datum_notices(header))
 
     def test_not_in_a_run_nor_in_motion_nor_of_a_log(self):
         self.begin()
@@ -178,14 +182,15 @@ class EncoderDatum(unittest.TestCase):
         self.wait(lambda: any("datum is lost" in t for t in self.device()["trouble"]))
         started = self.client.call("run.start", axis="X")
         self.assertIn("datum is lost", " ".join(notice_lines(started)))
-        self.assertIn("has no datum", " ".join(started["notes"]))
+        (lost,) = [n for n in started["notices"] if n["code"] == "position_lost"]
+        self.assertEqual((lost["without_power"], lost["configured"], lost["counted"]), (1, 0, 1))
         self.client.call("run.stop", run=started["run"], abort=True)
         self.set_at_rest(37, self.set_by_command_line)
         self.assertEqual(self.device()["trouble"], [])
         time.sleep(0.3)
         started, header, points = self.measured(37)
         self.assertEqual(header["state"], "complete", notice_lines(header))
-        self.assertEqual(header["notes"] + started["notes"] + notice_lines(started), [])
+        self.assertEqual(datum_notices(header) + started["notices"], [])
         self.assertNotIn("no valid position", " ".join(notice_lines(header)))
         self.assertEqual(len(points), 2 * len(TARGETS))
 
@@ -231,7 +236,7 @@ class EncoderDatum(unittest.TestCase):
         self.assertTrue(encoder["note"].startswith(lost), encoder["note"])
         self.assertIn("encoder of X: " + lost, self.status())
         started = self.client.call("run.start", axis="X")
-        self.assertIn(lost, " ".join(started["notes"]))
+        self.assertIn(lost, " ".join(n["text"] for n in started["notices"]))
         self.client.call("run.stop", run=started["run"], abort=True)
         self.wait(lambda: self.device()["scans"] > 300)
         self.set_at_rest(30, self.set_by_rpc)
@@ -267,7 +272,7 @@ class EncoderDatum(unittest.TestCase):
     def test_the_configuration_may_say_it(self):
         self.begin(lambda text: text.replace('input = "DIO0"', 'input = "DIO0", offset_mm = -250.25'))
         started, header, points = self.measured(-250.25)
-        self.assertEqual(started["notes"] + header["notes"], [])
+        self.assertEqual(datum_notices(started, header), [])
         self.assertEqual(header["options"]["encoder_datum"]["kind"], "configured")
         self.assertEqual(header["options"]["encoder_datum"]["offset_mm"], -250.25)
         self.assertEqual(len(points), 2 * len(TARGETS))
@@ -332,7 +337,7 @@ class Simulated(unittest.TestCase):
             time.sleep(2)
             header = client.call("run.get", run=client.call("run.stop", run=started["run"])["run"])
             daemon.stop()
-            self.assertEqual(started["notes"] + header["notes"], [])
+            self.assertEqual(datum_notices(started, header), [])
             self.assertNotIn("encoder_datum", header["options"])
 
     def test_what_was_set_is_told_of_a_device_and_not_of_a_log(self):

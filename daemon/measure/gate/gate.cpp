@@ -7,27 +7,11 @@
 #include "algo/sequence/usable_runs.h"
 #include "daemon/words/words.h"
 #include "schema/imported/series.h"
-#include "schema/rig/check/rig_notes.h"
 
 namespace mdof::daemon {
 namespace {
 
 constexpr std::size_t kMostMarks = 5;
-
-// A run's notes are of its encoder's datum and of its rig; that the rig was calibrated and its
-// readings corrected is not doubtful.
-std::vector<std::string> doubtful_run_notes(const Run& run) {
-  std::vector<std::string> notes = run.header.notes;
-  for (const std::string& good : rig_notes(run.header.provenance.rig_text)) std::erase(notes, good);
-  return notes;
-}
-
-Notices datum_notices(const Run& run) {
-  Notices found;
-  for (const std::string& note : doubtful_run_notes(run))
-    found.push_back(notice(NoticeCode::datum_missing, "", {{"note", note}}));
-  return found;
-}
 
 }  // namespace
 
@@ -36,18 +20,14 @@ Notices without_information(Notices notices) {
   return notices;
 }
 
-Notices datum_notices(const std::vector<Run>& runs) {
-  Notices found;
-  for (const Run& run : runs)
-    for (Notice& each : datum_notices(run))
-      found.push_back(inherited("run " + std::to_string(run.header.id), std::move(each)));
-  return found;
+Notices doubtful_notices(Notices notices) {
+  for (Notice& each : notices)
+    if (each.code == NoticeCode::datum_missing) each.severity = Severity::doubtful;
+  return without_information(std::move(notices));
 }
 
 Notices doubtful_notices(const std::vector<Run>& runs) {
-  Notices found = datum_notices(runs);
-  append(found, algo::inherited_notices(algo::all_of(runs)));
-  return without_information(std::move(found));
+  return doubtful_notices(algo::inherited_notices(algo::all_of(runs)));
 }
 
 Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& table) {
@@ -104,11 +84,11 @@ std::vector<std::string> marks_of(const Judged& judged) {
 }
 
 std::vector<std::string> marks_of(const Run& run) {
-  Notices notices = datum_notices(run);
+  Notices notices;
   if (run.header.state == RunState::partial) notices.push_back(notice(NoticeCode::run_partial));
   append(notices, run.header.notices);
   return marks_of(Judged{"run " + std::to_string(run.header.id), run.header.simulated,
-                         without_information(std::move(notices))});
+                         doubtful_notices(std::move(notices))});
 }
 
 }  // namespace mdof::daemon

@@ -27,9 +27,9 @@ struct Judged {
 
 // Without the information among them.
 Notices without_information(Notices notices);
-// Of encoders without datum: errors are right against each other, but at another place.
-Notices datum_notices(const std::vector<Run>& runs);
-// The same, the doubtful notices of these runs, and which are partial.
+// The same, and a missing datum is doubtful: a controller would apply the errors at another place.
+Notices doubtful_notices(Notices notices);
+// The same of the notices of these runs, and which are partial.
 Notices doubtful_notices(const std::vector<Run>& runs);
 // The same of a stored table's runs, and what they show only together.
 Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& table);

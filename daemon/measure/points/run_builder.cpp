@@ -37,8 +37,7 @@ RunHeader RunBuilder::head(const algo::DwellDetector::Summary& summary) const {
   header.scans = summary.scans;
   header.scans_lost = lost_;
   header.temperature = temperature_.of_run();
-  if (auto note = datum_note(options_.datum.kind, options_.datum.device); !note.empty())
-    header.notes.push_back(std::move(note));
+  header.notices = datum_notices(options_.datum);
   return header;
 }
 

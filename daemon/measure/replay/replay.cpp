@@ -224,7 +224,7 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   append(run->header.notices, asked.notices);
   const std::string day = log.started_utc().empty() ? utc_now() : log.started_utc();
   append(run->header.notices, overdue_calibrations(rig, day));
-  for (auto& note : calibration_notes(rig)) run->header.notes.push_back(std::move(note));
+  append(run->header.notices, calibration_notices(rig));
   append(run->header.notices, doubtful_values(rig));
   return run;
 }

@@ -73,9 +73,8 @@ void check_file(const Source& source, const std::string& of, SourceCheck& check)
   }
   const bool recording = drivers::is_recording(path);
   if (expected.empty() && !recording) {
-    check.notes.push_back(
-        of + ": " + path +
-        " cannot be checked: mdof did not read this file to its end, so no hash of it is stored");
+    check.notices.push_back(
+        inherited(of, notice(NoticeCode::source_not_hashed, "", {{"path", path}})));
     return;
   }
   const auto actual = recording ? sha256_of_recording(path) : sha256_of_file(path);
@@ -90,16 +89,15 @@ void check_file(const Source& source, const std::string& of, SourceCheck& check)
 
 void add_source(const RunHeader& run, Sources& sources, SourceCheck& check) {
   const Provenance& from = run.provenance;
-  const std::string of = "run " + std::to_string(run.id);
+  const auto cannot_check = [&](NoticeCode why) {
+    check.notices.push_back(inherited("run " + std::to_string(run.id), notice(why)));
+  };
   if (run.state == RunState::open) {
-    check.notes.push_back(
-        of + ": this run is being measured; its recording can be checked after the end of the run");
+    cannot_check(NoticeCode::source_run_open);
   } else if (from.recording_path == "-") {
-    check.notes.push_back(of +
-                          ": its log came from the standard input, so the log cannot be checked");
+    cannot_check(NoticeCode::source_standard_input);
   } else if (from.recording_path.empty()) {
-    check.notes.push_back(
-        of + ": no recording or log is stored for this run, so nothing can be checked");
+    cannot_check(NoticeCode::source_not_stored);
   } else {
     sources[{from.recording_path, from.recording_sha256}].push_back(run.id);
   }

@@ -11,7 +11,7 @@ namespace mdof::daemon {
 
 struct SourceCheck {
   std::vector<std::string> findings;  // one sentence for each file that is gone or another
-  std::vector<std::string> notes;     // what cannot be checked, and why: nothing is wrong with it
+  Notices notices;                    // what cannot be checked, and why: nothing is wrong with it
 };
 
 // Reads every file once, to its end, in pieces. Errors: as of a database that is read.

@@ -7,7 +7,6 @@
 #include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/base/json_writer.h"
-#include "schema/base/number/number_text.h"
 #include "schema/notice/notice_json.h"
 #include "schema/run_json.h"
 #include "schema/uncertainty/budget_json.h"
@@ -55,22 +54,21 @@ std::pair<double, double> travel_of(const Run& run) {
 }
 
 // What a figure depends on and need not be the same in both.
-std::vector<std::string> differences(const Run& before, const Run& after) {
-  std::vector<std::string> notes;
+Notices differences(const Run& before, const Run& after) {
+  Notices found;
   const auto a = travel_of(before), b = travel_of(after);
-  const auto text = [](const std::pair<double, double>& ends) {
-    return plain_number(to_mm(ends.first)) + " to " + plain_number(to_mm(ends.second)) + " mm";
-  };
   if (std::abs(a.first - b.first) > kSameEnd_m || std::abs(a.second - b.second) > kSameEnd_m)
-    notes.push_back("the travel differs: " + text(a) + " before, " + text(b) +
-                    " after; straightness and ranges increase with the travel");
-  if (before.header.provenance.rig_text != after.header.provenance.rig_text)
-    notes.emplace_back(
-        "the rigs differ in the fixture, the calibration or the declared uncertainties");
-  if (before.header.provenance.model != after.header.provenance.model)
-    notes.push_back("the models differ: " + before.header.provenance.model + " before, " +
-                    after.header.provenance.model + " after");
-  return notes;
+    found.push_back(notice(NoticeCode::travel_differs, "",
+                           {{"before_from_mm", to_mm(a.first)},
+                            {"before_to_mm", to_mm(a.second)},
+                            {"after_from_mm", to_mm(b.first)},
+                            {"after_to_mm", to_mm(b.second)}}));
+  const Provenance &of_a = before.header.provenance, &of_b = after.header.provenance;
+  if (of_a.rig_text != of_b.rig_text) found.push_back(notice(NoticeCode::rigs_differ));
+  if (of_a.model != of_b.model)
+    found.push_back(
+        notice(NoticeCode::models_differ, "", {{"before", of_a.model}, {"after", of_b.model}}));
+  return found;
 }
 
 }  // namespace
@@ -142,8 +140,9 @@ std::string comparison_json(const Comparison& c) {
     json.field("effect", to_string(figure.effect)).end_object();
   }
   json.end_object();
-  write_strings(json, "notes", c.notes);
-  write_notices(json, "notices", c.notices, words::text);
+  Notices notices = c.differences;
+  append(notices, c.notices);
+  write_notices(json, "notices", notices, words::text);
   json.end_object();
   return json.take();
 }

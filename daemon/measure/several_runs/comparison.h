@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "daemon/measure/budgets.h"
@@ -34,7 +33,7 @@ struct Comparison {
   Axis axis = Axis::x;
   StatedAt stated;
   std::vector<ComparedFigure> figures;  // those that both have
-  std::vector<std::string> notes;       // what makes the two differ beside what was done
+  Notices differences;                  // of the two runs, beside what was done
   Notices notices;                      // of the runs
   bool simulated = false;
 };

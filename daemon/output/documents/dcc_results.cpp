@@ -213,8 +213,6 @@ void write_notices(Xml& xml, const ReportRun& run) {
   for (const Notice& notice : header.notices)
     write_declaration(xml, kMetaData, to_string(notice.severity),
                       words::text(notice, output::Language::english));
-  for (const std::string& note : header.notes)
-    write_declaration(xml, kMetaData, "information", note);
   std::string keys;
   for (const std::string& key : run.results.uncertainty.not_declared)
     keys += (keys.empty() ? "" : ", ") + key;

@@ -1,6 +1,7 @@
 // The section of a report about two runs of an axis, before and after something was done to it.
 #include "daemon/output/report/numbers.h"
 #include "daemon/output/report/sections.h"
+#include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/units.h"
 
@@ -45,7 +46,7 @@ void write_comparison(Html& html, const daemon::Comparison& comparison, Language
              rows, "numbers");
   html.element("p", of(Phrase::change_explained));
   html.element("p", phrase(Phrase::u_covers, language, {covers_text(changes)}));
-  for (const std::string& note : comparison.notes) html.element("p", note);
+  for (const Notice& each : comparison.differences) html.element("p", words::text(each, language));
 }
 
 }  // namespace mdof::report

@@ -199,8 +199,6 @@ void write_notices(Html& html, const ReportRun& run, Language language) {
   for (const auto& [severity, name] : severities)
     for (const Notice& notice : run.results.run.header.notices)
       if (notice.severity == severity) rows.push_back({of(name), words::text(notice, language)});
-  for (const std::string& note : run.results.run.header.notes)
-    rows.push_back({of(Phrase::information), note});
   if (rows.empty())
     html.element("p", of(Phrase::no_notices));
   else

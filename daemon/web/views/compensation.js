@@ -128,7 +128,7 @@ class AxisPanel {
   async make(form) {
     try {
       const built = await call("compensation.build", {runs: form.getAll("run").map(Number), keep_slope: form.has("keep_slope"), partial: form.has("partial")});
-      this.result.replaceChildren(h("p", {class: "notice"}, `● Table ${built.table} is stored; it is not active yet.`), notices([...built.notices, ...built.notes]) ?? "");
+      this.result.replaceChildren(h("p", {class: "notice"}, `● Table ${built.table} is stored; it is not active yet.`), notices(built.notices) ?? "");
       await this.read();
       this.show(built.table);
     } catch (error) {

@@ -124,7 +124,7 @@ export function openRun(place, id) {
     body.replaceChildren(h("h2", {}, `Run ${run.run}, axis ${run.axis}`),
       h("div", {class: "columns"}, head(run), h("div", {}, partners(run, runs),
         kResumable.includes(run.state) ? h("p", {}, h("button", {onclick: () => resume(id, wrong)}, "Resume (continue as a new run)")) : null, wrong,
-        covers(run))), notices([...run.notices, ...run.notes]) ?? "",
+        covers(run))), notices(run.notices) ?? "",
       h("h2", {}, "Five errors"), charts.element,
       h("p", {class: "quiet"}, "Errors are actual − nominal. Blue solid line: forward; orange dashed line: reverse. The charts show the newest four passes. Bands: ± U (95 %)."), pointsTable(points),
       straightness.element, h("h2", {}, "Angles"), angles(run), new Budget(run).element, deeds(run.history) ?? "");

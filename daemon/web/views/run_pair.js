@@ -58,7 +58,7 @@ export function openPair(place, first, second) {
     pairs.forEach((pair) => pair.draw());
     try {
       const found = await call("run.compare", {before, after});
-      table.replaceChildren(figures(found, before, after), covers(found) ?? "", notices([...(found.notices ?? []), ...(found.notes ?? [])]) ?? "");
+      table.replaceChildren(figures(found, before, after), covers(found) ?? "", notices(found.notices) ?? "");
     } catch (error) {
       table.replaceChildren(problem(error));
     }

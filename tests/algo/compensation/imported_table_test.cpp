@@ -50,7 +50,7 @@ TEST(ImportedTable, MeansAndTheirUncertaintyByHand) {
     EXPECT_EQ(along.u_declared[i], 0.3e-6);
     EXPECT_TRUE(std::isnan(table->forward[0][i]));
   }
-  EXPECT_TRUE(positioning_notes({imported(3, 3)}).empty());
+  EXPECT_TRUE(positioning_notices({imported(3, 3)}).empty());
 }
 
 TEST(ImportedTable, OneReadingHasNoRepeatability) {
@@ -61,10 +61,10 @@ TEST(ImportedTable, OneReadingHasNoRepeatability) {
   EXPECT_TRUE(std::isnan(table->positioning.u_forward[0]));
   EXPECT_TRUE(std::isnan(table->positioning.reverse[0]));
   EXPECT_TRUE(table->positioning.u_declared.empty());
-  ASSERT_EQ(positioning_notes({run}).size(), 1U);
-  EXPECT_NE(positioning_notes({run})[0].find("repeatability is unknown"), std::string::npos);
+  EXPECT_EQ(positioning_notices({run}), Notices{notice(NoticeCode::single_readings)});
   for (MeasuredPoint& p : run.points) p.point.direction = 0;
-  EXPECT_NE(positioning_notes({run})[0].find("from which side"), std::string::npos);
+  EXPECT_EQ(positioning_notices({run}).front(),
+            inherited("run 1", notice(NoticeCode::approach_not_stated)));
   const auto unknown = build_positioning_table({run});
   EXPECT_EQ(unknown->positioning.forward, unknown->positioning.reverse);
 }

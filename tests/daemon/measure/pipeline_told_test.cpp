@@ -40,7 +40,7 @@ TEST(PipelineTold, TheAxisAndItsFiguresAreThoseOfTheRig) {
   EXPECT_EQ(run->header.axis, Axis::y);
   ASSERT_FALSE(run->straightness.empty());
   EXPECT_EQ(run->straightness.front().error_key, "EXY_um");
-  EXPECT_TRUE(run->header.notes.empty());
+  EXPECT_EQ(told_of(*run).find("datum_missing"), std::string::npos);
 }
 
 TEST(PipelineTold, AHeightMapThatEndsBeforeTheTravelIsNoticed) {
@@ -65,15 +65,15 @@ TEST(PipelineTold, AHeightMapThatEndsBeforeTheTravelIsNoticed) {
   EXPECT_HAS_PART(test::shown(after), "map_too_short side ");
 }
 
-TEST(PipelineTold, PositionsWithoutADatumAreANote) {
+TEST(PipelineTold, PositionsWithoutADatumAreANotice) {
   const TestAxis axis = pass_over_five();
   PipelineOptions options;
   options.datum.kind = EncoderDatum::Kind::none;
   options.datum.device = "t7";
   Pipeline pipeline = Pipeline::create(five_probe_rig(), options).value();
   const auto run = run_of(pipeline, {axis.whole()});
-  ASSERT_TRUE(run && run->header.notes.size() == 1);
-  EXPECT_HAS_PART(run->header.notes[0], "t7");
+  ASSERT_TRUE(run);
+  EXPECT_EQ(run->header.notices.front(), notice(NoticeCode::datum_missing, "t7"));
 }
 
 // One stop in which the encoder was suspect throughout.

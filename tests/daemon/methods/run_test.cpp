@@ -23,7 +23,8 @@ TEST_F(RunMethods, ARunIsStartedWithWhatWasAskedForAndStopped) {
   ASSERT_EQ(begun.at("/result/run"), "1") << begun.text();
   EXPECT_EQ(begun.at("/result/axis"), "\"X\"");
   EXPECT_EQ(begun.at("/result/targets_mm"), "[0,5,10]");
-  EXPECT_TEXT(begun.at("/result/notes/0"), "daq") << "its encoder has no datum";
+  EXPECT_EQ(begun.at("/result/notices/0/code"), "\"datum_missing\"");
+  EXPECT_EQ(begun.at("/result/notices/0/subject"), "\"daq\"");
   EXPECT_EQ(call("server.info").at("/result/axes/0/run"), "1");
   TestAxis axis;
   axis.pass_both_ways({0, 5, 10});
@@ -101,7 +102,7 @@ TEST_F(RunMethods, IntervalsThatHideTheScalesErrorAreWarnedOf) {
   add_axis();
   const Answer begun = call("run.start", R"({"axis":"X","from_mm":0,"to_mm":10,"interval_mm":1,)"
                                          R"("scale_period_um":20})");
-  EXPECT_EQ(begun.size("/result/notices"), 1u) << begun.text();
+  EXPECT_EQ(begun.at("/result/notices/0/code"), "\"scale_period_hidden\"") << begun.text();
 }
 
 TEST_F(RunMethods, WhatCannotBeMeasuredIsRefusedByItsKey) {

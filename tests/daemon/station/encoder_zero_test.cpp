@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "daemon/words/words.h"
 #include "drivers/clock/monotonic.h"
 
 namespace mdof::daemon {
@@ -31,10 +32,6 @@ SampleBlock resting_at(double mm) {
 
 DatumSetting said(double position_m) {
   return {1, mdof::Axis::y, "t7", 0, position_m, position_m, "2026-11-01T06:00:00Z"};
-}
-
-bool begins_with(const std::string& text, const std::string& part) {
-  return text.starts_with(part);
 }
 
 TEST(EncoderZero, WhatIsFoundHoldsOnlyOnceItIsPut) {
@@ -111,22 +108,32 @@ TEST(EncoderZero, ItsCountGoesOnFromItsStartOrItsLastLoss) {
                   .counts_on_since(""));
 }
 
+// Of Y at 12.5 mm, whatever took it.
+Notice lost_position(const char* utc, bool without_power, bool configured, bool counted) {
+  return notice(NoticeCode::position_lost, "Y",
+                {{"position_mm", 12.5},
+                 {"utc", utc},
+                 {"without_power", without_power ? 1 : 0},
+                 {"configured", configured ? 1 : 0},
+                 {"counted", counted ? 1 : 0}});
+}
+
 TEST(EncoderZero, WhatARestartForgotIsTold) {
-  EXPECT_TRUE(begins_with(EncoderZero({counting()}).state().note, "the encoder (device \"t7\")"));
-  const std::string lost =
-      "the position was set to 12.5 mm on 2026-11-01T06:00:00Z, but was lost by a restart of "
-      "mdofd; ";
-  const std::string remedy = "; set the position again (mdof encoder set Y POSITION_MM)";
-  EXPECT_TRUE(begins_with(EncoderZero({counting()}, said(0.0125)).state().note,
-                          lost + "the encoder (device \"t7\") has no datum"));
+  EXPECT_EQ(EncoderZero({counting()}).state().notice, notice(NoticeCode::datum_missing, "t7"));
+  const auto lost = [](bool configured, bool counted) {
+    return lost_position("2026-11-01T06:00:00Z", false, configured, counted);
+  };
+  EXPECT_EQ(EncoderZero({counting()}, said(0.0125)).state().notice, lost(false, true));
   auto configured = counting();
   configured.encoder.offset_mm = 5;
-  EXPECT_EQ(EncoderZero({configured}, said(0.0125)).state().note,
-            lost + "now offset_mm of the configuration applies" + remedy);
+  EXPECT_EQ(EncoderZero({configured}).state().notice, std::nullopt);
+  EXPECT_EQ(EncoderZero({configured}, said(0.0125)).state().notice, lost(true, false));
   auto absolute = counting();
   absolute.encoder.counts = false;
-  EXPECT_EQ(EncoderZero({absolute}, said(0.0125)).state().note,
-            lost + "now positions are as the device shows them" + remedy);
+  const EncoderState state = EncoderZero({absolute}, said(0.0125)).state();
+  EXPECT_EQ(state.notice, lost(false, false));
+  EXPECT_EQ(state.note, words::text(*state.notice));
+  EXPECT_EQ(EncoderZero({absolute}).state().notice, std::nullopt);
   EXPECT_EQ(EncoderZero({absolute}).state().note, "");
 }
 
@@ -135,12 +142,9 @@ TEST(EncoderZero, WhatThePowerTookIsToldOtherwise) {
   SampleBlock block = resting_at(3);
   zero.apply(block);
   ASSERT_TRUE(zero.put(zero.find(mdof::Axis::y, 0.0125, "2026-11-23T07:00:00Z").value(), "me"));
+  EXPECT_EQ(zero.state().notice, std::nullopt);
   zero.lose("t7");
-  EXPECT_TRUE(
-      begins_with(zero.state().note,
-                  "the position was set to 12.5 mm on 2026-11-23T07:00:00Z, but was lost when the "
-                  "device lost power; the encoder (device \"t7\") has no datum"))
-      << zero.state().note;
+  EXPECT_EQ(zero.state().notice, lost_position("2026-11-23T07:00:00Z", true, false, true));
 }
 
 drivers::DriverSpec with_mark() {
@@ -152,8 +156,7 @@ drivers::DriverSpec with_mark() {
 TEST(EncoderZero, FromTheMarkOnPositionsAreTheMachines) {
   EncoderZero zero({with_mark()});
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
-  EXPECT_TRUE(begins_with(zero.state().note,
-                          "the encoder (device \"t7\") has not passed its reference mark"));
+  EXPECT_EQ(zero.state().notice, notice(NoticeCode::reference_mark_not_passed, "t7"));
   SampleBlock block = resting_at(3);
   zero.apply(block);
   EXPECT_EQ(block.value[0][0], 3);
@@ -180,8 +183,7 @@ TEST(EncoderZero, TheMarkGoesWithThePowerAndComesAgain) {
   zero.lose("t7");
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
   EXPECT_EQ(zero.datum().offset_m, 0);
-  EXPECT_TRUE(begins_with(zero.state().note,
-                          "the encoder (device \"t7\") has not passed its reference mark"));
+  EXPECT_EQ(zero.state().notice, notice(NoticeCode::reference_mark_not_passed, "t7"));
   ASSERT_TRUE(zero.pass_mark("t7", "later"));
   EXPECT_EQ(zero.state().note, "reference mark at 12.5 mm, passed on later");
 }

@@ -70,6 +70,23 @@ TEST_F(StoreTest, GivesARunBackToTheLastBit) {
   EXPECT_EQ(result_sha256(run), store->result_sha256(*id).value());
 }
 
+// Runs of before the notice was stored say so, too; later ones say it once.
+TEST_F(StoreTest, ARunWithoutADatumSaysSoOnce) {
+  auto store = writer();
+  mdof::Run run = make_run();
+  run.header.provenance.options_json = R"({"encoder_datum":{"kind":"none","device":"t7"}})";
+  const Notices stored = run.header.notices;
+  Notices shown = stored;
+  shown.push_back(notice(NoticeCode::datum_missing, "t7"));
+  const auto older = store->add_run(run);
+  run.header.notices.insert(run.header.notices.begin(), shown.back());
+  const Notices with_it = run.header.notices;
+  const auto later = store->add_run(run);
+  ASSERT_TRUE(older && later);
+  EXPECT_EQ(store->run_header(*older)->notices, shown);
+  EXPECT_EQ(store->run_header(*later)->notices, with_it);
+}
+
 TEST_F(StoreTest, KeepsFigures) {
   auto store = writer();
   const mdof::Run run = make_run();

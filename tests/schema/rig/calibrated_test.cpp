@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "schema/calibration/certificate_facts.h"
-#include "schema/rig/check/rig_notes.h"
 #include "schema/rig/effects/physics.h"
 #include "tests/algo/rigs.h"
 #include "tests/shown.h"
@@ -70,9 +69,12 @@ TEST(CalibratedRig, TakesWhatTheRecordFoundAndKeepsTheRest) {
   ASSERT_EQ(rig.records.size(), 1U);
   EXPECT_EQ(rig.records[0].not_seen, mounting().not_seen);
   EXPECT_EQ(rig.records[0].sources[1].file, "y.csv");
-  const auto notes = rig_notes(rig.text);
-  ASSERT_EQ(notes.size(), 1U);
-  EXPECT_NE(notes[0].find(rig.records[0].id), std::string::npos);
+  const Notices notices = calibration_notices(std::string_view(rig.text));
+  ASSERT_EQ(notices.size(), 1U);
+  EXPECT_EQ(notices[0].code, NoticeCode::positions_calibrated);
+  EXPECT_EQ(notices[0].severity, Severity::information);
+  EXPECT_EQ(notices[0].subject, rig.records[0].id);
+  EXPECT_TRUE(calibration_notices("no rig with a [[calibration_record]]").empty());
 }
 
 TEST(CalibratedRig, KeepsTheCovariancesOfWhatItTakes) {

@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (calibrated.error().message.empty()) std::abort();
     return 0;
   }
-  (void)calibration_notes(*calibrated);
+  (void)calibration_notices(*calibrated);
   const std::string text = record_text(calibrated->records.front());
   const auto parts = record_parts(text);
   if (parts.size() != 1 || !is_unchanged(parts.front())) std::abort();

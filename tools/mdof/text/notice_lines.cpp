@@ -39,7 +39,9 @@ Notices summarised(const Notices& notices, bool all) {
 
 void show_notices(const Notices& notices, bool all) {
   for (const Notice& each : summarised(notices, all))
-    each.severity == Severity::doubtful ? warn(words::line(each)) : say(words::line(each));
+    each.severity == Severity::doubtful      ? warn(words::line(each))
+    : each.severity == Severity::information ? say("note: " + words::text(each))
+                                             : say(words::line(each));
 }
 
 }  // namespace mdof::tools

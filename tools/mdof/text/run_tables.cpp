@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "daemon/measure/replay/request_json.h"
-#include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/run_json.h"
@@ -39,7 +38,7 @@ std::string temperature_text(const Temperature& read) {
 
 using Options = Result<daemon::PipelineOptions>;
 
-// What its positions are counted from; "": the device knows, or the notes say that nobody does.
+// What its positions are counted from; "": the device knows, or a notice says that nobody does.
 std::string datum_of(const Options& options) {
   return options ? datum_text(options->datum) : "";
 }
@@ -137,9 +136,6 @@ std::string head_text(const RunHeader& h, const std::string& result_sha256, std:
   out += labelled("software", from.software_version, width);
   for (const Notice& each : summarised(h.notices, all_warnings))
     out += labelled(label_of(each.severity), words::text(each), width);
-  for (const auto& note : h.notes) out += labelled("note", note, width);
-  if (options && options->datum.kind == EncoderDatum::Kind::none)
-    out += labelled("", words::remedy(Remedy::set_encoder), width);
   if (!result_sha256.empty()) out += labelled("sha256", result_sha256, width);
   return out;
 }

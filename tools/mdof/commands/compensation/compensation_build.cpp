@@ -60,7 +60,6 @@ Result<daemon::BuiltTable> build_there(rpc::Client& mdofd, const BuildCommand& c
   const auto json = parser.parse(simdjson::padded_string(reply));
   daemon::BuiltTable built;
   built.notices = notices_of(json);
-  built.notes = texts(json, "notes");
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(built.table, store.table(integer(json, "table").value_or(0)));
   MDOF_TRY(built.doubtful, daemon::doubtful_notices(store, built.table));
@@ -101,12 +100,10 @@ Status build(const BuildCommand& asked) {
   MDOF_CHECK(choose_runs(command));
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
-  const auto& [table, notices, notes, doubtful] = built;
+  const auto& [table, notices, doubtful] = built;
   show_notices(notices, command.all_warnings);
-  for (const auto& note : notes) say("note: " + note);
   const std::string document = table_document(table, 0, !doubtful.empty());
-  MDOF_CHECK(command.json ? write_line(with_texts(with_notices(document, notices, words::text),
-                                                  "notes", notes))
+  MDOF_CHECK(command.json ? write_line(with_notices(document, notices, words::text))
                           : write_out(table_text(table, 0)));
   const std::string named = std::to_string(table.id) + (table.simulated ? " --simulated" : "") +
                             (doubtful.empty() ? "" : " --despite-warnings");

@@ -69,16 +69,6 @@ void warn_wrapped(std::string_view words) {
   say(wrapped("warning: " + std::string(words), terminal_columns(), 2));
 }
 
-void show_notes(const auto& reply) {
-  simdjson::dom::array notes;
-  if (reply.at_key("notes").get_array().get(notes)) return;
-  for (const element note : notes) {
-    std::string_view words;
-    if (!note.get_string().get(words))
-      say(wrapped("note: " + std::string(words), terminal_columns(), 2));
-  }
-}
-
 // "point 3 of 26, next 15.000 mm"; a run without targets or repeats knows less. Of those asked for
 // only solved ones count, each once; further ones are reported.
 std::string progress_line(const auto& event) {
@@ -167,8 +157,10 @@ Status record(RecordCommand command) {
   const auto started = parser.parse(simdjson::padded_string(reply));
   const std::int64_t run = integer(started, "run").value_or(0);
   command.axis = text(started, "axis");
-  for (const Notice& each : notices_of(started)) warn_wrapped(words::line(each));
-  show_notes(started);
+  for (const Notice& each : notices_of(started))
+    each.severity == Severity::information
+        ? say(wrapped("note: " + words::text(each), terminal_columns(), 2))
+        : warn_wrapped(words::line(each));
   say("run " + std::to_string(run) + " of axis " + command.axis +
       " is measuring; Ctrl-C ends the run and evaluates it");
   const Interrupt interrupt;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "daemon/measure/several_runs/comparison.h"
+#include "daemon/words/words.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -48,8 +49,8 @@ std::string comparison_text(const daemon::Comparison& c) {
   }
   std::string text = noise_only_notice(are_noise_only(changes)) + simulated_notice(c.simulated) +
                      stated_text(c.stated) + table.text(terminal_columns());
-  for (const std::string& note : c.notes)
-    text += wrapped("note: " + note, terminal_columns()) + "\n";
+  for (const Notice& each : c.differences)
+    text += wrapped("note: " + words::text(each), terminal_columns()) + "\n";
   return text +
          wrapped("± is the expanded uncertainty U (95 %). u contains " + covers_text(changes) +
                      ". The change is |after| - |before|. U of the change treats the runs as "

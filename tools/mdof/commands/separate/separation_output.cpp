@@ -68,10 +68,8 @@ Status separate_and_print(LoadedSources loaded, const char* method, const Output
   Notices& notices = loaded.notices;
   append(notices, record.result.notices);
   show_notices(notices, options.all_warnings);
-  Notices all = loaded.datum;
-  append(all, notices);
   const daemon::Judged judged{"this separation", record.simulated,
-                              daemon::without_information(std::move(all))};
+                              daemon::doubtful_notices(notices)};
   MDOF_CHECK(check_map(record, judged, options));
   record.marks = daemon::marks_of(judged);
   record.doubtful = !judged.doubtful.empty();

@@ -184,7 +184,6 @@ Result<LoadedSources> load_runs(const SourceOptions& options) {
   std::vector<Vec3> probe_at;
   for (const Run& run : runs) MDOF_CHECK(add_run(store, run, options, loaded, probe_at));
   loaded.notices = algo::inherited_notices(algo::all_of(runs));
-  loaded.datum = daemon::datum_notices(runs);
   loaded.record.probe = options.probe;
   if (!probe_at.empty()) {
     loaded.request.at.place_m = probe_at[0][static_cast<std::size_t>(loaded.record.axis)];

@@ -35,7 +35,6 @@ struct LoadedSources {
   algo::SeparationRequest request;
   SeparationRecord record;  // without its result
   Notices notices;          // of the runs, and what they have in them
-  Notices datum;            // of the runs, beside these: encoders without datum
 };
 
 // Errors: files beside runs, runs of several axes or sides, a rig that subtracts a height map

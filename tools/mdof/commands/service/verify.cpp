@@ -6,6 +6,7 @@
 #include "daemon/words/error_text.h"
 #include "drivers/recording/recording_log.h"
 #include "schema/base/json_writer.h"
+#include "schema/notice/notice_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -47,7 +48,7 @@ Status verify_database(const std::string& option, const std::string& head, Sourc
   // A database that is damaged has said so above, and may not name its files.
   if (!sources) return findings.empty() ? Status(tl::unexpected(sources.error())) : Status();
   add(sources->findings, check.findings);
-  add(sources->notes, check.notes);
+  append(check.notices, sources->notices);
   return {};
 }
 
@@ -78,7 +79,7 @@ std::string verify_json(const SourceCheck& check) {
   JsonWriter json;
   json.begin_object().field("sound", check.findings.empty());
   write_texts(json, "findings", check.findings);
-  write_texts(json, "notes", check.notes);
+  write_notices(json, "notices", check.notices, words::text);
   json.end_object();
   return json.take();
 }
@@ -94,7 +95,7 @@ Status verify(const VerifyCommand& command) {
   if (command.recording.empty() || !command.database.empty())
     MDOF_CHECK(verify_database(command.database, command.head, check, head));
   if (command.json) MDOF_CHECK(write_line(verify_json(check)));
-  for (const auto& note : check.notes) say("note: " + note);
+  show_notices(check.notices, true);
   for (const auto& finding : check.findings) say(finding);
   if (!check.findings.empty())
     return fail(ErrorCode::check, "verify: " + std::to_string(check.findings.size()) +

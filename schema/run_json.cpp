@@ -17,6 +17,11 @@ constexpr const char* kTableSense =
     "error = actual minus nominal position of the moving body; to correct an error, add \"factor\" "
     "times the error to the command of the axis \"command\" (both in \"correction\")";
 
+constexpr const char* kPositioningTableSense =
+    "error = actual minus commanded position of the axis in coordinates of the controller; to "
+    "correct an error, add \"factor\" times the error to the command of the axis \"command\" (both "
+    "in \"correction\")";
+
 // {"EYX_um": {"factor", "command", "reason"}, ...}: a correction is factor times the error, added
 // to the command of that axis; factor null: there is none, for that reason.
 void write_corrections(JsonWriter& json, const CompensationTable& t) {
@@ -301,12 +306,17 @@ void write_table_members(JsonWriter& json, const CompensationTable& t) {
   for (const auto id : t.runs) json.value(id);
   json.end_array();
   write_reference(json, t.stated);
-  json.field("moves", t.sides.moves()).field("travel", t.sides.travel());
+  if (t.has_positioning()) {  // whichever body moves, and whichever way it goes
+    json.key("moves").null().key("travel").null();
+    json.field("positioning_sense", to_string(kTablePositioningSense));
+  } else {
+    json.field("moves", t.sides.moves()).field("travel", t.sides.travel());
+  }
   json.key("chain");
   t.machine.known() ? json.value(t.machine.text) : json.null();
   json.field("chain_travel", travels_of(t.machine));
   write_corrections(json, t);
-  json.field("sense", kTableSense)
+  json.field("sense", t.has_positioning() ? kPositioningTableSense : kTableSense)
       .field("straightness_reference", t.slope_removed ? "least squares line" : "as measured")
       .field("angle_reference", "first target, mean of both approaches")
       .field("first_mm", to_mm(t.position_m.front()))

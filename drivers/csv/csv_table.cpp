@@ -61,17 +61,28 @@ void put_optional_in_order(CsvTable& table, const std::vector<std::string>& want
   }
 }
 
+bool has_no_value(double x) {
+  return std::isnan(x);
+}
+
+// Columns from `required` on may be empty in all rows.
+Status check_values(CsvTable& table, const std::vector<std::string>& names, std::size_t required) {
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    std::vector<double>& value = table.columns[k];
+    const auto missing = std::find_if(value.begin(), value.end(), has_no_value);
+    if (missing == value.end()) continue;
+    if (k < required || !std::all_of(value.begin(), value.end(), has_no_value))
+      return bad_input(table.where(static_cast<std::size_t>(missing - value.begin())) + "column " +
+                       names[k] + ": no value (empty or nan); add the value or delete the line");
+    value.clear();
+  }
+  return {};
+}
+
 Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::size_t>& channels,
-              const std::vector<std::string>& names, std::size_t most_rows) {
-  const std::size_t before = table.rows();
+              std::size_t most_rows) {
   for (std::size_t k = 0; k < channels.size(); ++k) {
     const std::vector<double>& value = block.value[channels[k]];
-    const auto missing =
-        std::find_if(value.begin(), value.end(), [](double x) { return std::isnan(x); });
-    if (missing != value.end())
-      return bad_input(table.where(before + static_cast<std::size_t>(missing - value.begin())) +
-                       "column " + names[k] +
-                       ": no value (empty or nan); add the value or delete the line");
     table.columns[k].insert(table.columns[k].end(), value.begin(), value.end());
   }
   if (table.rows() <= most_rows) return {};
@@ -108,8 +119,9 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   for (;;) {
     MDOF_TRY(const ReadState state, rows->next(block));
     if (state == ReadState::end) break;
-    MDOF_CHECK(append(table, block, channels, wanted, most_rows));
+    MDOF_CHECK(append(table, block, channels, most_rows));
   }
+  MDOF_CHECK(check_values(table, wanted, names.size()));
   put_optional_in_order(table, wanted, names.size(), optional);
   return table;
 }

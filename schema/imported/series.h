@@ -61,6 +61,8 @@ struct ImportedSense {
   PositioningSense sense = PositioningSense::command;
   std::optional<bool> against_command;  // travel "-"; none: not said at the import
 };
+// That of every compensation table, whatever the sense of its runs.
+inline constexpr PositioningSense kTablePositioningSense = PositioningSense::command;
 const char* to_string(PositioningSense sense);  // "command", "body"
 std::optional<PositioningSense> positioning_sense_from(std::string_view word);
 

@@ -38,12 +38,12 @@ bool Machine::names_stored_rows() const {
 }
 
 void turn_positioning(MachineFrame& frame) {
-  if (frame.positioning_by_command && frame.against_command) {
+  if (frame.positioning_sense == StatedSense::command && frame.against_command) {
     ErrorFunction& along = frame.error[frame.direction];
     for (auto* values : {&along.forward, &along.reverse})
       for (double& e : *values) e = -e;
   }
-  frame.positioning_by_command = false;
+  frame.positioning_sense = StatedSense::none;
 }
 
 bool moves_along(const MachineFrame& frame) {

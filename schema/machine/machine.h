@@ -63,6 +63,10 @@ struct StoredRows {
   bool any() const { return latest || !ids.empty(); }
 };
 
+// Whether a description says that positioning is that of the place in the controller's coordinates,
+// or that of the body.
+enum class StatedSense : std::uint8_t { none, command, body };
+
 enum class FrameKind { linear, rotary, fixed };
 
 struct MachineFrame {
@@ -91,9 +95,9 @@ struct MachineFrame {
     return of_line ? location[k].value.has_value() : error[k].known();
   }
   std::string file;  // columns of several errors; empty: none
-  // Errors along a linear axis that the description gives are those of the place in the
-  // controller's coordinates: not yet turned where they stand in files.
-  bool positioning_by_command = false;
+  // Of the error along a linear axis that the description gives; not yet turned where it stands in
+  // a file. None: its own rows are of the body, and a file has to say where it matters.
+  StatedSense positioning_sense = StatedSense::none;
   StoredRows runs;    // of the axis, five-probe runs or imported ones: their means
   StoredRows tables;  // compensation tables of the axis
 };

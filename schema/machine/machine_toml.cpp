@@ -138,7 +138,8 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
                    "must be \"standing\" (errors at the place of a fixed indicator) or "
                    "\"moving\" (errors at a point that moves with the axis)");
     const std::string sense = table.string("positioning_sense", "body");
-    frame.positioning_by_command = sense == "command";
+    if (table.has("positioning_sense"))
+      frame.positioning_sense = sense == "command" ? StatedSense::command : StatedSense::body;
     if (sense != "command" && sense != "body")
       table.reject("positioning_sense",
                    "must be \"body\" (along + of the machine) or \"command\" (actual - commanded "

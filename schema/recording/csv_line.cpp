@@ -12,10 +12,20 @@ namespace {
 
 using State = CsvLine::State;
 
-std::vector<std::string_view> split(std::string_view line) {
+// A field that begins with a quote ends after the next quote that is not doubled (RFC 4180).
+std::size_t end_of_field(std::string_view line, std::size_t begin, bool may_be_quoted) {
+  std::size_t from = begin;
+  if (may_be_quoted && begin < line.size() && line[begin] == '"')
+    from = std::min(line.find('"', begin + 1), line.size());
+  while (from + 1 < line.size() && line[from] == '"' && line[from + 1] == '"')
+    from = std::min(line.find('"', from + 2), line.size());
+  return std::min(line.find(',', from), line.size());
+}
+
+std::vector<std::string_view> split(std::string_view line, bool may_be_quoted) {
   std::vector<std::string_view> fields;
   for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::size_t end = end_of_field(line, begin, may_be_quoted);
     fields.push_back(trimmed(line.substr(begin, end - begin)));
     begin = end + 1;
   }
@@ -64,6 +74,17 @@ CsvLine wrong_count(std::string_view line, std::size_t fields, std::size_t colum
   return result;
 }
 
+bool read_sense(std::string_view word, double& x) {
+  x = word == "command" ? kCommandSense : kBodySense;
+  return word == "command" || word == "body";
+}
+
+// Whether the column is one of those that are read.
+bool is_read(const CsvHeader& header, std::size_t column) {
+  return std::find(header.channel_columns.begin(), header.channel_columns.end(), column) !=
+         header.channel_columns.end();
+}
+
 }  // namespace
 
 bool is_missing_value(std::string_view field) {
@@ -79,19 +100,24 @@ CsvLine parse_csv_line(std::string_view line, const CsvHeader& header) {
     result.state = State::blank;
     return result;
   }
-  const std::vector<std::string_view> fields = split(line);
+  const bool words = header.has_words();
+  const std::vector<std::string_view> fields = split(line, words);
   if (fields.size() != header.columns.size())
     return wrong_count(line, fields.size(), header.columns.size());
   for (std::size_t column = 0; column < fields.size(); ++column) {
     const std::string_view field = without_plus(fields[column]);
     const bool is_time = static_cast<int>(column) == header.time_column;
+    if (words && !is_read(header, column)) continue;
     if (!is_time && is_missing_value(field) && header.may_be_missing(result.values.size())) {
       result.values.push_back(kNaN);
       continue;
     }
     double x = 0;
-    const bool parsed = parse_whole_field(field, x);
-    std::string reason = reason_against(field, parsed, x);
+    const bool is_sense = words && header.columns[column] == kSenseColumn;
+    const bool parsed = is_sense ? read_sense(field, x) : parse_whole_field(field, x);
+    std::string reason = is_sense && !parsed
+                             ? quoted(field) + " is not a sense; give command or body"
+                             : reason_against(field, parsed, x);
     if (!is_time) {
       result.values.push_back(x);
     } else if (reason.empty() && !parse_seconds(field, result.time_ns)) {

@@ -122,7 +122,8 @@ void CsvRowParser::mark_missing(std::size_t channel) {
 // As many rows as follow one another without anything odd. Column by column in batches: text and
 // stops stay in the nearest cache, and numbers of one kind follow one another.
 void CsvRowParser::parse_plain_rows() {
-  if (blank_lines_) return;  // the next line reports them first
+  if (blank_lines_) return;         // the next line reports them first
+  if (header_.has_words()) return;  // a field may be quoted
   const std::size_t columns = header_.columns.size();
   for (;;) {
     if (next_stop_ + columns + 1 >= stops_.count) return;

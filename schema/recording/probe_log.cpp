@@ -100,6 +100,10 @@ Status check_unit(const CsvHeader& header, std::size_t column) {
                           "and name the column encoder_mm"));
 }
 
+bool is_of_words(std::string_view name) {
+  return name == "u_covers" || name == "u_not_declared" || name == "flags" || name == "reason";
+}
+
 Status add_column(CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (name.empty())
@@ -110,8 +114,11 @@ Status add_column(CsvHeader& header, std::size_t column) {
     header.time_column = static_cast<int>(column);
     return {};
   }
+  if (header.kind == CsvKind::table && is_of_words(name)) return {};
   MDOF_CHECK(check_unit(header, column));
-  const std::optional<Channel> channel = channel_of(name);
+  const std::optional<Channel> channel = header.kind == CsvKind::table && name == kSenseColumn
+                                             ? Channel{name, Unit::other}
+                                             : channel_of(name);
   if (!channel || channel->id.empty())
     return bad_input(where(header, column) +
                      "unknown unit; known units are _um, _mm, _V and _C (columns in _s, _hz, "
@@ -168,6 +175,12 @@ Status check_encoding(std::string_view text, const std::string& source) {
 bool CsvHeader::may_be_missing(std::size_t channel) const {
   return kind == CsvKind::stream || kind == CsvKind::table ||
          channels[channel].id != kEncoderChannel;
+}
+
+bool CsvHeader::has_words() const {
+  return kind == CsvKind::table &&
+         std::any_of(columns.begin(), columns.end(),
+                     [](const auto& name) { return is_of_words(name) || name == kSenseColumn; });
 }
 
 bool CsvHeader::says_simulated() const {

@@ -12,6 +12,10 @@
 // Unit::other under its whole name; any other suffix is an error. The axis position may also be
 // encoder_um, encoder_m or, where the rig says its scale, encoder_V; in no other unit, and time in
 // seconds alone.
+//
+// A table may have the columns of words of mdof's own documents (u_covers, u_not_declared, flags,
+// reason), which are not read and may be quoted; and positioning_sense with "command" or "body",
+// which is read as kCommandSense or kBodySense.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +36,9 @@ enum class CsvKind {
   table,      // any named columns, in any order of rows; any cell may be missing
 };
 
+inline constexpr std::string_view kSenseColumn = "positioning_sense";
+inline constexpr double kCommandSense = 1, kBodySense = 0;
+
 struct CsvHeader {
   CsvKind kind = CsvKind::probe_log;
   std::string source;                        // file name, for messages
@@ -47,6 +54,8 @@ struct CsvHeader {
   // without which a row has no place (but for a stream, whose channels come when they come, and a
   // table, whose reader says which cells it needs).
   bool may_be_missing(std::size_t channel) const;
+  // Whether a column of words is among them, so that a field may be quoted.
+  bool has_words() const;
   // A comment begins so: no machine is behind the numbers.
   bool says_simulated() const;
   // A comment begins so: u is that of noise and repeatability.

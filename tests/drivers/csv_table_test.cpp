@@ -62,7 +62,31 @@ TEST_F(CsvTableTest, TakesOptionalColumnsWhereTheyAre) {
   ASSERT_FALSE(unit);
   EXPECT_NE(unit.error().message.find("name the column u_um"), std::string::npos)
       << unit.error().message;
-  EXPECT_FALSE(with("position_mm,deviation_um,u_um\n1,2,\n"));
+  // Without a value in any row it is not there; with one in some, a row is not as it should be.
+  const auto empty = with("position_mm,u_um,deviation_um\n1,,2\n3,nan,4\n").value();
+  EXPECT_EQ(empty.columns, (std::vector<std::vector<double>>{{1, 3}, {2, 4}, {}, {}}));
+  const auto partly = with("position_mm,deviation_um,u_um\n1,2,3\n4,5,\n");
+  ASSERT_FALSE(partly);
+  EXPECT_NE(partly.error().message.find(":3: column u_um: no value"), std::string::npos)
+      << partly.error().message;
+}
+
+TEST_F(CsvTableTest, SkipsColumnsOfWordsAndReadsTheSense) {
+  const auto with = [&](const std::string& text) {
+    std::ofstream(path_, std::ios::binary) << text;
+    return read_csv_table(path_.string(), kSeries, {"positioning_sense"});
+  };
+  const auto words = with(
+      "u_covers,position_mm,positioning_sense,deviation_um,u_not_declared\n"
+      "\"a, \"\"b\"\", c\",1,command,2,\n"
+      "none,3,body,4,\"u_x, u_y\"\n");
+  ASSERT_TRUE(words) << words.error().message;
+  EXPECT_EQ(words->columns, (std::vector<std::vector<double>>{{1, 3}, {2, 4}, {1, 0}}));
+  const auto other = with("position_mm,positioning_sense,deviation_um\n1,command,2\n3,machine,4\n");
+  ASSERT_FALSE(other);
+  EXPECT_NE(other.error().message.find(":3: column positioning_sense: \"machine\""),
+            std::string::npos)
+      << other.error().message;
 }
 
 TEST_F(CsvTableTest, ReadsMoreThanABlock) {

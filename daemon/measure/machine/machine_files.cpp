@@ -6,6 +6,7 @@
 #include "schema/base/files.h"
 #include "schema/base/output/printable.h"
 #include "schema/base/sha256.h"
+#include "schema/recording/probe_log.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -28,6 +29,11 @@ std::vector<double> positions_of(const MachineFrame& frame, const std::vector<do
 
 std::string position_column(const MachineFrame& frame) {
   return std::string("position_") + position_unit(frame);
+}
+
+// An error of a linear axis along itself.
+bool is_positioning(const MachineFrame& frame, std::size_t k) {
+  return frame.kind == FrameKind::linear && k == frame.direction;
 }
 
 // A standard uncertainty of MACHINE.toml holds where the file has none.
@@ -58,13 +64,41 @@ Result<OpenedFile> open_named(const FindFile& find, const std::string& name) {
   return file;
 }
 
+// What the file says of the sense of its error along the axis, if it has this. A file that does not
+// say it is refused where the two senses differ.
+Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
+                  const std::vector<double>& sense) {
+  const std::string name = csv.source + ":" + std::to_string(csv.header_line) + ": " +
+                           error_name(frame, frame.direction) + ": ";
+  for (const double s : sense)
+    if (s != sense.front())
+      return bad_input(name + "column " + std::string(kSenseColumn) +
+                       " has both \"command\" and \"body\"; convert the values to one sense");
+  if (!sense.empty()) {
+    const StatedSense stated =
+        sense.front() == kCommandSense ? StatedSense::command : StatedSense::body;
+    if (frame.positioning_sense != StatedSense::none && frame.positioning_sense != stated)
+      return bad_input(name + "column " + std::string(kSenseColumn) + " says \"" +
+                       (stated == StatedSense::command ? "command" : "body") +
+                       "\", but positioning_sense of axis " + frame.id +
+                       " in MACHINE.toml says the opposite; remove the wrong one");
+    frame.positioning_sense = stated;
+  }
+  if (frame.positioning_sense != StatedSense::none || !frame.against_command) return {};
+  return bad_input(name + "the file does not state the sense, and with travel \"-\" of axis " +
+                   frame.id + " the sign depends on it; add a column " + std::string(kSenseColumn) +
+                   " with \"command\" (actual - commanded position) or \"body\" (along + of the "
+                   "machine), or give positioning_sense for the axis in MACHINE.toml");
+}
+
 Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
                      const std::string& path) {
   ErrorFunction& f = frame.error[k];
   const std::string unit = k < 3 ? "_um" : "_urad";
   MDOF_TRY(const auto csv,
            drivers::read_csv_table(path, {position_column(frame), "deviation" + unit},
-                                   {"reverse" + unit, "u" + unit}));
+                                   {"reverse" + unit, "u" + unit, std::string(kSenseColumn)}));
+  if (is_positioning(frame, k)) MDOF_CHECK(take_sense(frame, csv, csv.columns[4]));
   f.position = positions_of(frame, csv.columns[0]);
   f.forward = from_key_unit(csv.columns[1]);
   f.reverse = from_key_unit(csv.columns[2]);
@@ -74,7 +108,8 @@ Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
   return complete(f, k, csv.source + ": " + error_name(frame, k));
 }
 
-// Up to five columns an error. The file may lack any error, but not all of them.
+// Up to five columns an error. The file may lack any error, but not all of them: a column without a
+// value is not there, and an error that was approached from one side is the same of both.
 Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string& path) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < kBodyErrors; ++k) {
@@ -82,16 +117,20 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
     for (const char* prefix : {"", "forward_", "reverse_", "u_", "u_forward_"})
       names.push_back(prefix + key);
   }
+  const std::size_t sense = 1 + names.size();
+  names.emplace_back(kSenseColumn);
   MDOF_TRY(const auto csv, drivers::read_csv_table(path, {position_column(frame)}, names));
   bool any = false;
   for (std::size_t k = 0; k < kBodyErrors; ++k) {
     const auto column = [&](std::size_t i) { return from_key_unit(csv.columns[1 + 5 * k + i]); };
-    const auto forward = column(0).empty() ? column(1) : column(0);
+    auto forward = column(0).empty() ? column(1) : column(0);
+    if (forward.empty()) forward = column(2);
     if (forward.empty()) continue;
     const std::string where = csv.source + ": " + error_name(frame, k);
     ErrorFunction& f = frame.error[k];
     if (f.known() || !f.file.empty())
       return bad_input(where + " is also in MACHINE.toml; give this error only once");
+    if (is_positioning(frame, k)) MDOF_CHECK(take_sense(frame, csv, csv.columns[sense]));
     f.position = positions_of(frame, csv.columns[0]);
     f.forward = forward;
     f.reverse = column(2);

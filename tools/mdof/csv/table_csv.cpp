@@ -6,6 +6,7 @@
 
 #include "schema/imported/series.h"
 #include "schema/iso230/positioning.h"
+#include "schema/recording/probe_log.h"
 #include "schema/units.h"
 #include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/text/text_table.h"
@@ -57,6 +58,7 @@ std::string table_csv(const CompensationTable& t) {
   if (t.has_positioning())
     for (const Columns& columns : groups)
       csv.cell(columns.prefix + positioning_name(t.axis) + "_um");
+  if (t.has_positioning()) csv.cell(kSenseColumn);
   csv.cells({"u_covers", "u_not_declared"}).end_row();
   const std::string covers = covers_text(t), not_declared = joined(t.not_declared, " ");
   for (std::size_t i = 0; i < t.position_m.size(); ++i) {
@@ -65,6 +67,7 @@ std::string table_csv(const CompensationTable& t) {
       for (std::size_t k = 0; k < 5; ++k) csv.cell(to_key_unit(cell_of(t, columns, k, i)));
     if (t.has_positioning())
       for (const Columns& columns : groups) csv.cell(to_key_unit(cell_along(t, columns, i)));
+    if (t.has_positioning()) csv.cell(to_string(kTablePositioningSense));
     csv.cells({covers, not_declared}).end_row();
   }
   return csv.take();

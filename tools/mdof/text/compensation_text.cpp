@@ -97,8 +97,14 @@ std::string table_of_positioning_text(const CompensationTable& t) {
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) +
                      ", positioning of the imported runs " + runs_of(t.runs) + ", " + t.created_utc,
                  terminal_columns()) +
-         "\nerrors: actual - nominal, as measured\n" + corrections_text(t, terminal_columns()) +
-         "\nforward\n" + positioning_text(t, along.forward, along.u_forward) + "\nreverse\n" +
+         "\n" +
+         wrapped(positioning_name(t.axis) +
+                     ": actual - commanded position, positive along + of the coordinates of the "
+                     "controller (positioning_sense: " +
+                     to_string(kTablePositioningSense) + ")",
+                 terminal_columns()) +
+         "\n" + corrections_text(t, terminal_columns()) + "\nforward\n" +
+         positioning_text(t, along.forward, along.u_forward) + "\nreverse\n" +
          positioning_text(t, along.reverse, along.u_reverse) +
          wrapped("± is the standard uncertainty u. It contains " + covers_text(t),
                  terminal_columns()) +

@@ -1,6 +1,7 @@
 #include "drivers/imported/rtl.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -15,6 +16,10 @@ namespace mdof::drivers {
 namespace {
 
 constexpr std::size_t kMostTargets = 100'000, kMostRtlRuns = 1000;
+
+constexpr const char* kConvertAngles =
+    "whose scale in these files is not public; convert the file to CSV with columns "
+    "position_mm,deviation_urad, and import it as the error that was measured, such as EBX";
 
 std::string utf8_from_latin1(std::string_view text) {
   std::string out;
@@ -89,19 +94,24 @@ class Rtl {
     if (targets_.empty() || targets_.size() != target_count_)
       return bad_input(source_ + ": has " + std::to_string(targets_.size()) +
                        " targets, but Target-count is " + std::to_string(target_count_));
+    const bool descending = targets_.size() > 1 && targets_[1] < targets_[0];
     for (std::size_t i = 1; i < targets_.size(); ++i)
-      if (!(targets_[i] > targets_[i - 1]))
-        return bad_input(source_ + ": target " + std::to_string(i + 1) +
-                         " is not greater than the target before it, so forward and reverse cannot "
+      if (descending ? !(targets_[i] < targets_[i - 1]) : !(targets_[i] > targets_[i - 1]))
+        return bad_input(source_ + ": target " + std::to_string(i + 1) + " is not " +
+                         (descending ? "less" : "greater") +
+                         " than the target before it, so forward and reverse cannot "
                          "be distinguished");
     if (series_.readings.size() != run_count_ * target_count_)
       return bad_input(source_ + ": has " + std::to_string(series_.readings.size()) +
                        " deviations instead of " + std::to_string(run_count_ * target_count_) +
                        " (Run-count " + std::to_string(run_count_) + " times Target-count " +
                        std::to_string(target_count_) + ")");
-    MDOF_CHECK(check_filled());
-    for (ImportedReading& reading : series_.readings)
+    MDOF_CHECK(leave_out_filled(descending));
+    for (ImportedReading& reading : series_.readings) {
       reading.position_m = from_mm(targets_[static_cast<std::size_t>(reading.position_m)]);
+      if (descending) reading.direction = -reading.direction;
+    }
+    if (descending) series_.notices.push_back(notice(NoticeCode::import_targets_sorted));
     return std::move(series_);
   }
 
@@ -113,19 +123,26 @@ class Rtl {
   Status take_about(std::string_view line) {
     const auto [key, value] = key_and_value(line);
     // The program that wrote the file: "Linear", "Angular", "Rotary".
-    if (key == "File type" || key == "Owner")
-      for (const char* const angle : {"angular", "rotary"})
-        if (contains_word(value, angle))
-          return wrong(std::string(key) + " \"" + utf8_from_latin1(value) +
-                       "\" contains angles, whose scale in .rtl files is not public; convert the "
-                       "file to CSV with columns position_mm,deviation_urad");
+    if (key == "File type" || key == "Owner") MDOF_CHECK(check_linear(key, value));
     if (!value.empty())
       series_.about.push_back(utf8_from_latin1(key) + ": " + utf8_from_latin1(value));
     return {};
   }
 
+  Status check_linear(std::string_view key, std::string_view value) const {
+    for (const char* const angle : {"angular", "rotary"})
+      if (contains_word(value, angle))
+        return wrong(std::string(key) + " \"" + utf8_from_latin1(value) + "\" contains angles, " +
+                     kConvertAngles);
+    return {};
+  }
+
   Status take_target_line(std::string_view line) {
     const auto [key, value] = key_and_value(line);
+    if (key == "Filetype") MDOF_CHECK(check_linear(key, value));
+    // What a flag says is not public; it is kept with the run.
+    if (key == "Flags" && !value.empty())
+      series_.about.push_back("Flags: " + utf8_from_latin1(value));
     if (key == "Target-count") {
       if (target_count_ > 0)
         return wrong("Target-count is given twice, but a file has one list of targets");
@@ -204,20 +221,37 @@ class Rtl {
   }
 
   // Programs write a run that was not measured, as the reverse runs of a test in one direction,
-  // with zeros.
-  Status check_filled() const {
+  // with zeros. Where these are all the runs of a direction, the other one is the whole test.
+  Status leave_out_filled(bool descending) {
     std::vector<bool> measured(run_count_ + 1, target_count_ < 2);
     for (const ImportedReading& r : series_.readings)
-      if (r.deviation != 0)
-        measured[2 * static_cast<std::size_t>(r.run) - (r.direction > 0 ? 1 : 0)] = true;
-    for (std::size_t run = 1; run <= run_count_; ++run)
-      if (!measured[run])
-        return bad_input(
-            source_ + ": run " + std::to_string(run) + " (" +
-            (run % 2 == 1 ? "forward" : "reverse") +
-            ") has a deviation of exactly 0 at every target, so it was not measured; write "
-            "the measured runs as CSV with columns target_mm,direction,run,deviation_um");
+      if (r.deviation != 0) measured[number_of(r)] = true;
+    std::array<std::size_t, 2> filled{}, runs{};  // even, odd
+    std::size_t first = 0;
+    for (std::size_t run = 1; run <= run_count_; ++run) {
+      ++runs[run % 2];
+      if (measured[run]) continue;
+      ++filled[run % 2];
+      if (first == 0) first = run;
+    }
+    if (first == 0) return {};
+    const std::size_t odd = first % 2;
+    if (filled[odd] != runs[odd] || filled[1 - odd] > 0 || runs[1 - odd] == 0)
+      return bad_input(
+          source_ + ": run " + std::to_string(first) + " (" + (odd == 1 ? "forward" : "reverse") +
+          ") has a deviation of exactly 0 at every target, so it was not measured; write "
+          "the measured runs as CSV with columns target_mm,direction,run,deviation_um");
+    std::erase_if(series_.readings,
+                  [&](const ImportedReading& r) { return number_of(r) % 2 == odd; });
+    series_.notices.push_back(
+        notice(NoticeCode::import_one_approach, "",
+               {{"approach", (odd == 1) == descending ? "reverse" : "forward"},
+                {"runs", static_cast<std::int64_t>(filled[odd])}}));
     return {};
+  }
+  // The run's number in the file.
+  static std::size_t number_of(const ImportedReading& r) {
+    return 2 * static_cast<std::size_t>(r.run) - (r.direction > 0 ? 1 : 0);
   }
 
   std::string source_, section_;
@@ -232,6 +266,8 @@ class Rtl {
 }  // namespace
 
 Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& source) {
+  if (source.size() >= 4 && contains_word(source.substr(source.size() - 4), ".rta"))
+    return bad_input(source + ": a file of the kind .rta contains angles, " + kConvertAngles);
   Rtl rtl(source);
   while (!text.empty()) {
     const std::size_t end = text.find('\n');

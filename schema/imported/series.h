@@ -51,6 +51,7 @@ struct ImportedSeries {
   bool simulated = false;
   std::vector<ImportedReading> readings;
   std::vector<std::string> about;  // what the file says of itself: machine, date, who
+  Notices notices;                 // what of it was not read as it stands
 };
 
 // The sense of a deviation along the axis: of the command, the actual less the commanded place in

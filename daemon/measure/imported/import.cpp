@@ -135,6 +135,7 @@ Result<Run> imported_run(const ImportRequest& request) {
   const std::vector<double> targets = algo::imported_targets(series.readings);
   MDOF_CHECK(check_readings(series, request, error, targets));
   header.notices = import_notices(series, error, targets);
+  append(header.notices, series.notices);
   for (const ImportedReading& r : series.readings)
     run.points.push_back(point_of(r, targets, u_si, error));
   MDOF_CHECK(check_gate({request.file, false, without_information(header.notices)},

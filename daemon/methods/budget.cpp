@@ -117,8 +117,12 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
        .result =
            "figures: for each result before, after and change (|after| - |before|), each "
            "with value, u, u_random, nu_eff, k, U (95 %); effect: reduced, increased, or not "
-           "shown (the change is within its U); notices: other differences between the runs, and "
-           "the notices of both",
+           "shown (the change is within its U), or unknown (U is unknown); points: at each target "
+           "that both runs have position_mm and, of forward, reverse and reversal, before, "
+           "after, U_before and U_after of each error; notices: other differences "
+           "between the runs, and the notices of both. Of two imported runs of positioning the "
+           "figures are E, E_forward, "
+           "E_reverse and B (ISO 230-2)",
        .example = R"({"before": 1, "after": 2})",
        .handler = on_query(m, compare)});
   table.add(

@@ -7,9 +7,13 @@
 #include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/base/json_writer.h"
+#include "schema/imported/series.h"
 #include "schema/notice/notice_json.h"
+#include "schema/recording/run_options.h"
 #include "schema/run_json.h"
+#include "schema/sample.h"
 #include "schema/uncertainty/budget_json.h"
+#include "schema/uncertainty/run_uncertainty.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -36,6 +40,12 @@ ComparedFigure compared(const Budget& before, const Budget& after) {
     line.contribution = of->u;
     line.freedom = of->freedom;
     change.lines.push_back(line);
+  }
+  if (std::isnan(before.u) || std::isnan(after.u)) {
+    change.u = change.U = change.freedom = change.coverage_factor = kNaN;
+    change.lines.clear();
+    figure.effect = Effect::unknown;
+    return figure;
   }
   algo::complete(change);
   change.noise_only = before.noise_only && after.noise_only;
@@ -71,6 +81,84 @@ Notices differences(const Run& before, const Run& after) {
   return found;
 }
 
+// Without a figure that both have there is nothing to compare.
+Status add_figures(Comparison& found, const std::vector<Budget>& before,
+                   const std::vector<Budget>& after) {
+  for (const Budget& budget : before)
+    if (const Budget* other = find_budget(after, budget.figure))
+      found.figures.push_back(compared(budget, *other));
+  if (!found.figures.empty()) return {};
+  return bad_input("runs " + std::to_string(found.before) + " and " + std::to_string(found.after) +
+                   " cannot be compared, because no figure has a value in both runs");
+}
+
+// Both are positioning that was imported.
+Status check_positioning(const Run& before, const Run& after) {
+  for (const Run* run : {&before, &after}) {
+    const std::string name = "run " + std::to_string(run->header.id);
+    if (!is_imported(run->header))
+      return bad_input(name +
+                       " was measured with probes and the other run is imported; compare two "
+                       "measured runs, or two imported runs of positioning");
+    if (run->header.provenance.model != positioning_name(run->header.axis))
+      return bad_input(name + " was imported as " + run->header.provenance.model +
+                       "; imported runs can be compared only if they contain the positioning (" +
+                       positioning_name(run->header.axis) + ")");
+  }
+  return {};
+}
+
+// Each run's own table: as the runs state their sense, or all as it stands where none states more.
+TableRequest table_request(const Run& run, const Run& other) {
+  TableRequest request;
+  request.runs = {run.header.id};
+  request.partial = true;
+  const ImportedSense a = run_options(run.header).imported, b = run_options(other.header).imported;
+  if (a.sense == b.sense && !a.against_command && !b.against_command)
+    request.against_command = false;
+  return request;
+}
+
+Result<Comparison> compare_positioning(store::Store& store, const Run& before, const Run& after) {
+  MDOF_CHECK(check_positioning(before, after));
+  Comparison found;
+  found.before = before.header.id;
+  found.after = after.header.id;
+  found.axis = before.header.axis;
+  found.is_imported = true;
+  found.differences = differences(before, after);
+  found.simulated = before.header.simulated || after.header.simulated;
+  MDOF_TRY(BuiltTable first, calculate_table(store, table_request(before, after)));
+  MDOF_TRY(BuiltTable second, calculate_table(store, table_request(after, before)));
+  append(found.notices, std::move(first.notices));
+  append(found.notices, std::move(second.notices));
+  const TabledRun a{before, first.table}, b{after, second.table};
+  MDOF_CHECK(add_figures(found, positioning_budgets(a), positioning_budgets(b)));
+  found.points = compared_points(a, b);
+  if (found.points.points.empty())
+    found.why_no_points = "the runs have no target in common (within 0.1 mm)";
+  return found;
+}
+
+// A table of each run; the comparison stands without them.
+void add_points(store::Store& store, const Run& before, const Run& after, Reference reference,
+                Comparison& found) {
+  TableRequest request;
+  request.partial = true;
+  request.reference = reference;
+  request.runs = {before.header.id};
+  const auto first = calculate_table(store, request);
+  request.runs = {after.header.id};
+  const auto second = calculate_table(store, request);
+  if (!first || !second) {
+    found.why_no_points = (first ? second : first).error().message;
+    return;
+  }
+  found.points = compared_points({before, first->table}, {after, second->table});
+  if (found.points.points.empty())
+    found.why_no_points = "the runs have no target in common (within 0.1 mm)";
+}
+
 }  // namespace
 
 const char* to_string(Effect effect) {
@@ -79,6 +167,8 @@ const char* to_string(Effect effect) {
       return "reduced";
     case Effect::increased:
       return "increased";
+    case Effect::unknown:
+      return "unknown";
     case Effect::not_shown:
       break;
   }
@@ -95,25 +185,38 @@ Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& re
     return bad_input("run " + std::to_string(request.before) + " measures axis " +
                      letter(before.header.axis) + " and run " + std::to_string(request.after) +
                      " axis " + letter(after.header.axis) + "; compare two runs of one axis");
+  if (is_imported(before.header) || is_imported(after.header))
+    return compare_positioning(store, before, after);
   MDOF_TRY(auto first, run_budgets(store, {request.before, request.reference, "", {}, {}}));
   MDOF_TRY(auto second, run_budgets(store, {request.after, request.reference, "", {}, {}}));
-  Comparison found{request.before,
-                   request.after,
-                   before.header.axis,
-                   first.stated,
-                   {},
-                   differences(before, after),
-                   std::move(first.notices),
-                   first.simulated || second.simulated};
-  for (const Budget& budget : first.budgets)
-    if (const Budget* other = find_budget(second.budgets, budget.figure))
-      found.figures.push_back(compared(budget, *other));
-  if (found.figures.empty())
-    return bad_input("runs " + std::to_string(request.before) + " and " +
-                     std::to_string(request.after) +
-                     " cannot be compared, because no figure has a value in both runs");
+  Comparison found;
+  found.before = request.before;
+  found.after = request.after;
+  found.axis = before.header.axis;
+  found.stated = first.stated;
+  found.differences = differences(before, after);
+  found.notices = std::move(first.notices);
+  found.simulated = first.simulated || second.simulated;
+  MDOF_CHECK(add_figures(found, first.budgets, second.budgets));
+  add_points(store, before, after, request.reference, found);
   for (Notice& notice : second.notices) found.notices.push_back(std::move(notice));
   return found;
+}
+
+std::string covers_text(const Comparison& c) {
+  std::vector<Budget> changes;
+  bool unknown = false, declared = false;
+  for (const ComparedFigure& figure : c.figures) {
+    changes.push_back(figure.change);
+    unknown = unknown || figure.effect == Effect::unknown;
+    declared = declared || figure.change.not_declared.empty();
+  }
+  if (!c.is_imported) return mdof::covers_text(changes);
+  return std::string("repeatability of the readings") +
+         (declared ? " and the uncertainty declared at import" : " only") +
+         (unknown ? "; U is unknown (null) where a target has one reading, because the "
+                    "repeatability is unknown"
+                  : "");
 }
 
 std::string comparison_json(const Comparison& c) {
@@ -122,11 +225,9 @@ std::string comparison_json(const Comparison& c) {
       .field("axis", std::string(1, letter(c.axis)))
       .field("before", c.before)
       .field("after", c.after);
-  write_reference(json, c.stated);
+  if (!c.is_imported) write_reference(json, c.stated);
   json.field("coverage", 0.95).field("simulated", c.simulated);
-  std::vector<Budget> changes;
-  for (const ComparedFigure& figure : c.figures) changes.push_back(figure.change);
-  write_covers(json, changes);
+  write_covers(json, covers_text(c), c.figures.front().change.not_declared);
   json.key("figures").begin_object();
   for (const ComparedFigure& figure : c.figures) {
     json.key(figure.change.figure).begin_object();
@@ -140,6 +241,8 @@ std::string comparison_json(const Comparison& c) {
     json.field("effect", to_string(figure.effect)).end_object();
   }
   json.end_object();
+  write_compared_points(json, c.points);
+  if (!c.why_no_points.empty()) json.field("points_reason", c.why_no_points);
   Notices notices = c.differences;
   append(notices, c.notices);
   write_notices(json, "notices", notices, words::text);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "daemon/measure/budgets.h"
+#include "daemon/measure/several_runs/compared_points.h"
 
 namespace mdof::daemon {
 
@@ -12,8 +13,9 @@ enum class Effect {
   reduced,
   increased,
   not_shown,  // the change is within its U
+  unknown,    // its U is not known
 };
-const char* to_string(Effect effect);  // "reduced", "increased", "not shown"
+const char* to_string(Effect effect);  // "reduced", "increased", "not shown", "unknown"
 
 struct ComparedFigure {
   Budget before, after;
@@ -36,9 +38,17 @@ struct Comparison {
   Notices differences;                  // of the two runs, beside what was done
   Notices notices;                      // of the runs
   bool simulated = false;
+  bool is_imported = false;  // positioning: `stated` is of no rig
+  ComparedPoints points;
+  std::string why_no_points;  // empty: they are there
 };
-// Errors: those of run_budgets(); one run twice; runs of two axes; no figure that both have.
+// Two runs of the five probes, or two imported ones of positioning. Errors: those of run_budgets();
+// one run twice; runs of two axes; one imported and one not, or another error than positioning; no
+// figure that both have.
 Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& request);
+
+// What u of its changes covers: one sentence for people, without a full stop.
+std::string covers_text(const Comparison& comparison);
 
 // What `mdof compare --json` and the RPC say of it.
 std::string comparison_json(const Comparison& comparison);

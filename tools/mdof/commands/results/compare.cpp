@@ -4,6 +4,7 @@
 
 #include "daemon/measure/several_runs/comparison.h"
 #include "daemon/words/words.h"
+#include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -24,6 +25,7 @@ struct CompareCommand {
 };
 
 std::string with_U(const Budget& budget) {
+  if (std::isnan(budget.U)) return fixed(to_um(budget.value), 3) + ", U unknown";
   return budget.figure.ends_with("_um")
              ? with_u(um_to_place(budget.value, budget.U), um_to_place(budget.U, budget.U))
              : with_u(urad_to_place(budget.value, budget.U), urad_to_place(budget.U, budget.U));
@@ -38,6 +40,25 @@ std::string effect_text(const daemon::ComparedFigure& figure) {
                                : text + " to a value within its U";
 }
 
+std::string um_cell(double value, double U) {
+  if (std::isnan(value)) return "-";
+  return std::isnan(U) ? fixed(to_um(value), 3) : with_u(um_to_place(value, U), um_to_place(U, U));
+}
+
+// Target by target, each approach and the reversal.
+std::string positioning_points_text(const daemon::Comparison& c) {
+  if (!c.why_no_points.empty()) return wrapped(c.why_no_points, terminal_columns()) + "\n";
+  TextTable table({"position/mm", "", "before/µm", "after/µm"});
+  for (const daemon::ComparedPoint& point : c.points.points)
+    for (std::size_t side = 0; side < point.side.size(); ++side) {
+      const daemon::ComparedValue& value = point.side[side].front();
+      table.add({side == 0 ? in_mm(point.position_m) : "", daemon::kComparedSides[side],
+                 um_cell(value.before, value.U_before), um_cell(value.after, value.U_after)});
+    }
+  return "E: range of the means of both approaches (ISO 230-2); B: largest reversal\n" +
+         table.text(terminal_columns()) + "\n";
+}
+
 std::string comparison_text(const daemon::Comparison& c) {
   TextTable table({"figure", "before, run " + std::to_string(c.before),
                    "after, run " + std::to_string(c.after), "change", "effect"});
@@ -48,11 +69,12 @@ std::string comparison_text(const daemon::Comparison& c) {
     changes.push_back(figure.change);
   }
   std::string text = noise_only_notice(are_noise_only(changes)) + simulated_notice(c.simulated) +
-                     stated_text(c.stated) + table.text(terminal_columns());
+                     (c.is_imported ? positioning_points_text(c) : stated_text(c.stated)) +
+                     table.text(terminal_columns());
   for (const Notice& each : c.differences)
     text += wrapped("note: " + words::text(each), terminal_columns()) + "\n";
   return text +
-         wrapped("± is the expanded uncertainty U (95 %). u contains " + covers_text(changes) +
+         wrapped("± is the expanded uncertainty U (95 %). u contains " + daemon::covers_text(c) +
                      ". The change is |after| - |before|. U of the change treats the runs as "
                      "independent. Uncertainties that both runs share cancel, so this U tends to "
                      "be too large.",
@@ -70,7 +92,10 @@ Status compare(const CompareCommand& command) {
   show_notices(found.notices, command.all_warnings);
   std::vector<Budget> changes;
   for (const auto& figure : found.figures) changes.push_back(figure.change);
-  if (const std::string text = not_declared_text(changes); !text.empty()) warn(text);
+  if (const std::string text = not_declared_text(changes); !text.empty())
+    warn(found.is_imported ? "no uncertainty was declared at the import of a run (--u-um), so U "
+                             "contains the repeatability only"
+                           : text);
   return command.json ? write_line(daemon::comparison_json(found))
                       : write_out(comparison_text(found));
 }

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "algo/compensation/imported_table.h"
-#include "algo/uncertainty/budget.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "algo/uncertainty/coverage.h"
 #include "schema/imported/series.h"
 #include "schema/sample.h"

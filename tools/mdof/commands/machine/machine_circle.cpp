@@ -4,8 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "algo/compensation/table_limits.h"
 #include "algo/machine/geometric_tests/circle.h"
+#include "algo/machine/tool_error.h"
 #include "drivers/csv/csv_table.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/machine/machine_file.h"
@@ -20,6 +23,8 @@ namespace mdof::tools {
 namespace {
 
 constexpr double kRadiansByDegree = std::numbers::pi / 180;
+constexpr double kBallBarResolution_um = 0.1;
+constexpr double kCoverage = 1.959964;
 
 struct MachineCircleCommand {
   std::string file, database, plane = "XY", centre, measured;
@@ -34,12 +39,19 @@ struct FoundCircle {
   algo::CircularFigures figures;
 };
 
+// Measured - predicted, where it is largest. U covers 95 % of the prediction by the u of the errors
+// there, k = 1.96; NaN: none is declared. The ball bar has none.
+struct LargestDifference {
+  double value_m = 0, angle_rad = 0, U_m = NAN;
+  bool clockwise = false;
+};
+
 struct FoundCircles {
   const Machine* machine = nullptr;  // none: only measured
   std::vector<std::string> not_measured, beyond;
   bool simulated = false;
   std::optional<FoundCircle> predicted, measured;
-  std::optional<double> largest_difference_m;  // measured - predicted, where both are
+  std::optional<LargestDifference> largest;  // where both are
 };
 
 Result<FoundCircle> evaluated(algo::CircularPath path) {
@@ -49,7 +61,33 @@ Result<FoundCircle> evaluated(algo::CircularPath path) {
   return found;
 }
 
+// Radial deviations that no machine has, as of another unit.
+Status check_deviations(const drivers::CsvTable& csv) {
+  const double most_um = to_um(algo::TableLimits{}.length_m);
+  for (const std::size_t column : {std::size_t{1}, std::size_t{2}})
+    for (std::size_t row = 0; row < csv.columns[column].size(); ++row)
+      if (std::abs(csv.columns[column][row]) > most_um)
+        return bad_input(csv.where(row) + "column " + (column == 1 ? "ccw_um" : "cw_um") + ": " +
+                         plain_number(csv.columns[column][row]) + " um is beyond the limit of " +
+                         plain_number(most_um) +
+                         " um for a radial deviation; give actual radius - nominal radius in um");
+  return {};
+}
+
+// Below what a ball bar resolves: probably in mm.
+void warn_small(const drivers::CsvTable& csv) {
+  double largest_um = 0;
+  for (const std::size_t column : {std::size_t{1}, std::size_t{2}})
+    for (const double x : csv.columns[column]) largest_um = std::max(largest_um, std::abs(x));
+  if (largest_um > 0 && largest_um < kBallBarResolution_um)
+    warn(csv.source + ": the largest deviation is " + plain_number(largest_um) +
+         " um, less than a ball bar resolves (" + plain_number(kBallBarResolution_um) +
+         " um); check that the values are in um, not in mm");
+}
+
 Result<algo::CircularPath> read_path(const drivers::CsvTable& csv) {
+  MDOF_CHECK(check_deviations(csv));
+  warn_small(csv);
   algo::CircularPath path;
   for (const double angle : csv.columns[0]) path.angle_rad.push_back(angle * kRadiansByDegree);
   for (const double x : csv.columns[1]) path.ccw_m.push_back(from_um(x));
@@ -67,17 +105,30 @@ double at_angle(const std::vector<double>& deviations, double angle_rad) {
   return deviations[i] + (deviations[(i + 1) % deviations.size()] - deviations[i]) * part;
 }
 
-double largest_difference(const FoundCircle& measured, const FoundCircle& predicted) {
-  double largest = 0;
-  const auto compare = [&](const std::vector<double>& of, const std::vector<double>& by) {
+LargestDifference largest_difference(const FoundCircle& measured, const FoundCircle& predicted) {
+  LargestDifference largest;
+  largest.angle_rad = measured.path.angle_rad.front();
+  const auto compare = [&](const std::vector<double>& of, const std::vector<double>& by, bool cw) {
     for (std::size_t i = 0; i < of.size(); ++i) {
       const double difference = of[i] - at_angle(by, measured.path.angle_rad[i]);
-      if (std::abs(difference) > std::abs(largest)) largest = difference;
+      if (std::abs(difference) > std::abs(largest.value_m))
+        largest = {difference, measured.path.angle_rad[i], NAN, cw};
     }
   };
-  compare(measured.path.ccw_m, predicted.path.ccw_m);
-  compare(measured.path.cw_m, predicted.path.cw_m);
+  compare(measured.path.ccw_m, predicted.path.ccw_m, false);
+  compare(measured.path.cw_m, predicted.path.cw_m, true);
   return largest;
+}
+
+// Of the radius, by the u of the tool's place there, its directions as independent.
+double expanded_at(const Machine& machine, const algo::CircleRequest& request, double angle_rad) {
+  algo::Command command = request.centre;
+  const double c = std::cos(angle_rad), s = std::sin(angle_rad);
+  command[request.first] += request.radius_m * c;
+  command[request.second] += request.radius_m * s;
+  const algo::ToolError error = algo::tool_error(machine, command, algo::MachineApproach::mean);
+  return kCoverage * std::hypot(c * error.u[static_cast<Eigen::Index>(request.first)],
+                                s * error.u[static_cast<Eigen::Index>(request.second)]);
 }
 
 void write_figures(JsonWriter& json, const algo::CircularFigures& f) {
@@ -121,7 +172,20 @@ std::string circle_json(const MachineCircleCommand& o, const FoundCircles& found
   write_circle(json, "predicted", found.predicted);
   write_circle(json, "measured", found.measured);
   json.key("largest_difference_um");
-  found.largest_difference_m ? json.value(to_um(*found.largest_difference_m)) : json.null();
+  found.largest ? json.value(to_um(found.largest->value_m)) : json.null();
+  json.key("largest_difference");
+  if (found.largest) {
+    const LargestDifference& at = *found.largest;
+    json.begin_object().field("um", to_um(at.value_m));
+    json.field("angle_deg", at.angle_rad / kRadiansByDegree)
+        .field("path", at.clockwise ? "cw" : "ccw")
+        .field("U_um", to_um(at.U_m))
+        .key("within_U");
+    std::isnan(at.U_m) ? json.null() : json.value(std::abs(at.value_m) <= at.U_m);
+    json.end_object();
+  } else {
+    json.null();
+  }
   json.end_object();
   return json.take();
 }
@@ -140,6 +204,20 @@ std::string circle_csv(const FoundCircles& found) {
     csv.end_row();
   }
   return csv.take();
+}
+
+std::string largest_text(const LargestDifference& at) {
+  const std::string U = fixed(to_um(at.U_m), 3) + " µm";
+  return wrapped(
+             "largest difference, measured - predicted: " + fixed(to_um(at.value_m), 3) +
+                 " µm at " + fixed(at.angle_rad / kRadiansByDegree, 1) + "°, " +
+                 (at.clockwise ? "clockwise" : "counter-clockwise") +
+                 (std::isnan(at.U_m) ? "; U of the prediction is unknown, because the errors "
+                                       "have no declared u"
+                  : std::abs(at.value_m) <= at.U_m ? "; within U of the prediction (" + U + ")"
+                                                   : "; beyond U of the prediction (" + U + ")"),
+             terminal_columns()) +
+         "\n";
 }
 
 std::string circle_text(const MachineCircleCommand& o, const FoundCircles& found) {
@@ -171,18 +249,16 @@ std::string circle_text(const MachineCircleCommand& o, const FoundCircles& found
                          "the circle of all paths. No uncertainty is stated",
                          terminal_columns()) +
                      "\n";
-  if (found.largest_difference_m)
-    text += "largest difference, measured - predicted: " +
-            fixed(to_um(*found.largest_difference_m), 3) + " µm\n";
+  if (found.largest) text += largest_text(*found.largest);
   return text + missing_text(found.not_measured, {}, terminal_columns()) +
          "For the values at each angle, give --csv or --json\n";
 }
 
-Status predict(const MachineCircleCommand& o, Machine& machine, FoundCircles& found) {
+Status predict(const MachineCircleCommand& o, Machine& machine, algo::CircleRequest& request,
+               FoundCircles& found) {
   if (!o.radius_mm)
     return fail(ErrorCode::usage, "missing option --radius-mm (radius of the circle)");
   MDOF_TRY(machine, load_machine(o.file, o.database));
-  algo::CircleRequest request;
   request.first = std::string("XYZ").find(o.plane[0]);
   request.second = std::string("XYZ").find(o.plane[1]);
   request.radius_m = from_mm(*o.radius_mm);
@@ -202,9 +278,10 @@ Status predict(const MachineCircleCommand& o, Machine& machine, FoundCircles& fo
 Status machine_circle(const MachineCircleCommand& o) {
   FoundCircles found;
   Machine machine;
+  algo::CircleRequest request;
   const bool described = o.file.size() > 5 && o.file.substr(o.file.size() - 5) == ".toml";
   const std::string measured = described ? o.measured : o.file;
-  if (described) MDOF_CHECK(predict(o, machine, found));
+  if (described) MDOF_CHECK(predict(o, machine, request, found));
   if (!measured.empty()) {
     MDOF_TRY(const auto csv, drivers::read_csv_table(measured, {"angle_deg"}, {"ccw_um", "cw_um"}));
     MDOF_TRY(algo::CircularPath path, read_path(csv));
@@ -213,8 +290,10 @@ Status machine_circle(const MachineCircleCommand& o) {
     found.measured = std::move(*circle);
     found.simulated = found.simulated || csv.simulated;
   }
-  if (found.predicted && found.measured)
-    found.largest_difference_m = largest_difference(*found.measured, *found.predicted);
+  if (found.predicted && found.measured) {
+    found.largest = largest_difference(*found.measured, *found.predicted);
+    found.largest->U_m = expanded_at(machine, request, found.largest->angle_rad);
+  }
   warn_beyond(found.beyond);
   if (o.csv && !found.not_measured.empty())
     warn("these errors were not measured, so the values do not contain them: " +

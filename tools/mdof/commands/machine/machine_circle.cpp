@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kRadiansByDegree = std::numbers::pi / 180;
 constexpr double kBallBarResolution_um = 0.1;
-constexpr double kCoverage = 1.959964;
+constexpr double kCoverageFactor95 = 1.959964;
 
 struct MachineCircleCommand {
   std::string file, database, plane = "XY", centre, measured;
@@ -127,8 +127,8 @@ double expanded_at(const Machine& machine, const algo::CircleRequest& request, d
   command[request.first] += request.radius_m * c;
   command[request.second] += request.radius_m * s;
   const algo::ToolError error = algo::tool_error(machine, command, algo::MachineApproach::mean);
-  return kCoverage * std::hypot(c * error.u[static_cast<Eigen::Index>(request.first)],
-                                s * error.u[static_cast<Eigen::Index>(request.second)]);
+  return kCoverageFactor95 * std::hypot(c * error.u[static_cast<Eigen::Index>(request.first)],
+                                        s * error.u[static_cast<Eigen::Index>(request.second)]);
 }
 
 void write_figures(JsonWriter& json, const algo::CircularFigures& f) {

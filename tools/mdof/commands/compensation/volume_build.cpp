@@ -35,6 +35,21 @@ Status check_options(const VolumeOptions& o) {
   return {};
 }
 
+// Where the axes stand that are not of the grid. Three numbers name all axes, so those of the grid
+// must be 0.
+Result<algo::Command> others_from(const Machine& machine, const VolumeOptions& o) {
+  MDOF_TRY(const algo::Command at, command_from(machine, o.at));
+  const bool named = o.at.find('=') != std::string::npos;
+  for (const char axis : axes_of(o)) {
+    const std::size_t k = kAxes.find(axis);
+    if (named ? o.at.find(axis) == std::string::npos : at[k] == 0) continue;
+    return fail(ErrorCode::usage, std::string("--at \"") + o.at + "\": " + axis +
+                                      " is an axis of the grid (" + axes_of(o) +
+                                      "), so it has no fixed position; leave " + axis + " out");
+  }
+  return at;
+}
+
 Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
   const VolumeOptions& o = command.options;
   daemon::VolumetricTableRequest request;
@@ -45,7 +60,7 @@ Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
   for (const char axis : axes_of(o)) request.grid.along[kAxes.find(axis)] = true;
   request.grid.step_m = from_mm(*o.step_mm);
   if (!o.at.empty()) {
-    MDOF_TRY(request.grid.others, command_from(request.machine, o.at));
+    MDOF_TRY(request.grid.others, others_from(request.machine, o));
   }
   request.grid.approach = approach_from(o.approach);
   request.grid.incomplete = o.incomplete;
@@ -71,9 +86,9 @@ Result<daemon::BuiltVolumetric> build_there(rpc::Client& mdofd, const VolumeBuil
   params.field("axes", axes_of(o)).field("step_mm", *o.step_mm);
   if (!o.at.empty()) {
     MDOF_TRY(const Machine machine, described_machine(o.machine));
-    MDOF_TRY(const algo::Command at, command_from(machine, o.at));
+    MDOF_TRY(const algo::Command at, others_from(machine, o));
     for (const MachineFrame& frame : machine.frames)
-      if (frame.kind != FrameKind::fixed)
+      if (frame.kind != FrameKind::fixed && axes_of(o).find(frame.id) == std::string::npos)
         params.field(frame.id + "_" + position_unit(frame),
                      written_position(frame, algo::command_of(frame, at)));
   }

@@ -153,21 +153,29 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
   CheckedError e;
   e.error = applied.error;
   e.angle = series.angle;
-  e.one_way = applied.forward == applied.reverse && largest_reversal(series) > 0;
+  // The controller holds one value for both approaches.
+  const bool one_value = applied.forward == applied.reverse && largest_reversal(series) > 0;
+  e.one_way = one_value && options.one_approach;
+  e.by_reversal = one_value ? 0.5 * largest_reversal(series) : 0;
   double thinning = 0;
   for (const Written& written : exported.written)
     if (written.error == e.error) thinning = written.largest_deviation;
   e.before = trial.residual(0, false, e.one_way);
   e.residual = trial.residual(1, false, e.one_way);
   const double step = format.quantum_m + kRounding_m;
-  e.bound = std::min({thinning + trial.second_order() + step, most_residual(options),
-                      std::max(options.residual_share * e.before, step)});
-  e.cancels = trial.judges_anything() && e.residual <= e.bound;
+  e.nothing = e.before <= step;
+  const double left = e.one_way ? 0 : e.by_reversal;
+  e.bound = std::min(
+      thinning + trial.second_order() + step + left,
+      algo::ResidualLimits{most_residual(options), options.residual_share}.of(e.before, step));
+  // A table that the step of the numbers makes zero is no correction, as of mm taken for um.
+  const bool lost = e.nothing && e.before > kRounding_m;
+  e.cancels = trial.judges_anything() && e.residual <= e.bound && !lost;
   e.controls.push_back(
       control_of("wrong sign", trial.residual(-1, false, e.one_way), e.bound, 2 * e.before));
-  if (!e.one_way)
-    e.controls.push_back(control_of("forward and reverse swapped", trial.residual(1, true, false),
-                                    e.bound, largest_reversal(series)));
+  // Of one value it changes nothing.
+  e.controls.push_back(control_of("forward and reverse swapped", trial.residual(1, true, e.one_way),
+                                  e.bound, one_value ? 0 : largest_reversal(series)));
   return e;
 }
 
@@ -181,10 +189,16 @@ const CompensationTable* table_of(const std::vector<CompensationTable>& tables, 
 
 bool Check::passed() const {
   if (errors.empty() && not_judged.empty()) return false;
+  if (nothing_to_correct()) return false;
   return std::all_of(errors.begin(), errors.end(), [](const CheckedError& e) {
     return e.cancels && std::all_of(e.controls.begin(), e.controls.end(),
                                     [](const Control& c) { return c.detected || c.too_small; });
   });
+}
+
+bool Check::nothing_to_correct() const {
+  return !errors.empty() &&
+         std::all_of(errors.begin(), errors.end(), [](const CheckedError& e) { return e.nothing; });
 }
 
 Result<Check> check_export(const Format& format, const std::vector<CompensationTable>& tables,

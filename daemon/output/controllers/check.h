@@ -20,12 +20,17 @@ struct Control {
 struct CheckedError {
   std::string error;  // "EXX"; of a volumetric table the command, "X"
   bool angle = false;
-  bool one_way = false;  // the controller holds one value for both approaches: their mean is judged
+  bool one_way = false;  // judged is the mean of both approaches: ExportOptions::one_approach
   double before = 0;     // largest error without the correction, m or rad
   double residual = 0;   // with it, both approaches, on the grid and between
+  // Parts of the residual that the file cannot correct: of one value for errors that differ by
+  // approach, in each of them (where the mean is judged, beside the residual); between the nodes of
+  // a volumetric table.
+  double by_reversal = 0, between_nodes = 0;
   // Thinning, step of the numbers and second order; at most what ExportOptions allows.
   double bound = 0;
   bool cancels = false;
+  bool nothing = false;  // there is no error above a step of the numbers
   std::vector<Control> controls;
 };
 
@@ -34,6 +39,7 @@ struct Check {
   std::vector<std::string> not_judged;    // written, but nobody knows which way its correction goes
   double most_residual_m = 0, share = 0;  // as of ExportOptions, the tolerance in it
   bool passed() const;                    // of what could be judged
+  bool nothing_to_correct() const;        // no error is above a step of the numbers
 };
 
 // Of what `format` wrote of these tables. Each error is the table's own, joined by straight lines.

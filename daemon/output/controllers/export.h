@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "algo/compensation/residual_limits.h"
 #include "schema/base/result.h"
 #include "schema/compensation_table.h"
 #include "schema/rig/chain.h"
@@ -37,11 +38,13 @@ struct Series {
 
 struct ExportOptions {
   double tolerance_m = 0;        // points are left out within it; 0: none is. Of angles in rad
+  bool one_approach = false;     // one value for both approaches, though a reversal stays
   bool cut_range = false;        // the longest range without a missing value, instead of refusing
   std::optional<double> home_m;  // the correction is 0 there (mean of both approaches)
   // What may be left with the correction: no more than this beside the tolerance, of angles in rad,
   // and no more than this share of what there was; a step of the controller's numbers is always.
-  double residual_m = 1e-6, residual_share = 0.2;
+  double residual_m = algo::ResidualLimits{}.most_m;
+  double residual_share = algo::ResidualLimits{}.share;
   // LinuxCNC alone: which joints take the table of an axis, two for a gantry; empty: X Y Z are 0 1
   // 2. Rows in inches instead of mm.
   struct Joint {

@@ -17,18 +17,25 @@ struct Residuals {
   double exchange = 0;              // what that mistake changes
 };
 
-// `left_m`: what the form of the file cannot hold; `between_m`: what straight lines between its
-// nodes leave of the machine's errors.
+// What the table leaves, so that no file of it corrects it.
+struct LeftByTable {
+  double by_reversal = 0, between_nodes = 0;
+};
+
+// `left_m`: what the form of the file cannot hold.
 CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
                        const Format& format, const ExportOptions& options, double left_m,
-                       double between_m) {
+                       const LeftByTable& table) {
   CheckedError e;
   e.error = name;
   e.angle = angle;
-  e.before = r.before;
-  e.residual = r.with + between_m;
+  e.by_reversal = table.by_reversal;
+  e.between_nodes = table.between_nodes;
+  e.before = r.before + e.by_reversal;  // at most, in the worse approach
+  e.residual = r.with + e.between_nodes + e.by_reversal;
   const double step = format.quantum_m + kRoundingOfGrid_m;
-  e.bound = std::min(options.residual_m, std::max(options.residual_share * e.before, step));
+  e.bound = algo::ResidualLimits{options.residual_m, options.residual_share}.of(e.before, step);
+  e.nothing = e.before <= step;
   e.cancels = r.with <= step + left_m && e.residual <= e.bound;
   e.controls.push_back({"wrong sign", r.wrong_sign, r.wrong_sign > e.bound, r.before <= e.bound});
   if (r.exchanged)
@@ -93,9 +100,9 @@ Result<Check> check_export(const Format& format, const VolumetricTable& table,
   check.share = options.residual_share;
   for (std::size_t k = 0; k < 3; ++k)
     if (table.machine.find(kCommands[k]))
-      check.errors.push_back(judged_by(std::string(1, kCommands[k]), false,
-                                       residuals_of(table, applied, k), format, options,
-                                       exported.left_m, table.interpolation_m[k]));
+      check.errors.push_back(
+          judged_by(std::string(1, kCommands[k]), false, residuals_of(table, applied, k), format,
+                    options, exported.left_m, {0, table.interpolation_m[k]}));
   return check;
 }
 
@@ -107,7 +114,7 @@ Result<Check> check_export(const Format& format, const SquareAxes& axes, const E
   check.share = options.residual_share;
   const Residuals r{std::abs(angle_after_shear(axes, 0)), std::abs(angle_after_shear(axes, k)),
                     std::abs(angle_after_shear(axes, -k)), std::nullopt, 0};
-  check.errors.push_back(judged_by("EC0Y", true, r, format, options, 0, 0));
+  check.errors.push_back(judged_by("EC0Y", true, r, format, options, 0, {}));
   return check;
 }
 

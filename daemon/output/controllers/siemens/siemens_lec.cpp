@@ -11,11 +11,37 @@
 namespace mdof::controllers {
 namespace {
 
+constexpr double kStepOfLec_m = 2e-9;  // of its numbers, and their rounding
+
 // ENC_COMP has one value for both approaches.
 Series mean_of_approaches(Series s) {
   for (std::size_t i = 0; i < s.position_m.size(); ++i)
     s.forward[i] = s.reverse[i] = 0.5 * (s.forward[i] + s.reverse[i]);
   return s;
+}
+
+// Refused where the mean leaves what the self-test would not take, unless it is asked for.
+Status check_reversal(const CompensationTable& table, const Series& s, const ExportOptions& options,
+                      Export& out) {
+  double reversal = 0, largest = 0;
+  for (std::size_t i = 0; i < s.position_m.size(); ++i) {
+    reversal = std::max(reversal, std::abs(s.forward[i] - s.reverse[i]));
+    largest = std::max({largest, std::abs(s.forward[i]), std::abs(s.reverse[i])});
+  }
+  if (!(reversal > 0)) return {};
+  out.left_out.push_back(s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +
+                         " um, because ENC_COMP stores only the mean of both approaches");
+  const double limit =
+      algo::ResidualLimits{options.residual_m, options.residual_share}.of(largest, kStepOfLec_m);
+  if (options.one_approach || reversal / 2 <= limit) return {};
+  return bad_input("table " + std::to_string(table.id) + ": " + s.error +
+                   " has a reversal of up to " + plain_number(to_um(reversal)) +
+                   " um, but ENC_COMP stores one value for both approaches; " +
+                   plain_number(to_um(reversal / 2)) + " um would stay in each approach (limit " +
+                   plain_number(to_um(limit)) +
+                   " um). Use a format with both approaches, or export the mean (option "
+                   "one-approach) and set the "
+                   "backlash compensation of the control (MD32450 BACKLASH)");
 }
 
 std::string lec_text(const CompensationTable& table, const Series& s, const EqualSteps& e,
@@ -95,14 +121,13 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
   const ExportOptions as_measured = without_tolerance(options, out);
   for (const CompensationTable& table : tables) {
     MDOF_TRY(const Series s, positioning_of(table, kMostBeforeSteps, as_measured, "ENC_COMP", out));
-    double reversal = 0;
-    for (std::size_t i = 0; i < s.position_m.size(); ++i)
-      reversal = std::max(reversal, std::abs(s.forward[i] - s.reverse[i]));
-    if (reversal > 0)
-      out.left_out.push_back(s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +
-                             " um, because ENC_COMP stores only the mean of both approaches");
+    const std::size_t told = out.left_out.size();
+    MDOF_CHECK(check_reversal(table, s, as_measured, out));
+    ExportOptions marked = options;
+    for (std::size_t i = told; i < out.left_out.size(); ++i)
+      marked.marks.push_back("REVERSAL NOT CORRECTED: " + out.left_out[i]);
     MDOF_TRY(const EqualSteps e, equal_steps(mean_of_approaches(s), out));
-    out.files.push_back({std::string(1, s.along) + "_EEC.INI", lec_text(table, s, e, options)});
+    out.files.push_back({std::string(1, s.along) + "_EEC.INI", lec_text(table, s, e, marked)});
   }
   return out;
 }

@@ -16,13 +16,18 @@ struct CheckTablesCommand {
 
 Status check_tables(const CheckTablesCommand& command) {
   MDOF_TRY(const ExportedTables exported, exported_tables(command.request));
+  for (const auto& mark : exported.options.marks) warn(mark);
   for (const auto& left : exported.files.left_out) say("left out: " + left);
-  MDOF_CHECK(command.json ? write_line(check_json(exported.check))
+  MDOF_CHECK(command.json ? write_line(check_json(exported))
                           : write_out(check_text(exported.check)));
   if (exported.check.errors.empty())
     return fail(ErrorCode::check,
                 "nothing could be checked: the correction sign is unknown for every error");
   if (exported.check.passed()) return {};
+  if (exported.check.nothing_to_correct())
+    return fail(ErrorCode::check,
+                "nothing to correct: the errors are below the step of the format; check the unit "
+                "of the measured values");
   return fail(
       ErrorCode::check,
       "the export does not cancel the error, or the check did not detect a simulated mistake");

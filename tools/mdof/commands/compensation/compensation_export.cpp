@@ -124,7 +124,7 @@ std::string exported_json(const ExportedTables& exported, const std::vector<std:
   write_strings(json, "left_out", exported.files.left_out);
   write_strings(json, "notes", exported.files.notes);
   write_strings(json, "marks", exported.options.marks);
-  json.key("check").raw(check_json(exported.check)).end_object();
+  json.key("check").raw(check_json(exported)).end_object();
   return json.take();
 }
 
@@ -156,7 +156,9 @@ Status export_tables(const ExportTablesCommand& command) {
   for (const auto& note : exported.files.notes) say("note: " + note);
   for (const auto& left : exported.files.left_out) say("left out: " + left);
   if (!exported.check.passed())
-    return fail(ErrorCode::check, "the files would not cancel the error:\n" +
+    return fail(ErrorCode::check, std::string(exported.check.nothing_to_correct()
+                                                  ? "the files would correct nothing:\n"
+                                                  : "the files would not cancel the error:\n") +
                                       check_text(exported.check) + "no file was written");
   MDOF_TRY(const auto names, write_files(command, exported.files));
   return command.json ? write_line(exported_json(exported, names))

@@ -9,23 +9,19 @@
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/machine/stored_errors.h"
 #include "daemon/measure/machine/volumetric.h"
-#include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/imported/series.h"
-#include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/compensation/active_table.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/stored/database.h"
-#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {
 
-using controllers::CheckedError;
-using controllers::Control;
-
 constexpr double kMostTolerance_um = 100;
+// More would call any file a correction.
+constexpr double kMostResidual_um = 20, kMostResidual_percent = 50;
 
 Status check_request(const ExportRequest& request) {
   if (request.format.empty())
@@ -38,11 +34,36 @@ Status check_request(const ExportRequest& request) {
                 "--tolerance-um " + plain_number(request.tolerance_um, 3) +
                     " is so large that the thinned table would lose the errors; give at most " +
                     plain_number(kMostTolerance_um, 3));
-  if (!(request.residual_um > 0 && request.residual_um <= 1000))
-    return fail(ErrorCode::usage, "--residual-um must be above 0 and at most 1000");
-  if (!(request.residual_percent > 0 && request.residual_percent <= 100))
-    return fail(ErrorCode::usage, "--residual-percent must be above 0 and at most 100");
+  if (!(request.residual_um > 0 && request.residual_um <= kMostResidual_um))
+    return fail(ErrorCode::usage,
+                "--residual-um must be above 0 and at most " + plain_number(kMostResidual_um, 3));
+  if (!(request.residual_percent > 0 && request.residual_percent <= kMostResidual_percent))
+    return fail(ErrorCode::usage, "--residual-percent must be above 0 and at most " +
+                                      plain_number(kMostResidual_percent, 3));
   return {};
+}
+
+// Who reads the files has to know with which limits they passed.
+void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
+                 std::vector<std::string>& marks) {
+  std::string changed;
+  const auto add = [&](bool differs, const char* option, double value, const char* by_default) {
+    if (differs)
+      changed += (changed.empty() ? "" : ", ") + std::string(option) + " " +
+                 plain_number(value, 6) + " (default " + by_default + ")";
+  };
+  const algo::TableLimits usual;
+  const ExportRequest plain;
+  add(request.limits.um &&
+          (limits.length_m != usual.length_m || limits.angle_rad != usual.angle_rad),
+      "--limit-um", request.limits.um.value_or(0), "1000 um, 10000 urad");
+  add(request.limits.um_per_mm && (limits.length_slope != usual.length_slope ||
+                                   limits.angle_slope_rad_per_m != usual.angle_slope_rad_per_m),
+      "--limit-um-per-mm", request.limits.um_per_mm.value_or(0), "50 um/mm, 500 urad/mm");
+  add(request.residual_um != plain.residual_um, "--residual-um", request.residual_um, "1");
+  add(request.residual_percent != plain.residual_percent, "--residual-percent",
+      request.residual_percent, "20");
+  if (!changed.empty()) marks.push_back("LIMITS CHANGED: " + changed);
 }
 
 // What nobody may take for a measured result is refused, or marked where it is asked for.
@@ -192,7 +213,8 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
   command.add_flag("--cut-range", request.cut_range,
                    "If values are missing, export the longest range without a gap");
   command.add_flag("--one-approach", request.one_approach,
-                   "If values exist for one approach only, use them for both approaches");
+                   "If values exist for one approach only, use them for both approaches; in a "
+                   "format with one value for both, accept that a reversal error stays");
   command
       .add_option("--joint", request.joints,
                   "linuxcnc: joints of the axes, such as X=0,Z=1; two for a gantry, such as "
@@ -316,7 +338,9 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   out.options.residual_m = from_um(request.residual_um);
   out.options.residual_share = request.residual_percent / 100;
   out.options.cut_range = request.cut_range;
+  out.options.one_approach = request.one_approach;
   MDOF_TRY(const algo::TableLimits limits, request.limits.limits());
+  mark_limits(request, limits, out.options.marks);
   if (request.home_given) out.options.home_m = from_mm(request.home_mm);
   MDOF_CHECK(take_joints(request, out));
   MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
@@ -329,64 +353,6 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
                       : export_axes(store, request, limits, out));
   }
   return out;
-}
-
-namespace {
-
-void write_control(JsonWriter& json, const CheckedError& e, const Control& control) {
-  json.begin_object().field("mistake", control.name);
-  json.field(e.angle ? "residual_urad" : "residual_um", control.residual * 1e6);
-  json.field("detected", control.detected);
-  if (!control.detected && control.too_small)
-    json.field("reason", "the effect of the mistake is smaller than the allowed residual");
-  json.end_object();
-}
-
-}  // namespace
-
-std::string check_json(const controllers::Check& check) {
-  JsonWriter json;
-  json.begin_object().field("passed", check.passed());
-  json.field("most_residual_um", check.most_residual_m * 1e6);
-  json.field("most_residual_percent", check.share * 100).key("errors").begin_array();
-  for (const CheckedError& e : check.errors) {
-    const std::string unit = e.angle ? "_urad" : "_um";
-    json.begin_object().field("error", e.error).field("cancels", e.cancels);
-    json.field("before" + unit, e.before * 1e6).field("residual" + unit, e.residual * 1e6);
-    json.field("bound" + unit, e.bound * 1e6);
-    json.field("judged", e.one_way ? "mean of both approaches" : "each approach");
-    json.key("controls").begin_array();
-    for (const Control& control : e.controls) write_control(json, e, control);
-    json.end_array().end_object();
-  }
-  json.end_array().key("not_judged").begin_array();
-  for (const std::string& error : check.not_judged) json.value(error);
-  json.end_array().end_object();
-  return json.take();
-}
-
-std::string check_text(const controllers::Check& check) {
-  TextTable table(
-      {"error", "before", "after", "allowed", "cancels", "self-test: mistake detected"});
-  for (const CheckedError& e : check.errors) {
-    std::string seen;
-    for (const Control& control : e.controls)
-      seen += (seen.empty() ? "" : ", ") + control.name + ": " +
-              (control.detected    ? "yes"
-               : control.too_small ? "too small to detect"
-                                   : "NO");
-    table.add({e.error + (e.angle ? "/µrad" : "/µm") + (e.one_way ? ", mean" : ""),
-               fixed(e.before * 1e6, 4), fixed(e.residual * 1e6, 4), fixed(e.bound * 1e6, 4),
-               e.cancels ? "yes" : "NO", seen});
-  }
-  std::string text = table.text() + "allowed: at most " +
-                     plain_number(check.most_residual_m * 1e6) + " µm (µrad) and " +
-                     plain_number(check.share * 100) +
-                     " % of the error before;\n"
-                     "see --residual-um and --residual-percent\n";
-  for (const std::string& error : check.not_judged)
-    text += error + ": not checked, because the sign of its correction is unknown\n";
-  return text;
 }
 
 }  // namespace mdof::tools

@@ -45,7 +45,7 @@ struct ExportedTables {
 // hold.
 Result<ExportedTables> exported_tables(const ExportRequest& request);
 
-std::string check_json(const controllers::Check& check);
+std::string check_json(const ExportedTables& exported);
 std::string check_text(const controllers::Check& check);
 
 }  // namespace mdof::tools

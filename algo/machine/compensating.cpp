@@ -1,5 +1,8 @@
 #include "algo/machine/compensating.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "algo/linear_algebra/least_squares.h"
 
 namespace mdof::algo {
@@ -30,6 +33,23 @@ Jacobian jacobian(const Machine& machine, const Command& at,
   return J;
 }
 
+// The axis whose command it goes by; 0: none.
+char axis_of(const MachineFrame& frame) {
+  if (frame.moves_with != 0) return frame.moves_with;
+  return frame.kind == FrameKind::fixed ? '\0' : frame.id.front();
+}
+
+// Axes with an error that differs by approach.
+std::string axes_by_approach(const Machine& machine) {
+  std::string axes;
+  for (const MachineFrame& frame : machine.frames) {
+    const bool differs = std::any_of(frame.error.begin(), frame.error.end(),
+                                     [](const ErrorFunction& f) { return !f.reverse.empty(); });
+    if (differs && axes.find(axis_of(frame)) == std::string::npos) axes += axis_of(frame);
+  }
+  return axes;
+}
+
 }  // namespace
 
 Result<CompensatingCommand> compensating_command(const Machine& machine, const Command& wanted,
@@ -56,6 +76,28 @@ Result<CompensatingCommand> compensating_command(const Machine& machine, const C
     for (std::size_t k = 0; k < kBodyErrors; ++k)
       if (values[i].beyond[k]) c.beyond.push_back(error_name(machine.frames[i], k));
   return c;
+}
+
+std::array<double, 3> reversal_of_command(const Machine& machine, const Command& command) {
+  std::array<double, 3> sum{};
+  const auto directions = linear_axes(machine);
+  if (directions.empty()) return sum;
+  const LeastNorm inverse(jacobian(machine, command, directions));
+  const auto mean = values_at(machine, command, MachineApproach::mean);
+  for (const char axis : axes_by_approach(machine)) {
+    const auto tool = [&](MachineApproach approach) {
+      auto values = mean;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        if (axis_of(machine.frames[i]) == axis)
+          values[i] = values_at(machine.frames[i], command, approach);
+      return actual_tool(machine, values).p;
+    };
+    const Eigen::VectorXd step = inverse.solve(
+        Eigen::VectorXd(tool(MachineApproach::forward) - tool(MachineApproach::reverse)));
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      sum[directions[i]] += std::abs(step[static_cast<Eigen::Index>(i)]);
+  }
+  return sum;
 }
 
 }  // namespace mdof::algo

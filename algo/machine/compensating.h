@@ -1,6 +1,8 @@
 // The command that brings the tool where a command should have brought it.
 #pragma once
 
+#include <array>
+
 #include "algo/machine/tool_error.h"
 
 namespace mdof::algo {
@@ -20,5 +22,10 @@ struct CompensatingCommand {
 // and less for machines. Error: the chain has no linear axis.
 Result<CompensatingCommand> compensating_command(const Machine& machine, const Command& wanted,
                                                  MachineApproach approach);
+
+// By how much the corrections of X, Y, Z differ with the approaches of the axes, at a command: of
+// each axis forward less reverse while the others are at their means, as magnitudes added, since
+// each may come from either side; m. First order in the errors.
+std::array<double, 3> reversal_of_command(const Machine& machine, const Command& command);
 
 }  // namespace mdof::algo

@@ -41,6 +41,13 @@ Result<algo::VolumetricRequest> read_grid(const Params& params, const Machine& m
   }
   if (axes.size() < 2) return fail(ErrorCode::usage, "axes must be two or three of X, Y, Z");
   grid.step_m = from_mm(params.number("step_mm"));
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::string key = std::string(1, kAxes[k]) + "_mm";
+    if (grid.along[k] && params.has(key))
+      return fail(ErrorCode::usage, key + ": " + kAxes[k] + " is an axis of the grid (axes " +
+                                        axes + "), so it has no fixed position; leave " + key +
+                                        " out");
+  }
   MDOF_TRY(grid.others, command_of(params, machine));
   const std::string approach(params.string("approach", "mean"));
   if (approach != "mean" && approach != "forward" && approach != "reverse")

@@ -15,7 +15,8 @@ constexpr std::string_view kVolumetric =
     "SELECT v.id, v.machine, document.text, v.chain, v.chain_travel, v.simulated, v.noise_only, "
     "v.approach, v.tool_m, v.rotary_rad, v.X_m, v.Y_m, v.Z_m, v.correction_m, v.u_m, "
     "v.interpolation_m, v.place_left_m, v.turn_left_rad, v.not_measured, v.u_not_declared, "
-    "v.beyond_tables, v.created_utc, v.sha256, v.u_independent_m, v.noise "
+    "v.beyond_tables, v.created_utc, v.sha256, v.u_independent_m, v.noise, "
+    "v.reversal_m "
     "FROM volumetric_table AS v JOIN document ON document.id = v.description ";
 
 std::vector<double> flat(const std::vector<Vec3>& values) {
@@ -71,6 +72,7 @@ void bind_values(Statement& insert, const VolumetricTable& t, const FlatNodes& n
     insert.bind(std::string_view(list));
   }
   insert.bind_bytes(bytes_of(nodes.u_independent)).bind_bytes(bytes_of(nodes.noise));
+  insert.bind_bytes(bytes_of(t.reversal_m));
 }
 
 }  // namespace
@@ -93,8 +95,8 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
                "INSERT INTO volumetric_table (id, machine, description, chain, chain_travel, "
                "simulated, noise_only, approach, created_utc, sha256, tool_m, rotary_rad, X_m, "
                "Y_m, Z_m, correction_m, u_m, interpolation_m, place_left_m, turn_left_rad, "
-               "not_measured, u_not_declared, beyond_tables, u_independent_m, noise) "
-               "VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
+               "not_measured, u_not_declared, beyond_tables, u_independent_m, noise, "
+               "reversal_m) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
   const std::string travels = travels_of(table.machine);
   insert.bind(id).bind(std::string_view(table.name)).bind(description);
   insert.bind(std::string_view(table.machine.text)).bind(std::string_view(travels));
@@ -142,6 +144,7 @@ Result<VolumetricTable> Store::volumetric_of(Statement& row) {
   if (!set_noise(t, doubles_from(row.bytes(24))) || !check_shape(t))
     return bad_input(file().string() + ": volumetric table " + std::to_string(t.id) +
                      " is damaged; restore the database from a backup");
+  doubles_from(row.bytes(25), t.reversal_m);
   MDOF_TRY(t.runs, integers("SELECT run FROM volumetric_source WHERE volumetric_table = ? ORDER BY "
                             "row",
                             t.id));

@@ -50,6 +50,7 @@ void write_volumetric_members(JsonWriter& json, const VolumetricTable& t) {
   write_commands(json, t);
   json.field("nodes", static_cast<std::uint64_t>(t.nodes())).field("sense", kSense);
   write_um(json, "interpolation", t.interpolation_m);
+  write_um(json, "reversal_left", t.reversal_m);
   json.field("place_left_um", to_um(t.place_left_m))
       .field("turn_left_urad", to_urad(t.turn_left_rad));
   write_strings(json, "not_measured", t.not_measured);

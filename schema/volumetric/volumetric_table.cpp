@@ -69,9 +69,11 @@ std::string volumetric_sha256(const VolumetricTable& t) {
   const auto put_text = [&](std::string_view text) { put(bytes, text); };
   const auto put_vector = [&](const Vec3& v) { put(bytes, std::span<const double>(v)); };
   const std::vector<double> noise = noise_numbers(t);
-  put_text(!noise.empty()              ? "mdof volumetric table 3"
-           : t.u_independent_m.empty() ? "mdof volumetric table 1"
-                                       : "mdof volumetric table 2");
+  const bool reversal = t.reversal_m != Vec3{};
+  put_text(std::string(!noise.empty()              ? "mdof volumetric table 3"
+                       : t.u_independent_m.empty() ? "mdof volumetric table 1"
+                                                   : "mdof volumetric table 2") +
+           (reversal ? ", reversal" : ""));
   put_text(t.name);
   put_text(t.machine.text);
   put_text(travels_of(t.machine));
@@ -94,6 +96,7 @@ std::string volumetric_sha256(const VolumetricTable& t) {
     put(bytes, std::uint64_t{names->size()});
     for (const std::string& name : *names) put_text(name);
   }
+  if (reversal) put_vector(t.reversal_m);
   return sha256_hex(bytes);
 }
 

@@ -50,6 +50,10 @@ struct VolumetricTable {
   // The largest that straight lines between nodes are off the correction of the model, found in the
   // middle of cells, faces and edges; m, by axis.
   Vec3 interpolation_m{};
+  // The largest that the table leaves of a correction at a node because the errors differ by
+  // approach and it has one value: of the mean half the difference, of one approach the whole; each
+  // axis of the machine may come from either side. m, by axis; 0 of a table older than this.
+  Vec3 reversal_m{};
   // The largest that stays with the corrected commands: of the place (m) what the linear axes
   // cannot reach, and the turn of the tool, which they cannot change (rad).
   double place_left_m = 0, turn_left_rad = 0;
@@ -85,7 +89,8 @@ bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
 //   tool_m[3], d rotary_rad[3], then of X, Y, Z i n, d command_m[n], d correction_m[nodes][3], d
 //   u_m[nodes][3], d u_independent_m[nodes][3] (2, 3), d noise (3; noise_numbers()), d
 //   interpolation_m[3], d place_left_m, d turn_left_rad, then of not_measured, u_not_declared,
-//   beyond_tables i n, s each
+//   beyond_tables i n, s each. Where reversal_m is not 0, ", reversal" ends the first s, and d
+//   reversal_m[3] ends all.
 std::string volumetric_sha256(const VolumetricTable& table);
 
 // What its u covers: one sentence for people, without a full stop.

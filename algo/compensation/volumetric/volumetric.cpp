@@ -108,6 +108,10 @@ Status add_node(VolumetricTable& table, const Machine& machine, const Volumetric
   table.u_m.push_back({error.u[0], error.u[1], error.u[2]});
   if (has_parts(table)) table.u_independent_m.push_back(u_independent(table, node));
   table.place_left_m = std::max(table.place_left_m, place.found().residual_m.norm());
+  const Vec3 reversal = reversal_of_command(machine, place.command());
+  const double left = request.approach == MachineApproach::mean ? 0.5 : 1;
+  for (std::size_t k = 0; k < 3; ++k)
+    table.reversal_m[k] = std::max(table.reversal_m[k], left * reversal[k]);
   table.turn_left_rad = std::max(table.turn_left_rad, place.found().angles_rad.norm());
   for (std::size_t k = 0; k < 3; ++k) {
     add_new(error.not_measured[k], table.not_measured);
@@ -222,6 +226,12 @@ Result<VolumetricTable> build_volumetric(const Machine& machine, const Volumetri
   MDOF_CHECK(check_limits(table, request.limits));
   MDOF_CHECK(find_interpolation(table, machine, request));
   return table;
+}
+
+double largest_correction_m(const VolumetricTable& table, std::size_t axis) {
+  double largest = 0;
+  for (const Vec3& c : table.correction_m) largest = std::max(largest, std::abs(c[axis]));
+  return largest;
 }
 
 Status check_limits(const VolumetricTable& table, const TableLimits& limits) {

@@ -34,6 +34,9 @@ Result<VolumetricTable> build_volumetric(const Machine& machine, const Volumetri
 // Its corrections along each line of nodes. Error (bad_input): the line, and as of a series.
 Status check_limits(const VolumetricTable& table, const TableLimits& limits);
 
+// Of one command, X 0, over the nodes.
+double largest_correction_m(const VolumetricTable& table, std::size_t axis);
+
 struct VolumetricValue {
   Vec3 correction_m{}, u_m{};
   Vec3 u_common_m{}, u_independent_m{};  // parts of u_m; NaN: not known apart

@@ -54,7 +54,11 @@ MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targ
   return p;
 }
 
-// A deviation as long as the way between two targets is one in another unit.
+// Millimetres taken for micrometres look like this.
+constexpr double kSmallest_m = 0.1e-6;
+
+// A deviation as long as the way between two targets is one in another unit, as are all if none is
+// above a tenth of a micrometre.
 Notices import_notices(const ImportedSeries& series, const ImportedError& error,
                        const std::vector<double>& targets) {
   double largest = 0, step = std::numeric_limits<double>::infinity();
@@ -62,7 +66,10 @@ Notices import_notices(const ImportedSeries& series, const ImportedError& error,
     largest = std::max(largest, std::abs(r.deviation));
   for (std::size_t i = 1; i < targets.size(); ++i)
     step = std::min(step, targets[i] - targets[i - 1]);
-  if (error.angle || largest < step) return {};
+  if (error.angle) return {};
+  if (largest < kSmallest_m && !series.readings.empty())
+    return {notice(NoticeCode::deviation_too_small, "", {{"deviation_um", to_um(largest)}})};
+  if (largest < step) return {};
   return {notice(NoticeCode::deviation_too_large, "",
                  {{"deviation_um", to_um(largest)}, {"interval_mm", to_mm(step)}})};
 }

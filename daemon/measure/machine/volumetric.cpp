@@ -4,16 +4,50 @@
 #include <set>
 #include <utility>
 
+#include "algo/compensation/residual_limits.h"
 #include "daemon/measure/machine/stored_errors.h"
 #include "daemon/paths.h"
+#include "schema/units.h"
 
 namespace mdof::daemon {
 namespace {
+
+// Less is nothing: a corrected command is rounded as much.
+constexpr double kStepOfTables_m = 1e-9;
 
 std::string names_of(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
+}
+
+// What the table leaves of one command: because of the approaches, and between its nodes. Doubtful
+// where the self-test of an export would refuse both together; then the larger, and the other if it
+// is too large by itself.
+Notices left_notices(const VolumetricTable& table, std::size_t k) {
+  const std::string command(1, "XYZ"[k]);
+  const double reversal = table.reversal_m[k], between = table.interpolation_m[k];
+  const double largest = algo::largest_correction_m(table, k);
+  const double limit = algo::ResidualLimits{}.of(largest + reversal, kStepOfTables_m);
+  const auto too_large = [&](double part, double other) {
+    return part > limit || (part + other > limit && part >= other);
+  };
+  Notices left;
+  if (too_large(reversal, between))
+    left.push_back(notice(NoticeCode::volume_reversal, command,
+                          {{"left_um", to_um(reversal)},
+                           {"limit_um", to_um(limit)},
+                           {"largest_um", to_um(largest)},
+                           {"approach", table.approach}}));
+  else if (reversal > kStepOfTables_m)
+    left.push_back(notice(
+        NoticeCode::volume_reversal_small, command,
+        {{"left_um", to_um(reversal)}, {"limit_um", to_um(limit)}, {"approach", table.approach}}));
+  if (too_large(between, reversal))
+    left.push_back(notice(
+        NoticeCode::volume_between_nodes, command,
+        {{"left_um", to_um(between)}, {"limit_um", to_um(limit)}, {"largest_um", to_um(largest)}}));
+  return left;
 }
 
 // What the table itself says of its errors.
@@ -25,6 +59,7 @@ Notices own_notices(const VolumetricTable& table) {
   if (!table.beyond_tables.empty())
     own.push_back(
         notice(NoticeCode::volume_beyond_tables, "", {{"errors", names_of(table.beyond_tables)}}));
+  for (std::size_t k = 0; k < 3; ++k) append(own, left_notices(table, k));
   return own;
 }
 
@@ -67,7 +102,7 @@ Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
   MDOF_TRY(const std::vector<Run> runs, runs_of(store, built.table));
   built.notices = own_notices(built.table);
   append(built.notices, one_sided(built.table, runs));
-  built.doubtful = built.notices;
+  built.doubtful = without_information(built.notices);
   append(built.notices, std::move(stored.notices));
   append(built.doubtful, std::move(stored.doubtful));
   return built;
@@ -82,7 +117,7 @@ Status store_volumetric(store::Store& store, VolumetricTable& table,
 }
 
 Result<Notices> doubtful_notices(store::Store& store, const VolumetricTable& table) {
-  Notices found = own_notices(table);
+  Notices found = without_information(own_notices(table));
   MDOF_TRY(const std::vector<Run> runs, runs_of(store, table));
   append(found, one_sided(table, runs));
   append(found, doubtful_notices(runs));

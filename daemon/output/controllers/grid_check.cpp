@@ -102,7 +102,7 @@ Result<Check> check_export(const Format& format, const VolumetricTable& table,
     if (table.machine.find(kCommands[k]))
       check.errors.push_back(
           judged_by(std::string(1, kCommands[k]), false, residuals_of(table, applied, k), format,
-                    options, exported.left_m, {0, table.interpolation_m[k]}));
+                    options, exported.left_m, {table.reversal_m[k], table.interpolation_m[k]}));
   return check;
 }
 

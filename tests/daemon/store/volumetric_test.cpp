@@ -32,6 +32,7 @@ TEST_F(StoreTest, GivesAVolumetricTableBackToTheLastBit) {
   EXPECT_EQ(back->u_independent_m, table.u_independent_m);
   EXPECT_EQ(back->noise, table.noise);
   EXPECT_EQ(back->interpolation_m, table.interpolation_m);
+  EXPECT_EQ(back->reversal_m, (Vec3{5e-9, 0, 6e-9}));
   EXPECT_EQ(back->place_left_m, 4e-9);
   EXPECT_EQ(back->turn_left_rad, 5e-6);
   EXPECT_EQ(back->not_measured, table.not_measured);

@@ -65,6 +65,7 @@ TEST(VolumetricTable, EveryStatementIsInItsHash) {
         t.noise[0][1].with_next[2][5] = 1e-18;
       },
       [](auto& t) { t.interpolation_m[1] = 1e-9; },
+      [](auto& t) { t.reversal_m[2] = 1e-9; },
       [](auto& t) { t.place_left_m = 1e-9; },
       [](auto& t) { t.turn_left_rad = 1e-9; },
       [](auto& t) { t.not_measured = {}; },

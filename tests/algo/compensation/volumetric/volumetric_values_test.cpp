@@ -136,6 +136,30 @@ TEST(VolumetricTables, InterpolationIsWorstInTheMiddleOfACellWhereRoofsOfAllAxes
   EXPECT_NEAR(t->interpolation_m[2], 0, 1e-12);
 }
 
+TEST(VolumetricTables, SayWhatOneValueLeavesOfAReversal) {
+  // EXX forward 20 um above reverse, EXY of Y 6 um below: the mean leaves 10 + 3 um of X where the
+  // two come from unlike sides, one approach 20 + 6. EYX 2 um: 1 um of Y. Nothing of Z.
+  const Machine m =
+      parsed(machine_of("EXX_um = [[0, 25, 5], [20, 25, 5]]\n"
+                        "EYX_um = [[0, 1, -1], [20, 1, -1]]",
+                        "EXY_um = [[0, 0, 6], [20, 0, 6]]", ""));
+  VolumetricRequest request;
+  request.incomplete = true;
+  for (const auto& [approach, part] : {std::pair{MachineApproach::mean, 0.5},
+                                       {MachineApproach::forward, 1.0},
+                                       {MachineApproach::reverse, 1.0}}) {
+    request.approach = approach;
+    const auto t = build_volumetric(m, request);
+    ASSERT_TRUE(t) << t.error().message;
+    EXPECT_NEAR(t->reversal_m[0], part * 26e-6, 1e-10);
+    EXPECT_NEAR(t->reversal_m[1], part * 2e-6, 1e-10);
+    EXPECT_NEAR(t->reversal_m[2], 0, 1e-12);
+  }
+  const auto without = build_volumetric(parsed(machine_of("EXX_um = 5", "", "")), request);
+  ASSERT_TRUE(without) << without.error().message;
+  EXPECT_EQ(without->reversal_m, (Vec3{}));
+}
+
 TEST(VolumetricTables, SayWhatTheMachineSays) {
   Machine m = parsed(machine_of("u_EXX_um = 0.3\nEXX_um = [[0, 0], [15, 1]]",
                                 "EYY_um = 1\nu_EYY_um = 0.4", "EZZ_um = 1\nu_EZZ_um = 0.5"));

@@ -6,8 +6,8 @@
 
 namespace mdof::algo {
 
-// Unless more is asked for: no more than `most_m`, of angles in rad, and no more than `share` of the
-// error; a step of the numbers is always.
+// Unless more is asked for: no more than `most_m`, of angles in rad, and no more than `share` of
+// the error; a step of the numbers is always.
 struct ResidualLimits {
   double most_m = 1e-6, share = 0.2;
 

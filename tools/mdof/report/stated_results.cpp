@@ -58,19 +58,21 @@ Result<std::vector<std::int64_t>> run_numbers(store::Store& store,
 
 std::vector<charts::SquarenessOfPair> squareness_of_runs(
     store::Store& store, const std::vector<const charts::StatedResults*>& runs) {
-  const auto only = [&](Axis axis) -> const charts::StatedResults* {
-    const auto is_along = [axis](const charts::StatedResults* r) {
-      return r->run.header.axis == axis;
-    };
-    if (std::count_if(runs.begin(), runs.end(), is_along) != 1) return nullptr;
-    return *std::find_if(runs.begin(), runs.end(), is_along);
+  const auto along = [&](Axis axis) {
+    std::vector<const charts::StatedResults*> found;
+    for (const charts::StatedResults* each : runs)
+      if (each->run.header.axis == axis) found.push_back(each);
+    return found;
   };
   std::vector<charts::SquarenessOfPair> pairs;
   for (const AxisPair axes : daemon::kAxisPairs) {
-    const charts::StatedResults *a = only(axes.a), *b = only(axes.b);
-    if (!a || !b) continue;
+    const auto a = along(axes.a), b = along(axes.b);
+    if (a.empty() || b.empty()) continue;
     charts::SquarenessOfPair pair{axes, {}, ""};
-    if (auto results = squareness_of_two(store, *a, *b))
+    if (a.size() > 1 || b.size() > 1)
+      pair.reason = std::string("there are several runs of axis ") +
+                    letter(a.size() > 1 ? axes.a : axes.b) + "; choose one run of each axis";
+    else if (auto results = squareness_of_two(store, *a.front(), *b.front()))
       pair.results = std::move(*results);
     else
       pair.reason = results.error().message;

@@ -58,6 +58,10 @@ void draw_squareness(store::Store& store, const std::vector<charts::StatedResult
 
 Status draw_table(store::Store& store, std::int64_t number, output::Language language,
                   Plotted& plotted) {
+  MDOF_TRY(const bool is_volumetric, store.is_volumetric(number));
+  if (is_volumetric)
+    return bad_input("table " + std::to_string(number) +
+                     " is of a plane or volume; its map is drawn by mdof machine map --plot");
   MDOF_TRY(const CompensationTable table, store.table(number));
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
   const std::string name = "table-" + std::to_string(number);

@@ -47,7 +47,8 @@ Status check_request(const ExportRequest& request) {
 void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
                  std::vector<std::string>& marks) {
   std::string changed;
-  const auto add = [&](bool differs, const char* option, double value, const char* by_default) {
+  const auto add = [&](bool differs, const char* option, double value,
+                       const std::string& by_default) {
     if (differs)
       changed += (changed.empty() ? "" : ", ") + std::string(option) + " " +
                  plain_number(value, 6) + " (default " + by_default + ")";
@@ -56,13 +57,18 @@ void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
   const ExportRequest plain;
   add(request.limits.um &&
           (limits.length_m != usual.length_m || limits.angle_rad != usual.angle_rad),
-      "--limit-um", request.limits.um.value_or(0), "1000 um, 10000 urad");
+      "--limit-um", request.limits.um.value_or(0),
+      plain_number(to_um(usual.length_m), 6) + " um, " + plain_number(to_urad(usual.angle_rad), 6) +
+          " urad");
   add(request.limits.um_per_mm && (limits.length_slope != usual.length_slope ||
                                    limits.angle_slope_rad_per_m != usual.angle_slope_rad_per_m),
-      "--limit-um-per-mm", request.limits.um_per_mm.value_or(0), "50 um/mm, 500 urad/mm");
-  add(request.residual_um != plain.residual_um, "--residual-um", request.residual_um, "1");
+      "--limit-um-per-mm", request.limits.um_per_mm.value_or(0),
+      plain_number(usual.length_slope * 1e3, 6) + " um/mm, " +
+          plain_number(usual.angle_slope_rad_per_m * 1e3, 6) + " urad/mm");
+  add(request.residual_um != plain.residual_um, "--residual-um", request.residual_um,
+      plain_number(plain.residual_um, 6));
   add(request.residual_percent != plain.residual_percent, "--residual-percent",
-      request.residual_percent, "20");
+      request.residual_percent, plain_number(plain.residual_percent, 6));
   if (!changed.empty()) marks.push_back("LIMITS CHANGED: " + changed);
 }
 

@@ -6,9 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "algo/compensation/residual_limits.h"
 #include "daemon/measure/gate/gate.h"
 #include "daemon/output/controllers/check.h"
 #include "schema/base/result.h"
+#include "schema/units.h"
 #include "tools/mdof/options.h"
 
 namespace CLI {
@@ -21,7 +23,9 @@ struct ExportRequest {
   std::string database, format;
   std::vector<std::int64_t> tables;
   std::string squareness;  // its number or "latest"; instead of tables
-  double tolerance_um = 0, home_mm = 0, residual_um = 1, residual_percent = 20;
+  double tolerance_um = 0, home_mm = 0;
+  double residual_um = to_um(algo::ResidualLimits{}.most_m);
+  double residual_percent = 100 * algo::ResidualLimits{}.share;
   std::string joints, units = "mm";  // "Y=1,Y=3"; of LinuxCNC
   bool one_approach = false;
   LimitOptions limits;

@@ -2,11 +2,13 @@
 // chain predicts it, and as a ball bar measured it.
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "algo/compensation/table_limits.h"
 #include "algo/machine/geometric_tests/circle.h"
 #include "algo/machine/tool_error.h"
+#include "algo/uncertainty/coverage.h"
 #include "drivers/csv/csv_table.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -24,7 +26,6 @@ namespace {
 
 constexpr double kRadiansByDegree = std::numbers::pi / 180;
 constexpr double kBallBarResolution_um = 0.1;
-constexpr double kCoverageFactor95 = 1.959964;
 
 struct MachineCircleCommand {
   std::string file, database, plane = "XY", centre, measured;
@@ -127,8 +128,9 @@ double expanded_at(const Machine& machine, const algo::CircleRequest& request, d
   command[request.first] += request.radius_m * c;
   command[request.second] += request.radius_m * s;
   const algo::ToolError error = algo::tool_error(machine, command, algo::MachineApproach::mean);
-  return kCoverageFactor95 * std::hypot(c * error.u[static_cast<Eigen::Index>(request.first)],
-                                        s * error.u[static_cast<Eigen::Index>(request.second)]);
+  return algo::coverage_factor(std::numeric_limits<double>::infinity()) *
+         std::hypot(c * error.u[static_cast<Eigen::Index>(request.first)],
+                    s * error.u[static_cast<Eigen::Index>(request.second)]);
 }
 
 void write_figures(JsonWriter& json, const algo::CircularFigures& f) {

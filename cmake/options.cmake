@@ -16,7 +16,7 @@ target_compile_options(mdof_options INTERFACE
 target_link_options(mdof_options INTERFACE -Wl,-z,relro,-z,now)
 
 # For tools/quickstart, which builds from nothing: less optimisation (the same bits, slower programs), no debug
-# information. Precompiled headers would cost more than they save, as files are compiled together.
+# information. Where files are compiled together, precompiled headers save little.
 option(MDOF_BUILD_QUICKLY "Spend as little time as possible on compiling" OFF)
 
 # Assertions guard against bugs and stay on in Release.

@@ -102,7 +102,7 @@ class Progress {
       const page = await pages("run.points", {run: this.run}, "points");
       this.points = page.points;
       this.draw(page);
-      // A daemon that was restarted tells of no end.
+      // A daemon that was restarted sends no event of the end.
       const {state} = await call("run.get", {run: this.run});
       if (state !== "open" && !this.over) this.ended({state, run: this.run});
     } catch (error) {

@@ -73,7 +73,7 @@ TEST(IntervalRanks, TheShortestIsTheFirstOfTheLeastLength) {
 }
 
 // 3200 trials: rank 3 (0.001 M = 3.2) alone in bin 1000 and rank 3197 (3196.8) alone in bin 2400,
-// in the middles of which they lie; a tenth of their distance is 140 bins. So from bin 860 to 2540,
+// each in the middle of its bin. A tenth of their distance is 140 bins: bins 860 to 2540 are drawn,
 // 1681 bins in bars of 15.
 TEST(HistogramForDrawing, IsOfTheCentralTrialsAndATenthMore) {
   OutputHistogram counts;

@@ -64,7 +64,7 @@ TEST(CycleRule, AShortFirstPassIsARun) {
     EXPECT_EQ(recognise_cycle(visits_of(row), 7).run, expected) << up;
     row.erase(row.begin());  // two stops are enough
     EXPECT_EQ(recognise_cycle(visits_of(row), 7).run, Runs(expected.begin() + 1, expected.end()));
-    row.erase(row.begin());  // a single stop is none
+    row.erase(row.begin());  // a single stop is no pass
     EXPECT_EQ(recognise_cycle(visits_of(row), 7).run, Runs(15, 1)) << up;
   }
 }

@@ -173,9 +173,10 @@ void expect_kept(const std::vector<Visited>& places, const std::vector<double>& 
   for (std::size_t i = 0; i < kept_mm.size(); ++i) EXPECT_NEAR(kept_mm[i], expected_mm[i], 1e-9);
 }
 
-// Three quarters of the stops are at places that are visited no more often: 12 of 16 at such of two
-// visits and less, so that 3 mm from a target is none; of one visit less than four of seven, so
-// that two are typical, and no two places have them.
+// The typical number of visits is the one that three quarters of the stops do not exceed. In the
+// first case 12 of 16 stops are at places of at most two visits, so 3 mm is no target. In the
+// second fewer than three quarters are at places of one visit, so two visits are typical, and no
+// two places have two.
 TEST(OddStopsTypical, ThreeQuartersOfTheStops) {
   expect_kept({{0, 2, 0},
                {3, 1, 0},
@@ -217,8 +218,8 @@ TEST(OddStopsTypical, TheLargerOfTheMiddleIntervals) {
               {0, 5, 10, 30, 50});
 }
 
-// 6.5 mm beyond the last of three typical visits it is none; 8.5 mm on from there it may begin a
-// row of new ones.
+// A place that is visited once, 6.5 mm beyond the last target of three visits, is no target; 8.5 mm
+// beyond it may be the first of a row of new targets.
 TEST(OddStopsTypical, VisitedOnceItIsNoneBesideATarget) {
   for (const bool below : {false, true}) {
     std::vector<Visited> places;

@@ -234,8 +234,8 @@ TEST(ChiSquare, IsFlaggedFromNoiseAndLinearityOn) {
   }
 }
 
-// Four top probes of which each three determine the plane: where the probe is wrong in every run,
-// each of the four may be the one.
+// Four top probes; any three of them determine the plane. Where one is wrong in every run, each of
+// the four may be the wrong one.
 TEST(ChiSquare, NamesNobodyWhereSeveralMayBeIt) {
   SteppingLog log;
   log.probes = 6;

@@ -47,6 +47,7 @@ Status Pipeline::push(SampleBlock& raw) {
   MDOF_CHECK(take(raw));
   if (frames_.size() == 0) return {};
   keep_last(frames_, newest_);
+  if (watcher_) watcher_(frames_);
   find_stops();
   if (!options_.keep_points) found_.clear();
   return {};

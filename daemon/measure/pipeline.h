@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,6 +33,8 @@ class Pipeline : RunBuilder {
   const std::vector<MeasuredPoint>& points();
   // The newest instant, calibrated, for the live view; size 0 before the first.
   const FrameBlock& newest() const { return newest_; }
+  // Called with the instants of each push, calibrated, before dwells are looked for.
+  void watch(std::function<void(const FrameBlock&)> watcher) { watcher_ = std::move(watcher); }
   bool still() const { return dwell_.still(); }
   bool is_full() const { return found_.size() >= options_.most_stops; }
   std::optional<std::string> waiting_for() const { return aligner_.waiting_for(); }
@@ -63,6 +66,7 @@ class Pipeline : RunBuilder {
 
   algo::DwellDetector dwell_;
   FrameBlock newest_;
+  std::function<void(const FrameBlock&)> watcher_;
   std::vector<Point> found_;  // as averaged, not corrected
   std::size_t beyond_ = 0;    // stops behind most_stops
   std::size_t taken_ = 0;     // of found_: those that sequence_ was made of

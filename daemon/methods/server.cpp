@@ -245,7 +245,8 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
        .handler = [&m](const Params&) -> Result<std::string> { return device_list(m); }});
   table.add({.name = "live.subscribe",
              .summary =
-                 "Subscribes to two notifications. live.update: the newest values. run.event: "
+                 "Subscribes to two notifications. live.update: the newest values, and of each "
+                 "probe low_um and high_um over the last second. run.event: "
                  "each step of a run, after the step is on the disk, and each change of an active "
                  "compensation table (type \"compensation\", with the generation).",
              .params = {{"interval_ms",

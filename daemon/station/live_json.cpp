@@ -81,7 +81,8 @@ void write_errors(JsonWriter& json, const Rig& rig, const Pipeline& pipeline) {
 
 }  // namespace
 
-std::string live_json(const Rig& rig, const Pipeline& pipeline, const LiveState& state) {
+std::string live_json(const Rig& rig, const Pipeline& pipeline, const RecentRange& recent,
+                      const LiveState& state) {
   const FrameBlock& now = pipeline.newest();
   JsonWriter json;
   json.begin_object()
@@ -98,9 +99,12 @@ std::string live_json(const Rig& rig, const Pipeline& pipeline, const LiveState&
   for (std::size_t k = 0; k < rig.probes.size(); ++k) {
     Quality quality = now.quality_at(k, 0);
     if (state.stale) quality = std::max(quality, Quality::stale);
+    const RecentRange::Range range = recent.of(k);
     json.begin_object()
         .field("id", rig.probes[k].id)
         .field("um", to_um(now.probe_m[k][0]))
+        .field("low_um", to_um(range.low_m))
+        .field("high_um", to_um(range.high_m))
         .field("quality", to_string(quality))
         .field("range_um", to_um(rig.probes[k].range_m))
         .end_object();

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "daemon/measure/pipeline.h"
+#include "daemon/station/recent_range.h"
 #include "daemon/station/station.h"
 #include "schema/base/json_writer.h"
 #include "schema/rig/rig.h"
@@ -27,8 +28,10 @@ struct LiveState {
 };
 
 // The value of live.update: {"axis", "time_ns", "encoder_mm", "still", "simulated", "stale",
-// "waiting_for", "probes": [{"id", "um", "quality", "range_um"}], "errors": {...} | null,
-// "run": id | null, "trouble": [...]}. Errors are null while stale.
-std::string live_json(const Rig& rig, const Pipeline& pipeline, const LiveState& state);
+// "waiting_for", "probes": [{"id", "um", "low_um", "high_um", "quality", "range_um"}],
+// "errors": {...} | null, "run": id | null, "trouble": [...]}. Errors are null while stale; low_um
+// and high_um are those of the last second, so that a spike between two updates is seen.
+std::string live_json(const Rig& rig, const Pipeline& pipeline, const RecentRange& recent,
+                      const LiveState& state);
 
 }  // namespace mdof::daemon

@@ -24,6 +24,7 @@
 #include "daemon/station/device/shared_device.h"
 #include "daemon/station/device/spare_blocks.h"
 #include "daemon/station/encoder_zero.h"
+#include "daemon/station/recent_range.h"
 #include "daemon/storekeeper/storekeeper.h"
 #include "schema/base/bounded_queue.h"
 #include "schema/notice/notice.h"
@@ -139,6 +140,7 @@ class Station {
   const Pipeline* pipeline() const;
   void note_newest();
   void show_live();
+  void watch_range(Pipeline& pipeline);
   std::vector<std::string> standing_trouble() const;
 
   const AxisConfig config_;
@@ -155,6 +157,7 @@ class Station {
   EncoderZero zero_;               // changed by the measure thread only
   std::unique_ptr<OpenRun> open_;  // measure thread only
   std::optional<Pipeline> view_;   // measure thread only: between runs
+  RecentRange recent_;             // of the one of both that is there
   std::chrono::steady_clock::time_point last_live_{};
   std::int64_t newest_ns_ = 0;  // of the newest instant, and when it came
   std::chrono::steady_clock::time_point newest_since_{};

@@ -192,6 +192,7 @@ void Station::attach(std::int64_t run, const RunRequest& request, const Options&
   if (beginning) continues.emplace(beginning->end_ns);
   open_ = std::make_unique<OpenRun>(
       OpenRun{run, request, std::move(*pipeline), {}, std::move(continues), {}, {}, 0});
+  watch_range(open_->pipeline);
   open_->datum = options->datum;
   open_->model = options->model;
   shared_->run = run;
@@ -209,6 +210,7 @@ void Station::take_samples(SampleBlock& block) {
       auto view = Pipeline::create(config_.rig, without_points(with_devices(options_)));
       if (!view) return;  // checked with the configuration
       view_.emplace(std::move(*view));
+      watch_range(*view_);
     }
     // A view that trips over its input starts afresh with the next block.
     if (!view_->push(block)) view_.reset();
@@ -350,6 +352,10 @@ std::vector<std::string> Station::standing_trouble() const {
   return lines;
 }
 
+void Station::watch_range(Pipeline& pipeline) {
+  pipeline.watch([this](const FrameBlock& frames) { recent_.add(frames); });
+}
+
 void Station::show_live() {
   const Pipeline* from = pipeline();
   const milliseconds every = live_every_.load();
@@ -359,7 +365,7 @@ void Station::show_live() {
   last_live_ = now;
   const bool stale = now - newest_since_ > std::chrono::duration<double>(options_.stale_s);
   const LiveState state{config_.simulated(), stale, open_ ? open_->id : 0, standing_trouble()};
-  shared_->events.live(live_json(config_.rig, *from, state));
+  shared_->events.live(live_json(config_.rig, *from, recent_, state));
 }
 
 }  // namespace mdof::daemon

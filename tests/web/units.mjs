@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 
 export async function units(page) {
   const found = await page.evaluate(async () => {
-    const {Noise, verdict, shimText, stateOf} = await import("/views/setup.js");
+    const {Noise, verdict, shimText, stateOf, rangeText} = await import("/views/setup.js");
     const {lineThrough} = await import("/views/run_detail.js");
     const {difference} = await import("/views/run_pair.js");
     const {valueAt} = await import("/views/compensation.js");
@@ -29,6 +29,7 @@ export async function units(page) {
       noise: [tooFew, noise.pooled],
       shim: shimText(40, probe), shim_back: shimText(-40, probe), centred: shimText(5, probe),
       states: [[0, "good"], [60, "good"], [-90, "simulated"], [0, "over_range"]].map(([um, q]) => stateOf(um, q, -100, 100, false)[2]),
+      ranges: [rangeText(-1.234, 37), rangeText(null, null)],
       // y = 2x + 1 with one point 3 too high: by hand slope 2, mean y (1 + 6 + 5) / 3.
       least: lineThrough([[0, 1], [1, 6], [2, 5]], "least_squares"), ends: lineThrough([[0, 1], [1, 6], [2, 5]], "end_point"),
       difference: [...difference(new Map([[0, 3], [5, 4]]), new Map([[0.004, 1], [7, 0]]))],
@@ -57,6 +58,7 @@ export async function units(page) {
   assert.match(found.centred, /no shim/);
   assert.deepEqual(found.noise, [null, [Math.sqrt((2 + 8 + 0) / 21), 21]]);
   assert.deepEqual(found.states, ["in range", "off centre", "near the end of its range", "over range"]);
+  assert.deepEqual(found.ranges, ["Last second: −1.23 to 37.00 µm", "Last second: no reading"]);
   assert.deepEqual(found.least, [[0, 2], [2, 6]]);
   assert.deepEqual(found.ends, [[0, 1], [2, 5]]);
   assert.deepEqual(found.difference, [[0, 2]]);

@@ -63,27 +63,35 @@ export function shimText(um, probe) {
   return `Shim ${fixed(Math.abs(off), 1)} µm: move the probe towards ${probeTowards}, or the target towards ${targetTowards}`;
 }
 
+// Lowest and highest reading of the last second; between two pictures there are many more readings.
+export function rangeText(low_um, high_um) {
+  return isNumber(low_um) && isNumber(high_um) ? `Last second: ${fixed(low_um, 2)} to ${fixed(high_um, 2)} µm` : "Last second: no reading";
+}
+
 class ProbeCard {
   noise = new Noise();
   constructor(probe) {
     this.probe = probe;
     this.value = h("span", {class: "value"}, "–");
     this.needle = h("span", {class: "needle"});
+    this.swing = h("span", {class: "swing"});
     this.bar = h("div", {class: "bar", role: "meter", "aria-label": `Probe ${probe.id} within its range`,
-      "aria-valuemin": probe.low_um, "aria-valuemax": probe.high_um, "aria-valuenow": 0}, h("span", {class: "middle"}), this.needle);
+      "aria-valuemin": probe.low_um, "aria-valuemax": probe.high_um, "aria-valuenow": 0}, h("span", {class: "middle"}), this.swing, this.needle);
     this.shape = h("span", {class: "shape", "aria-hidden": "true"});
     this.word = h("span", {});
     this.state = h("p", {class: "state"}, this.shape, " ", this.word);
     this.shim = h("p", {class: "shim"});
+    this.range = h("p", {class: "quiet"});
     this.quiet = h("p", {class: "quiet"});
     this.element = h("section", {class: "probe", "aria-label": `Probe ${probe.id}`},
       h("div", {class: "head"}, h("h2", {}, probe.id, h("small", {}, ` ${along(probe.direction)}`)), this.state),
       h("p", {class: "number"}, this.value, h("span", {class: "unit"}, " µm")), this.bar,
       h("p", {class: "ends"}, h("span", {}, `${fixed(probe.low_um, 0)} µm`), h("span", {}, `${fixed(probe.high_um, 0)} µm`)),
-      this.shim, this.quiet);
+      this.range, this.shim, this.quiet);
   }
-  draw({um, quality}, stale) {
+  draw({um, quality, low_um: lowest, high_um: highest}, stale) {
     const {low_um: low, high_um: high} = this.probe;
+    const place = (x) => Math.min(Math.max((x - low) / (high - low), 0), 1) * 100;
     const [kind, shape, word] = stateOf(um, quality, low, high, stale);
     if (this.element.dataset.state !== kind) this.element.dataset.state = kind;
     setText(this.shape, shape);
@@ -91,7 +99,11 @@ class ProbeCard {
     setText(this.value, fixed(um, 2));
     this.bar.setAttribute("aria-valuenow", isNumber(um) ? um.toFixed(2) : low);
     this.needle.hidden = !isNumber(um);
-    this.needle.style.left = `${Math.min(Math.max((um - low) / (high - low), 0), 1) * 100}%`;
+    this.needle.style.left = `${place(um)}%`;
+    this.swing.hidden = !isNumber(lowest) || stale;
+    this.swing.style.left = `${place(lowest)}%`;
+    this.swing.style.width = `${place(highest) - place(lowest)}%`;
+    setText(this.range, stale ? "" : rangeText(lowest, highest));
     setText(this.shim, stale ? "Shim: not known, because no new values arrive" : shimText(um, this.probe));
     const {pooled} = this.noise;
     setText(this.quiet, pooled === null ? "Noise: shown when the axis is at rest" : `Noise s = ${fixed(pooled[0], 4)} µm (${pooled[1]} degrees of freedom, at rest)`);

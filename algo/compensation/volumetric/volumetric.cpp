@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "algo/compensation/volumetric/volumetric_noise.h"
 #include "algo/machine/compensating.h"
@@ -242,11 +241,11 @@ Status check_limits(const VolumetricTable& table, const TableLimits& limits) {
 VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m) {
   std::array<GridCell, 3> cell;
   VolumetricValue value;
-  bool at_a_node = true;
+  double bend = 0;  // 0 at a node, 1 in the middle of an edge, a face or the cell
   for (std::size_t k = 0; k < 3; ++k) {
     cell[k] = cell_of(table.command_m[k], command_m[k]);
     value.inside = value.inside && cell[k].inside;
-    at_a_node = at_a_node && cell[k].part == 0;
+    bend = std::max(bend, 4 * cell[k].part * (1 - cell[k].part));
   }
   for (unsigned corner = 0; corner < 8; ++corner) {
     double weight = 1;
@@ -264,9 +263,8 @@ VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_
       value.u_common_m[k] += weight * common[k];
     }
   }
-  for (std::size_t k = 0; k < 3 && !at_a_node; ++k)
-    value.u_common_m[k] =
-        std::hypot(value.u_common_m[k], table.interpolation_m[k] / std::numbers::sqrt3);
+  for (std::size_t k = 0; k < 3; ++k)
+    value.u_common_m[k] = std::hypot(value.u_common_m[k], bend * table.interpolation_m[k]);
   set_u(table, cell, command_m, value);
   return value;
 }

@@ -43,7 +43,8 @@ struct VolumetricValue {
   bool inside = true;                    // else the value of the nearest place of the grid
 };
 // Linear along each axis between the nodes. The common part of u is that of the nodes about it,
-// with what interpolation may be off, of a rectangular distribution; at a node without it. The
+// with what straight lines are off there: a parabola between two nodes, as high as the largest
+// deviation that was found, which is no random error in a place where it is reached. The
 // independent part is smaller than that of the nodes, since they are averaged (noise_variance()).
 // Of an older table, whose noise is not known by axis, u is that of the nodes and the parts are
 // NaN.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "daemon/output/controllers/linuxcnc/ramp.h"
 #include "daemon/output/controllers/series.h"
 #include "schema/imported/series.h"
 #include "schema/units.h"
@@ -45,10 +46,13 @@ struct Approach {
   const std::vector<double>&error_at, &error, &added_at, &added;
 };
 
-double tool_error(const Machine& machine, const Approach& a, double x, double sign) {
-  const double c = sign * interpolated(a.added_at, a.added, x);
+double tool_error_with(const Machine& machine, const Approach& a, double x, double c) {
   const double at = machine.own ? x + c : x;
   return machine.error * interpolated(a.error_at, a.error, at) + machine.command * c;
+}
+
+double tool_error(const Machine& machine, const Approach& a, double x, double sign) {
+  return tool_error_with(machine, a, x, sign * interpolated(a.added_at, a.added, x));
 }
 
 class Trial {
@@ -64,6 +68,24 @@ class Trial {
       const double of_both = one_way ? std::abs(0.5 * (f + r)) : std::max(std::abs(f), std::abs(r));
       largest = std::max(largest, of_both);
     }
+    return largest;
+  }
+  // Largest error while the ramp holds a step of the correction back: after a turn at any place, as
+  // long as the axis goes on and the step stays within what is held.
+  double held_by(const HeldSteps& held) const {
+    const std::vector<double> x = places();
+    double largest = 0;
+    for (std::size_t turn = 0; turn < x.size(); ++turn)
+      for (const bool forward : {true, false}) {
+        const double kept = interpolated(applied_.position_m,
+                                         forward ? applied_.reverse : applied_.forward, x[turn]);
+        const Approach now = approach(forward, forward);
+        for (std::size_t i = turn; i < x.size(); forward ? ++i : --i) {
+          if (!held.holds(std::abs(interpolated(now.added_at, now.added, x[i]) - kept))) break;
+          largest = std::max(largest, std::abs(tool_error_with(machine_, now, x[i], kept) +
+                                               machine_.command * zero_));
+        }
+      }
     return largest;
   }
   // False: no place lies within what was measured and what was written.
@@ -84,10 +106,12 @@ class Trial {
 
  private:
   double at(double x, double sign, bool added_forward, bool forward) const {
-    const Approach approach{series_.position_m, forward ? series_.forward : series_.reverse,
-                            applied_.position_m,
-                            added_forward ? applied_.forward : applied_.reverse};
-    return tool_error(machine_, approach, x, sign) + sign * machine_.command * zero_;
+    return tool_error(machine_, approach(added_forward, forward), x, sign) +
+           sign * machine_.command * zero_;
+  }
+  Approach approach(bool added_forward, bool forward) const {
+    return {series_.position_m, forward ? series_.forward : series_.reverse, applied_.position_m,
+            added_forward ? applied_.forward : applied_.reverse};
   }
   std::vector<double> places() const {
     std::vector<double> x;
@@ -162,11 +186,15 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
     if (written.error == e.error) thinning = written.largest_deviation;
   e.before = trial.residual(0, false, e.one_way);
   e.residual = trial.residual(1, false, e.one_way);
+  for (const ExportOptions::Ramp& ramp : options.ramps)
+    if (format.takes_joints && ramp.axis == applied.along)
+      e.by_ramp = std::max(e.by_ramp, trial.held_by(held_steps(ramp)));
+  e.residual = std::max(e.residual, e.by_ramp);
   const double step = format.quantum_m + kRounding_m;
   e.nothing = e.before <= step;
   const double left = e.one_way ? 0 : e.by_reversal;
   e.bound = std::min(
-      thinning + trial.second_order() + step + left,
+      thinning + trial.second_order() + step + left + e.by_ramp,
       algo::ResidualLimits{most_residual(options), options.residual_share}.of(e.before, step));
   // A table that the step of the numbers makes zero is no correction, as of mm taken for um.
   const bool lost = e.nothing && e.before > kRounding_m;

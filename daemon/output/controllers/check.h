@@ -27,6 +27,9 @@ struct CheckedError {
   // approach, in each of them (where the mean is judged, beside the residual); between the nodes of
   // a volumetric table.
   double by_reversal = 0, between_nodes = 0;
+  // In the residual, too: what stays after a turn, because the ramp of the controller does not
+  // start (LinuxCNC; ExportOptions::ramps).
+  double by_ramp = 0;
   // Thinning, step of the numbers and second order; at most what ExportOptions allows.
   double bound = 0;
   bool cancels = false;

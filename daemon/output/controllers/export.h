@@ -53,6 +53,12 @@ struct ExportOptions {
   };
   std::vector<Joint> joints;
   bool inch = false;
+  // LinuxCNC alone: MAX_ACCELERATION and SERVO_PERIOD of a joint with the table of this axis.
+  struct Ramp {
+    char axis = 'X';
+    double max_acceleration_m_s2 = 0, period_s = 1e-3;
+  };
+  std::vector<Ramp> ramps;         // of an axis none: not known
   std::vector<std::string> marks;  // what a reader of the files has to know
 };
 
@@ -124,7 +130,7 @@ struct Format {
   AxisFiles axes;       // one of the three, or axes and a volume
   VolumeFiles volume;
   SquareFiles square;
-  bool takes_joints = false;  // ExportOptions::joints and inch
+  bool takes_joints = false;  // ExportOptions::joints, inch and ramps
 };
 
 // In the order of the help.

@@ -3,7 +3,7 @@
 
 #include "daemon/output/controllers/error_rows.h"
 #include "daemon/output/controllers/export.h"
-#include "daemon/output/controllers/linuxcnc.h"
+#include "daemon/output/controllers/linuxcnc/linuxcnc.h"
 #include "daemon/output/controllers/siemens/siemens_cec.h"
 #include "daemon/output/controllers/square_files.h"
 #include "daemon/output/controllers/table_json.h"

@@ -33,6 +33,11 @@ std::string causes_text(const CheckedError& e) {
             " stay in each approach, because the errors differ between the approaches and the file "
             "has one value for both" +
             (e.one_way ? " (not in \"after\")\n" : "\n");
+  if (e.by_ramp > kShown)
+    text += e.error + ": " + fixed(e.by_ramp * 1e6, 4) + unit +
+            " stay after a reversal, because the ramp of the controller does not start; "
+            "change MAX_ACCELERATION, use the live compensation, or permit it with "
+            "--residual-um\n";
   if (e.between_nodes > kShown)
     text += e.error + ": " + fixed(e.between_nodes * 1e6, 4) + unit +
             " stay between the nodes of the table\n";
@@ -55,6 +60,7 @@ std::string check_json(const ExportedTables& exported) {
     json.field("judged", e.one_way ? "mean of both approaches" : "each approach");
     json.field("left_by_reversal" + unit, e.by_reversal * 1e6)
         .field("left_between_nodes" + unit, e.between_nodes * 1e6)
+        .field("left_by_ramp" + unit, e.by_ramp * 1e6)
         .field("nothing_to_correct", e.nothing);
     json.key("controls").begin_array();
     for (const Control& control : e.controls) write_control(json, e, control);
@@ -63,6 +69,7 @@ std::string check_json(const ExportedTables& exported) {
   json.end_array();
   write_strings(json, "not_judged", check.not_judged);
   write_strings(json, "left_out", exported.files.left_out);
+  write_strings(json, "notes", exported.files.notes);
   write_strings(json, "marks", exported.options.marks);
   json.end_object();
   return json.take();

@@ -17,6 +17,7 @@ struct CheckTablesCommand {
 Status check_tables(const CheckTablesCommand& command) {
   MDOF_TRY(const ExportedTables exported, exported_tables(command.request));
   for (const auto& mark : exported.options.marks) warn(mark);
+  for (const auto& note : exported.files.notes) say("note: " + note);
   for (const auto& left : exported.files.left_out) say("left out: " + left);
   MDOF_CHECK(command.json ? write_line(check_json(exported))
                           : write_out(check_text(exported.check)));

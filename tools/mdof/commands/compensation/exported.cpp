@@ -13,6 +13,7 @@
 #include "schema/imported/series.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/compensation/active_table.h"
+#include "tools/mdof/linuxcnc/joint_ramps.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/stored/database.h"
 
@@ -149,6 +150,23 @@ Status take_joints(const ExportRequest& request, ExportedTables& out) {
   return {};
 }
 
+// MAX_ACCELERATION where an option or the ini file says it; else it is not known.
+Status take_ramps(const ExportRequest& request, ExportedTables& out) {
+  const bool given = request.max_acceleration_mm_s2.has_value();
+  if (!given && request.ini.empty()) return {};
+  if (!out.format->takes_joints)
+    return fail(ErrorCode::usage, request.format +
+                                      " takes neither --max-acceleration-mm-s2 nor --ini; only the "
+                                      "format linuxcnc has these options");
+  if (given) {
+    for (const char axis : {'X', 'Y', 'Z'})
+      out.options.ramps.push_back({axis, from_mm(*request.max_acceleration_mm_s2)});
+    return {};
+  }
+  MDOF_TRY(out.options.ramps, read_joint_ramps(request.ini, out.options.joints, out.options.inch));
+  return {};
+}
+
 // What was measured in one approach alone holds in both where that is asked for.
 Status take_one_approach(CompensationTable& table, const ExportRequest& request,
                          ExportedTables& out) {
@@ -231,6 +249,18 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
                   "linuxcnc: length unit in the files, the same as [TRAJ] LINEAR_UNITS")
       ->check(CLI::IsMember({"mm", "inch"}))
       ->capture_default_str();
+  auto* acceleration =
+      command
+          .add_option("--max-acceleration-mm-s2", request.max_acceleration_mm_s2,
+                      "linuxcnc: MAX_ACCELERATION of the joints; LinuxCNC does not correct small "
+                      "reversals, depending on it")
+          ->check(positive_number());
+  command
+      .add_option("--ini", request.ini,
+                  "linuxcnc: ini file of LinuxCNC, from which mdof reads MAX_ACCELERATION, "
+                  "SERVO_PERIOD and LINEAR_UNITS")
+      ->type_name("FILE")
+      ->excludes(acceleration);
   add_consent_flags(command, request.consent, "a table; the files are marked");
   command.add_flag("--not-in-force", request.not_in_force,
                    "Export even a table that is not active; the files are marked");
@@ -349,6 +379,7 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   mark_limits(request, limits, out.options.marks);
   if (request.home_given) out.options.home_m = from_mm(request.home_mm);
   MDOF_CHECK(take_joints(request, out));
+  MDOF_CHECK(take_ramps(request, out));
   MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
   MDOF_TRY(store::Store store, open_to_read(request.database));
   if (square) {

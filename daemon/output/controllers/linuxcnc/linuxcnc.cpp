@@ -1,10 +1,11 @@
-#include "daemon/output/controllers/linuxcnc.h"
+#include "daemon/output/controllers/linuxcnc/linuxcnc.h"
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
 
+#include "daemon/output/controllers/linuxcnc/ramp.h"
 #include "daemon/output/controllers/series.h"
 #include "daemon/output/controllers/text_lines.h"
 #include "daemon/words/error_text.h"
@@ -96,6 +97,7 @@ Status add_joint(const CompensationTable& table, const ExportOptions& options, E
                     ", but the list of joints has no joint of this axis; add one, such as " +
                     letter(table.axis) + "=1");
   MDOF_TRY(const Series s, fitted(*along, table.id, kMostRows, options, out));
+  note_held_reversals(s, options, out);
   out.files.push_back({std::string(1, letter(table.axis)) + ".comp",
                        rows_text(s, zero_of(s, options, out), options.inch)});
   ini += ini_of(table, options);

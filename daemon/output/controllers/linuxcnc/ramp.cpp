@@ -1,0 +1,83 @@
+#include "daemon/output/controllers/linuxcnc/ramp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "schema/base/number/number_text.h"
+#include "schema/units.h"
+
+namespace mdof::controllers {
+namespace {
+
+constexpr double kLinuxCncPeriod_s = 1e-3;  // its default SERVO_PERIOD
+constexpr double kNoReversal_m = 1e-12;
+constexpr const char* kRampRemedy =
+    "; change MAX_ACCELERATION, or use the live compensation, which has no such ramp";
+
+std::string mm_s2(double m_s2) {
+  return plain_number(to_mm(m_s2), 4) + " mm/s^2";
+}
+
+std::string um_text(double m) {
+  return plain_number(to_um(m), 4) + " um";
+}
+
+double reversal_at(const Series& s, std::size_t i) {
+  return std::abs(s.forward[i] - s.reverse[i]);
+}
+
+void note_ramp(const Series& s, const ExportOptions::Ramp& ramp, Export& out) {
+  const HeldSteps held = held_steps(ramp);
+  std::size_t worst = s.position_m.size();
+  for (std::size_t i = 0; i < s.position_m.size(); ++i)
+    if (held.holds(reversal_at(s, i)) &&
+        (worst == s.position_m.size() || reversal_at(s, i) > reversal_at(s, worst)))
+      worst = i;
+  if (worst == s.position_m.size()) return;
+  out.notes.push_back(s.error + ": the reversal of " + um_text(reversal_at(s, worst)) + " at " +
+                      plain_number(to_mm(s.position_m[worst]), 9) +
+                      " mm is not applied, because with MAX_ACCELERATION " +
+                      mm_s2(ramp.max_acceleration_m_s2) + " and a servo period of " +
+                      plain_number(ramp.period_s * 1e3, 4) +
+                      " ms the ramp of LinuxCNC does not start for a reversal above " +
+                      um_text(held.above_m) + " and up to " + um_text(held.up_to_m) + kRampRemedy);
+}
+
+// Which MAX_ACCELERATION holds a step is linear in the step.
+void note_unknown_ramp(const Series& s, Export& out) {
+  double least = INFINITY, most = 0;
+  for (std::size_t i = 0; i < s.position_m.size(); ++i) {
+    const double reversal = reversal_at(s, i);
+    if (!(reversal > kNoReversal_m)) continue;
+    least = std::min(least, reversal);
+    most = std::max(most, reversal);
+  }
+  if (!(most > 0)) return;
+  const double up_to_m = held_steps({s.along, 1.0, kLinuxCncPeriod_s}).up_to_m;  // at 1 m/s²
+  out.notes.push_back(
+      s.error + ": MAX_ACCELERATION of the joint is not known. A part of the reversal (" +
+      um_text(least) + " to " + um_text(most) + ") is not applied if MAX_ACCELERATION is from " +
+      mm_s2(least / up_to_m) + " to " + mm_s2(2 * most / up_to_m) +
+      " (servo period 1 ms), because the ramp of LinuxCNC does not start for such a step; give "
+      "MAX_ACCELERATION (option max-acceleration-mm-s2) or the ini file (option ini)");
+}
+
+}  // namespace
+
+HeldSteps held_steps(const ExportOptions::Ramp& ramp) {
+  const double whole = 0.5 * ramp.max_acceleration_m_s2 * ramp.period_s * ramp.period_s;
+  return {0.5 * whole, whole};
+}
+
+void note_held_reversals(const Series& series, const ExportOptions& options, Export& out) {
+  bool known = false;
+  for (const ExportOptions::Ramp& ramp : options.ramps) {
+    if (ramp.axis != series.along) continue;
+    known = true;
+    note_ramp(series, ramp, out);
+  }
+  if (!known) note_unknown_ramp(series, out);
+}
+
+}  // namespace mdof::controllers

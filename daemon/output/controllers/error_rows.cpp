@@ -38,8 +38,9 @@ Result<ControllerFile> ssfk_of(const CompensationTable& table, const Series& s,
                            "setpoint, .pos, .neg in 0.1 um; value = actual - set = +" + s.error),
                 "#");
   text +=
-      "# kw.ssfk.unit and kw.ssfk.interval are not in this file: set both by the control's manual\n"
-      "kw.ssfk.bilateral 1\nkw.ssfk.modulo 0\nkw.ssfk.kw_startpos " +
+      "# unit 1: metric, 0.1 um; interval 0: each row has its setpoint; activate: lr_param.ssfk 1\n"
+      "kw.ssfk.interval 0\nkw.ssfk.unit 1\nkw.ssfk.bilateral 1\nkw.ssfk.modulo 0\n"
+      "kw.ssfk.kw_startpos " +
       tenths_text(s.position_m.front()) + "\nkw.ssfk.kw_nr_max " +
       std::to_string(s.position_m.size()) + "\n";
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {
@@ -70,17 +71,19 @@ Result<AppliedCorrection> read_ssfk_file(const ControllerFile& file) {
   const auto lines = lines_of(file.text);
   std::size_t at = 0;
   while (at < lines.size() && lines[at].starts_with("#")) ++at;
-  std::array<double, 4> head{};
-  const char* const keys[] = {"bilateral", "modulo", "kw_startpos", "kw_nr_max"};
+  std::array<double, 6> head{};
+  const char* const keys[] = {"interval", "unit",        "bilateral",
+                              "modulo",   "kw_startpos", "kw_nr_max"};
   for (std::size_t k = 0; k < head.size(); ++k) {
     MDOF_TRY(head[k], whole_after(file, lines, at++, std::string("kw.ssfk.") + keys[k]));
   }
-  const auto rows = static_cast<std::size_t>(head[3]);
-  if (head[0] != 1 || head[1] != 0 || rows < 2 || rows > kMostOfSsfk)
-    return bad_input(
-        file.name +
-        ": kw.ssfk.bilateral must be 1, kw.ssfk.modulo 0, and kw.ssfk.kw_nr_max from 2 to " +
-        std::to_string(kMostOfSsfk));
+  const auto rows = static_cast<std::size_t>(head[5]);
+  if (head[0] != 0 || head[1] != 1 || head[2] != 1 || head[3] != 0 || rows < 2 ||
+      rows > kMostOfSsfk)
+    return bad_input(file.name +
+                     ": kw.ssfk.interval must be 0, kw.ssfk.unit 1, kw.ssfk.bilateral 1, "
+                     "kw.ssfk.modulo 0, and kw.ssfk.kw_nr_max from 2 to " +
+                     std::to_string(kMostOfSsfk));
   for (std::size_t i = 0; i < rows; ++i) {
     const std::string row = "kw.ssfk.table[" + std::to_string(i) + "]";
     MDOF_TRY(const double position, whole_after(file, lines, at++, row + ".setpoint"));

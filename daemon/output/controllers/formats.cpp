@@ -68,7 +68,7 @@ const std::vector<Format>& formats() {
       {.name = "beckhoff-ssfk",
        .of = "Beckhoff TwinCAT CNC, lead screw compensation (kw.ssfk)",
        .holds = "positioning, positive and negative travel; one file per axis",
-       .limits = "1500 rows; whole numbers of 0.1 um; unit and interval are not written",
+       .limits = "1500 rows, each with its position (interval 0); whole numbers of 0.1 um (unit 1)",
        .sense = "value = actual - set = +E in 0.1 um",
        .source = "worked example of the manual; not run on a control",
        .sign_confirmed = true,

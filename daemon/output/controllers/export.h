@@ -58,7 +58,9 @@ struct ExportOptions {
     char axis = 'X';
     double max_acceleration_m_s2 = 0, period_s = 1e-3;
   };
-  std::vector<Ramp> ramps;         // of an axis none: not known
+  std::vector<Ramp> ramps;  // of an axis none: not known
+  // Siemens alone: the control's own limits; 0: points 200, tables as many as there are.
+  std::size_t siemens_points = 0, siemens_tables = 0;
   std::vector<std::string> marks;  // what a reader of the files has to know
 };
 
@@ -135,7 +137,12 @@ struct Format {
 
 // In the order of the help.
 const std::vector<Format>& formats();
-// Error (usage): names those there are.
+// Controllers for which no file is written: why, and what to use instead.
+struct NotWritten {
+  const char *name, *of, *reason, *instead;
+};
+const std::vector<NotWritten>& not_written();
+// Error (usage): names those there are; of one that is not written, the reason.
 Result<const Format*> format_named(const std::string& name);
 
 }  // namespace mdof::controllers

@@ -41,7 +41,9 @@ const std::vector<Format>& formats() {
       {.name = "siemens-lec",
        .of = "Siemens SINUMERIK, encoder error compensation (ENC_COMP)",
        .holds = "positioning, one value for both approaches; one file per axis",
-       .limits = "200 points at equal steps; linear between points, end values beyond them",
+       .limits =
+           "200 points at equal steps (option siemens-points: other controls, MD38000); linear "
+           "between points, end values beyond them",
        .sense = "value = +E in mm: a positive value moves the axis in the negative direction",
        .source = "manual of the 808D, 01/2017; not run on a control",
        .sign_confirmed = true,
@@ -54,7 +56,8 @@ const std::vector<Format>& formats() {
        .of = "Siemens SINUMERIK, cross error compensation (sag, CEC)",
        .holds = "positioning and straightness, both approaches; or a volumetric table as sums and "
                 "products of one-axis tables; one file",
-       .limits = "200 points at equal steps, 8 tables in an 828D; linear between points, end "
+       .limits = "200 points at equal steps and 8 tables in an 828D (options siemens-points and "
+                 "siemens-tables: other controls, MD18342); linear between points, end "
                  "values beyond them",
        .sense = "value = correction in mm, added to the command of the output axis",
        .source = "format: manual of the 828D and 840D sl, 03/2013, which does not state the sign; "
@@ -168,7 +171,30 @@ const std::vector<Format>& formats() {
   return rows;
 }
 
+const std::vector<NotWritten>& not_written() {
+  static const std::vector<NotWritten> rows = {
+      {.name = "heidenhain",
+       .of = "Heidenhain TNC, compensation value tables (.COM and .CMA)",
+       .reason = "the public technical manuals show the columns of the tables, but they do not "
+                 "state the sign of the values",
+       .instead = "export in the format json (E = actual - nominal), and convert the values "
+                  "by the manual of the machine's manufacturer"},
+      {.name = "fanuc",
+       .of = "Fanuc, pitch error and straightness compensation parameters",
+       .reason = "the values are increments of each interval in detection units times a "
+                 "magnification, both of which are parameters of the machine, and no public manual "
+                 "that mdof knows states the sign and the format of the parameter file completely",
+       .instead = "export in the format json (E = actual - nominal), and enter the increments by "
+                  "the manual of the machine's manufacturer"},
+  };
+  return rows;
+}
+
 Result<const Format*> format_named(const std::string& name) {
+  for (const NotWritten& one : not_written())
+    if (name == one.name)
+      return fail(ErrorCode::usage, std::string(one.of) + ": mdof writes no such file, because " +
+                                        one.reason + "; instead: " + one.instead);
   std::string known;
   for (const Format& format : formats()) {
     if (name == format.name) return &format;

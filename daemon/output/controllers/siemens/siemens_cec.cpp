@@ -5,6 +5,7 @@
 
 #include "algo/compensation/volumetric/separable.h"
 #include "daemon/output/controllers/series.h"
+#include "daemon/output/controllers/siemens/siemens_lines.h"
 #include "daemon/output/controllers/siemens/siemens_steps.h"
 #include "daemon/output/controllers/text_lines.h"
 #include "daemon/output/controllers/volume_files.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr std::size_t kTablesOf828D = 8;
 constexpr double kSamePlace_m = 1e-10;
 constexpr const char* kFile = "NC_CEC.INI";
+constexpr const char* kHead = "%_N_NC_CEC_INI";
 
 // One table of the control.
 struct CecTable {
@@ -60,8 +62,10 @@ Status add_errors(const CompensationTable& table, const ExportOptions& options, 
                   std::string& text, std::size_t& t) {
   const std::string of_table = " of table " + std::to_string(table.id) + ": ";
   const std::size_t before = t;
+  std::string gap;
   for (const Series& measured : series_of(table)) {
     if (measured.angle || measured.factor == 0) {
+      if (!measured.angle) gap = measured.error + ": " + measured.gap;
       out.left_out.push_back(measured.error + of_table +
                              (measured.angle ? "the effect of an angle depends on a lever arm, but "
                                                "a CEC table uses the position of one axis only"
@@ -69,54 +73,23 @@ Status add_errors(const CompensationTable& table, const ExportOptions& options, 
       continue;
     }
     MDOF_TRY(const Series s, fitted(measured, table.id, kMostBeforeSteps, options, out));
-    MDOF_TRY(const EqualSteps e, equal_steps(s, out));
+    MDOF_TRY(const EqualSteps e, equal_steps(s, options, out));
     const bool both = e.forward == e.reverse;
     text += cec_text(t++, table_of(s, e, e.forward, both ? 0 : 1), s.error);
     if (!both) text += cec_text(t++, table_of(s, e, e.reverse, -1), s.error);
-    if (s.along != s.command)
-      out.notes.push_back(s.error + ": the CEC table does not contain the squareness of " +
-                          s.along + " and " + s.command);
+    if (s.along == s.command) continue;
+    const std::string note = s.error + ": the CEC table does not contain the squareness of " +
+                             s.along + " and " + s.command;
+    out.notes.push_back(note);
+    text += "; NOT IN THIS FILE: " + note + "\n";
   }
   if (t == before)
     return bad_input("table " + std::to_string(table.id) +
                      " contains no error that CEC can store; CEC stores positioning errors, and "
-                     "straightness errors whose correction sign is known");
+                     "straightness errors whose correction sign is known" +
+                     (gap.empty() ? "" : "; " + gap));
   return {};
 }
-
-// The lines of one file, one after the other.
-class Lines {
- public:
-  explicit Lines(const ControllerFile& file) : name_(file.name), lines_(lines_of(file.text)) {}
-  bool take(std::string_view line) {
-    skip();
-    if (at_ >= lines_.size() || lines_[at_] != line) return false;
-    ++at_;
-    return true;
-  }
-  // "KEY=value" with this key.
-  std::optional<std::string_view> value(const std::string& key) {
-    skip();
-    if (at_ >= lines_.size() || !lines_[at_].starts_with(key + "=")) return std::nullopt;
-    return lines_[at_++].substr(key.size() + 1);
-  }
-  std::optional<double> number(const std::string& key) {
-    const auto text = value(key);
-    return text ? decimal_from(*text) : std::nullopt;
-  }
-  bool at_end() const { return at_ == lines_.size(); }
-  tl::unexpected<Error> expected(const std::string& what) const {
-    return wrong_at(name_, at_ + 1, what + " is expected");
-  }
-
- private:
-  void skip() {
-    while (at_ < lines_.size() && lines_[at_].starts_with(";")) ++at_;
-  }
-  std::string name_;
-  std::vector<std::string_view> lines_;
-  std::size_t at_ = 0;
-};
 
 // "(AX2)"
 std::optional<char> axis_in(const std::optional<std::string_view>& text) {
@@ -125,7 +98,7 @@ std::optional<char> axis_in(const std::optional<std::string_view>& text) {
   return std::nullopt;
 }
 
-Result<CecTable> read_table(Lines& lines, std::size_t t) {
+Result<CecTable> read_table(SiemensLines& lines, std::size_t t) {
   const std::string index = "[" + std::to_string(t) + "]";
   CecTable table;
   while (const auto x = lines.number("$AN_CEC[" + std::to_string(t) + "," +
@@ -144,9 +117,9 @@ Result<CecTable> read_table(Lines& lines, std::size_t t) {
   }
   const std::size_t n = table.correction_m.size();
   const double last = figures[1] + figures[0] * (static_cast<double>(n) - 1);
-  if (n < 2 || n > kMostOfSiemens || std::abs(last - figures[2]) > 1e-6 || figures[4] < 0 ||
+  if (n < 2 || n > kMostBeforeSteps || std::abs(last - figures[2]) > 1e-6 || figures[4] < 0 ||
       figures[5] != 0)
-    return lines.expected("a table of 2 to " + std::to_string(kMostOfSiemens) +
+    return lines.expected("a table of 2 to " + std::to_string(kMostBeforeSteps) +
                           " points with MAX = MIN + (points - 1) * STEP, MULT_BY_TABLE 0 or more "
                           "and IS_MODULO 0");
   table.input = *input;
@@ -189,7 +162,8 @@ bool add_to(std::vector<AppliedCorrection>& all, const AppliedCorrection& more) 
 Result<std::vector<CecTable>> read_tables(const std::vector<ControllerFile>& files) {
   const ControllerFile* file = find_file(files, kFile);
   if (!file) return bad_input(std::string(kFile) + ": the file is missing");
-  Lines lines(*file);
+  SiemensLines lines(*file);
+  if (!lines.take(kHead)) return lines.expected(kHead);
   if (!lines.take("CHANDATA(1)")) return lines.expected("CHANDATA(1)");
   std::vector<CecTable> tables;
   while (!lines.take("M17")) {
@@ -206,7 +180,7 @@ Result<std::vector<CecTable>> read_tables(const std::vector<ControllerFile>& fil
 }
 
 std::string file_text(const std::string& head, const std::string& tables) {
-  return head +
+  return std::string(kHead) + "\n" + head +
          "; AX1, AX2, AX3 are assumed to be the machine axes X, Y, Z. Load this file with\n"
          "; MD32710 = 0. Then set MD32710 = 1 for each output axis and SD41300 = 1 for each\n"
          "; table, and reset the control. The input axes must be referenced.\n"
@@ -214,11 +188,24 @@ std::string file_text(const std::string& head, const std::string& tables) {
          tables + "M17\n";
 }
 
-void note_count(std::size_t tables, Export& out) {
-  if (tables > kTablesOf828D)
-    out.notes.push_back(std::to_string(tables) + " CEC tables, but an 828D allows only " +
-                        std::to_string(kTablesOf828D) +
+// Unless the limit of the control is stated, that of an 828D is a note.
+Status check_count(std::size_t tables, const ExportOptions& options, Export& out) {
+  const std::string count = std::to_string(tables) + " CEC tables, but ";
+  if (options.siemens_tables > 0 && tables > options.siemens_tables)
+    return bad_input(count + "the control has " + std::to_string(options.siemens_tables) +
+                     " (option siemens-tables); export fewer tables of axes");
+  if (options.siemens_tables == 0 && tables > kTablesOf828D)
+    out.notes.push_back(count + "an 828D allows only " + std::to_string(kTablesOf828D) +
                         "; on other controls MD18342 sets the limit");
+  return {};
+}
+
+// What is left out must be known where the file is read.
+std::string left_out_lines(const Export& out) {
+  std::string text;
+  for (const std::string& left : out.left_out)
+    text += "; NOT IN THIS FILE: " + one_plain_line(left) + "\n";
+  return text;
 }
 
 }  // namespace
@@ -238,8 +225,8 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
       head += "; " + line + "\n";
     MDOF_CHECK(add_errors(table, as_measured, out, text, t));
   }
-  note_count(t, out);
-  out.files.push_back({kFile, file_text(head, text)});
+  MDOF_CHECK(check_count(t, options, out));
+  out.files.push_back({kFile, file_text(head + left_out_lines(out), text)});
   return out;
 }
 
@@ -335,11 +322,13 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
   std::array<double, 3> step_m{};
   for (const std::size_t axis : axes_of_grid(t)) {
     MDOF_TRY(step_m[axis], equal_step(t, axis, "CEC"));
-    if (t.command_m[axis].size() > kMostOfSiemens)
+    if (t.command_m[axis].size() > most_points(options))
       return bad_input("table " + std::to_string(t.id) + ": " +
                        std::to_string(t.command_m[axis].size()) + " positions of " +
                        kLinearAxes[axis] + ", but a CEC table has at most " +
-                       std::to_string(kMostOfSiemens) + " points; build a table with larger steps");
+                       std::to_string(most_points(options)) +
+                       " points; build a table with larger steps, or state the limit of the "
+                       "control (option siemens-points)");
   }
   std::vector<CecTable> tables;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -370,7 +359,7 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
         "product; check on the machine that the control does not add the single factors too; each "
         "factor is below " +
         plain_number(to_um(largest_factor(tables)), 2) + " um");
-  note_count(tables.size(), out);
+  MDOF_CHECK(check_count(tables.size(), options, out));
   count_nodes(t, out);
   return out;
 }

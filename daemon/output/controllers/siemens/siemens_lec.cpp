@@ -11,6 +11,7 @@
 namespace mdof::controllers {
 namespace {
 
+constexpr const char* kLecHead = "%_N_AX_EEC_INI";
 constexpr double kStepOfLec_m = 2e-9;  // of its numbers, and their rounding
 
 // ENC_COMP has one value for both approaches.
@@ -48,7 +49,7 @@ std::string lec_text(const CompensationTable& table, const Series& s, const Equa
                      const ExportOptions& options) {
   const std::string axis = siemens_axis(s.along);
   const std::string of = "[0," + axis + "]=";
-  std::string text;
+  std::string text = std::string(kLecHead) + "\n";
   for (const std::string& line :
        head_lines(table, options,
                   "mm; value = +" + s.error +
@@ -81,8 +82,8 @@ Result<AppliedCorrection> read_lec_file(const ControllerFile& file) {
   auto lines = lines_of(file.text);
   std::erase_if(lines, [](std::string_view line) { return line.starts_with(";"); });
   std::size_t at = 0;
-  if (lines.empty() || lines[at++] != "CHANDATA(1)")
-    return bad_input(file.name + ": the first line below the comments must be CHANDATA(1)");
+  if (lines.size() < 2 || lines[at++] != kLecHead || lines[at++] != "CHANDATA(1)")
+    return bad_input(file.name + ": the first lines must be " + kLecHead + " and CHANDATA(1)");
   for (; at < lines.size(); ++at) {
     const auto value = assigned(
         lines[at], "$AA_ENC_COMP[0," + std::to_string(read.forward.size()) + "," + axis + "]");
@@ -101,9 +102,9 @@ Result<AppliedCorrection> read_lec_file(const ControllerFile& file) {
     figures[k] = *value;
   }
   const auto n = static_cast<double>(read.forward.size());
-  if (at + 1 != lines.size() || lines[at] != "M17" || n < 2 || n > kMostOfSiemens ||
+  if (at + 1 != lines.size() || lines[at] != "M17" || n < 2 || n > kMostBeforeSteps ||
       figures[3] != 0 || std::abs(figures[1] + figures[0] * (n - 1) - figures[2]) > 1e-7)
-    return bad_input(file.name + ": 2 to " + std::to_string(kMostOfSiemens) +
+    return bad_input(file.name + ": 2 to " + std::to_string(kMostBeforeSteps) +
                      " points are expected, with MAX = MIN + (points - 1) * STEP, IS_MODULO = 0 "
                      "and M17 as the last line");
   for (std::size_t i = 0; i < read.forward.size(); ++i)
@@ -126,7 +127,7 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
     ExportOptions marked = options;
     for (std::size_t i = told; i < out.left_out.size(); ++i)
       marked.marks.push_back("REVERSAL NOT CORRECTED: " + out.left_out[i]);
-    MDOF_TRY(const EqualSteps e, equal_steps(mean_of_approaches(s), out));
+    MDOF_TRY(const EqualSteps e, equal_steps(mean_of_approaches(s), options, out));
     out.files.push_back({std::string(1, s.along) + "_EEC.INI", lec_text(table, s, e, marked)});
   }
   return out;

@@ -33,7 +33,11 @@ std::vector<double> resampled(const Series& s, const std::vector<double>& approa
 
 }  // namespace
 
-Result<EqualSteps> equal_steps(const Series& s, Export& out) {
+std::size_t most_points(const ExportOptions& options) {
+  return options.siemens_points > 0 ? options.siemens_points : kMostOfSiemens;
+}
+
+Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Export& out) {
   const auto& x = s.position_m;
   if (x.size() < 2)
     return bad_input(s.error +
@@ -42,7 +46,7 @@ Result<EqualSteps> equal_steps(const Series& s, Export& out) {
   double smallest = range;
   for (std::size_t i = 1; i < x.size(); ++i) smallest = std::min(smallest, x[i] - x[i - 1]);
   const double wanted = std::max(
-      1.0, std::min(std::round(range / smallest), static_cast<double>(kMostOfSiemens - 1)));
+      1.0, std::min(std::round(range / smallest), static_cast<double>(most_points(options) - 1)));
   EqualSteps e;
   e.first_m = std::round(x.front() / kSameStep_m) * kSameStep_m;
   e.step_m = std::round(range / wanted / kSameStep_m) * kSameStep_m;

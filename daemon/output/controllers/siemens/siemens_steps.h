@@ -9,7 +9,7 @@
 
 namespace mdof::controllers {
 
-constexpr std::size_t kMostOfSiemens = 200;       // points of a table: 808D, 828D
+constexpr std::size_t kMostOfSiemens = 200;       // points of a table: 808D, 828D; others MD38000
 constexpr std::size_t kMostBeforeSteps = 20'000;  // of a series, before they are equal
 
 struct EqualSteps {
@@ -20,10 +20,12 @@ struct EqualSteps {
   double last_m() const { return first_m + step_m * static_cast<double>(forward.size() - 1); }
 };
 
-// As many steps as the smallest of the series asks for, at most kMostOfSiemens - 1; of whole
+// As many steps as the smallest of the series asks for, at most most_points() - 1; of whole
 // nanometres, as they are written. What the series loses becomes a note of `out`, and its last
 // `written` has the points. Error (bad_input): fewer than two points.
-Result<EqualSteps> equal_steps(const Series& s, Export& out);
+Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Export& out);
+// ExportOptions::siemens_points, or kMostOfSiemens.
+std::size_t most_points(const ExportOptions& options);
 
 // Points at equal steps are not left out; a note says so where a tolerance was given.
 ExportOptions without_tolerance(const ExportOptions& options, Export& out);

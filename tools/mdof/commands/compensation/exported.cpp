@@ -1,6 +1,5 @@
 #include "tools/mdof/commands/compensation/exported.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -167,6 +166,18 @@ Status take_ramps(const ExportRequest& request, ExportedTables& out) {
   return {};
 }
 
+Status take_siemens_limits(const ExportRequest& request, ExportedTables& out) {
+  out.options.siemens_points = request.siemens_points;
+  out.options.siemens_tables = request.siemens_tables;
+  if ((request.siemens_points == 0 && request.siemens_tables == 0) ||
+      request.format.starts_with("siemens-"))
+    return {};
+  return fail(ErrorCode::usage,
+              request.format +
+                  " takes neither --siemens-points nor --siemens-tables; only the formats "
+                  "siemens-lec and siemens-cec have these options");
+}
+
 // What was measured in one approach alone holds in both where that is asked for.
 Status take_one_approach(CompensationTable& table, const ExportRequest& request,
                          ExportedTables& out) {
@@ -199,77 +210,6 @@ Result<std::int64_t> squareness_number(const std::string& word) {
   return fail(ErrorCode::usage, "--squareness \"" + word +
                                     "\" must be the number of a stored squareness, or \"latest\"");
 }
-
-}  // namespace
-
-void add_export_options(CLI::App& command, ExportRequest& request) {
-  command.add_option("TABLE", request.tables, "Numbers of tables, one for each axis")
-      ->type_name("");
-  command
-      .add_option(
-          "--squareness", request.squareness,
-          "Number of a stored squareness, or \"latest\"; for formats that correct squareness")
-      ->type_name("NUMBER");
-  command
-      .add_option("--format", request.format,
-                  "Name of the format, see mdof compensation export --list")
-      ->type_name("NAME");
-  command
-      .add_option("--tolerance-um", request.tolerance_um,
-                  "Thin the table: largest interpolation error (angles: urad)")
-      ->check(not_negative_number());
-  command
-      .add_option(
-          "--residual-um", request.residual_um,
-          "Largest permitted residual of an error, in addition to --tolerance-um (angles: urad)")
-      ->check(finite_number())
-      ->capture_default_str();
-  command
-      .add_option("--residual-percent", request.residual_percent,
-                  "Largest permitted residual of an error, in percent of the error")
-      ->check(finite_number())
-      ->capture_default_str();
-  add_limit_options(command, request.limits);
-  auto* home = command.add_option(
-      "--home-mm", request.home_mm,
-      "Home position of the axis; mdof shifts the table so that the correction is 0 there");
-  home->each([&request](const std::string&) { request.home_given = true; });
-  command.add_flag("--cut-range", request.cut_range,
-                   "If values are missing, export the longest range without a gap");
-  command.add_flag("--one-approach", request.one_approach,
-                   "If values exist for one approach only, use them for both approaches; in a "
-                   "format with one value for both, accept that a reversal error stays");
-  command
-      .add_option("--joint", request.joints,
-                  "linuxcnc: joints of the axes, such as X=0,Z=1; two for a gantry, such as "
-                  "Y=1,Y=3 [default: X=0,Y=1,Z=2]")
-      ->type_name("AXIS=N,…");
-  command
-      .add_option("--units", request.units,
-                  "linuxcnc: length unit in the files, the same as [TRAJ] LINEAR_UNITS")
-      ->check(CLI::IsMember({"mm", "inch"}))
-      ->capture_default_str();
-  auto* acceleration =
-      command
-          .add_option("--max-acceleration-mm-s2", request.max_acceleration_mm_s2,
-                      "linuxcnc: MAX_ACCELERATION of the joints; LinuxCNC does not correct small "
-                      "reversals, depending on it")
-          ->check(positive_number());
-  command
-      .add_option("--ini", request.ini,
-                  "linuxcnc: ini file of LinuxCNC, from which mdof reads MAX_ACCELERATION, "
-                  "SERVO_PERIOD and LINEAR_UNITS")
-      ->type_name("FILE")
-      ->excludes(acceleration);
-  add_consent_flags(command, request.consent, "a table; the files are marked");
-  command.add_flag("--not-in-force", request.not_in_force,
-                   "Export even a table that is not active; the files are marked");
-  command.add_flag("--unverified-sign", request.unverified_sign,
-                   "Export although the sign convention of the controller is not confirmed");
-  add_database_option(command, request.database);
-}
-
-namespace {
 
 Status export_axes(store::Store& store, const ExportRequest& request,
                    const algo::TableLimits& limits, ExportedTables& out) {
@@ -380,6 +320,7 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   if (request.home_given) out.options.home_m = from_mm(request.home_mm);
   MDOF_CHECK(take_joints(request, out));
   MDOF_CHECK(take_ramps(request, out));
+  MDOF_CHECK(take_siemens_limits(request, out));
   MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
   MDOF_TRY(store::Store store, open_to_read(request.database));
   if (square) {

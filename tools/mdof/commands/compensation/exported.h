@@ -2,6 +2,7 @@
 // export` and `compensation check` have in common.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -27,9 +28,10 @@ struct ExportRequest {
   double tolerance_um = 0, home_mm = 0;
   double residual_um = to_um(algo::ResidualLimits{}.most_m);
   double residual_percent = 100 * algo::ResidualLimits{}.share;
-  std::string joints, units = "mm";              // "Y=1,Y=3"; of LinuxCNC
-  std::optional<double> max_acceleration_mm_s2;  // of LinuxCNC, of every joint
-  std::string ini;                               // of LinuxCNC: says the same of each joint
+  std::string joints, units = "mm";                    // "Y=1,Y=3"; of LinuxCNC
+  std::optional<double> max_acceleration_mm_s2;        // of LinuxCNC, of every joint
+  std::string ini;                                     // of LinuxCNC: says the same of each joint
+  std::size_t siemens_points = 0, siemens_tables = 0;  // 0: the default
   bool one_approach = false;
   LimitOptions limits;
   bool home_given = false, cut_range = false, not_in_force = false, unverified_sign = false;

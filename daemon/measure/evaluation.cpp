@@ -193,8 +193,10 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   if (table.has_positioning())
     return fail(ErrorCode::conflict,
                 "table " + std::to_string(table.id) + " contains " + positioning_name(table.axis) +
-                    "; mdofd does not serve positioning errors, so the controller must read them "
-                    "from a file",
+                    "; an axis has one active table, and this table would replace the one with "
+                    "its straightness and angles. mdofd serves positioning errors in a table of a "
+                    "plane or a volume that is built from both tables; otherwise the controller "
+                    "must read them from a file",
                 Remedy::export_table);
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);

@@ -9,6 +9,8 @@
 #include "algo/machine/geometric_tests/circle.h"
 #include "algo/machine/tool_error.h"
 #include "algo/uncertainty/coverage.h"
+#include "daemon/output/charts/machine/circle_chart.h"
+#include "daemon/output/charts/plot_files.h"
 #include "drivers/csv/csv_table.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
@@ -28,7 +30,7 @@ constexpr double kRadiansByDegree = std::numbers::pi / 180;
 constexpr double kBallBarResolution_um = 0.1;
 
 struct MachineCircleCommand {
-  std::string file, database, plane = "XY", centre, measured;
+  std::string file, database, plane = "XY", centre, measured, plots;
   std::optional<double> radius_mm;
   std::size_t angles = 360;
   bool csv = false, json = false;
@@ -277,6 +279,22 @@ Status predict(const MachineCircleCommand& o, Machine& machine, algo::CircleRequ
   return {};
 }
 
+Status draw_circles(const MachineCircleCommand& o, const FoundCircles& found) {
+  if (o.plots.empty()) return {};
+  const auto language = words::Language::english;
+  charts::CirclesToDraw circles;
+  circles.title = (found.machine ? found.machine->name + ": " : std::string()) +
+                  output::phrase(output::Phrase::circular_test, language);
+  circles.plane = o.plane;
+  circles.simulated = found.simulated;
+  if (found.predicted)
+    circles.pictures.push_back({false, found.predicted->path, found.predicted->figures});
+  if (found.measured)
+    circles.pictures.push_back({true, found.measured->path, found.measured->figures});
+  return write_plots({{"circle-" + o.plane + ".svg", charts::circles_svg(circles, language)}},
+                     o.plots);
+}
+
 Status machine_circle(const MachineCircleCommand& o) {
   FoundCircles found;
   Machine machine;
@@ -297,6 +315,7 @@ Status machine_circle(const MachineCircleCommand& o) {
     found.largest->U_m = expanded_at(machine, request, found.largest->angle_rad);
   }
   warn_beyond(found.beyond);
+  MDOF_CHECK(draw_circles(o, found));
   if (o.csv && !found.not_measured.empty())
     warn("these errors were not measured, so the values do not contain them: " +
          joined(found.not_measured));
@@ -331,6 +350,7 @@ Action declare_machine_circle(CLI::App& command) {
       .add_option("--measured", o->measured,
                   "CSV of a measured path to compare with the prediction")
       ->type_name("FILE");
+  add_plot_option(command, o->plots);
   add_database_option(command, o->database);
   add_csv_and_json_flags(command, o->csv, o->json);
   return [o] { return machine_circle(*o); };

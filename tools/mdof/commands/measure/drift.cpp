@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "daemon/measure/replay/parked_log.h"
+#include "daemon/output/charts/analysis/analysis_charts.h"
+#include "daemon/output/charts/plot_files.h"
 #include "schema/base/files.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
@@ -21,7 +23,7 @@ constexpr double kSecondsPerHour = 3600;
 constexpr double kPerHour = 3600e9;  // to nm/h
 
 struct DriftCommand {
-  std::string log, rig;
+  std::string log, rig, plots;
   std::optional<double> limit_nm_per_h, limit_urad_per_h, window_s;
   bool json = false, all_warnings = false;
 };
@@ -53,6 +55,9 @@ Status drift(const DriftCommand& command) {
            }));
   show_notices(log.notices, command.all_warnings);
   const algo::WarmUp found = algo::warm_up(log.readings);
+  if (!command.plots.empty())
+    MDOF_CHECK(write_plots(
+        {{"drift.svg", charts::warm_up_svg(log, found, words::Language::english)}}, command.plots));
   MDOF_CHECK(command.json ? write_line(parked_json(log, found))
                           : write_out(parked_text(log, found, terminal_columns())));
   if (!found.limited || found.ready_after_s) return {};
@@ -82,6 +87,7 @@ Action declare_drift(CLI::App& command) {
                   "Length of the window over which each drift rate is calculated [default: a "
                   "twelfth of the log]")
       ->check(positive_number());
+  add_plot_option(command, o->plots);
   add_all_warnings_flag(command, o->all_warnings);
   add_json_flag(command, o->json);
   return [o] { return drift(*o); };

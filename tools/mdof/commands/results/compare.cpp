@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "daemon/measure/several_runs/comparison.h"
+#include "daemon/output/charts/analysis/analysis_charts.h"
+#include "daemon/output/charts/plot_files.h"
 #include "daemon/words/words.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
@@ -20,7 +22,7 @@ namespace mdof::tools {
 namespace {
 
 struct CompareCommand {
-  std::string database, before, after, reference = "fixture";
+  std::string database, before, after, reference = "fixture", plots;
   bool json = false, all_warnings = false;
 };
 
@@ -82,6 +84,18 @@ std::string comparison_text(const daemon::Comparison& c) {
          "\n";
 }
 
+Status draw_change(const daemon::Comparison& found, const std::string& folder) {
+  if (folder.empty()) return {};
+  if (!charts::has_comparison(found)) {
+    warn("no chart is drawn: " + (found.why_no_points.empty() ? "no target has a value in both runs"
+                                                              : found.why_no_points));
+    return {};
+  }
+  const std::string name =
+      "compare-" + std::to_string(found.before) + "-" + std::to_string(found.after) + ".svg";
+  return write_plots({{name, charts::comparison_svg(found, words::Language::english)}}, folder);
+}
+
 Status compare(const CompareCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   daemon::ComparisonRequest request;
@@ -96,6 +110,7 @@ Status compare(const CompareCommand& command) {
     warn(found.is_imported ? "no uncertainty was declared at the import of a run (--u-um), so U "
                              "contains the repeatability only"
                            : text);
+  MDOF_CHECK(draw_change(found, command.plots));
   return command.json ? write_line(daemon::comparison_json(found))
                       : write_out(comparison_text(found));
 }
@@ -108,6 +123,7 @@ Action declare_compare(CLI::App& command) {
                    "Number of the run after the change (same axis), or \"latest\"");
   add_reference_option(command, o->reference)->capture_default_str();
   add_database_option(command, o->database);
+  add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
   add_all_warnings_flag(command, o->all_warnings);
   return [o] { return compare(*o); };

@@ -2,12 +2,18 @@
 // readings in a file or of the errors of a stored run.
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "algo/iso230/positioning/positioning.h"
 #include "algo/iso230/positioning/positioning_uncertainty.h"
+#include "algo/iso230/positioning/run_readings.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/gate/gate.h"
+#include "daemon/output/charts/analysis/analysis_charts.h"
+#include "daemon/output/charts/plot_files.h"
+#include "daemon/output/charts/run/points.h"
 #include "daemon/words/words.h"
 #include "drivers/csv/positioning_csv.h"
 #include "schema/imported/series.h"
@@ -30,7 +36,7 @@ namespace mdof::tools {
 namespace {
 
 struct Iso230Command {
-  std::string file, run, axis, database, reference = "fixture";
+  std::string file, run, axis, database, reference = "fixture", plots;
   RunPositioningRequest of_run;
   double scale_period_mm = 0;
   std::optional<double> device_limit_um, drift_um;
@@ -56,12 +62,26 @@ std::string uncertainty_text(const std::optional<PositioningUncertainty>& U) {
          "machine and the alignment\n";
 }
 
+Status draw_file(const drivers::PositioningCsv& csv, const Positioning& figures,
+                 const std::string& folder) {
+  if (folder.empty()) return {};
+  const auto language = words::Language::english;
+  charts::PositioningPicture picture;
+  picture.title = output::phrase(output::Phrase::positioning_of_run, language);
+  picture.about = std::filesystem::path(csv.source).filename().string();
+  if (csv.simulated)
+    picture.warnings = {output::phrase(output::Phrase::simulated_machine, language)};
+  picture.series = {{"deviation_um", figures, csv.readings}};
+  return write_plots({{"iso230-2.svg", charts::positioning_svg(picture, language)}}, folder);
+}
+
 Status iso230_of_file(const Iso230Command& command) {
   MDOF_TRY(const auto csv, drivers::read_positioning_csv(command.file));
   auto figures = algo::positioning(csv.readings);
   if (!figures) return in_context(csv.source, std::move(figures.error()));
   const Notices notices = algo::plan_notices(*figures, from_mm(command.scale_period_mm));
   show_notices(notices, command.all_warnings);
+  MDOF_CHECK(draw_file(csv, *figures, command.plots));
   const auto U = uncertainty_of(command);
   if (!command.json) {
     const PositioningColumn column{"deviation", false, std::move(*figures)};
@@ -78,6 +98,23 @@ Status iso230_of_file(const Iso230Command& command) {
   return write_line(with_notices(json.take(), notices, words::text));
 }
 
+Status draw_run(const Run& run, const RunPositioning& found, const std::string& folder) {
+  if (folder.empty()) return {};
+  const auto language = words::Language::english;
+  charts::PositioningPicture picture;
+  picture.title = charts::title_of_run(
+      run.header, output::phrase(output::Phrase::positioning_of_run, language), language);
+  picture.about = charts::about_run(run.header, language);
+  picture.warnings = daemon::marks_of(run);
+  for (const PositioningColumn& column : found.columns)
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      if (column.name == error_names(run.header.axis)[k].name)
+        picture.series.push_back({error_names(run.header.axis)[k].key, column.figures,
+                                  algo::readings_of_run(run, k, found.keep_slope).readings});
+  const std::string name = "run-" + std::to_string(run.header.id) + "-iso230-2.svg";
+  return write_plots({{name, charts::positioning_svg(picture, language)}}, folder);
+}
+
 Status iso230_of_run(const Iso230Command& command) {
   Reference reference{};
   reference_from(command.reference, reference);  // the option takes no other
@@ -89,6 +126,7 @@ Status iso230_of_run(const Iso230Command& command) {
   MDOF_TRY(const RunPositioning found,
            run_positioning(run, command.of_run, from_mm(command.scale_period_mm)));
   show_notices(found.notices, command.all_warnings);
+  MDOF_CHECK(draw_run(run, found, command.plots));
   return command.json ? write_line(run_positioning_json(run, found))
                       : write_out(run_positioning_text(run, found, terminal_columns()));
 }
@@ -142,6 +180,7 @@ Action declare_iso230_2(CLI::App& command) {
       ->check(not_negative_number())
       ->excludes(run);
   add_database_option(command, o->database);
+  add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
   add_all_warnings_flag(command, o->all_warnings);
   return [o] { return iso230(*o); };

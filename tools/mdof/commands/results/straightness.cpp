@@ -1,7 +1,11 @@
 // mdof straightness FILE.csv: a series measured by anything, about each reference line.
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
+
 #include "algo/iso230/reference_lines.h"
+#include "daemon/output/charts/analysis/analysis_charts.h"
+#include "daemon/output/charts/plot_files.h"
 #include "drivers/csv/csv_table.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/units.h"
@@ -15,7 +19,7 @@ namespace mdof::tools {
 namespace {
 
 struct StraightnessCommand {
-  std::string file;
+  std::string file, plots;
   bool json = false;
 };
 
@@ -60,6 +64,21 @@ std::string straightness_table(const ReferenceLines& lines) {
          "zone: peak to valley about the line; residual: root mean square\n";
 }
 
+Status draw_lines(const StraightnessCommand& command, const drivers::CsvTable& series,
+                  const ReferenceLines& lines) {
+  if (command.plots.empty()) return {};
+  charts::StraightnessPicture picture;
+  picture.about = std::filesystem::path(series.source).filename().string();
+  picture.position_m = converted(series.columns[0], from_mm);
+  picture.deviation_m = converted(series.columns[1], from_um);
+  picture.lines = lines;
+  const auto language = words::Language::english;
+  if (series.simulated)
+    picture.warnings = {output::phrase(output::Phrase::simulated_machine, language)};
+  return write_plots({{"straightness.svg", charts::reference_lines_svg(picture, language)}},
+                     command.plots);
+}
+
 Status straightness(const StraightnessCommand& command) {
   MDOF_TRY(const auto series,
            drivers::read_csv_table(command.file, {"position_mm", "deviation_um"}));
@@ -68,6 +87,7 @@ Status straightness(const StraightnessCommand& command) {
     warn(
         "several readings have the same position: all are used, and the end-point line goes "
         "through the mean readings at the two ends");
+  MDOF_CHECK(draw_lines(command, series, lines));
   if (command.json) return write_line(straightness_json(lines, series.simulated));
   return write_out(simulated_notice(series.simulated) + straightness_table(lines));
 }
@@ -80,6 +100,7 @@ Action declare_straightness(CLI::App& command) {
           "CSV, CSV.gz, or - for standard input, with the columns position_mm, deviation_um")
       ->required()
       ->type_name("");
+  add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
   return [o] { return straightness(*o); };
 }

@@ -1,0 +1,50 @@
+// Charts of analyses that commands make, a function each: results in, an SVG document out. Pure:
+// the same results give the same bytes. What is drawn carries its numbers, in the units of the
+// result documents, as data-… attributes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algo/drift/warm_up.h"
+#include "daemon/measure/replay/parked_log.h"
+#include "daemon/measure/several_runs/comparison.h"
+#include "daemon/output/phrases.h"
+#include "schema/iso230/positioning.h"
+#include "schema/iso230/reference_lines.h"
+
+namespace mdof::charts {
+
+// after - before of each error at each target and approach, µm or µrad over mm, with U of the
+// difference of two independent runs. There is nothing to draw where no target is in both runs.
+bool has_comparison(const daemon::Comparison& comparison);
+std::string comparison_svg(const daemon::Comparison& comparison, output::Language language);
+
+// Readings of a test to ISO 230-2 with the mean of each approach, ± 2 s, and the mean of both.
+struct PositioningSeries {
+  std::string key;  // "EYX_um"
+  Positioning figures;
+  std::vector<PositioningReading> readings;
+};
+struct PositioningPicture {
+  std::string title, about;
+  std::vector<std::string> warnings;
+  std::vector<PositioningSeries> series;  // one at least
+};
+std::string positioning_svg(const PositioningPicture& picture, output::Language language);
+
+// Deviations in m over positions in m: with each reference line, and what is left about the
+// least-squares line.
+struct StraightnessPicture {
+  std::string about;
+  std::vector<std::string> warnings;
+  std::vector<double> position_m, deviation_m;
+  ReferenceLines lines;
+};
+std::string reference_lines_svg(const StraightnessPicture& picture, output::Language language);
+
+// Rates of drift of a parked axis in each window, nm/h or µrad/h over min, with u and the limits.
+std::string warm_up_svg(const daemon::ParkedLog& log, const algo::WarmUp& found,
+                        output::Language language);
+
+}  // namespace mdof::charts

@@ -81,7 +81,7 @@ void draw_arrow(Svg& svg, const Panel& panel, const algo::PlaneMap& map, std::si
 }
 
 std::vector<std::string> notes_of_map(const algo::PlaneMap& map, double factor, double largest,
-                                      Language language) {
+                                      bool corrections, Language language) {
   double u = 0;
   for (const algo::PlanePoint& p : map.points)
     for (const std::size_t k : {map.first, map.second}) {
@@ -89,7 +89,7 @@ std::vector<std::string> notes_of_map(const algo::PlaneMap& map, double factor, 
       if (std::isfinite(of)) u = std::max(u, of);
     }
   std::vector<std::string> notes = {
-      phrase(Phrase::arrows, language,
+      phrase(corrections ? Phrase::correction_arrows : Phrase::arrows, language,
              {number_text(factor, 6), number_text(largest, 4),
               u > 0 ? number_text(u, 2) + " µm" : phrase(Phrase::unknown, language)})};
   const auto list = [&](Phrase text, const std::vector<std::string>& names) {
@@ -111,11 +111,14 @@ std::string plane_map_svg(const algo::PlaneMap& map, const MapPicture& picture, 
   std::vector<std::string> warnings;
   if (picture.simulated) warnings.push_back(phrase(Phrase::simulated_machine, language));
   const auto marks = head_marks(picture.noise_only, warnings, language);
+  const std::string plane = {first, second};
   const std::string title = picture.machine + ": " +
-                            phrase(Phrase::tool_error_over, language, {std::string{first, second}});
-  const std::string about =
-      phrase(Phrase::approach, language) + std::string(": ") + picture.approach;
-  const auto notes = notes_of_map(map, factor, largest, language);
+                            (picture.table == 0 ? phrase(Phrase::tool_error_over, language, {plane})
+                                                : phrase(Phrase::corrections_over, language,
+                                                         {std::to_string(picture.table), plane}));
+  const std::string about = phrase(Phrase::approach, language) + std::string(": ") +
+                            picture.approach + (picture.place.empty() ? "" : ", " + picture.place);
+  const auto notes = notes_of_map(map, factor, largest, picture.table != 0, language);
   const double top = run_head_height(marks) + 34;
   const Panel panel = true_panel(map, 1.1 * largest * factor / 1e3 + 1e-3, top);
   const double bottom = top + panel.height + 50;

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/gate/gate.h"
+#include "daemon/output/charts/machine/table_maps.h"
 #include "daemon/output/charts/plot_files.h"
 #include "daemon/output/charts/run/run_charts.h"
 #include "schema/base/json_writer.h"
@@ -59,9 +60,11 @@ void draw_squareness(store::Store& store, const std::vector<charts::StatedResult
 Status draw_table(store::Store& store, std::int64_t number, output::Language language,
                   Plotted& plotted) {
   MDOF_TRY(const bool is_volumetric, store.is_volumetric(number));
-  if (is_volumetric)
-    return bad_input("table " + std::to_string(number) +
-                     " is of a plane or volume; its map is drawn by mdof machine map --plot");
+  if (is_volumetric) {
+    MDOF_TRY(const VolumetricTable volume, store.volumetric(number));
+    plotted.take(charts::charts_of_volume(volume, language));
+    return {};
+  }
   MDOF_TRY(const CompensationTable table, store.table(number));
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
   const std::string name = "table-" + std::to_string(number);
@@ -158,8 +161,12 @@ Command plot_command() {
           "-budget-FIGURE.svg for each figure. --point adds run-N-point-K.svg with the raw "
           "readings\n"
           "of a stop. If two axes have one run each, mdof adds squareness-A-B.svg (A and B:\n"
-          "numbers of the runs). --table adds table-N.svg. If one file cannot be written, mdof\n"
-          "writes no file. Each drawing contains its values as data- attributes, in the units\n"
+          "numbers of the runs). --table adds table-N.svg. Of a table over a plane or volume, it "
+          "adds\n"
+          "table-N-XY.svg, -XZ.svg, -YZ.svg: the planes through the middle node of the third "
+          "axis,\n"
+          "with the corrections as arrows. If one file cannot be written, mdof writes no file. "
+          "Each drawing contains its values as data- attributes, in the units\n"
           "of mdof show --json. The same results give the same bytes.\n"
           "\n"
           "Examples:\n"

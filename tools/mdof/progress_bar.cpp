@@ -37,6 +37,16 @@ ProgressBar::~ProgressBar() {
   if (drawn_) std::fputs("\r\x1b[K", stderr);
 }
 
+void ProgressBar::show_elapsed() {
+  const auto now = Clock::now();
+  if (!wanted_ || now < next_) return;
+  next_ = now + kInterval;
+  drawn_ = true;
+  const auto elapsed_s = std::chrono::duration<double>(now - begin_).count();
+  std::fprintf(stderr, "\r%s: %.0f s\x1b[K", what_.c_str(), elapsed_s);
+  std::fflush(stderr);
+}
+
 void ProgressBar::show(const Progress& p) {
   if (!wanted_ || p.total <= 0 || p.done <= done_before_) return;
   const auto now = Clock::now();

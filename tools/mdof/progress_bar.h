@@ -20,6 +20,8 @@ class ProgressBar {
 
   // Without a total nothing is drawn. Cheap: draws at most ten times a second.
   void show(const Progress& progress);
+  // The seconds since the beginning, of work that does not say how far it is.
+  void show_elapsed();
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -14,7 +14,10 @@
 #include <utility>
 #include <vector>
 
+#include "schema/base/output/output_files.h"
 #include "tools/mdof/find_program.h"
+#include "tools/mdof/output.h"
+#include "tools/mdof/progress_bar.h"
 
 namespace mdof::tools {
 
@@ -38,6 +41,7 @@ Result<int> run_program(const std::vector<std::string>& words) {
       ::posix_spawn(&child, words.front().c_str(), &actions, nullptr, arguments.data(), environ);
   ::posix_spawn_file_actions_destroy(&actions);
   if (failed != 0) return io_error(words.front() + ": cannot be started: " + std::strerror(failed));
+  ProgressBar waiting(fs::path(words.front()).filename().string() + " writes the PDF");
   const auto last = std::chrono::steady_clock::now() + kLongestPrint;
   for (;;) {
     int status = 0;
@@ -51,6 +55,7 @@ Result<int> run_program(const std::vector<std::string>& words) {
       return io_error(words.front() + ": the program did not finish within " +
                       std::to_string(kLongestPrint.count()) + " s, so mdof stopped this program");
     }
+    waiting.show_elapsed();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
 }
@@ -103,6 +108,38 @@ Status print_pdf(const fs::path& html, const fs::path& pdf) {
   return io_error(pdf.string() + ": " + words.front() + " did not write this file (exit status " +
                   std::to_string(status) + "); open " + html.string() +
                   " in a browser and print the report there");
+}
+
+Status attach_to_pdf(const fs::path& pdf, const std::string& name, const std::string& media_type,
+                     const std::string& bytes) {
+  const auto qpdf = find_program("qpdf");
+  if (!qpdf) {
+    say(pdf.string() + " does not contain " + name +
+        ", because qpdf is not installed; install it (sudo apt install qpdf), or send the HTML "
+        "file, which contains " +
+        name);
+    return {};
+  }
+  std::error_code ec;
+  std::string folder = (fs::temp_directory_path(ec) / "mdof-pdf-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr)
+    return io_error(folder + ": cannot be created: " + std::strerror(errno));
+  const fs::path file = fs::path(folder) / name, both = fs::path(folder) / "both.pdf";
+  Status done = write_file(file.string(), bytes, Existing::replace);
+  if (done) {
+    const auto status =
+        run_program({qpdf->string(), fs::absolute(pdf).string(), "--add-attachment", file.string(),
+                     "--mimetype=" + media_type, "--", both.string()});
+    if (!status)
+      done = tl::unexpected(status.error());
+    else if (*status != 0 || !fs::copy_file(both, pdf, fs::copy_options::overwrite_existing, ec))
+      done = io_error(pdf.string() + ": qpdf did not attach " + name + " (exit status " +
+                      std::to_string(*status) +
+                      "); the file is the report without it. Send the HTML file, which contains " +
+                      name);
+  }
+  fs::remove_all(folder, ec);
+  return done;
 }
 
 }  // namespace mdof::tools

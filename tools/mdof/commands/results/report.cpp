@@ -65,7 +65,11 @@ Status write_report(const ReportCommand& command) {
   warn_of(report);
   const std::string pdf =
       command.pdf ? std::filesystem::path(out).replace_extension(".pdf").string() : "";
-  if (command.pdf) MDOF_CHECK(print_pdf(command.out, pdf));
+  if (command.pdf) {
+    MDOF_CHECK(print_pdf(command.out, pdf));
+    for (const report::Attachment& file : report.attachments)
+      MDOF_CHECK(attach_to_pdf(pdf, file.file_name, file.media_type, file.bytes));
+  }
   if (!command.json) return write_line(command.out + (pdf.empty() ? "" : "\n" + pdf));
   JsonWriter json;
   json.begin_object().field("file", command.out);
@@ -89,7 +93,8 @@ Action declare_report(CLI::App& command) {
       "--before-after", o->request.before_after,
       "Add the change between two runs of each axis, with U; give the run before the change first");
   command.add_flag("--pdf", o->pdf,
-                   "Also write the report as FILE.pdf (needs chromium or weasyprint)");
+                   "Also write the report as FILE.pdf (needs chromium or weasyprint; qpdf attaches "
+                   "the DCC to it)");
   add_language_option(command, o->language);
   add_json_flag(command, o->json);
   return [o] { return write_report(*o); };

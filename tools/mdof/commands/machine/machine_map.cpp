@@ -1,6 +1,7 @@
 // mdof machine map MACHINE.toml --plane XY --step-mm S: errors of the tool over a plane.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 
@@ -53,17 +54,18 @@ class MapRows {
  public:
   MapRows(const FoundMap& found, bool with_approach)
       : map_(found.map),
-        begin_(with_approach ? found.approach + ',' : ""),
-        first_mm_(map_.first_m.size()),
+        begins_(map_.first_m.size()),
         values_(kValues * map_.first_m.size()),
         texts_(values_.size()),
-        line_(map_.first_m.size() * (begin_.size() + (kValues + 2) * (kDouble17Size + 1))) {
-    for (std::size_t i = 0; i < first_mm_.size(); ++i) first_mm_[i] = in_mm_17(map_.first_m[i]);
+        line_(map_.first_m.size() * (2 * sizeof(Cell) + kValues * (kDouble17Size + 1) + 1)) {
+    const std::string approach = with_approach ? found.approach + ',' : "";
+    for (std::size_t i = 0; i < begins_.size(); ++i)
+      begins_[i] = Cell(approach + in_mm_17(map_.first_m[i]));
   }
 
   // Of the points at a command of the second axis; until the next call.
   std::string_view line(std::size_t j) {
-    const std::size_t n = first_mm_.size();
+    const std::size_t n = begins_.size();
     for (std::size_t i = 0; i < n; ++i) {
       const algo::PlanePoint& p = map_.points[j * n + i];
       for (std::size_t k = 0; k < 3; ++k) {
@@ -73,12 +75,10 @@ class MapRows {
       }
     }
     write_doubles_17(values_.data(), values_.size(), texts_.data());
-    const std::string second_mm = ',' + in_mm_17(map_.second_m[j]);
+    const Cell second_mm(',' + in_mm_17(map_.second_m[j]));
     char* out = line_.data();
     for (std::size_t i = 0; i < n; ++i) {
-      for (const std::string_view text :
-           std::initializer_list<std::string_view>{begin_, first_mm_[i], second_mm})
-        out = std::copy(text.begin(), text.end(), out);
+      out = second_mm.copy_to(begins_[i].copy_to(out));
       for (std::size_t k = kValues * i; k < kValues * (i + 1); ++k) {
         *out++ = ',';
         if (!std::isfinite(values_[k])) continue;
@@ -92,11 +92,23 @@ class MapRows {
 
  private:
   static constexpr std::size_t kValues = 6;
+  // An approach and a number, at most 33 characters. All of it is copied: a fixed size is faster.
+  struct Cell {
+    Cell() = default;
+    explicit Cell(const std::string& of) : size(std::min(of.size(), text.size())) {
+      std::copy_n(of.begin(), size, text.begin());
+    }
+    char* copy_to(char* out) const {
+      std::memcpy(out, text.data(), text.size());
+      return out + size;
+    }
+    std::array<char, 48> text{};
+    std::size_t size = 0;
+  };
   static std::string in_mm_17(double at_m) { return CsvText().cell(to_mm(at_m)).take(); }
 
   const algo::PlaneMap& map_;
-  std::string begin_;
-  std::vector<std::string> first_mm_;
+  std::vector<Cell> begins_;
   std::vector<double> values_;  // of a line
   std::vector<DoubleText> texts_;
   std::vector<char> line_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/machine/fixture_chart.h"
 #include "daemon/output/report/numbers.h"
 #include "schema/axis.h"
 #include "schema/units.h"
@@ -110,6 +111,7 @@ void write_fixture(Html& html, const ReportRun& run, Language language) {
   html.table({of(Phrase::probe), of(Phrase::probe_position), of(Phrase::probe_direction),
               of(Phrase::probe_range)},
              probes);
+  if (!run.rig.probes.empty()) html.figure(charts::fixture_svg(run.rig, language));
   html.element("h3", of(Phrase::calibrations));
   html.table({of(Phrase::probe), of(Phrase::certificate), of(Phrase::laboratory),
               of(Phrase::calibrated), of(Phrase::due)},

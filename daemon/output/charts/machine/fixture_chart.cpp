@@ -1,0 +1,90 @@
+#include "daemon/output/charts/machine/fixture_chart.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "daemon/output/charts/labels.h"
+#include "daemon/output/charts/panel.h"
+#include "daemon/output/charts/run/series.h"
+#include "schema/units.h"
+
+namespace mdof::charts {
+namespace {
+
+using output::Language;
+using output::Phrase;
+using output::phrase;
+
+constexpr double kViewPx = 280, kArrowPx = 34, kViewTopPx = 90;
+
+double longest_span_mm(const Rig& rig) {
+  double longest = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    Range range;
+    for (const Probe& probe : rig.probes) range.include(to_mm(probe.position_m[axis]));
+    longest = std::max(longest, range.span());
+  }
+  return longest;
+}
+
+// All views have one scale, and room for the arrows.
+Range range_in_view(const Rig& rig, std::size_t axis, double span_mm) {
+  Range range;
+  for (const Probe& probe : rig.probes) range.include(to_mm(probe.position_m[axis]));
+  const double middle = (range.low + range.high) / 2, half = 0.75 * span_mm;
+  range.include(middle - half);
+  range.include(middle + half);
+  return range;
+}
+
+void draw_probe(Svg& svg, const Panel& panel, const Probe& probe, std::size_t up) {
+  const Place from = panel.at(to_mm(probe.position_m[0]), to_mm(probe.position_m[up]));
+  const double x = probe.direction[0], y = -probe.direction[up], length = std::hypot(x, y);
+  svg.data("probe", probe.id);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::string name(1, "xyz"[axis]);
+    svg.data(name + "-mm", to_mm(probe.position_m[axis]));
+    svg.data("direction-" + name, probe.direction[axis]);
+  }
+  svg.begin_group();
+  svg.dot("blue-dot", from, 3.5);
+  if (length > 0.1) {
+    const Place to = {from.x + kArrowPx * x, from.y + kArrowPx * y};
+    const double ux = x / length * 7, uy = y / length * 7;
+    svg.line("blue", from, to);
+    svg.line("blue", to, {to.x - ux - uy / 2, to.y - uy + ux / 2});
+    svg.line("blue", to, {to.x - ux + uy / 2, to.y - uy - ux / 2});
+  } else {
+    svg.rect("blue hollow", {from.x - 7, from.y - 7}, 14, 14);
+    svg.dot("blue-dot", from, 3.5);
+  }
+  svg.text("text head", {from.x + 9, from.y - 9}, Anchor::start, probe.id);
+  svg.end_group();
+}
+
+}  // namespace
+
+std::string fixture_svg(const Rig& rig, Language language) {
+  const double span = longest_span_mm(rig), top = kViewTopPx;
+  const std::string title = phrase(Phrase::fixture_drawing, language);
+  const std::string about = phrase(Phrase::fixture_views, language);
+  const std::vector<std::string> notes = {phrase(Phrase::fixture_note, language)};
+  Svg svg(kWidthPx, top + kViewPx + 50 + notes_height(notes) + 12, title, about, Theme::light);
+  draw_head(svg, title, about);
+  double left = kMarginPx + 50;
+  for (const std::size_t up : {std::size_t{1}, std::size_t{2}}) {
+    const Panel panel = panel_in_proportion({left, top}, range_in_view(rig, 0, span),
+                                            range_in_view(rig, up, span), kViewPx);
+    svg.data("panel", up == 1 ? "XY" : "XZ");
+    svg.begin_group();
+    draw_axes(svg, panel, "X_mm");
+    draw_y_title(svg, panel, up == 1 ? "Y_mm" : "Z_mm");
+    for (const Probe& probe : rig.probes) draw_probe(svg, panel, probe, up);
+    svg.end_group();
+    left += kViewPx + 90;
+  }
+  draw_notes(svg, top + kViewPx + 50, notes);
+  return svg.take();
+}
+
+}  // namespace mdof::charts

@@ -111,6 +111,13 @@ TEST(OnTheFlyRun, NamesADelayThatIsNotDeclared) {
   expect_in(said, "reading_delayed A delay_ms=");
   const auto at = said.find("delay_ms=") + 9;
   EXPECT_NEAR(std::stod(said.substr(at)), 2, 0.05) << said;
+  // What it does to a reading goes with the delay.
+  const auto effect_nm = [](const std::string& notices) {
+    return std::stod(notices.substr(notices.find("effect_nm=") + 10));
+  };
+  const std::string of_half = test::shown(measured({.delay_s = 1e-3}).notices());
+  EXPECT_GT(effect_nm(said), 1);
+  EXPECT_NEAR(effect_nm(said) / effect_nm(of_half), 2, 0.1) << said << of_half;
   EXPECT_EQ(test::shown(measured({}).notices()).find("reading_delayed"), std::string::npos);
 }
 

@@ -139,18 +139,22 @@ TEST(FollowTest, WhatTheTableAsksIsFollowedWithoutLag) {
 TEST(FollowTest, AChangeUnderMotionFadesAgainstWhatIsAsked) {
   const auto table = [](double x) { return 0.05 * std::sin(x / 100); };
   mdof_offset offset{table(0), 0.05 / 100 * 100};
-  double step = 0, last_off = 2 * offset.value;
+  double step = 0, beyond = 0, last_off = 2 * offset.value;
   for (int i = 0; i < 5000; ++i) {  // at first the offset is that of another table, 0.08 mm away
     const double x = 0.1 * i;
     if (i == 1000) last_off = offset.value - -table(x);
     const double sign = i < 1000 ? 1 : -1;
+    const double last = offset.value, asked = std::abs(table(x + 0.1) - table(x));
     mdof_follow(&offset, sign * table(x), sign * table(x + 0.1), &kLimits, kPeriod);
+    beyond = std::max(
+        beyond, std::abs(offset.value - last) - std::max(kLimits.fade_velocity * kPeriod, asked));
     const double off = offset.value - sign * table(x + 0.1);
     if (i >= 1000) step = std::max(step, std::abs(off - last_off));
     last_off = off;
   }
   EXPECT_LE(std::abs(last_off), 1e-12);
-  EXPECT_LE(step, 0.05 * kPeriod * (1 + 1e-9));
+  EXPECT_LE(step, 0.1 * kPeriod * (1 + 1e-9));  // both ways
+  EXPECT_LE(beyond, 1e-12);
 }
 
 TEST(FollowTest, WhateverIsAskedTheLimitsHold) {

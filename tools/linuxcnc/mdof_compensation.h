@@ -76,7 +76,7 @@ static inline bool mdof_table_at(const struct mdof_table* table, const double po
 }
 
 struct mdof_limits {
-  double fade_velocity;    /* of the offset against what the table asks: after a change of tables */
+  double fade_velocity;    /* of the offset after a change of tables, unless the path asks more */
   double max_velocity;     /* of the offset */
   double max_acceleration; /* of the offset */
   double max_offset;       /* largest |offset| */
@@ -106,8 +106,9 @@ static inline double mdof_approach(double distance, const struct mdof_limits* li
 
 /* One period of the offset of one axis. `before` and `now`: what is asked at the last position and
    at this one, of the same table. The offset goes along with what is asked, and what it is off
-   fades with fade_velocity: where a table has been replaced, `before` is not where the offset
-   stands. Returns whether the offset is not what is asked. */
+   fades: where a table has been replaced, `before` is not where the offset stands. Both together
+   are no faster than fade_velocity, or than what is asked. Returns whether the offset is not what
+   is asked. */
 static inline bool mdof_follow(struct mdof_offset* offset, double before, double now,
                                const struct mdof_limits* limits, double period) {
   const double wanted_before = mdof_clamp(before, limits->max_offset);
@@ -115,8 +116,9 @@ static inline bool mdof_follow(struct mdof_offset* offset, double before, double
   const double step = limits->max_acceleration * period;
   const double most =
       fmax(limits->max_offset, fabs(offset->value)); /* no jump where it was changed */
-  double velocity = (wanted - wanted_before) / period +
-                    mdof_approach(wanted_before - offset->value, limits, period);
+  const double asked = (wanted - wanted_before) / period;
+  double velocity = asked + mdof_approach(wanted_before - offset->value, limits, period);
+  velocity = mdof_clamp(velocity, fmax(limits->fade_velocity, fabs(asked)));
   velocity = mdof_clamp(velocity, limits->max_velocity);
   velocity = offset->velocity + mdof_clamp(velocity - offset->velocity, step);
   if (!(step > 0) || !isfinite(velocity)) velocity = 0; /* limits that are none: it stands */

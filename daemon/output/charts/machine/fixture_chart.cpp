@@ -37,8 +37,21 @@ Range range_in_view(const Rig& rig, std::size_t axis, double span_mm) {
   return range;
 }
 
-void draw_probe(Svg& svg, const Panel& panel, const Probe& probe, std::size_t up) {
-  const Place from = panel.at(to_mm(probe.position_m[0]), to_mm(probe.position_m[up]));
+constexpr double kNamePx = 14;  // the names of probes that are one behind the other stand in a row
+
+Place place_of(const Panel& panel, const Probe& probe, std::size_t up) {
+  return panel.at(to_mm(probe.position_m[0]), to_mm(probe.position_m[up]));
+}
+
+void draw_probe(Svg& svg, const Panel& panel, const Rig& rig, std::size_t k, std::size_t up) {
+  const Probe& probe = rig.probes[k];
+  const Place from = place_of(panel, probe, up);
+  const auto here = [&](const Probe& other) {
+    const Place at = place_of(panel, other, up);
+    return std::hypot(at.x - from.x, at.y - from.y) < kNamePx / 2;
+  };
+  const auto before =
+      std::count_if(rig.probes.begin(), rig.probes.begin() + static_cast<std::ptrdiff_t>(k), here);
   const double x = probe.direction[0], y = -probe.direction[up], length = std::hypot(x, y);
   svg.data("probe", probe.id);
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -58,7 +71,8 @@ void draw_probe(Svg& svg, const Panel& panel, const Probe& probe, std::size_t up
     svg.rect("blue hollow", {from.x - 7, from.y - 7}, 14, 14);
     svg.dot("blue-dot", from, 3.5);
   }
-  svg.text("text head", {from.x + 9, from.y - 9}, Anchor::start, probe.id);
+  svg.text("text head", {from.x + 9 + kNamePx * static_cast<double>(before), from.y - 9},
+           Anchor::start, probe.id);
   svg.end_group();
 }
 
@@ -79,7 +93,7 @@ std::string fixture_svg(const Rig& rig, Language language) {
     svg.begin_group();
     draw_axes(svg, panel, "X_mm");
     draw_y_title(svg, panel, up == 1 ? "Y_mm" : "Z_mm");
-    for (const Probe& probe : rig.probes) draw_probe(svg, panel, probe, up);
+    for (std::size_t k = 0; k < rig.probes.size(); ++k) draw_probe(svg, panel, rig, k, up);
     svg.end_group();
     left += kViewPx + 90;
   }

@@ -125,8 +125,8 @@ TEST(Volumetric, BetweenNodesTheDeviationOfStraightLinesIsStatedAndIsInU) {
   EXPECT_NEAR(t.interpolation_m[0], 2e-6, 1e-9);
   EXPECT_NEAR(t.interpolation_m[1], 0, 1e-12);
   EXPECT_NEAR(volumetric_at(t, {0.01, 0.02, 0}).u_m[0], 0.03e-6, 1e-12);  // at a node
-  EXPECT_NEAR(volumetric_at(t, {0.005, 0.02, 0}).u_m[0],
-              std::sqrt(0.03e-6 * 0.03e-6 + 2e-6 * 2e-6 / 3), 1e-9);
+  EXPECT_NEAR(volumetric_at(t, {0.005, 0.02, 0}).u_m[0], std::sqrt(0.03e-6 * 0.03e-6 + 2e-6 * 2e-6),
+              1e-9);
   request.step_m = 0.005;
   EXPECT_LT(built(machine("w-b-X-Y-Z-t", roof), request).interpolation_m[0], 1e-9);
 }

@@ -63,9 +63,19 @@ std::pair<double, double> travel_of(const Run& run) {
   return ends;
 }
 
-// What a figure depends on and need not be the same in both.
+// The time of its measurement is known; of other runs started_utc is that of the evaluation.
+bool has_time(const RunHeader& header) {
+  const std::string& kind = header.provenance.recording_kind;
+  return kind == "live" || kind == "recording";
+}
+
+// What a figure depends on and need not be the same in both, and whether they were exchanged.
 Notices differences(const Run& before, const Run& after) {
   Notices found;
+  const std::string &began = before.header.started_utc, &other = after.header.started_utc;
+  if (has_time(before.header) && has_time(after.header) && other < began)
+    found.push_back(
+        notice(NoticeCode::runs_in_reverse_order, "", {{"before", began}, {"after", other}}));
   const auto a = travel_of(before), b = travel_of(after);
   if (std::abs(a.first - b.first) > kSameEnd_m || std::abs(a.second - b.second) > kSameEnd_m)
     found.push_back(notice(NoticeCode::travel_differs, "",

@@ -1,4 +1,4 @@
-// A probe log as a recording, for tests: make_recording LOG.csv RIG.toml OUT.mdofrec
+// A probe log as a recording, for tests: make_recording LOG.csv RIG.toml OUT.mdofrec [STARTED_UTC]
 #include <cstdio>
 
 #include "daemon/store/recording_writer.h"
@@ -9,12 +9,13 @@ namespace {
 
 using namespace mdof;
 
-Status convert(const char* log_file, const char* rig_file, const char* out) {
+Status convert(const char* log_file, const char* rig_file, const char* out,
+               const char* started_utc) {
   RecordingHeader header;
   MDOF_TRY(header.rig_text, read_text_file(rig_file));
   header.software_version = "test";
   header.devices = "[]";
-  header.started_utc = "2026-01-02T03:04:05.678Z";
+  header.started_utc = started_utc;
   MDOF_TRY(auto writer, store::RecordingWriter::create(out, header));
   drivers::CsvLog log(log_file);
   MDOF_CHECK(log.open());
@@ -33,8 +34,9 @@ Status convert(const char* log_file, const char* rig_file, const char* out) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) return 2;
-  const Status done = convert(argv[1], argv[2], argv[3]);
+  if (argc != 4 && argc != 5) return 2;
+  const char* started_utc = argc == 5 ? argv[4] : "2026-01-02T03:04:05.678Z";
+  const Status done = convert(argv[1], argv[2], argv[3], started_utc);
   if (!done) std::fprintf(stderr, "%s\n", done.error().message.c_str());
   return done ? 0 : 1;
 }

@@ -1,5 +1,5 @@
 // The ramp by which LinuxCNC follows a COMP_FILE after the axis has turned, and the steps that it
-// never starts. Source: compute_screw_comp in LinuxCNC's src/emc/motion/control.c (2.9 and master).
+// never starts. Source: compute_screw_comp in LinuxCNC's src/emc/motion/control.c (master).
 #pragma once
 
 #include "daemon/output/controllers/export.h"

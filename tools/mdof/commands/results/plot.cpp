@@ -169,6 +169,7 @@ Action declare_plot(CLI::App& command) {
       .add_option("--point", o->points,
                   "Also draw the raw readings of this point. Points are numbered in the order of "
                   "measurement; the first is 0")
+      ->check(CLI::Range(0, 999'999'999).description(""))
       ->type_name("NUMBER")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

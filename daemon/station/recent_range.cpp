@@ -13,17 +13,24 @@ void widen(RecentRange::Range& range, const double* begin, const double* end) {
   }
 }
 
+// Rounded down: a log may begin before 0 s.
+std::int64_t quotient(std::int64_t x, std::int64_t by) {
+  return x / by - (x % by < 0 ? 1 : 0);
+}
+
 }  // namespace
 
 void RecentRange::add(const FrameBlock& frames) {
   for (std::size_t begin = 0; begin < frames.size();) {
-    const std::int64_t number = frames.time_ns[begin] / kPart_ns;
+    const std::int64_t number = quotient(frames.time_ns[begin], kPart_ns);
     const auto after = std::lower_bound(frames.time_ns.begin() + static_cast<std::ptrdiff_t>(begin),
                                         frames.time_ns.end(), (number + 1) * kPart_ns);
     const auto end = static_cast<std::size_t>(after - frames.time_ns.begin());
     if (number < newest_) *this = {};
-    Part& part = parts_[static_cast<std::size_t>(number) % kParts];
-    if (part.number != number) part = {number, std::vector<Range>(frames.probe_m.size())};
+    const auto n = static_cast<std::int64_t>(kParts);
+    Part& part = parts_[static_cast<std::size_t>(number - n * quotient(number, n))];
+    if (part.probes.empty() || part.number != number)
+      part = {number, std::vector<Range>(frames.probe_m.size())};
     for (std::size_t k = 0; k < frames.probe_m.size(); ++k)
       widen(part.probes[k], frames.probe_m[k].data() + begin, frames.probe_m[k].data() + end);
     newest_ = number;
@@ -34,7 +41,7 @@ void RecentRange::add(const FrameBlock& frames) {
 RecentRange::Range RecentRange::of(std::size_t probe) const {
   Range all;
   for (const Part& part : parts_) {
-    if (part.number < 0 || part.number <= newest_ - static_cast<std::int64_t>(kParts)) continue;
+    if (part.probes.empty() || part.number <= newest_ - static_cast<std::int64_t>(kParts)) continue;
     const Range& range = part.probes[probe];
     all.low_m = std::fmin(all.low_m, range.low_m);
     all.high_m = std::fmax(all.high_m, range.high_m);

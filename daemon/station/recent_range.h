@@ -1,4 +1,5 @@
-// Lowest and highest reading of each probe over the last second, for who sees one instant of many.
+// Lowest and highest reading of each probe over the last second, for a view that shows few
+// instants.
 #pragma once
 
 #include <array>
@@ -25,11 +26,11 @@ class RecentRange {
   static constexpr std::int64_t kPart_ns = 100'000'000;
   static constexpr std::size_t kParts = 10;
   struct Part {
-    std::int64_t number = -1;  // time over kPart_ns
-    std::vector<Range> probes;
+    std::int64_t number = 0;         // time over kPart_ns, rounded down
+    std::vector<Range> probes = {};  // empty: nothing was added
   };
   std::array<Part, kParts> parts_;
-  std::int64_t newest_ = -1;  // number
+  std::int64_t newest_ = 0;  // number; 0 before the first
 };
 
 }  // namespace mdof::daemon

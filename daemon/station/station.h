@@ -157,7 +157,7 @@ class Station {
   EncoderZero zero_;               // changed by the measure thread only
   std::unique_ptr<OpenRun> open_;  // measure thread only
   std::optional<Pipeline> view_;   // measure thread only: between runs
-  RecentRange recent_;             // of the one of both that is there
+  RecentRange recent_;             // of what the pipeline in use has read
   std::chrono::steady_clock::time_point last_live_{};
   std::int64_t newest_ns_ = 0;  // of the newest instant, and when it came
   std::chrono::steady_clock::time_point newest_since_{};

@@ -61,6 +61,17 @@ TEST(RecentRange, AnotherPassOfAFileBeginsAnew) {
   EXPECT_EQ(recent.of(0).high_m, 1.0);
 }
 
+TEST(RecentRange, ALogMayBeginBeforeZero) {
+  RecentRange recent;
+  recent.add(frames(-150, {3.0, -4.0}));
+  for (std::int64_t ms = -140; ms < 500; ms += 10) recent.add(frames(ms, {1.0, 2.0}));
+  EXPECT_EQ(recent.of(0).low_m, -4.0);
+  EXPECT_EQ(recent.of(0).high_m, 3.0);
+  recent.add(frames(1000, {1.0}));
+  EXPECT_EQ(recent.of(0).low_m, 1.0);
+  EXPECT_EQ(recent.of(0).high_m, 2.0);
+}
+
 double number_of(const std::string& json, const std::string& member) {
   const auto at = json.find("\"" + member + "\":", json.find("\"id\":\"A\""));
   return at == std::string::npos ? kNaN

@@ -43,11 +43,11 @@ struct VolumetricValue {
   bool inside = true;                    // else the value of the nearest place of the grid
 };
 // Linear along each axis between the nodes. The common part of u is that of the nodes about it,
-// with what straight lines are off there: a parabola between two nodes, as high as the largest
-// deviation that was found, which is no random error in a place where it is reached. The
-// independent part is smaller than that of the nodes, since they are averaged (noise_variance()).
-// Of an older table, whose noise is not known by axis, u is that of the nodes and the parts are
-// NaN.
+// and the deviation of straight lines at this place, taken as a parabola: 0 at a node, the largest
+// deviation that was found in the middle between two. It counts in full: where it is reached, each
+// measurement has it. The independent part is smaller than that of the nodes, since they are
+// averaged (noise_variance()). Of an older table, whose noise is not known by axis, u is that of
+// the nodes and the parts are NaN.
 VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_m);
 
 }  // namespace mdof::algo

@@ -182,7 +182,7 @@ const std::vector<NotWritten>& not_written() {
       {.name = "fanuc",
        .of = "Fanuc, pitch error and straightness compensation parameters",
        .reason = "the values are increments of each interval in detection units times a "
-                 "magnification, both of which are parameters of the machine, and no public manual "
+                 "magnification; both are parameters of the machine, and no public manual "
                  "that mdof knows states the sign and the format of the parameter file completely",
        .instead = "export in the format json (E = actual - nominal), and enter the increments by "
                   "the manual of the machine's manufacturer"},

@@ -15,7 +15,7 @@ inline constexpr std::size_t kMostArrows = 2500;
 struct MapPicture {
   std::string machine, approach;  // its name; "mean", "forward", "reverse"
   bool simulated = false, noise_only = false;
-  std::int64_t table = 0;  // of which the corrections are drawn; 0: errors of the machine
+  std::int64_t table = 0;  // corrections of this table; 0: errors of the machine
   std::string place{};     // of the other axes, "Z = 5 mm"; empty: not stated
 };
 

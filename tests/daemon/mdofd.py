@@ -132,7 +132,7 @@ class Daemon:
         self.process = None
         self.arguments, self.environment = [], {}
 
-    def start(self, timeout_s=10):
+    def start(self, timeout_s=60):
         self.log = open(os.path.join(self.folder, "stderr"), "ab")
         self.process = subprocess.Popen([self.program, *self.arguments, "--config", self.config],
                                         stderr=self.log, stdout=self.log,

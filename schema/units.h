@@ -7,6 +7,7 @@
 namespace mdof {
 
 inline constexpr std::int64_t kNsPerS = 1'000'000'000;
+inline constexpr double kInch_m = 0.0254;
 
 // Division by an exact power of ten is rounded once: 200 µm in and out is 200 µm again.
 inline constexpr double from_um(double x_um) {

@@ -16,7 +16,6 @@ constexpr std::string_view kLinear = "XYZ";
 constexpr const char* kIsgTable = "volcomp.csv";
 constexpr const char* kIsgList = "volcomp.lis";
 constexpr const char* kGeoTable = "geo_correction.txt";
-constexpr double kInch_m = 0.0254;
 constexpr double kStepsEqual_m = 1e-9;
 constexpr std::size_t kMostOfGeoTable = 4000;  // rows or columns
 

@@ -146,6 +146,13 @@ std::string LinuxCncIni::value(const std::string& section, const std::string& ke
   return entry ? entry->value : "";
 }
 
+Result<bool> is_inch_machine(const LinuxCncIni& ini) {
+  const std::string unit = ini.value("TRAJ", "LINEAR_UNITS");
+  if (unit == "inch" || unit == "in" || unit == "imperial") return true;
+  if (unit == "mm" || unit == "metric") return false;
+  return bad_input("[TRAJ]LINEAR_UNITS = \"" + unit + "\" is neither mm nor inch");
+}
+
 Result<LinuxCncIni> read_linuxcnc_ini(const fs::path& file) {
   LinuxCncIni ini{file, {}};
   MDOF_TRY(const std::string text, read_text_file(file));

@@ -28,6 +28,9 @@ struct LinuxCncIni {
 // Errors: those of reading; a line that is neither section, key nor comment; #INCLUDE.
 Result<LinuxCncIni> read_linuxcnc_ini(const std::filesystem::path& file);
 
+// [TRAJ]LINEAR_UNITS. Error: neither mm nor inch; it does not name the file.
+Result<bool> is_inch_machine(const LinuxCncIni& ini);
+
 struct HalFunction {
   std::string name, thread;
 };

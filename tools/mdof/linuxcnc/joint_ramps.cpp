@@ -11,8 +11,6 @@ namespace {
 
 using controllers::ExportOptions;
 
-constexpr double kRampInch_m = 0.0254;
-
 Result<double> positive_value(const LinuxCncIni& ini, const std::string& section,
                               const std::string& key) {
   const std::string text = ini.value(section, key);
@@ -24,15 +22,12 @@ Result<double> positive_value(const LinuxCncIni& ini, const std::string& section
 }
 
 Status check_unit(const LinuxCncIni& ini, bool inch) {
-  const std::string unit = ini.value("TRAJ", "LINEAR_UNITS");
-  const bool is_inch = unit == "inch" || unit == "in" || unit == "imperial";
-  if (!is_inch && unit != "mm" && unit != "metric")
-    return bad_input(ini.file.string() + ": [TRAJ]LINEAR_UNITS = \"" + unit +
-                     "\" is neither mm nor inch");
-  if (is_inch == inch) return {};
-  return bad_input(ini.file.string() + ": [TRAJ]LINEAR_UNITS is " + unit +
-                   ", but the files would be in " + (inch ? "inch" : "mm") + "; give --units " +
-                   (is_inch ? "inch" : "mm"));
+  const auto is_inch = is_inch_machine(ini);
+  if (!is_inch) return in_context(ini.file.string(), is_inch.error());
+  if (*is_inch == inch) return {};
+  return bad_input(ini.file.string() + ": [TRAJ]LINEAR_UNITS is " +
+                   ini.value("TRAJ", "LINEAR_UNITS") + ", but the files would be in " +
+                   (inch ? "inch" : "mm") + "; give --units " + (*is_inch ? "inch" : "mm"));
 }
 
 }  // namespace
@@ -54,7 +49,7 @@ Result<std::vector<ExportOptions::Ramp>> read_joint_ramps(
                                    [&](const IniEntry& e) { return e.section == section; });
     if (!there) continue;
     MDOF_TRY(const double most, positive_value(ini, section, "MAX_ACCELERATION"));
-    ramps.push_back({axis, most * (inch ? kRampInch_m : 1e-3), period_s});
+    ramps.push_back({axis, most * (inch ? kInch_m : 1e-3), period_s});
   }
   return ramps;
 }

@@ -8,11 +8,12 @@
 #include "schema/base/number/number.h"
 #include "schema/base/number/number_text.h"
 #include "schema/base/trimmed.h"
+#include "schema/units.h"
 
 namespace mdof::tools {
 namespace {
 
-constexpr double kMmPerInch = 25.4, kSecondPerNs = 1e-9;
+constexpr double kSecondPerNs = 1e-9;
 // The drive lags: 10 periods, of which the following error may take a tenth of MIN_FERROR.
 constexpr double kLaggingPeriods = 10, kShareOfFollowingError = 0.1;
 constexpr double kShareOfAxis = 0.05;  // of MAX_VELOCITY and MAX_ACCELERATION
@@ -60,11 +61,10 @@ class Judge {
   }
 
   void read_units() {
-    const std::string unit = ini_.value("TRAJ", "LINEAR_UNITS");
-    live_.inch = unit == "inch" || unit == "in" || unit == "imperial";
-    if (!live_.inch && unit != "mm" && unit != "metric")
-      refuse("[TRAJ]LINEAR_UNITS = \"" + unit + "\" is neither mm nor inch");
-    unit_ = live_.inch ? 1 / kMmPerInch : 1;
+    const auto inch = is_inch_machine(ini_);
+    if (!inch) return refuse(inch.error().message);
+    live_.inch = *inch;
+    unit_ = live_.inch ? 1 / to_mm(kInch_m) : 1;
   }
 
   // trivkins alone says which joint is which axis.

@@ -18,14 +18,13 @@ namespace {
 
 constexpr std::size_t kMostRows = 256, kLongestLine = 253;
 constexpr int kDecimals = 9, kInchDecimals = 11;
-constexpr double kCompInch_m = 0.0254;
 constexpr const char* kIni = "compensation.ini";
 constexpr const char* kUnits = "# [TRAJ] LINEAR_UNITS of these rows: ";
 constexpr const char* kAxes = "XYZ";
 
 std::string rows_text(const Series& s, double zero_m, bool inch) {
   const auto number = [inch](double m) {
-    return inch ? fixed(m / kCompInch_m, kInchDecimals) : fixed(to_mm(m), kDecimals);
+    return inch ? fixed(m / kInch_m, kInchDecimals) : fixed(to_mm(m), kDecimals);
   };
   std::string text;
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {
@@ -117,7 +116,7 @@ Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int t
     for (std::size_t i = 0; three && i < row.size(); ++i) {
       const auto x = decimal_from(words[i]);
       three = x.has_value();
-      row[i] = inch ? x.value_or(0) * kCompInch_m : from_mm(x.value_or(0));
+      row[i] = inch ? x.value_or(0) * kInch_m : from_mm(x.value_or(0));
     }
     if (!three)
       return wrong_at(file.name, n + 1,

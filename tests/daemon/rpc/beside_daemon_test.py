@@ -170,6 +170,8 @@ def without_occasion(document):
         return [without_occasion(part) for part in document]
     if not isinstance(document, dict):
         return document
+    if document.get("deed") in ("compensation.activate", "compensation.deactivate"):
+        document = {key: value for key, value in document.items() if key != "id"}  # a generation, of the clock
     return {key: without_occasion(value) for key, value in document.items() if key not in BY_OCCASION}
 
 

@@ -47,16 +47,13 @@ std::string table_sha256(const CompensationTable& t) {
   return sha256_hex(bytes);
 }
 
-std::string covers_text(const CompensationTable& table) {
+Covers covers(const CompensationTable& table) {
   if (table.has_positioning())
-    return table.has_declared() ? "repeatability and the uncertainty declared at import"
-                                : "repeatability only";
-  if (!table.noise_only())
-    return "noise, repeatability and the uncertainties that the rigs declare";
-  return table.has_declared()
-             ? "noise and repeatability only (the uncertainties that the rigs declare "
-               "contribute at most 1 % of u)"
-             : "noise and repeatability only";
+    return {table.has_declared() ? Covered::repeatability_import : Covered::repeatability_only};
+  if (!table.noise_only()) return {Covered::noise_repeatability_rigs};
+  if (table.has_declared())
+    return {Covered::noise_repeatability_only, Covered::rigs_below_1_percent};
+  return {Covered::noise_repeatability_only};
 }
 
 void add_not_declared(CompensationTable& table, const std::vector<std::string>& keys) {

@@ -11,6 +11,7 @@
 #include "schema/axis.h"
 #include "schema/rig/chain.h"
 #include "schema/rig/reference.h"
+#include "schema/uncertainty/covers.h"
 
 namespace mdof {
 
@@ -77,8 +78,8 @@ struct CompensationTable {
 // Tables of versions before have the hash of their JSON at that time.
 std::string table_sha256(const CompensationTable& table);
 
-// What its u covers: one sentence for people, without a full stop.
-std::string covers_text(const CompensationTable& table);
+// What its u covers.
+Covers covers(const CompensationTable& table);
 // Names the keys that this rig of one of its runs leaves open.
 void add_not_declared(CompensationTable& table, const std::vector<std::string>& keys);
 

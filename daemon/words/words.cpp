@@ -130,4 +130,16 @@ std::string line(const Notice& notice, Language language) {
   return (notice.severity == Severity::invalid ? "ungültig: " : "Hinweis: ") + own;
 }
 
+std::string text(const Covers& covers, Language language) {
+  static constexpr std::array kGerman = {
+#define COVERED(code, english, german) german,
+#include "schema/uncertainty/covers.inc"
+#undef COVERED
+  };
+  if (language == Language::english) return covers_text(covers);
+  std::string sentence;
+  for (const Covered each : covers) sentence += kGerman[static_cast<std::size_t>(each)];
+  return sentence;
+}
+
 }  // namespace mdof::words

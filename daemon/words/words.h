@@ -5,6 +5,7 @@
 #include <string>
 
 #include "schema/notice/notice.h"
+#include "schema/uncertainty/covers.h"
 
 namespace mdof::words {
 
@@ -31,5 +32,8 @@ std::string filled(const char* pattern, const Notice& notice,
 
 // The pattern of a code.
 const char* pattern(NoticeCode code, Language language = Language::english);
+
+// One sentence, without a full stop.
+std::string text(const Covers& covers, Language language);
 
 }  // namespace mdof::words

@@ -21,20 +21,19 @@ bool declares(const Budget& budget) {
                      [](const BudgetLine& line) { return !line.key.empty(); });
 }
 
-std::string covers_text(const Budget& budget) {
-  const std::string slow =
-      budget.is_single_run ? "; noise slower than a stop is not included (single run)" : "";
-  if (!budget.noise_only) return "noise, repeatability and the declared uncertainties" + slow;
-  return std::string("noise and repeatability only (") +
-         (declares(budget) ? "the declared uncertainties contribute at most 1 % of u"
-                           : kNothingDeclared) +
-         ")" + slow;
+Covers covers(const Budget& budget) {
+  Covers found = {Covered::noise_repeatability_declared};
+  if (budget.noise_only)
+    found = {Covered::noise_repeatability_only,
+             declares(budget) ? Covered::declared_below_1_percent : Covered::nothing_declared};
+  if (budget.is_single_run) found.push_back(Covered::single_run);
+  return found;
 }
 
-std::string covers_text(const std::vector<Budget>& budgets) {
+Covers covers(const std::vector<Budget>& budgets) {
   const auto best = std::find_if(budgets.begin(), budgets.end(),
                                  [](const Budget& budget) { return !budget.noise_only; });
-  return budgets.empty() ? "" : covers_text(best == budgets.end() ? budgets.front() : *best);
+  return budgets.empty() ? Covers{} : covers(best == budgets.end() ? budgets.front() : *best);
 }
 
 bool are_noise_only(const std::vector<Budget>& budgets) {

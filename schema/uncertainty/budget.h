@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/uncertainty/covers.h"
+
 namespace mdof {
 
 // SI (m, rad) but where the name says otherwise.
@@ -64,10 +66,10 @@ bool declares(const Budget& budget);
 
 // Why a u has noise alone, wherever that is said.
 inline constexpr const char* kNothingDeclared = "no uncertainties are declared";
-// What its u is made of: one sentence for people, without a full stop.
-std::string covers_text(const Budget& budget);
+// What its u is made of.
+Covers covers(const Budget& budget);
 // Of several figures of the same rigs: what that covers which covers most.
-std::string covers_text(const std::vector<Budget>& budgets);
+Covers covers(const std::vector<Budget>& budgets);
 // Each of them; false of none at all.
 bool are_noise_only(const std::vector<Budget>& budgets);
 

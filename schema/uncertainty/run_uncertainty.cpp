@@ -27,23 +27,27 @@ Errors5 in_key_unit(const Errors5& u) {
 
 }  // namespace
 
+Covers covers(const RunUncertainty& uncertainty) {
+  const bool repeated = uncertainty.visits == VisitsCovered::repeated;
+  Covers found;
+  if (uncertainty.why.empty() && !uncertainty.noise_only) {
+    found = {repeated ? Covered::noise_repeatability_rig : Covered::noise_rig};
+  } else {
+    found = {repeated ? Covered::noise_repeatability_only : Covered::noise_only};
+    if (uncertainty.why.empty())
+      found.push_back(uncertainty.declares ? Covered::rig_contributes_zero
+                                           : Covered::nothing_declared);
+  }
+  if (uncertainty.visits == VisitsCovered::single) found.push_back(Covered::no_second_visit);
+  if (uncertainty.visits == VisitsCovered::left_out) found.push_back(Covered::no_repeatability);
+  return found;
+}
+
 std::string covers_text(const RunUncertainty& uncertainty) {
-  const VisitsCovered visits = uncertainty.visits;
-  const std::string random =
-      visits == VisitsCovered::repeated ? "noise and repeatability" : "noise";
-  const std::string slow =
-      visits == VisitsCovered::single
-          ? "; noise slower than a stop is not included (no target was visited again)"
-      : visits == VisitsCovered::left_out ? "; repeatability is not included (u of each stop alone)"
-                                          : "";
-  if (!uncertainty.why.empty()) return random + " only: " + uncertainty.why + slow;
-  if (!uncertainty.noise_only)
-    return (visits == VisitsCovered::repeated ? "noise, repeatability" : "noise") +
-           std::string(" and the uncertainties that the rig declares") + slow;
-  return random + " only (" +
-         (uncertainty.declares ? "the uncertainties that the rig declares contribute zero"
-                               : kNothingDeclared) +
-         ")" + slow;
+  const Covers found = covers(uncertainty);
+  if (uncertainty.why.empty()) return covers_text(found);
+  return covers_text({found.front()}) + ": " + uncertainty.why +
+         covers_text({found.begin() + 1, found.end()});
 }
 
 bool is_noise_only(const RunUncertainty& uncertainty) {

@@ -6,6 +6,7 @@
 
 #include "schema/axis.h"
 #include "schema/base/json_writer.h"
+#include "schema/uncertainty/covers.h"
 
 namespace mdof {
 
@@ -42,7 +43,8 @@ bool is_noise_only(const RunUncertainty& uncertainty);
 void write_covers(JsonWriter& json, const std::string& covers,
                   const std::vector<std::string>& not_declared);
 void write_covers(JsonWriter& json, const RunUncertainty& uncertainty);
-// One sentence for people, without a full stop.
+// Without `why`, which covers_text() gives after the first.
+Covers covers(const RunUncertainty& uncertainty);
 std::string covers_text(const RunUncertainty& uncertainty);
 
 // The members "u", "u_random", "U", "k" and "nu_eff" of an open object, each with the five keys.

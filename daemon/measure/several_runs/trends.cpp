@@ -125,7 +125,7 @@ void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& 
                const Budget& budget, bool u_is_known) {
   trend.values.push_back({std::move(runs), started_utc, budget.value,
                           u_is_known ? budget.u : std::nan(""), budget.u_random});
-  trend.u_covers = covers_text(budget);
+  trend.u_covers = covers(budget);
   trend.noise_only = budget.noise_only;
   trend.u_not_declared = budget.not_declared;
 }

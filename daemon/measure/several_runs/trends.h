@@ -11,6 +11,7 @@
 #include "schema/axis.h"
 #include "schema/base/result.h"
 #include "schema/notice/notice.h"
+#include "schema/uncertainty/covers.h"
 
 namespace mdof::daemon {
 
@@ -36,7 +37,7 @@ struct Trend {
   std::vector<std::string> left_out;  // sentences: which runs, and why
   Notices notices;                    // what is mixed
   // Of u of the newest value, as of its budget.
-  std::string u_covers;
+  Covers u_covers;
   bool noise_only = false;
   std::vector<std::string> u_not_declared;
 };

@@ -50,7 +50,7 @@ void write_trend(JsonWriter& json, const Trend& trend) {
   } else {
     json.null();
   }
-  write_covers(json, trend.u_covers, trend.u_not_declared);
+  write_covers(json, covers_text(trend.u_covers), trend.u_not_declared);
   json.key("left_out").begin_array();
   for (const std::string& why : trend.left_out) json.value(why);
   json.end_array();

@@ -45,7 +45,7 @@ void write_comparison(Html& html, const daemon::Comparison& comparison, Language
               of(Phrase::change), of(Phrase::effect)},
              rows, "numbers");
   html.element("p", of(Phrase::change_explained));
-  html.element("p", phrase(Phrase::u_covers, language, {covers_text(changes)}));
+  html.element("p", phrase(Phrase::u_covers, language, {words::text(covers(changes), language)}));
   for (const Notice& each : comparison.differences) html.element("p", words::text(each, language));
 }
 

@@ -89,7 +89,7 @@ void write_squareness(Html& html, const charts::SquarenessOfPair& pair, Language
              "numbers");
   html.element("p", phrase(Phrase::squareness_is, language,
                            {angle, a, b_axis, squareness_sign(pair.axes) > 0 ? "+" : "−"}));
-  html.element("p", phrase(Phrase::u_covers, language, {covers_text(b)}));
+  html.element("p", phrase(Phrase::u_covers, language, {words::text(covers(b), language)}));
   html.figure(charts::squareness_svg(*pair.results, language));
 }
 

@@ -160,7 +160,8 @@ void write_results(Html& html, const ReportRun& run, Language language) {
                  phrase(Phrase::U_missing_because, language,
                         {figures.why.empty() ? "the run has no calculated results" : figures.why}));
   else
-    html.element("p", phrase(Phrase::u_covers, language, {covers_text(figures.budgets)}));
+    html.element(
+        "p", phrase(Phrase::u_covers, language, {words::text(covers(figures.budgets), language)}));
   std::string keys;
   for (const std::string& key : run.results.uncertainty.not_declared)
     keys += (keys.empty() ? "" : ", ") + key;

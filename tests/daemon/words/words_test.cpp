@@ -63,6 +63,21 @@ TEST(Catalogue, GermanSaysTheSameInOtherWords) {
   }
 }
 
+TEST(Catalogue, WhatUCoversIsInBothLanguages) {
+  const Covers all = {
+#define COVERED(code, english, german) Covered::code,
+#include "schema/uncertainty/covers.inc"
+#undef COVERED
+  };
+  std::set<std::string> sentences;
+  for (const Covered each : all)
+    for (const auto language : kLanguages) sentences.insert(words::text({each}, language));
+  EXPECT_EQ(sentences.size(), 2 * all.size());  // none is empty, none says what another says
+  EXPECT_EQ(sentences.count(""), 0u);
+  EXPECT_EQ(words::text({Covered::noise_only, Covered::nothing_declared}, words::Language::german),
+            "nur Rauschen (es sind keine Unsicherheiten angegeben)");
+}
+
 TEST(Catalogue, GermanLinesHaveSingularAndPlural) {
   const auto line = [](const Notice& n) { return words::line(n, words::Language::german); };
   const auto left_out = [](int stops) {

@@ -93,7 +93,8 @@ std::string budget_svg(const Budget& budget, const std::string& title_of,
   const auto [name, unit] = split_key(budget.figure);
   const std::string title = title_of + ": " + phrase(Phrase::budget, language) + ", " + name;
   const std::string line = budget_line(budget);
-  std::vector<std::string> notes = {phrase(Phrase::u_covers, language, {covers_text(budget)})};
+  std::vector<std::string> notes = {
+      phrase(Phrase::u_covers, language, {words::text(covers(budget), language)})};
   if (!budget.not_declared.empty()) {
     std::string keys;
     for (const std::string& key : budget.not_declared) keys += (keys.empty() ? "" : ", ") + key;

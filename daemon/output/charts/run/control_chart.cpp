@@ -62,7 +62,8 @@ void draw_value(Svg& svg, const Panel& panel, const daemon::Trend& trend, std::s
 std::vector<std::string> notes_of_trend(const daemon::Trend& trend, Language language) {
   std::vector<std::string> notes;
   if (!trend.chart) notes.push_back(phrase(Phrase::no_limits, language));
-  notes.push_back(phrase(Phrase::small_u_covers, language, {trend.u_covers}));
+  notes.push_back(
+      phrase(Phrase::small_u_covers, language, {words::text(trend.u_covers, language)}));
   notes.push_back(phrase(Phrase::control_rules, language));
   return notes;
 }

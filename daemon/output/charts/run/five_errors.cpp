@@ -61,8 +61,9 @@ std::vector<std::string> notes_of(const StatedResults& results, const std::vecto
                                   Language language) {
   std::vector<std::string> notes;
   const RunUncertainty& u = results.uncertainty;
-  notes.push_back(u.why.empty() ? phrase(Phrase::u_covers, language, {covers_text(u)})
-                                : phrase(Phrase::U_missing_because, language, {u.why}));
+  notes.push_back(u.why.empty()
+                      ? phrase(Phrase::u_covers, language, {words::text(covers(u), language)})
+                      : phrase(Phrase::U_missing_because, language, {u.why}));
   if (are_drawn_as_columns(marks))
     notes.push_back(phrase(Phrase::envelope, language, {count_text(marks.size())}));
   const auto unsolved = [](const Mark& mark) { return !std::isfinite(mark.y); };

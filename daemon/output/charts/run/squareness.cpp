@@ -145,7 +145,7 @@ std::string squareness_svg(const SquarenessResults& results, Language language) 
       phrase(Phrase::enlarged, language, {number_text(picture.factor, 6)}),
       phrase(Phrase::squareness_sense, language,
              {name, a, b_axis, squareness_sign(s.axes) > 0 ? "+" : "−"}),
-      phrase(Phrase::u_covers, language, {covers_text(b)})};
+      phrase(Phrase::u_covers, language, {words::text(covers(b), language)})};
   Svg svg(kWidthPx, top + kPicturePx + 44 + notes_height(notes) + 12, title, angle, Theme::light);
   draw_run_head(svg, title, angle, marks, language);
   const auto run_of = [&](const char* error, std::int64_t run) {

@@ -212,7 +212,8 @@ std::string straightness_svg(const StatedResults& results, Language language) {
     words += notes.back() + ". ";
   }
   notes.push_back(results.figures.why.empty()
-                      ? phrase(Phrase::u_covers, language, {covers_text(results.figures.budgets)})
+                      ? phrase(Phrase::u_covers, language,
+                               {words::text(covers(results.figures.budgets), language)})
                       : phrase(Phrase::U_missing_because, language, {results.figures.why}));
   Svg svg(kWidthPx, sheet.bottom() + notes_height(notes) + 12, title, words, Theme::light);
   draw_run_head(svg, title, about_run(header, language), marks_of_head, language);

@@ -111,7 +111,7 @@ std::string table_svg(const CompensationTable& table, const std::vector<std::str
       names += (names.empty() ? "" : ", ") + split_key(all[i].key).name;
     notes.push_back(names + ": " + words);
   }
-  notes.push_back(phrase(Phrase::small_u_covers, language, {covers_text(table)}));
+  notes.push_back(phrase(Phrase::small_u_covers, language, {words::text(covers(table), language)}));
   const double top = run_head_height(marks);
   const Sheet sheet(top + kTableLegendPx, y, kOutputPx);
   Svg svg(kWidthPx, sheet.bottom() + notes_height(notes) + 12, title, about, Theme::light);

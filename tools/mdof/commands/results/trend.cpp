@@ -96,7 +96,7 @@ std::string text_of(const daemon::Trend& trend) {
            std::to_string(trend.chart->baseline) + " values (moving range)\n";
   out += table.text(terminal_columns());
   if (!trend.values.empty())
-    out += wrapped("± is the standard uncertainty u (" + trend.u_covers +
+    out += wrapped("± is the standard uncertainty u (" + covers_text(trend.u_covers) +
                        "). The control limits contain noise and repeatability only.",
                    terminal_columns()) +
            "\n";
@@ -143,7 +143,7 @@ std::string csv_of(const std::vector<daemon::Trend>& trends) {
       csv.cell(chart ? to_key_unit(chart->centre) : kNaN);
       csv.cell(chart ? to_key_unit(chart->low[i]) : kNaN);
       csv.cell(chart ? to_key_unit(chart->high[i]) : kNaN);
-      csv.cells({chart ? daemon::trend_signal(*chart, i) : "", trend.u_covers,
+      csv.cells({chart ? daemon::trend_signal(*chart, i) : "", covers_text(trend.u_covers),
                  joined(trend.u_not_declared, " ")});
       csv.end_row();
     }

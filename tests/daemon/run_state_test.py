@@ -135,7 +135,8 @@ class RunState(unittest.TestCase):
         while watcher.next_note()["params"]["value"].get("type") != "points":
             pass
         self.client.call("run.stop", run=run)
-        self.assertEqual(self.ended(watcher)["state"], "complete")
+        header = self.ended(watcher)
+        self.assertEqual(header["state"], "complete", notice_lines(header))
 
     def test_record_ended_by_the_user_fails_and_says_how_to_go_on(self):
         record = subprocess.Popen([MDOF, "record", "--socket", self.daemon.socket, "--axis", "X", "--targets-mm",

@@ -121,18 +121,18 @@ Status attach_to_pdf(const fs::path& pdf, const std::string& name, const std::st
     return {};
   }
   std::error_code ec;
-  std::string folder = (fs::temp_directory_path(ec) / "mdof-pdf-XXXXXX").string();
+  // Beside the PDF, so that a rename replaces it whole or not at all.
+  std::string folder = (fs::absolute(pdf).parent_path() / "mdof-pdf-XXXXXX").string();
   if (::mkdtemp(folder.data()) == nullptr)
     return io_error(folder + ": cannot be created: " + std::strerror(errno));
-  // Beside the PDF, so that a rename replaces it whole or not at all.
-  const fs::path file = fs::path(folder) / name, both = pdf.string() + ".new";
+  const fs::path file = fs::path(folder) / name, both = fs::path(folder) / "both.pdf";
   const std::string without =
       "; the file is the report without it. Send the HTML file, which contains " + name;
   Status done = write_file(file.string(), bytes, Existing::replace);
   if (done) {
     const auto status =
         run_program({qpdf->string(), fs::absolute(pdf).string(), "--add-attachment", file.string(),
-                     "--mimetype=" + media_type, "--", fs::absolute(both).string()});
+                     "--mimetype=" + media_type, "--", both.string()});
     if (!status) {
       done = tl::unexpected(status.error());
     } else if (*status != 0) {
@@ -142,7 +142,6 @@ Status attach_to_pdf(const fs::path& pdf, const std::string& name, const std::st
       done = io_error(pdf.string() + ": " + name + " is not attached, because " + both.string() +
                       " could not be renamed: " + ec.message() + without);
     }
-    if (!done) fs::remove(both, ec);
   }
   fs::remove_all(folder, ec);
   return done;

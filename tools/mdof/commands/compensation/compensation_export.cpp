@@ -164,8 +164,9 @@ Status export_tables(const ExportTablesCommand& command) {
   if (command.list)
     return command.json ? write_line(formats_json()) : write_out(formats_text(terminal_columns()));
   // A format that is not written is refused first: no --out would help.
-  MDOF_TRY(const ExportedTables exported, exported_tables(command.request));
+  MDOF_CHECK(controllers::format_named(command.request.format));
   if (command.folder.empty()) return fail(ErrorCode::usage, "missing option --out FOLDER");
+  MDOF_TRY(const ExportedTables exported, exported_tables(command.request));
   for (const auto& mark : exported.options.marks) warn(mark);
   for (const auto& note : exported.files.notes) say("note: " + note);
   for (const auto& left : exported.files.left_out) say("left out: " + left);

@@ -17,7 +17,7 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from mdofd import RIG, Client, Daemon, RpcError, simulator, write_log  # noqa: E402
 
 FAN_CLASS_CONTENT, FAN_MARK_ADD, FAN_OPEN_PERM, AT_FDCWD = 0x4, 0x1, 0x10000, -100
-SOON_S = 60  # a loaded disk holds up the last commit
+SOON_S = 20  # TimeoutStopSec of mdofd.service: systemd kills it then
 
 
 def held_file(path):

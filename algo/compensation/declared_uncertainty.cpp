@@ -21,8 +21,8 @@ using PartsOfRuns = std::vector<std::vector<PointShifts>>;
 
 // What is seen in a run itself is of that run alone.
 std::string identity(const Contributor& c, std::size_t run) {
-  if (c.key.empty()) return std::to_string(run) + " " + c.name;
-  return c.name + " " + c.key + " " + std::to_string(c.declared.u * c.to_unit) +
+  if (c.key.empty()) return std::to_string(run) + " " + contributor_text(c.name);
+  return contributor_text(c.name) + " " + c.key + " " + std::to_string(c.declared.u * c.to_unit) +
          (c.surface ? " " + std::to_string(c.surface->length_m) : "");
 }
 

@@ -24,7 +24,7 @@ struct BuiltFrom {
 // An independent part of a quantity that two tables or more have: what one standard uncertainty of
 // it does to the named errors of the forward approach. [table][position]; 0 in the others.
 struct SharedQuantity {
-  std::string name;  // "probe A: sensitivity"
+  ContributorName name;
   std::vector<std::vector<Errors5>> by_table;
 };
 

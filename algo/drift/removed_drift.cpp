@@ -42,7 +42,7 @@ std::vector<Contributor> removed_drift(const Run& run) {
     parts.push_back(restated(part, run, model));
   if (parts.empty()) return {};
   Contributor removed;
-  removed.name = kRemovedDrift;
+  removed.name = {ContributorKind::removed_drift};
   removed.declared = {1, UncertaintyShape::normal, drift.freedom()};
   removed.parts = [parts = std::move(parts)] { return parts; };
   return {std::move(removed)};

@@ -11,7 +11,6 @@ namespace mdof::algo {
 // A contributor of a run from which a drift was removed, without a key of the rig, as it is seen in
 // the run itself: all points share what is wrong of the drift, so that the means of many visits
 // have all of it. Empty: no drift was removed.
-inline constexpr const char* kRemovedDrift = "removed drift";  // Contributor::name
 std::vector<Contributor> removed_drift(const Run& run);
 
 }  // namespace mdof::algo

@@ -1,11 +1,12 @@
 #include "algo/separation/run_series.h"
 
+#include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "algo/iso230/target_changes.h"
 #include "algo/iso230/target_means.h"
 #include "algo/uncertainty/contributors.h"
+#include "algo/uncertainty/statistics/common_quantities.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -63,8 +64,9 @@ Result<std::vector<DeclaredShift>> declared_of_probe(const Run& run, const Rig& 
   const std::int64_t start_ns = run.points.front().point.begin_ns;
   std::vector<DeclaredShift> shifts;
   for (const Contributor& c : declared) {
-    const bool scale = c.name == "probe " + rig.probes[probe].id + ": sensitivity";
-    if (!scale && c.name != "probe " + rig.probes[probe].id + ": drift") continue;
+    const bool scale = c.name.kind == ContributorKind::probe_sensitivity;
+    if (!scale && c.name.kind != ContributorKind::probe_drift) continue;
+    if (c.name.subject != rig.probes[probe].id) continue;
     std::vector<Errors5> of_points;
     for (const MeasuredPoint& p : points) {
       Errors5 named = named_from_local(run.header.moving(), p.errors.local);
@@ -83,14 +85,14 @@ Result<std::vector<DeclaredShift>> declared_of_probe(const Run& run, const Rig& 
 Result<std::vector<DeclaredShift>> declared_shifts(const Run& run, const Rig& rig,
                                                    std::size_t named, Axis normal) {
   MDOF_TRY(const auto declared, contributors(rig, run));
-  std::set<std::string> looked_at;
+  std::vector<ContributorName> looked_at;
   for (const TargetPlane& plane : rig.planes)
     if (std::abs(plane.normal[static_cast<std::size_t>(normal)]) > kAcrossPlane)
-      looked_at.insert("plane " + plane.id + ": flatness");
+      looked_at.push_back(flatness_name(rig, plane));
   const TargetChanges changes(run.header.moving(), run.points);
   std::vector<DeclaredShift> shifts;
   for (const Contributor& c : declared) {
-    if (looked_at.contains(c.name)) continue;
+    if (std::find(looked_at.begin(), looked_at.end(), c.name) != looked_at.end()) continue;
     const auto parts = c.parts();
     for (std::size_t part = 0; part < parts.size(); ++part)
       shifts.push_back({name_of_part(c, part), at_targets(changes, parts[part], named)});

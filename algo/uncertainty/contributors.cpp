@@ -30,7 +30,6 @@ namespace {
 
 constexpr std::size_t kMostEncoderParts = 256;  // more targets: neighbours share one
 constexpr auto kFixture = static_cast<std::size_t>(Part::fixture);
-constexpr std::array<char, 3> kAxisLetters = {'x', 'y', 'z'};
 constexpr double kQuarterTurn = 0.25;  // angles are small: turns of half a circle never come
 
 // What all contributors of a run share.
@@ -210,7 +209,7 @@ class List {
     add_installation();
     add_drift();
     for (std::size_t i = 0; i < basis_->rig.planes.size(); ++i) add_plane(i);
-    add("encoder", "u_um", basis_->rig.uncertainty.encoder, 1e6, "µm",
+    add({ContributorKind::encoder}, "u_um", basis_->rig.uncertainty.encoder, 1e6, "µm",
         [](const Basis& b) { return of_encoder(b); });
   }
   std::vector<Contributor> take() { return std::move(list_); }
@@ -218,8 +217,8 @@ class List {
  private:
   // `parts(basis)`: as Contributor::parts.
   template <class Parts>
-  void add(std::string name, std::string key, const DeclaredUncertainty& declared, double to_unit,
-           std::string unit, Parts parts) {
+  void add(ContributorName name, std::string key, const DeclaredUncertainty& declared,
+           double to_unit, std::string unit, Parts parts) {
     if (!declared.declared()) return;
     list_.push_back({std::move(name), std::move(key), declared, to_unit, std::move(unit),
                      [basis = basis_, parts] { return parts(*basis); }});
@@ -233,35 +232,35 @@ class List {
       if (covariance.of[i].find(".n") == std::string::npos)
         largest.u = std::max(largest.u, std::sqrt(covariance.m2[i][i]));
     together_.insert(covariance.of.begin(), covariance.of.end());
-    add("calibration " + record.id + ": positions and zeros", "calibration", largest, 1e6, "µm",
+    add({ContributorKind::calibration_record, record.id}, "calibration", largest, 1e6, "µm",
         [covariance](const Basis& b) { return of_covariance(b, covariance); });
   }
 
   void add_probe(std::size_t k) {
     const Probe& probe = basis_->rig.probes[k];
-    const std::string name = "probe " + probe.id + ": ";
+    const auto of_probe = [&](ContributorKind kind) { return ContributorName{kind, probe.id}; };
     const ProbeUncertainty& u = probe.uncertainty;
     if (!together_.contains(zero_name(probe.id)))
-      add(name + "calibration", "u_calibration_um", u.calibration, 1e6, "µm",
-          [k, size = u.calibration.u](const Basis& b) {
+      add(of_probe(ContributorKind::probe_calibration), "u_calibration_um", u.calibration, 1e6,
+          "µm", [k, size = u.calibration.u](const Basis& b) {
             return std::vector<PointShifts>{of_calibration(b, k, size)};
           });
-    add(name + "sensitivity", "u_sensitivity_ppm", u.sensitivity, 1e6, "ppm",
-        [k, size = u.sensitivity.u](const Basis& b) {
+    add(of_probe(ContributorKind::probe_sensitivity), "u_sensitivity_ppm", u.sensitivity, 1e6,
+        "ppm", [k, size = u.sensitivity.u](const Basis& b) {
           return std::vector<PointShifts>{by_one_probe(
               b, k, [&](std::size_t j) { return size * b.run.points[j].point.probe_m[k]; })};
         });
     for (std::size_t c = 0; c < 3; ++c) {
       if (together_.contains(place_name(probe.id, c))) continue;
-      add(name + "position " + kAxisLetters[c], "u_position_mm", u.position.component(c), 1e3, "mm",
-          [k, c, size = u.position.u[c]](const Basis& b) {
+      add(of_probe(of_component(ContributorKind::probe_position_x, c)), "u_position_mm",
+          u.position.component(c), 1e3, "mm", [k, c, size = u.position.u[c]](const Basis& b) {
             return std::vector<PointShifts>{of_position(b, k, c, size)};
           });
     }
     if (together_.contains(direction_name(probe.id, 0)) ||
         together_.contains(direction_name(probe.id, 1)))
       return;
-    add(name + "direction", "u_direction_mrad", u.direction, 1e3, "mrad",
+    add(of_probe(ContributorKind::probe_direction), "u_direction_mrad", u.direction, 1e3, "mrad",
         [k, size = u.direction.u](const Basis& b) {
           const auto about = [&](double turns) {
             return by_probe_mounting(b, k, [&](ProbeDeviation& probe_off, double sign) {
@@ -276,7 +275,7 @@ class List {
   void add_installation() {
     const RigUncertainty& u = basis_->rig.uncertainty;
     for (std::size_t c = 0; c < 3; ++c)
-      add(std::string("installation: angle about ") + kAxisLetters[c], "u_angle_mrad",
+      add({of_component(ContributorKind::installation_angle_x, c)}, "u_angle_mrad",
           u.installation_angle.component(c), 1e3, "mrad",
           [c, size = u.installation_angle.u[c]](const Basis& b) {
             return std::vector<PointShifts>{by_mounting(b, [&](Mounting& mounting, double sign) {
@@ -284,7 +283,7 @@ class List {
             })};
           });
     for (std::size_t c = 0; c < 3; ++c)
-      add(std::string("installation: offset ") + kAxisLetters[c], "u_offset_mm",
+      add({of_component(ContributorKind::installation_offset_x, c)}, "u_offset_mm",
           u.installation_offset.component(c), 1e3, "mm",
           [c, size = u.installation_offset.u[c]](const Basis& b) {
             return std::vector<PointShifts>{by_mounting(b, [&](Mounting& mounting, double sign) {
@@ -297,7 +296,7 @@ class List {
   void add_drift() {
     const DeclaredUncertainty& u = basis_->rig.uncertainty.drift;
     for (std::size_t k = 0; k < basis_->probes(); ++k)
-      add("probe " + basis_->rig.probes[k].id + ": drift", "u_um_per_h", u, 3600e6, "µm/h",
+      add({ContributorKind::probe_drift, basis_->rig.probes[k].id}, "u_um_per_h", u, 3600e6, "µm/h",
           [k, size = u.u](const Basis& b) {
             const double start_s = middle_s(b.run.points.front());
             return std::vector<PointShifts>{by_one_probe(

@@ -11,6 +11,7 @@
 #include "schema/base/result.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
+#include "schema/uncertainty/contributor_name.h"
 
 namespace mdof::algo {
 
@@ -21,8 +22,8 @@ using PointShifts = std::vector<Errors5>;
 // One line of a budget. Contributors are independent of each other. What one does is common to all
 // points of the run, and so cancels where a figure takes differences of points.
 struct Contributor {
-  std::string name;  // "probe A: sensitivity"
-  std::string key;   // as the rig declares it: "u_sensitivity_ppm"; empty: seen in the run itself
+  ContributorName name;
+  std::string key;  // as the rig declares it: "u_sensitivity_ppm"; empty: seen in the run itself
   DeclaredUncertainty declared;
   double to_unit = 1;  // from SI to the unit in which it is shown
   std::string unit;    // "ppm"

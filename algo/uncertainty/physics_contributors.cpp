@@ -57,8 +57,8 @@ class Physics {
   }
 
   // All of them are made at once: they are few, and share what is dear.
-  void add(std::string name, std::string key, const DeclaredUncertainty& declared, double to_unit,
-           std::string unit, std::vector<PointShifts> parts) {
+  void add(ContributorName name, std::string key, const DeclaredUncertainty& declared,
+           double to_unit, std::string unit, std::vector<PointShifts> parts) {
     if (!declared.declared()) return;
     list_.push_back({std::move(name), std::move(key), declared, to_unit, std::move(unit),
                      [parts = std::move(parts)] { return parts; }});
@@ -70,19 +70,22 @@ class Physics {
             tilt_of(fixture_.probes[k], R_MC)};
   }
 
+  ContributorName named(ContributorKind kind, std::size_t k) const {
+    return {kind, rig_.probes[k].id};
+  }
+
   void add_probe(std::size_t k) {
-    const std::string name = "probe " + rig_.probes[k].id + ": ";
     if (physics().probes[k].tilts()) {
-      add_tilt(k, name);
-      add_clamp(k, name);
+      add_tilt(k);
+      add_clamp(k);
     }
-    add_linearity(k, name);
-    add_left_out(k, name);
+    add_linearity(k);
+    add_left_out(k);
   }
 
   // The reading that one unit of the factor makes, against the zero. Not corrected: its mean square
   // about 0.
-  void add_tilt(std::size_t k, const std::string& name) {
+  void add_tilt(std::size_t k) {
     const ProbePhysics& probe = physics().probes[k];
     DeclaredUncertainty factor = probe.u_tilt_factor;
     if (!physics().tilt)
@@ -92,7 +95,7 @@ class Physics {
     unit.tilt_factor = 1;
     const double zero =
         tilt_of(fixture_.probes[k], Eigen::Matrix3d::Identity()).squaredNorm() / probe.standoff_m;
-    add(name + (physics().tilt ? "tilt" : "tilt, not corrected"),
+    add(named(physics().tilt ? ContributorKind::probe_tilt : ContributorKind::probe_tilt_left, k),
         physics().tilt ? "u_tilt_factor" : "tilt_factor", factor, 1, "", {of_probe(k, [&](auto j) {
           const Gap gap = at(j, k);
           return factor.u *
@@ -102,7 +105,7 @@ class Physics {
 
   // A probe that stands φ askew in its clamp sees |θ + φ|²: the product about two axes, and φ²,
   // which changes as the gap does.
-  void add_clamp(std::size_t k, const std::string& name) {
+  void add_clamp(std::size_t k) {
     const ProbePhysics& probe = physics().probes[k];
     const DeclaredUncertainty& u = rig_.probes[k].uncertainty.direction;
     const Gap zero{probe.standoff_m, tilt_of(fixture_.probes[k], Eigen::Matrix3d::Identity())};
@@ -120,12 +123,13 @@ class Physics {
       return tilt_excess_m(probe, square, at(j, k).gap_m) -
              tilt_excess_m(probe, square, zero.gap_m);
     }));
-    add(name + "tilt in its clamp", "u_direction_mrad", u, 1e3, "mrad", std::move(parts));
+    add(named(ContributorKind::probe_clamp, k), "u_direction_mrad", u, 1e3, "mrad",
+        std::move(parts));
   }
 
   // What is left of the curve after its correction, as waves over the range: its square is u² at
   // every reading.
-  void add_linearity(std::size_t k, const std::string& name) {
+  void add_linearity(std::size_t k) {
     const DeclaredUncertainty& u = physics().probes[k].u_linearity;
     std::vector<PointShifts> parts;
     double norm = 0;
@@ -137,11 +141,12 @@ class Physics {
           const double turns = run_.points[j].point.probe_m[k] / rig_.probes[k].range_m * wave;
           return u.u / (wave * wave * std::sqrt(norm)) * sine_of_turns(turns + phase_turns);
         }));
-    add(name + "linearity", "u_linearity_um", u, 1e6, "µm", std::move(parts));
+    add(named(ContributorKind::probe_linearity, k), "u_linearity_um", u, 1e6, "µm",
+        std::move(parts));
   }
 
   // linearity = false: the correction that was not made.
-  void add_left_out(std::size_t k, const std::string& name) {
+  void add_left_out(std::size_t k) {
     if (physics().left_out.empty()) return;
     const Calibration& c = *physics().left_out[k];
     double most_m = 0;
@@ -151,8 +156,9 @@ class Physics {
     };
     for (std::size_t j = 0; j < points_.size(); ++j)
       if (points_[j].valid) most_m = std::max(most_m, std::abs(correction_m(j)));
-    add(name + "linearity, not corrected", c.polynomial_um.empty() ? "linearity" : "polynomial_um",
-        {most_m}, 1e6, "µm", {of_probe(k, correction_m)});
+    add(named(ContributorKind::probe_linearity_left, k),
+        c.polynomial_um.empty() ? "linearity" : "polynomial_um", {most_m}, 1e6, "µm",
+        {of_probe(k, correction_m)});
   }
 
   // By one unit of ε/ε of the calibration all gaps change in proportion to themselves.
@@ -172,16 +178,16 @@ class Physics {
     }
     if (!physics().dielectric && known) {
       const double ratio = air_permittivity(run) / calibration - 1;
-      add("air: dielectric, not corrected", "[air]", {std::abs(ratio)}, 1e6, "ppm",
+      add({ContributorKind::air_dielectric_left}, "[air]", {std::abs(ratio)}, 1e6, "ppm",
           by_permittivity(ratio));
     }
     for (std::size_t q = 0; q < kAirQuantities; ++q) {
       const AirQuantity& of = air_quantities()[q];
       const DeclaredUncertainty &u = air.u_run[q], &u_calibration = air.u_calibration[q];
-      add(std::string("air: ") + of.name, std::string("u_") + of.key, u, 1, of.unit,
-          by_permittivity(u.u * air_permittivity_slope(run, q)));
-      add(std::string("air of the calibration: ") + of.name, std::string("u_calibration_") + of.key,
-          u_calibration, 1, of.unit,
+      add({of_component(ContributorKind::air_temperature, q)}, std::string("u_") + of.key, u, 1,
+          of.unit, by_permittivity(u.u * air_permittivity_slope(run, q)));
+      add({of_component(ContributorKind::calibration_air_temperature, q)},
+          std::string("u_calibration_") + of.key, u_calibration, 1, of.unit,
           by_permittivity(-u_calibration.u * air_permittivity_slope(air.calibration, q)));
     }
   }

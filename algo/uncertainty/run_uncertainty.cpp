@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "algo/drift/removed_drift.h"
 #include "algo/drift/run_drift.h"
 #include "algo/uncertainty/coverage.h"
 #include "schema/sample.h"
@@ -58,7 +57,8 @@ void PointUncertainties::add(const Contributor& contributor,
       const double square = variance[j][names[k].local];
       sums_[j].square[k] += square;
       sums_[j].fourth_by_freedom[k] += fourth_by(square, contributor.declared.freedom);
-      if (contributor.name == kRemovedDrift && square > 0) repeatability_[k] = false;
+      if (contributor.name.kind == ContributorKind::removed_drift && square > 0)
+        repeatability_[k] = false;
     }
   if (contributor.key != "u_um_per_h") return;
   for (const PointShifts& shifts : parts) {

@@ -142,4 +142,14 @@ std::string text(const Covers& covers, Language language) {
   return sentence;
 }
 
+std::string text(const ContributorName& name, Language language) {
+  static constexpr std::array kGerman = {
+#define CONTRIBUTOR(code, english, german) german,
+#include "schema/uncertainty/contributor_names.inc"
+#undef CONTRIBUTOR
+  };
+  if (language == Language::english) return contributor_text(name);
+  return contributor_text(name, kGerman[static_cast<std::size_t>(name.kind)], "und");
+}
+
 }  // namespace mdof::words

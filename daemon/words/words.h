@@ -5,6 +5,7 @@
 #include <string>
 
 #include "schema/notice/notice.h"
+#include "schema/uncertainty/contributor_name.h"
 #include "schema/uncertainty/covers.h"
 
 namespace mdof::words {
@@ -35,5 +36,7 @@ const char* pattern(NoticeCode code, Language language = Language::english);
 
 // One sentence, without a full stop.
 std::string text(const Covers& covers, Language language);
+// "X, probe A: sensitivity".
+std::string text(const ContributorName& name, Language language);
 
 }  // namespace mdof::words

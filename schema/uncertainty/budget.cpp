@@ -22,6 +22,9 @@ bool declares(const Budget& budget) {
 }
 
 Covers covers(const Budget& budget) {
+  if (budget.is_imported)
+    return {budget.not_declared.empty() ? Covered::repeatability_import
+                                        : Covered::repeatability_only};
   Covers found = {Covered::noise_repeatability_declared};
   if (budget.noise_only)
     found = {Covered::noise_repeatability_only,
@@ -33,7 +36,12 @@ Covers covers(const Budget& budget) {
 Covers covers(const std::vector<Budget>& budgets) {
   const auto best = std::find_if(budgets.begin(), budgets.end(),
                                  [](const Budget& budget) { return !budget.noise_only; });
-  return budgets.empty() ? Covers{} : covers(best == budgets.end() ? budgets.front() : *best);
+  if (budgets.empty()) return {};
+  Covers found = covers(best == budgets.end() ? budgets.front() : *best);
+  const auto is_unknown = [](const Budget& b) { return b.is_imported && std::isnan(b.u); };
+  if (std::any_of(budgets.begin(), budgets.end(), is_unknown))
+    found.push_back(Covered::unknown_with_one_reading);
+  return found;
 }
 
 bool are_noise_only(const std::vector<Budget>& budgets) {

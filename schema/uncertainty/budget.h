@@ -8,13 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/uncertainty/contributor_name.h"
 #include "schema/uncertainty/covers.h"
 
 namespace mdof {
 
 // SI (m, rad) but where the name says otherwise.
 struct BudgetLine {
-  std::string name;          // "probe A: sensitivity"
+  ContributorName name;
   std::string key;           // of the rig: "u_sensitivity_ppm"; empty: seen in the run itself
   std::string distribution;  // "normal", "rectangular", ...
   double value = 0;          // the standard uncertainty, in `unit`
@@ -43,6 +44,7 @@ struct Budget {
   bool U_by_trials = false;    // U is that of Monte Carlo, and k = U / u
   // What rigs declare adds nothing to u: they declare nothing, or nothing that this figure shows.
   bool noise_only = false;
+  bool is_imported = false;    // of readings of another instrument, with no rig
   bool is_single_run = false;  // no target was visited again: noise slower than a stop is not in u
   // Keys of the rig that are not declared: U is too small by what they would add.
   std::vector<std::string> not_declared;

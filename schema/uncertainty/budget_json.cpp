@@ -9,7 +9,7 @@ namespace mdof {
 namespace {
 
 void write_line(JsonWriter& json, const BudgetLine& line) {
-  json.begin_object().field("contributor", line.name).key("key");
+  json.begin_object().field("contributor", contributor_text(line.name)).key("key");
   line.key.empty() ? json.null() : json.value(line.key);
   json.key("value");
   line.key.empty() ? json.null() : json.value(line.value);

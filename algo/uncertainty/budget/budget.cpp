@@ -197,7 +197,7 @@ RunBudgets::Random RunBudgets::random_of_runs(const Figure& figure) const {
 double RunBudgets::by_removed_drift(const Figure& figure) const {
   double square = 0;
   for (const Shifted& shifted : shifted_) {
-    if (shifted.contributor.name != kRemovedDrift) continue;
+    if (shifted.contributor.name.kind != ContributorKind::removed_drift) continue;
     for (const MeanShifts& part : shifted.parts)
       square += std::pow(half_difference(figure, part), 2);
   }
@@ -223,7 +223,7 @@ Budget RunBudgets::first_order(const Figure& figure) const {
   budget.is_single_run = runs_.size() < 2;
   budget.not_declared = not_declared_;
   BudgetLine noise;
-  noise.name = "noise and repeatability";
+  noise.name = {ContributorKind::noise_repeatability};
   noise.distribution = "normal";
   noise.contribution = random.u;
   noise.freedom = random.freedom;

@@ -58,7 +58,7 @@ class TwoSlopes {
 
  private:
   void add(const Of& of, BudgetLine line, const DeclaredUncertainty& drawn) {
-    line.name = of.name + ", " + line.name;
+    line.name.runs = {of.name};
     line.contribution *= of.factor;
     add(std::move(line), drawn);
   }
@@ -86,7 +86,7 @@ class TwoSlopes {
       for (std::size_t p = 0; p < one.parts.size(); ++p)
         parts.push_back(a.factor * one.parts[p] + b.factor * same->parts[p]);
       BudgetLine line = RunBudgets::line(*one.contributor, parts);
-      line.name = a.name + " and " + b.name + ", " + line.name;
+      line.name.runs = {a.name, b.name};
       add(std::move(line), drawn_as(one));
     }
     for (std::size_t i = 0; i < of_b.size(); ++i)
@@ -100,7 +100,7 @@ class TwoSlopes {
 
 BudgetLine artefact_line(const SquareArtefact& artefact, int sign) {
   BudgetLine line;
-  line.name = "angle of the square";
+  line.name = {ContributorKind::artefact_angle};
   line.key = "u_artefact_angle_urad";
   line.distribution = to_string(UncertaintyShape::normal);
   line.value = artefact.u_rad * 1e6;

@@ -40,10 +40,9 @@ PointShifts by_readings(const std::vector<PointSensitivity>& points, Readings re
   return shifts;
 }
 
-Contributor contributor(std::string name, const char* key, const DeclaredUncertainty& declared,
+Contributor contributor(ContributorKind kind, const char* key, const DeclaredUncertainty& declared,
                         double to_unit, const char* unit, std::vector<PointShifts> parts) {
-  return {std::move(name), key,  declared,
-          to_unit,         unit, [parts = std::move(parts)] { return parts; }};
+  return {{kind}, key, declared, to_unit, unit, [parts = std::move(parts)] { return parts; }};
 }
 
 // Shown is the relative expansion, whose uncertainty it is.
@@ -97,16 +96,16 @@ std::vector<Contributor> expansion_contributors(const Rig& rig, const Solver& so
     for (std::size_t j = 0; j < points.size(); ++j)
       for (std::size_t e = 0; e < kErrorCount; ++e)
         shifts[j][e] = -scale * points[j].travel_m * points[j].by_travel[e];
-    list.push_back(contributor("scale: expansion", kScaleKey, relative_of(rig_expansion.scale), 1e6,
-                               "ppm", {std::move(shifts)}));
+    list.push_back(contributor(ContributorKind::scale_expansion, kScaleKey,
+                               relative_of(rig_expansion.scale), 1e6, "ppm", {std::move(shifts)}));
   }
   const Fixture& fixture = solver.fixture();
   if (const double relative = rig_expansion.fixture.relative(); relative > 0)
-    list.push_back(
-        contributor("fixture: expansion", kFixtureKey, relative_of(rig_expansion.fixture), 1e6,
-                    "ppm", {by_readings(points, [&](double travel_m, const Errors5& carriage) {
-                      return readings_by_fixture_expansion(fixture, relative, travel_m, carriage);
-                    })}));
+    list.push_back(contributor(
+        ContributorKind::fixture_expansion, kFixtureKey, relative_of(rig_expansion.fixture), 1e6,
+        "ppm", {by_readings(points, [&](double travel_m, const Errors5& carriage) {
+          return readings_by_fixture_expansion(fixture, relative, travel_m, carriage);
+        })}));
   std::vector<PointShifts> bent;
   for (const Eigen::Vector3d& bend_per_m : gradient_bends(rig))
     bent.push_back(by_readings(points, [&](double travel_m, const Errors5&) {
@@ -116,7 +115,7 @@ std::vector<Contributor> expansion_contributors(const Rig& rig, const Solver& so
   const DeclaredUncertainty3& of = rig_expansion.square_gradient;
   DeclaredUncertainty largest{0, of.shape, of.freedom};
   for (const double u : of.u) largest.u = std::max(largest.u, u);
-  list.push_back(contributor("square: temperature gradient", kGradientKey, largest, 1, "K/m",
+  list.push_back(contributor(ContributorKind::square_gradient, kGradientKey, largest, 1, "K/m",
                              std::move(bent)));
   return list;
 }

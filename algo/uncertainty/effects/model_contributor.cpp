@@ -35,7 +35,7 @@ std::optional<Contributor> model_contributor(const Rig& rig, const Run& run, Mod
   DeclaredUncertainty whole;
   whole.u = 1;
   std::vector<PointShifts> parts{left_out(*simplified, *exact, run)};
-  return Contributor{"model simplified: omitted terms",           "", whole, 1, "",
+  return Contributor{{ContributorKind::simplified_model},         "", whole, 1, "",
                      [parts = std::move(parts)] { return parts; }};
 }
 

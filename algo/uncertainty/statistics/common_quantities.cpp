@@ -31,17 +31,16 @@ PlaneFootprints in_machine_axes(const PlaneFootprints& local, Axis axis) {
 
 }  // namespace
 
-std::string flatness_name(const Rig& rig, const TargetPlane& plane) {
+ContributorName flatness_name(const Rig& rig, const TargetPlane& plane) {
   const auto place = static_cast<std::size_t>(&plane - rig.planes.data());
-  return (plane.id.empty() ? "plane " + std::to_string(place + 1) : "plane " + plane.id) +
-         ": flatness";
+  return {ContributorKind::plane_flatness, plane.id.empty() ? std::to_string(place + 1) : plane.id};
 }
 
 void name_common_surfaces(const Rig& rig, std::vector<Contributor>& list) {
   for (Contributor& contributor : list)
     for (const TargetPlane& plane : rig.planes) {
       if (!contributor.surface || contributor.name != flatness_name(rig, plane)) continue;
-      contributor.surface_as = contributor.name;
+      contributor.surface_as = contributor_text(contributor.name);
       for (const double x : plane.normal) contributor.surface_as += " " + std::to_string(x);
       for (const double x :
            {contributor.declared.u * contributor.to_unit, contributor.surface->length_m})
@@ -53,8 +52,9 @@ void name_probe_correlations(const Rig& rig, std::vector<Contributor>& list) {
   for (Contributor& contributor : list) {
     if (std::find(kOfProbes.begin(), kOfProbes.end(), contributor.key) == kOfProbes.end()) continue;
     for (const Probe& probe : rig.probes)
-      if (contributor.name.starts_with("probe " + probe.id + ": "))
-        contributor.common_as = contributor.name + " " + probe.calibration.certificate + " " +
+      if (contributor.name.subject == probe.id)
+        contributor.common_as = contributor_text(contributor.name) + " " +
+                                probe.calibration.certificate + " " +
                                 std::to_string(contributor.declared.u * contributor.to_unit);
   }
 }

@@ -13,8 +13,8 @@ namespace mdof::algo {
 // wherever it is clamped; the same id, certificate and uncertainty are the same probe.
 void name_probe_correlations(const Rig& rig, std::vector<Contributor>& list);
 
-// "plane top: flatness"; the plane is one of the rig's.
-std::string flatness_name(const Rig& rig, const TargetPlane& plane);
+// The plane is one of the rig's.
+ContributorName flatness_name(const Rig& rig, const TargetPlane& plane);
 // Sets Contributor::surface_as: the same name, normal, uncertainty and length are the same plane of
 // one target, which is over the same place of M at d = 0 of both runs.
 void name_common_surfaces(const Rig& rig, std::vector<Contributor>& list);

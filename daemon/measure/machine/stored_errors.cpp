@@ -148,7 +148,7 @@ void take_shared(const TakenTables& taken) {
   for (const algo::SharedQuantity& part : *parts)
     for (std::size_t t = 0; t < taken.frames.size(); ++t) {
       SharedPart& shared = taken.frames[t]->correlation.shared.emplace_back();
-      shared.name = part.name;
+      shared.name = contributor_text(part.name);
       for (const Errors5& named : part.by_table[t]) {
         auto& at = shared.at.emplace_back();
         for (std::size_t k = 0; k < kErrorCount; ++k)

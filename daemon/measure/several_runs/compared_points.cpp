@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "algo/compensation/imported_table.h"
@@ -97,16 +98,19 @@ Budget range_budget(const std::string& figure, const std::vector<PlacedMean>& me
   Budget budget;
   budget.figure = figure;
   budget.value = high->mean.value - low->mean.value;
-  for (const auto& [name, end] : {std::pair{"upper end", high}, {"lower end", low}}) {
+  using enum ContributorKind;
+  for (const auto& [end, of_repeats, of_import] :
+       {std::tuple{high, upper_end_repeats, upper_end_declared},
+        {low, lower_end_repeats, lower_end_declared}}) {
     BudgetLine repeats;
-    repeats.name = std::string("repeatability of the ") + name;
+    repeats.name = {of_repeats};
     repeats.distribution = "t";
     repeats.contribution = end->mean.u_random;
     repeats.freedom = end->mean.freedom;
     budget.lines.push_back(repeats);
     if (end->mean.u_declared <= 0) continue;
     BudgetLine declared;
-    declared.name = std::string("declared at import, of the ") + name;
+    declared.name = {of_import};
     declared.key = "u_um";
     declared.unit = "um";
     declared.value = to_um(end->mean.u_declared);
@@ -136,7 +140,8 @@ Budget reversal_budget(const std::string& figure, const std::vector<PlacedMean>&
       at.u_random = std::hypot(f.mean.u_random, r.mean.u_random);
       for (const ApproachMean* mean : {&f.mean, &r.mean}) {
         BudgetLine line;
-        line.name = mean == &f.mean ? "repeatability forward" : "repeatability reverse";
+        line.name = {mean == &f.mean ? ContributorKind::forward_repeats
+                                     : ContributorKind::reverse_repeats};
         line.distribution = "t";
         line.contribution = mean->u_random;
         line.freedom = mean->freedom;
@@ -190,6 +195,7 @@ std::vector<Budget> positioning_budgets(const TabledRun& of) {
   if (directed && !reverse.empty())
     budgets.push_back(range_budget(name + "_E_reverse_um", reverse));
   for (Budget& budget : budgets) {
+    budget.is_imported = true;
     complete_or_unknown(budget);
     if (!of.table.has_declared()) budget.not_declared = {"u_um"};
   }

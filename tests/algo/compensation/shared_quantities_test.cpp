@@ -74,7 +74,7 @@ Machine both_axes(const std::vector<BuiltFrom>& tables) {
   for (const SharedQuantity& quantity : shared)
     for (std::size_t t = 0; t < tables.size(); ++t) {
       auto& part = machine.frames[t].correlation.shared.emplace_back();
-      part.name = quantity.name;
+      part.name = contributor_text(quantity.name);
       for (const Errors5& named : quantity.by_table[t]) {
         auto& at = part.at.emplace_back();
         for (std::size_t k = 0; k < kErrorCount; ++k)

@@ -81,6 +81,15 @@ TEST(RunSeries, TheFlatnessOfTheOtherSurfaceIsInIt) {
   EXPECT_FALSE(declared_shifts(of_slopes(side), side, 0, Axis::z)->empty());
 }
 
+// A plane needs no id.
+TEST(RunSeries, TheFlatnessOfThisSurfaceIsNotInItWithoutAnId) {
+  const Rig side = test::rig_x_with("", "",
+                                    "[[plane]]\nnormal = \"+Y\"\nu_flatness_um = "
+                                    "0.05\n[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n");
+  EXPECT_TRUE(declared_shifts(of_slopes(side), side, 0, Axis::y)->empty());
+  EXPECT_FALSE(declared_shifts(of_slopes(side), side, 0, Axis::z)->empty());
+}
+
 TEST(RunSeries, RefusesAProbeThatLooksElsewhere) {
   const auto run = of_slopes(test::rig_x());
   const auto other = probe_series(run, test::rig_x(), "A", Axis::y);

@@ -46,7 +46,7 @@ TEST(Contributors, ACalibrationIsTheSameAtEachPoint) {
     const Rig rig = rig_x_with(c.probe, "u_calibration_um = 0.1");
     const auto all = of(rig, SyntheticRun{.rig = rig, .model = Model::simplified}.measure());
     ASSERT_EQ(all.size(), 2u);  // the other is what the simplified model leaves out
-    EXPECT_EQ(all[0].name, "probe " + std::string(c.probe) + ": calibration");
+    EXPECT_EQ(contributor_text(all[0].name), "probe " + std::string(c.probe) + ": calibration");
     EXPECT_DOUBLE_EQ(all[0].declared.u * all[0].to_unit, 0.1);
     const auto parts = all[0].parts();
     ASSERT_EQ(parts.size(), 1u);
@@ -76,7 +76,7 @@ TEST(Contributors, APositionGoesWithTheAngle) {
   const auto run = synthetic.measure();
   const auto all = of(rig, run);
   ASSERT_EQ(all.size(), 1u);
-  EXPECT_EQ(all[0].name, "probe E: position x");
+  EXPECT_EQ(contributor_text(all[0].name), "probe E: position x");
   const auto parts = all[0].parts();
   for (std::size_t j = 0; j < run.points.size(); ++j) {
     const double yaw = 0.01 * run.points[j].target_m;
@@ -90,7 +90,7 @@ TEST(Contributors, ADriftGrowsWithTimeFromTheFirstPoint) {
   const auto run = SyntheticRun{.rig = rig, .model = Model::simplified}.measure();
   const auto all = of(rig, run);
   ASSERT_EQ(all.size(), 6u);  // the last is what the simplified model leaves out
-  EXPECT_EQ(all[3].name, "probe D: drift");
+  EXPECT_EQ(contributor_text(all[3].name), "probe D: drift");
   EXPECT_NEAR(all[3].declared.u * all[3].to_unit, 0.36, 1e-12);
   const auto parts = all[3].parts();
   for (std::size_t j = 0; j < run.points.size(); ++j) {
@@ -119,7 +119,7 @@ TEST(Contributors, AFlatnessCountsByWhatItChangesSinceTheZero) {
   const auto run = SyntheticRun{.rig = rig, .model = Model::exact}.measure();
   const auto all = of(rig, run);
   ASSERT_EQ(all.size(), 1u);
-  EXPECT_EQ(all[0].name, "plane side: flatness");
+  EXPECT_EQ(contributor_text(all[0].name), "plane side: flatness");
   EXPECT_NE(all[0].surface_as.find("plane side"), std::string::npos);
   const auto parts = all[0].parts();
   for (std::size_t j = 0; j < run.points.size(); ++j) {

@@ -56,14 +56,15 @@ Run run_of_physics(const Rig& rig, Errors5 (*truth)(double)) {
 // The contributor of this name, which has to be there.
 Contributor named_contributor(const Rig& rig, const Run& run, const std::string& name) {
   auto all = contributors(rig, run).value();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const auto& c) { return contributor_text(c.name) == name; });
   EXPECT_TRUE(found != all.end()) << name;
   return found == all.end() ? Contributor() : *found;
 }
 bool has_contributor(const Rig& rig, const Run& run, const std::string& name) {
   const auto all = contributors(rig, run).value();
-  return std::any_of(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
+  return std::any_of(all.begin(), all.end(),
+                     [&](const auto& c) { return contributor_text(c.name) == name; });
 }
 void expect_shown(const Contributor& c, const char* key, double value, const char* unit) {
   EXPECT_EQ(c.key, key);
@@ -252,9 +253,10 @@ void expect_gaps_longer(const Contributor& c, const Run& run, double relative) {
   for (std::size_t j = 0; j < run.points.size(); ++j) {
     const Errors5 truth = rising_axis(run.points[j].point.position_m);
     const double dy = -relative * (kGap_m - truth[kDy]), dz = -relative * (kGap_m - truth[kDz]);
-    EXPECT_NEAR(parts[0][j][kDy], dy, 0.01 * std::abs(dy)) << c.name;
-    EXPECT_NEAR(parts[0][j][kDz], dz, 0.01 * std::abs(dz)) << c.name;
-    for (const auto angle : {kEx, kEy, kEz}) EXPECT_NEAR(parts[0][j][angle], 0, 1e-12) << c.name;
+    EXPECT_NEAR(parts[0][j][kDy], dy, 0.01 * std::abs(dy)) << contributor_text(c.name);
+    EXPECT_NEAR(parts[0][j][kDz], dz, 0.01 * std::abs(dz)) << contributor_text(c.name);
+    for (const auto angle : {kEx, kEy, kEz})
+      EXPECT_NEAR(parts[0][j][angle], 0, 1e-12) << contributor_text(c.name);
   }
 }
 

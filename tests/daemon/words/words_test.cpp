@@ -78,6 +78,30 @@ TEST(Catalogue, WhatUCoversIsInBothLanguages) {
             "nur Rauschen (es sind keine Unsicherheiten angegeben)");
 }
 
+TEST(Catalogue, ContributorsAreInBothLanguages) {
+  const ContributorKind all[] = {
+#define CONTRIBUTOR(code, english, german) ContributorKind::code,
+#include "schema/uncertainty/contributor_names.inc"
+#undef CONTRIBUTOR
+  };
+  for (const auto language : kLanguages) {
+    std::set<std::string> names;
+    for (const ContributorKind kind : all)
+      names.insert(words::text(ContributorName{kind, "D"}, language));
+    EXPECT_EQ(names.size(), std::size(all));  // none says what another says
+    EXPECT_EQ(names.count(""), 0u);
+  }
+  for (const ContributorKind kind : all) {
+    const auto names_subject = [&](words::Language language) {
+      return words::text(ContributorName{kind, "#"}, language).find('#') != std::string::npos;
+    };
+    EXPECT_EQ(names_subject(words::Language::english), names_subject(words::Language::german));
+  }
+  const ContributorName of_two{ContributorKind::probe_position_z, "D", {"X", "Y"}};
+  EXPECT_EQ(words::text(of_two, words::Language::english), "X and Y, probe D: position z");
+  EXPECT_EQ(words::text(of_two, words::Language::german), "X und Y, Sensor D: Position z");
+}
+
 TEST(Catalogue, GermanLinesHaveSingularAndPlural) {
   const auto line = [](const Notice& n) { return words::line(n, words::Language::german); };
   const auto left_out = [](int stops) {

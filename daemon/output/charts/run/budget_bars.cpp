@@ -37,7 +37,8 @@ std::vector<Bar> contributor_bars(const Budget& budget, Language language) {
     const BudgetLine& line = budget.lines[i];
     if (i < kMostContributors) {
       const double value = to_key_unit(line.contribution);
-      bars.push_back({line.name, std::abs(value), line.share, value, "blue-dot"});
+      bars.push_back(
+          {words::text(line.name, language), std::abs(value), line.share, value, "blue-dot"});
       continue;
     }
     rest += line.contribution * line.contribution;

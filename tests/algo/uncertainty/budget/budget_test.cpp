@@ -27,7 +27,7 @@ Budget budget(const RunBudgets& budgets, const std::string& figure) {
 
 double contribution(const Budget& b, const std::string& name) {
   for (const BudgetLine& line : b.lines)
-    if (line.name == name) return line.contribution;
+    if (contributor_text(line.name) == name) return line.contribution;
   ADD_FAILURE() << name;
   return 0;
 }
@@ -373,9 +373,9 @@ TEST(Budget, PartsOfSeveralMeansAddBySquaresAndCost) {
   }
   EXPECT_NEAR(budgets.first_order(figure).u_random, std::sqrt(square), 1e-7 * std::sqrt(square));
 
-  budgets.add({"c", "key", {1e-9}, 1e6, "um", nullptr},
+  budgets.add({{}, "key", {1e-9}, 1e6, "um", nullptr},
               std::vector<PointShifts>(4, PointShifts(run.points.size())));
-  budgets.add({"d", "key", {1e-9}, 1e6, "um", nullptr},
+  budgets.add({{}, "key", {1e-9}, 1e6, "um", nullptr},
               std::vector<PointShifts>(3, PointShifts(run.points.size())));
   EXPECT_EQ(budgets.cost(), 9 * (1 + parts + 7));
 }

@@ -20,8 +20,9 @@ Run sloping_run(const Rig& rig, double slope_y, double slope_z) {
 }
 
 const BudgetLine* line_named(const Budget& budget, const std::string& name) {
-  const auto found = std::find_if(budget.lines.begin(), budget.lines.end(),
-                                  [&](const BudgetLine& line) { return line.name == name; });
+  const auto found =
+      std::find_if(budget.lines.begin(), budget.lines.end(),
+                   [&](const BudgetLine& line) { return contributor_text(line.name) == name; });
   return found == budget.lines.end() ? nullptr : &*found;
 }
 
@@ -69,7 +70,7 @@ TEST(ParallelismBudget, WhatTheRunsDoNotShareIsIndependent) {
   EXPECT_NEAR(y.u, 50e-9, 1e-12);
   EXPECT_EQ(y.lines.size(), 4u);
   // The larger is the first.
-  EXPECT_EQ(y.lines.front().name, "B, probe D: sensitivity");
+  EXPECT_EQ(contributor_text(y.lines.front().name), "B, probe D: sensitivity");
   EXPECT_NEAR(y.lines[0].share, 0.64, 1e-6);
   EXPECT_NEAR(y.lines[1].share, 0.36, 1e-6);
 }

@@ -110,7 +110,7 @@ std::vector<PointShifts> only_parts(const SyntheticRun& synthetic, const std::st
   const auto all = contributors(synthetic.rig, synthetic.measure());
   EXPECT_TRUE(all) << all.error().message;
   EXPECT_EQ(all->size(), 1u);
-  EXPECT_EQ(all->front().name, name);
+  EXPECT_EQ(contributor_text(all->front().name), name);
   return all->front().parts();
 }
 

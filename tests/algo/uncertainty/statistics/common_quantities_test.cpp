@@ -16,7 +16,7 @@
 namespace mdof::algo {
 namespace {
 
-Contributor declared_as(const std::string& name, const std::string& key, double u) {
+Contributor declared_as(const ContributorName& name, const std::string& key, double u) {
   Contributor contributor;
   contributor.name = name;
   contributor.key = key;
@@ -40,37 +40,42 @@ TEST(CommonQuantities, OfAProbeAreThoseOfItsCertificate) {
   const std::string id = rig.probes[1].id;
   for (const char* key : {"u_sensitivity_ppm", "u_linearity_um", "u_tilt_factor", "tilt_factor",
                           "linearity", "polynomial_um"}) {
-    const Contributor one = declared_as("probe " + id + ": it", key, 3e-6);
+    const Contributor one = declared_as({ContributorKind::probe_linearity, id}, key, 3e-6);
     EXPECT_FALSE(common_name(rig, one).empty()) << key;
     EXPECT_EQ(common_name(rig, one), common_name(rig, one));
     EXPECT_NE(common_name(rig, one), common_name(other, one));
     EXPECT_NE(common_name(rig, one),
-              common_name(rig, declared_as("probe " + id + ": it", key, 4e-6)));
+              common_name(rig, declared_as({ContributorKind::probe_linearity, id}, key, 4e-6)));
   }
-  EXPECT_EQ(common_name(rig, declared_as("probe " + id + ": zero", "u_calibration_um", 1e-6)), "");
-  EXPECT_EQ(common_name(rig, declared_as("probe Q: it", "linearity", 1e-6)), "");
+  EXPECT_EQ(common_name(rig, declared_as({ContributorKind::probe_calibration, id},
+                                         "u_calibration_um", 1e-6)),
+            "");
+  EXPECT_EQ(
+      common_name(rig, declared_as({ContributorKind::probe_linearity, "Q"}, "linearity", 1e-6)),
+      "");
 }
 
 TEST(CommonQuantities, OfAPlaneAreItsNameNormalUncertaintyAndLength) {
-  const auto named = [](const std::string& name, const Vec3& normal, double u, double length_m) {
+  const auto named = [](const std::string& plane, const Vec3& normal, double u, double length_m) {
     Rig rig = test::rig_x_with(
         "", "", "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n[[plane]]\nnormal = \"+Y\"\n");
     rig.planes[0].normal = rig.planes[1].normal = normal;
-    std::vector<Contributor> list = {declared_as(name, "u_flatness_um", u)};
+    std::vector<Contributor> list = {
+        declared_as({ContributorKind::plane_flatness, plane}, "u_flatness_um", u)};
     list[0].surface = std::make_shared<const PlaneFootprints>(PlaneFootprints{u, length_m, {}, {}});
     name_common_surfaces(rig, list);
     return list[0].surface_as;
   };
-  const std::string top = named("plane top: flatness", {0, 0, 1}, 1e-7, 0.02);
+  const std::string top = named("top", {0, 0, 1}, 1e-7, 0.02);
   EXPECT_FALSE(top.empty());
-  EXPECT_EQ(top, named("plane top: flatness", {0, 0, 1}, 1e-7, 0.02));
-  EXPECT_NE(top, named("plane top: flatness", {0, 0.1, 0.99}, 1e-7, 0.02));
-  EXPECT_NE(top, named("plane top: flatness", {0, 0, 1}, 2e-7, 0.02));
-  EXPECT_NE(top, named("plane top: flatness", {0, 0, 1}, 1e-7, 0.03));
-  const std::string second = named("plane 2: flatness", {0, 0, 1}, 1e-7, 0.02);  // has no id
+  EXPECT_EQ(top, named("top", {0, 0, 1}, 1e-7, 0.02));
+  EXPECT_NE(top, named("top", {0, 0.1, 0.99}, 1e-7, 0.02));
+  EXPECT_NE(top, named("top", {0, 0, 1}, 2e-7, 0.02));
+  EXPECT_NE(top, named("top", {0, 0, 1}, 1e-7, 0.03));
+  const std::string second = named("2", {0, 0, 1}, 1e-7, 0.02);  // has no id
   EXPECT_FALSE(second.empty());
   EXPECT_NE(second, top);
-  EXPECT_EQ(named("plane 1: flatness", {0, 0, 1}, 1e-7, 0.02), "");
+  EXPECT_EQ(named("1", {0, 0, 1}, 1e-7, 0.02), "");
 }
 
 const Eigen::Vector3d kZeroed(0.001, -0.003, 0.02);  // where the probe is at d = 0
@@ -85,7 +90,8 @@ Contributor over_surface(const std::vector<Eigen::Vector3d>& places, bool along_
     surface.footprints.push_back({local(places[j]), local(kZeroed)});
     surface.readings.push_back({j, j, Errors5{1, 0, -2, 0, 0}});
   }
-  Contributor contributor = declared_as("plane top: flatness", "u_flatness_um", 1e-7);
+  Contributor contributor =
+      declared_as({ContributorKind::plane_flatness, "top"}, "u_flatness_um", 1e-7);
   contributor.surface = std::make_shared<const PlaneFootprints>(std::move(surface));
   contributor.surface_as = "top";
   return contributor;
@@ -94,8 +100,9 @@ Contributor over_surface(const std::vector<Eigen::Vector3d>& places, bool along_
 TEST(CommonQuantities, OneSurfaceHasOneHeightAtAPlaceForRunsAlongXAndY) {
   const std::vector<Eigen::Vector3d> places = {
       {0.01, 0, 0.02}, {0.02, 0.004, 0.02}, {-0.03, 0.01, 0.021}, {0.005, -0.04, 0.019}};
-  std::vector<Contributor> of_a = {declared_as("probe A: zero", "u_calibration_um", 1e-6),
-                                   over_surface(places, false)};
+  std::vector<Contributor> of_a = {
+      declared_as({ContributorKind::probe_calibration, "A"}, "u_calibration_um", 1e-6),
+      over_surface(places, false)};
   std::vector<Contributor> of_b = {over_surface(places, true)};
   const PartsOfTwo parts = parts_of_two(of_a, Axis::x, of_b, Axis::y);
   ASSERT_EQ(parts.a.size(), 2u);
@@ -132,7 +139,7 @@ TEST(CommonQuantities, TwoSurfacesHaveTheirOwnParts) {
   EXPECT_EQ(of_a[0].common_as + of_b[0].common_as, "");
   EXPECT_EQ(parts.a[0][0][0][0], 7);
   of_a[0].surface_as = "";
-  of_b = {declared_as("probe A: zero", "u_calibration_um", 1e-6)};
+  of_b = {declared_as({ContributorKind::probe_calibration, "A"}, "u_calibration_um", 1e-6)};
   EXPECT_EQ(parts_of_two(of_a, Axis::x, of_b, Axis::y).b[0][0][0][0], 7);
   EXPECT_EQ(parts.b[0][0][0][0], 7);
 }

@@ -60,7 +60,7 @@ std::string improve_text(const Budget& b) {
   if (b.lines.empty() || b.u == 0) return "";
   const BudgetLine& first = b.lines.front();
   const double without = b.U * std::sqrt(std::max(0.0, 1 - first.share));
-  return "Improve first: " + first.name + ", " + percent(first.share) +
+  return "Improve first: " + contributor_text(first.name) + ", " + percent(first.share) +
          " of u². Without this contribution, U would be " + shown_u(b, without) + " " + unit_of(b) +
          ".\n";
 }
@@ -117,10 +117,10 @@ std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width) 
   TextTable table(
       {"figure", "value", "unit", "U", "k", "u random", "largest contributor", "share"});
   for (const Budget& b : budgets) {
-    const BudgetLine& first = b.lines.front();
+    const BudgetLine* first = b.lines.empty() ? nullptr : &b.lines.front();  // u is not known
     table.add({b.figure.substr(0, b.figure.rfind('_')), with_u(shown(b, b.value), shown_u(b, b.u)),
                unit_of(b), shown(b, b.U), fixed(b.coverage_factor, 2), shown_u(b, b.u_random),
-               first.name, percent(first.share)});
+               first ? contributor_text(first->name) : "", first ? percent(first->share) : ""});
   }
   return table.text(width) +
          wrapped("± is the standard uncertainty u. It contains " + covers_text(budgets) +
@@ -151,7 +151,8 @@ std::string budget_text(const Budget& b, const std::optional<Decision>& decision
       continue;
     }
     const bool seen = line.key.empty();
-    table.add({line.name, seen ? "" : significant(line.value), line.unit, line.distribution,
+    table.add({contributor_text(line.name), seen ? "" : significant(line.value), line.unit,
+               line.distribution,
                seen ? "" : significant(to_key_unit(line.contribution) / line.value),
                shown_u(b, line.contribution), percent(line.share), freedom_text(line.freedom)});
   }
@@ -177,7 +178,7 @@ std::string budgets_csv(const std::vector<Budget>& budgets) {
       const double contribution = to_key_unit(line.contribution);
       csv.cell(std::string_view(b.figure)).cell(to_key_unit(b.value)).cell(to_key_unit(b.u));
       csv.cell(to_key_unit(b.u_random)).cell(b.freedom).cell(b.coverage_factor);
-      csv.cell(to_key_unit(b.U)).cells({line.name, line.key});
+      csv.cell(to_key_unit(b.U)).cells({contributor_text(line.name), line.key});
       csv.cell(seen ? kNaN : line.value).cells({line.unit, line.distribution});
       csv.cell(seen ? kNaN : contribution / line.value).cell(contribution).cell(line.share);
       csv.cell(line.freedom).cells({covers_text(b), joined(b.not_declared, " ")}).end_row();

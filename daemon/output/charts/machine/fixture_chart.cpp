@@ -15,7 +15,9 @@ using output::Language;
 using output::Phrase;
 using output::phrase;
 
-constexpr double kViewPx = 280, kArrowPx = 34, kViewTopPx = 90;
+constexpr double kViewPx = 280, kArrowPx = 34, kViewTopPx = 104;
+constexpr double kDimensionPx = 12,
+                 kTickLengthPx = 4;  // dimension lines from the panel, and their ends
 
 double longest_span_mm(const Rig& rig) {
   double longest = 1;
@@ -76,6 +78,46 @@ void draw_probe(Svg& svg, const Panel& panel, const Rig& rig, std::size_t k, std
   svg.end_group();
 }
 
+// Places of the probes along `axis`, each once.
+std::vector<double> places_mm(const Rig& rig, std::size_t axis) {
+  constexpr double kSamePlace_mm = 1e-6;
+  std::vector<double> places;
+  for (const Probe& probe : rig.probes) places.push_back(to_mm(probe.position_m[axis]));
+  std::sort(places.begin(), places.end());
+  const auto same = [](double a, double b) { return b - a < kSamePlace_mm; };
+  places.erase(std::unique(places.begin(), places.end(), same), places.end());
+  return places;
+}
+
+// From a place of probes to the next, above the panel for its x and at its right for its y. A
+// number that the line has no room for is left to the table of probes.
+void draw_dimensions(Svg& svg, const Panel& panel, const Rig& rig, std::size_t axis) {
+  const bool level = axis == 0;
+  const double line =
+      level ? panel.corner.y - kDimensionPx : panel.corner.x + panel.width + kDimensionPx;
+  const auto at = [&](double mm, double off_px) {
+    return level ? Place{panel.px_x(mm), line + off_px} : Place{line + off_px, panel.px_y(mm)};
+  };
+  const std::vector<double> places = places_mm(rig, axis);
+  if (places.size() < 2) return;
+  for (const double place : places)
+    svg.line("rule", at(place, -kTickLengthPx), at(place, kTickLengthPx));
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const double mm = places[i + 1] - places[i];
+    const Place from = at(places[i], 0), to = at(places[i + 1], 0);
+    const std::string text = number_text(mm);
+    const double room_px = std::hypot(to.x - from.x, to.y - from.y);
+    svg.data("dimension", std::string(1, "xyz"[axis])).data("mm", mm);
+    svg.line("rule", from, to);
+    if (room_px < (level ? text_width(text, kTickPx) : kTickPx)) continue;
+    const Place middle = {(from.x + to.x) / 2, (from.y + to.y) / 2};
+    if (level)
+      svg.text("text tick", {middle.x, middle.y - 4}, Anchor::middle, text);
+    else
+      svg.text("text tick", {middle.x + 6, middle.y + 4}, Anchor::start, text);
+  }
+}
+
 }  // namespace
 
 std::string fixture_svg(const Rig& rig, Language language) {
@@ -94,6 +136,8 @@ std::string fixture_svg(const Rig& rig, Language language) {
     draw_axes(svg, panel, "X_mm");
     draw_y_title(svg, panel, up == 1 ? "Y_mm" : "Z_mm");
     for (std::size_t k = 0; k < rig.probes.size(); ++k) draw_probe(svg, panel, rig, k, up);
+    draw_dimensions(svg, panel, rig, 0);
+    draw_dimensions(svg, panel, rig, up);
     svg.end_group();
     left += kViewPx + 90;
   }

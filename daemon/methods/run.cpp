@@ -4,6 +4,7 @@
 
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/imported/imported_run.h"
 #include "daemon/methods/methods.h"
 #include "daemon/methods/run_pages.h"
 #include "daemon/paths.h"
@@ -13,6 +14,7 @@
 #include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_page.h"
+#include "schema/imported/series.h"
 #include "schema/plausibility/plausibility_json.h"
 #include "schema/run_json.h"
 #include "schema/targets.h"
@@ -246,6 +248,10 @@ Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::i
   explain(m, run.header);
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
   MDOF_TRY(const auto actions, store.actions_of_run(id));
+  if (is_imported(run.header)) {
+    const StatedFigures figures = imported_figures(store, run);
+    return imported_document(run, figures, sha256, actions, false);
+  }
   const StatedRun stated = stated_in_a_call(run);
   const auto document = [&](const RunHeader& header, std::size_t most_visits) {
     return run_document({run, header, stated.points, stated.figures, false, most_visits}, sha256,
@@ -341,21 +347,25 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .result = "total, runs: header and provenance of each",
              .example = R"({"offset": 0, "count": 10})",
              .handler = on_query(m, list_runs)});
-  table.add({.name = "run.get",
-             .summary = "Returns a run without its points: header, provenance, straightness, "
-                        "angles, plausibility, who started and stopped it.",
-             .params = {run, reference},
-             .result = "the run; straightness in um, slopes and angles in urad; "
-                       "straightness_lines; result_sha256; n_ij (numbers of visits) is null if the "
-                       "list is too long for a reply",
-             .example = R"({"run": 1})",
-             .handler = on_query(m, get_run)});
+  table.add(
+      {.name = "run.get",
+       .summary = "Returns a run without its points: header, provenance, straightness, "
+                  "angles, plausibility, who started and stopped it.",
+       .params = {run, reference},
+       .result =
+           "the run; straightness in um, slopes and angles in urad; uncertainty of each figure "
+           "(of imported positioning: E and B of ISO 230-2); "
+           "straightness_lines; result_sha256; n_ij (numbers of visits) is null if the "
+           "list is too long for a reply",
+       .example = R"({"run": 1})",
+       .handler = on_query(m, get_run)});
   table.add(
       {.name = "run.points",
        .summary = "Returns the points of a run in the order measured, in pages.",
        .params = {run, offset, count_param(kMaxPointsPage), reference},
        .result = "total, u_covers, points: position_mm, five errors in um and urad, u, u_random, "
-                 "U, k, nu_eff (null: infinite), flags",
+                 "U, k, nu_eff (null: infinite), flags; of an imported run: position_mm, its one "
+                 "error, u",
        .example = R"({"run": 1, "offset": 0, "count": 20})",
        .handler =
            on_query(m, [pages = std::make_shared<RunPages>()](Methods&, const Params& params) {

@@ -5,7 +5,9 @@
 #include "algo/uncertainty/run_uncertainty.h"
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/imported/imported_run.h"
 #include "schema/base/json_page.h"
+#include "schema/imported/imported_json.h"
 #include "schema/run_json.h"
 
 namespace mdof::daemon {
@@ -13,6 +15,27 @@ namespace mdof::daemon {
 namespace {
 
 constexpr std::size_t kAfterFirst = 1;  // points_stated_at() gives the run's first before them
+
+// Of what points_stated_at() gives.
+std::string imported_page(const Run& run, std::int64_t total, std::int64_t offset) {
+  const std::string key = error_of_imported(run.header).key();
+  JsonWriter json;
+  json.begin_object()
+      .field("run", run.header.id)
+      .field("axis", std::string(1, letter(run.header.axis)))
+      .field("total", total)
+      .field("offset", offset);
+  const Covers covers = covers_of_readings(run);
+  write_covers(json, covers_text(covers), {});
+  json.key("points").begin_array();
+  append_page_of(json, kAfterFirst, run.points.size(), [&](std::size_t j) {
+    JsonWriter item;
+    write_imported_point(item, run.points[j], key);
+    return item.take();
+  });
+  json.end_array().end_object();
+  return json.take();
+}
 
 }  // namespace
 
@@ -37,6 +60,7 @@ Result<std::string> RunPages::points(store::Store& store, std::int64_t id, rpc::
                                      Reference reference) {
   MDOF_TRY(const auto total, store.count_points(id));
   MDOF_TRY(const Run run, points_stated_at(store, id, page.offset, page.count, reference));
+  if (is_imported(run.header)) return imported_page(run, total, page.offset);
   const bool is_long = total > static_cast<std::int64_t>(algo::kMostPointsOfRepeatability);
   RunUncertainty of_page;
   if (is_long)

@@ -1,5 +1,7 @@
 #include "schema/imported/series.h"
 
+#include "schema/sample.h"
+
 namespace mdof {
 
 std::string positioning_name(Axis axis) {
@@ -26,6 +28,19 @@ std::optional<PositioningSense> positioning_sense_from(std::string_view word) {
   if (word == "command") return PositioningSense::command;
   if (word == "body") return PositioningSense::body;
   return std::nullopt;
+}
+
+ImportedError error_of_imported(const RunHeader& run) {
+  return imported_error(run.axis, run.provenance.model)
+      .value_or(ImportedError{run.provenance.model, std::nullopt, false});
+}
+
+double deviation(const MeasuredPoint& point) {
+  return point.point.probe_m.empty() ? kNaN : point.point.probe_m.front();
+}
+
+double u_of_deviation(const MeasuredPoint& point) {
+  return point.point.probe_u_m.empty() ? kNaN : point.point.probe_u_m.front();
 }
 
 bool is_imported(const RunHeader& run) {

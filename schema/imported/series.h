@@ -67,6 +67,12 @@ inline constexpr PositioningSense kTablePositioningSense = PositioningSense::com
 const char* to_string(PositioningSense sense);  // "command", "body"
 std::optional<PositioningSense> positioning_sense_from(std::string_view word);
 
+// Of an imported run.
+ImportedError error_of_imported(const RunHeader& run);
+// Of a point of an imported run, in m or rad; NaN: there is none.
+double deviation(const MeasuredPoint& point);
+double u_of_deviation(const MeasuredPoint& point);
+
 bool is_imported(const RunHeader& run);
 // Error (bad_input): the run is an imported one, which has not what `what` needs.
 Status check_measured(const RunHeader& run, const std::string& what);

@@ -18,6 +18,10 @@ RunOptions run_options(const RunHeader& run) {
   if (is("/imported/sense", "body")) options.imported.sense = PositioningSense::body;
   if (is("/imported/travel", "+")) options.imported.against_command = false;
   if (is("/imported/travel", "-")) options.imported.against_command = true;
+  simdjson::dom::array about;
+  if (root.at_pointer("/imported/about").get(about)) return options;
+  for (const simdjson::dom::element line : about)
+    if (std::string_view text; !line.get(text)) options.about.emplace_back(text);
   return options;
 }
 

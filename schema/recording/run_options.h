@@ -2,6 +2,9 @@
 // by them; all of them: daemon/measure/replay/request_json.h.
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "schema/imported/series.h"
 #include "schema/run.h"
 
@@ -11,6 +14,7 @@ struct RunOptions {
   bool remove_drift = false;
   bool on_the_fly = false;
   ImportedSense imported;  // of imported positioning; one of an older version: of the command
+  std::vector<std::string> about;  // what an imported file says of itself
 };
 // Of options that say nothing of one, or are none: as above.
 RunOptions run_options(const RunHeader& run);

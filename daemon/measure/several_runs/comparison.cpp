@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "daemon/measure/imported/imported_run.h"
 #include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/base/json_writer.h"
@@ -27,6 +28,7 @@ ComparedFigure compared(const Budget& before, const Budget& after) {
   change.figure = before.figure;
   change.value = std::abs(after.value) - std::abs(before.value);
   change.u_random = std::hypot(before.u_random, after.u_random);
+  change.is_imported = before.is_imported;
   change.is_single_run = before.is_single_run || after.is_single_run;
   change.not_declared = before.not_declared;
   for (const std::string& key : after.not_declared)
@@ -35,7 +37,7 @@ ComparedFigure compared(const Budget& before, const Budget& after) {
       change.not_declared.push_back(key);
   for (const Budget* of : {&before, &after}) {
     BudgetLine line;
-    line.name = of == &before ? "before" : "after";
+    line.name = {of == &before ? ContributorKind::run_before : ContributorKind::run_after};
     line.distribution = "t";
     line.contribution = of->u;
     line.freedom = of->freedom;
@@ -118,17 +120,6 @@ Status check_positioning(const Run& before, const Run& after) {
   return {};
 }
 
-// Each run's own table: as the runs state their sense, or all as it stands where none states more.
-TableRequest table_request(const Run& run, const Run& other) {
-  TableRequest request;
-  request.runs = {run.header.id};
-  request.partial = true;
-  const ImportedSense a = run_options(run.header).imported, b = run_options(other.header).imported;
-  if (a.sense == b.sense && !a.against_command && !b.against_command)
-    request.against_command = false;
-  return request;
-}
-
 Result<Comparison> compare_positioning(store::Store& store, const Run& before, const Run& after) {
   MDOF_CHECK(check_positioning(before, after));
   Comparison found;
@@ -138,8 +129,8 @@ Result<Comparison> compare_positioning(store::Store& store, const Run& before, c
   found.is_imported = true;
   found.differences = differences(before, after);
   found.simulated = before.header.simulated || after.header.simulated;
-  MDOF_TRY(BuiltTable first, calculate_table(store, table_request(before, after)));
-  MDOF_TRY(BuiltTable second, calculate_table(store, table_request(after, before)));
+  MDOF_TRY(BuiltTable first, calculate_table(store, table_of_imported(before, after)));
+  MDOF_TRY(BuiltTable second, calculate_table(store, table_of_imported(after, before)));
   append(found.notices, std::move(first.notices));
   append(found.notices, std::move(second.notices));
   const TabledRun a{before, first.table}, b{after, second.table};
@@ -213,20 +204,10 @@ Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& re
   return found;
 }
 
-std::string covers_text(const Comparison& c) {
+Covers covers(const Comparison& c) {
   std::vector<Budget> changes;
-  bool unknown = false, declared = false;
-  for (const ComparedFigure& figure : c.figures) {
-    changes.push_back(figure.change);
-    unknown = unknown || figure.effect == Effect::unknown;
-    declared = declared || figure.change.not_declared.empty();
-  }
-  if (!c.is_imported) return mdof::covers_text(changes);
-  return std::string("repeatability of the readings") +
-         (declared ? " and the uncertainty declared at import" : " only") +
-         (unknown ? "; U is unknown (null) where a target has one reading, because the "
-                    "repeatability is unknown"
-                  : "");
+  for (const ComparedFigure& figure : c.figures) changes.push_back(figure.change);
+  return covers(changes);
 }
 
 std::string comparison_json(const Comparison& c) {

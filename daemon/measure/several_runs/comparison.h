@@ -47,8 +47,8 @@ struct Comparison {
 // figure that both have.
 Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& request);
 
-// What u of its changes covers: one sentence for people, without a full stop.
-std::string covers_text(const Comparison& comparison);
+// What u of its changes covers.
+Covers covers(const Comparison& comparison);
 
 // What `mdof compare --json` and the RPC say of it.
 std::string comparison_json(const Comparison& comparison);

@@ -16,9 +16,10 @@ from mdofd import DATA, RIG, Daemon, recorded_again, simulator  # noqa: E402
 MDOFD, MDOF = sys.argv[1:3]
 PAGED = "a reply has at most 48 KiB: points come in pages, by a method of their own"
 NEXT = "the second of two alike"
-# (method, its parameters, the command, members that may differ and why). Runs 1 and 3 are of X, 2 of Y.
+# (method, its parameters, the command, members that may differ and why). Runs 1 and 3 are of X, 2 of Y; 4 is imported.
 SAME = [
     ("run.get", {"run": 1}, "show 1", {"points": PAGED}),
+    ("run.get", {"run": 4}, "show 4", {"points": PAGED}),
     ("run.list", {}, "runs", {}),
     ("run.list", {"axis": "Y", "offset": 0, "count": 1}, "runs --axis Y --count 1", {}),
     ("run.budget", {"run": 1, "figure": "EYX_slope_urad"}, "budget 1 --figure EYX_slope_urad", {}),
@@ -77,6 +78,10 @@ class SameDocument(unittest.TestCase):
         logs = {axis: os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz") for axis in "XY"}
         for axis, log in (("X", logs["X"]), ("Y", logs["Y"]), ("X", recorded_again(logs["X"], cls.folder))):
             cls.said("replay", log, "--rig", RIG[axis], "--db", cls.daemon.database)
+        readings = os.path.join(cls.folder, "laser.csv")
+        with open(readings, "w") as file:
+            file.write("target_mm,direction,run,deviation_um\n" + "".join(f"{x},{d},{k},{.1 * x * d + k}\n" for k in (1, 2) for d in (1, -1) for x in (0, 9)))
+        cls.said("import", readings, "--axis", "X", "--u-um", "0.2", "--db", cls.daemon.database)
         cls.client = cls.daemon.start()
         cls.addClassCleanup(cls.daemon.stop)
         cls.addClassCleanup(cls.client.socket.close)

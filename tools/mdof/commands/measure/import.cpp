@@ -84,7 +84,7 @@ Status import(ImportCommand command) {
       std::to_string(run.header.id));
   if (command.json) return write_line(stored_json(run));
   run.header.notices.clear();  // shown already
-  return write_out(imported_text(run, "", terminal_columns(), false));
+  return write_out(imported_text(run, {}, "", terminal_columns(), false));
 }
 
 Action declare_import(CLI::App& command) {

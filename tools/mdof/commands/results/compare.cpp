@@ -76,7 +76,7 @@ std::string comparison_text(const daemon::Comparison& c) {
   for (const Notice& each : c.differences)
     text += wrapped("note: " + words::text(each), terminal_columns()) + "\n";
   return text +
-         wrapped("± is the expanded uncertainty U (95 %). u contains " + daemon::covers_text(c) +
+         wrapped("± is the expanded uncertainty U (95 %). u contains " + covers_text(c) +
                      ". The change is |after| - |before|. U of the change treats the runs as "
                      "independent. Uncertainties that both runs share cancel, so this U tends to "
                      "be too large.",

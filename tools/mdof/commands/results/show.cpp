@@ -3,6 +3,7 @@
 
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/imported/imported_run.h"
 #include "schema/base/output/output_files.h"
 #include "schema/imported/series.h"
 #include "tools/mdof/commands/command.h"
@@ -28,9 +29,11 @@ Status show_imported(store::Store& store, const Run& run, const ChosenRun& choic
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
   if (choice.csv) return write_csv_of(run, false, imported_csv(run), choice);
-  if (choice.json) return write_json(choice, imported_json(run, sha256, actions));
+  const StatedFigures figures = daemon::imported_figures(store, run);
+  if (choice.json)
+    return write_json(choice, daemon::imported_document(run, figures, sha256, actions, true));
   const std::size_t width = terminal_columns();
-  return write_out(imported_text(run, sha256, width, choice.all_warnings) +
+  return write_out(imported_text(run, figures, sha256, width, choice.all_warnings) +
                    history_text(actions, width));
 }
 

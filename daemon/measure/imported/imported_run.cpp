@@ -1,0 +1,59 @@
+#include "daemon/measure/imported/imported_run.h"
+
+#include "daemon/history.h"
+#include "daemon/measure/several_runs/compared_points.h"
+#include "daemon/words/error_text.h"
+#include "daemon/words/words.h"
+#include "schema/imported/imported_json.h"
+#include "schema/imported/series.h"
+#include "schema/recording/run_options.h"
+#include "schema/uncertainty/budget_json.h"
+
+namespace mdof::daemon {
+
+TableRequest table_of_imported(const Run& run, const Run& other) {
+  TableRequest request;
+  request.runs = {run.header.id};
+  request.partial = true;
+  const ImportedSense a = run_options(run.header).imported, b = run_options(other.header).imported;
+  if (a.sense == b.sense && !a.against_command && !b.against_command)
+    request.against_command = false;
+  return request;
+}
+
+StatedFigures imported_figures(store::Store& store, const Run& run) {
+  if (run.header.provenance.model != positioning_name(run.header.axis))
+    return {{}, "of an imported run, only positioning has figures"};
+  const auto built = calculate_table(store, table_of_imported(run, run));
+  if (!built) return {{}, words::text(built.error())};
+  return {positioning_budgets({run, built->table}), ""};
+}
+
+Covers covers_of_readings(const Run& run) {
+  const bool is_declared = !run.points.empty() && !run.points.front().point.probe_u_m.empty();
+  return {is_declared ? Covered::declared_at_import : Covered::undeclared_at_import,
+          Covered::no_repeatability};
+}
+
+std::string imported_document(const Run& run, const StatedFigures& figures,
+                              const std::string& result_sha256,
+                              const std::vector<HistoryEntry>& actions, bool with_points) {
+  JsonWriter json;
+  json.begin_object();
+  write_imported_members(json, run.header, words::text);
+  if (!figures.budgets.empty()) write_covers(json, figures.budgets);
+  write_stated(json, figures);
+  json.field("points_total", static_cast<std::uint64_t>(run.points.size()));
+  if (with_points) {
+    const std::string key = error_of_imported(run.header).key();
+    json.key("points").begin_array();
+    for (const MeasuredPoint& p : run.points) write_imported_point(json, p, key);
+    json.end_array();
+  }
+  json.field("result_sha256", result_sha256).key("history");
+  write_actions(json, actions);
+  json.end_object();
+  return json.take();
+}
+
+}  // namespace mdof::daemon

@@ -7,6 +7,7 @@
 
 #include "daemon/output/documents/dcc_parts.h"
 #include "schema/base/sha256.h"
+#include "schema/imported/series.h"
 #include "schema/rig/report_facts.h"
 #include "schema/units.h"
 
@@ -210,6 +211,8 @@ void write_declaration(Xml& xml, std::string_view element, const std::string& na
 }
 
 Result<std::string> dcc_xml(const Report& report) {
+  for (const ReportRun& run : report.runs)
+    MDOF_CHECK(check_measured(run.results.run.header, "a certificate (DCC)"));
   if (report.facts.country.empty())
     return bad_input(
         "a certificate must name the country of the laboratory (ISO 3166-1, such as DE)",

@@ -15,7 +15,7 @@
 namespace mdof::documents {
 
 // Error (bad_input): a key that the schema requires is not stated: country, or the date of a run
-// whose log has none.
+// whose log has none; a run is an imported one.
 Result<std::string> dcc_xml(const report::Report& report);
 
 }  // namespace mdof::documents

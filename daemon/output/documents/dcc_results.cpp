@@ -238,7 +238,7 @@ void write_meta_data(Xml& xml, const ReportRun& run) {
   write_declaration(xml, kMetaData, "SHA-256 of the result", run.result_sha256);
   write_declaration(xml, kMetaData, "measured with", header.provenance.software_version);
   write_declaration(xml, kMetaData, "command that replays the recording",
-                    report::replay_command(header));
+                    report::replay_command(run.results.run));
   xml.close();
 }
 

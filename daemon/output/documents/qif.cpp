@@ -13,6 +13,7 @@
 #include "daemon/output/documents/xml.h"
 #include "schema/axis.h"
 #include "schema/base/sha256.h"
+#include "schema/imported/series.h"
 #include "schema/units.h"
 
 namespace mdof::documents {
@@ -365,7 +366,9 @@ std::string with_id(const Report& report, const Document& document, const std::s
 
 }  // namespace
 
-std::string qif_xml(const Report& report) {
+Result<std::string> qif_xml(const Report& report) {
+  for (const ReportRun& run : report.runs)
+    MDOF_CHECK(check_measured(run.results.run.header, "a QIF document"));
   const Document document = document_of(report);
   // A UUID of all that it says, so that no two documents that differ have the same one.
   const std::string hash = sha256_hex(with_id(report, document, ""));

@@ -11,9 +11,11 @@
 #include <string>
 
 #include "daemon/output/report/report.h"
+#include "schema/base/result.h"
 
 namespace mdof::documents {
 
-std::string qif_xml(const report::Report& report);
+// Error (bad_input): a run is an imported one.
+Result<std::string> qif_xml(const report::Report& report);
 
 }  // namespace mdof::documents

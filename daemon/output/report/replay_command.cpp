@@ -1,7 +1,11 @@
 #include "daemon/output/report/replay_command.h"
 
+#include <cmath>
+
 #include "daemon/measure/replay/request_json.h"
 #include "daemon/output/charts/svg.h"
+#include "schema/imported/series.h"
+#include "schema/recording/run_options.h"
 #include "schema/units.h"
 
 namespace mdof::report {
@@ -41,13 +45,30 @@ std::string options_of(const daemon::PipelineOptions& o) {
   return text;
 }
 
+std::string import_options(const Run& run) {
+  const RunHeader& h = run.header;
+  std::string text = std::string(" --axis ") + letter(h.axis) + " --error " + h.provenance.model;
+  const double u = run.points.empty() ? std::nan("") : u_of_deviation(run.points.front());
+  if (std::isfinite(u))
+    text += option(error_of_imported(h).angle ? "--u-urad" : "--u-um", to_key_unit(u));
+  if (h.provenance.model != positioning_name(h.axis)) return text;
+  const ImportedSense stated = run_options(h).imported;
+  text += std::string(" --sense ") + to_string(stated.sense);
+  if (stated.against_command) text += *stated.against_command ? " --travel -" : " --travel +";
+  return text;
+}
+
 }  // namespace
 
 std::string rig_file(const RunHeader& run) {
   return run.provenance.rig_text.empty() ? "" : "rig-of-run-" + std::to_string(run.id) + ".toml";
 }
 
-std::string replay_command(const RunHeader& run) {
+std::string replay_command(const Run& of) {
+  const RunHeader& run = of.header;
+  if (is_imported(run))
+    return "mdof import " + quoted(run.provenance.recording_path) + import_options(of) +
+           " --db check.db";
   const bool was_piped = run.provenance.recording_path == "-";
   std::string command = "mdof replay " + (was_piped ? "-" : quoted(run.provenance.recording_path));
   if (const std::string rig = rig_file(run); !rig.empty()) command += " --rig " + rig;

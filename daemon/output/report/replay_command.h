@@ -1,4 +1,4 @@
-// How a run is measured again from its recording.
+// How a run is evaluated again from its recording, or imported again.
 #pragma once
 
 #include <string>
@@ -11,6 +11,6 @@ namespace mdof::report {
 std::string rig_file(const RunHeader& run);
 
 // For a shell, with the rig and the options that were used, whatever the recording has.
-std::string replay_command(const RunHeader& run);
+std::string replay_command(const Run& run);
 
 }  // namespace mdof::report

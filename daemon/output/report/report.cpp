@@ -8,6 +8,7 @@
 #include "daemon/output/report/sections.h"
 #include "schema/axis.h"
 #include "schema/base/sha256.h"
+#include "schema/imported/series.h"
 #include "schema/units.h"
 
 namespace mdof::report {
@@ -113,8 +114,9 @@ void write_provenance(Html& html, const ReportRun& run, Language language) {
               {phrase(Phrase::recording_sha256, language), h.provenance.recording_sha256},
               {phrase(Phrase::result_sha256, language), run.result_sha256},
               {phrase(Phrase::measured_by, language), h.provenance.software_version}});
-  html.element("p", phrase(Phrase::how_to_replay, language));
-  html.element("pre", replay_command(h), "replay");
+  html.element("p",
+               phrase(is_imported(h) ? Phrase::how_to_import : Phrase::how_to_replay, language));
+  html.element("pre", replay_command(run.results.run), "replay");
   if (const std::string file = rig_file(h); !file.empty()) {
     html.element("p", phrase(Phrase::save_rig, language, {file}));
     html.element("pre", h.provenance.rig_text, "rig");
@@ -134,7 +136,7 @@ std::string report_html(const Report& report) {
     write_results(html, run, language);
     write_decisions(html, run, language);
     write_conditions(html, run, language);
-    write_fixture(html, run, language);
+    if (!is_imported(run.results.run.header)) write_fixture(html, run, language);
     write_notices(html, run, language);
     write_charts(html, run, language);
     write_points(html, run, language);

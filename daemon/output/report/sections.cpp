@@ -7,6 +7,8 @@
 #include "daemon/output/charts/machine/fixture_chart.h"
 #include "daemon/output/report/numbers.h"
 #include "schema/axis.h"
+#include "schema/imported/series.h"
+#include "schema/recording/run_options.h"
 #include "schema/units.h"
 
 namespace mdof::report {
@@ -55,13 +57,15 @@ std::string conformity_text(Conformity conformity, Language language) {
                 language);
 }
 
+std::string approach_text(int direction) {
+  return direction > 0 ? "+" : direction < 0 ? "−" : "?";
+}
+
 std::vector<std::string> point_row(const ReportRun& run, std::size_t row) {
   const auto& [results, uncertainty] = std::tie(run.results.run, run.results.uncertainty);
   const MeasuredPoint& p = results.points[row];
   std::vector<std::string> cells = {std::to_string(p.target), std::to_string(p.run),
-                                    p.point.direction > 0   ? "+"
-                                    : p.point.direction < 0 ? "−"
-                                                            : "?",
+                                    approach_text(p.point.direction),
                                     fixed_text(to_mm(p.point.position_m), 4)};
   const Errors5 named = named_from_local(results.header.moving(), p.errors.local);
   for (std::size_t k = 0; k < kErrorCount; ++k) {
@@ -74,6 +78,58 @@ std::vector<std::string> point_row(const ReportRun& run, std::size_t row) {
   return cells;
 }
 
+// What another instrument measured, and what its file says.
+std::vector<std::pair<std::string, std::string>> conditions_of_imported(const Run& run,
+                                                                        const std::string& state,
+                                                                        Language language) {
+  const RunHeader& h = run.header;
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
+  const ImportedError error = error_of_imported(h);
+  const RunOptions options = run_options(h);
+  const double u =
+      run.points.empty() ? std::nan("") : to_key_unit(u_of_deviation(run.points.front()));
+  std::string about;
+  for (const std::string& line : options.about) about += (about.empty() ? "" : "; ") + line;
+  const bool is_positioning = h.provenance.model == positioning_name(h.axis);
+  return {{of(Phrase::imported_on), h.started_utc},
+          {of(Phrase::state), state},
+          {of(Phrase::imported_error), error.name},
+          {of(Phrase::stated_in_file), about},
+          {of(Phrase::sense_of_deviation),
+           !is_positioning
+               ? ""
+               : of(options.imported.sense == PositioningSense::body ? Phrase::sense_body
+                                                                     : Phrase::sense_command)},
+          {of(Phrase::declared_u), std::isfinite(u)
+                                       ? charts::number_text(u) + " " + unit_of_key(error.key())
+                                       : of(Phrase::not_stated)},
+          {of(Phrase::measured_by), h.provenance.software_version},
+          {of(Phrase::note), h.note}};
+}
+
+void write_readings(Html& html, const Run& run, Language language) {
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
+  const std::string key = error_of_imported(run.header).key();
+  html.element("h3", of(Phrase::readings));
+  html.element("p", of(Phrase::readings_explained), "quiet");
+  const std::size_t all = run.points.size(), n = std::min(all, kMostListedPoints);
+  if (n < all)
+    html.element("p",
+                 phrase(Phrase::points_left_out, language,
+                        {std::to_string(all), std::to_string(n), std::to_string(run.header.id)}));
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t row = 0; row < n; ++row) {
+    const MeasuredPoint& p = run.points[row];
+    const double u = to_key_unit(u_of_deviation(p));
+    rows.push_back({std::to_string(p.target), std::to_string(p.run),
+                    approach_text(p.point.direction), fixed_text(to_mm(p.point.position_m), 4),
+                    value_text(to_key_unit(deviation(p)), u), uncertainty_text(u)});
+  }
+  html.table({of(Phrase::target), of(Phrase::pass), of(Phrase::approach),
+              of(Phrase::position) + " / mm", charts::key_label(key), "u / " + unit_of_key(key)},
+             rows, "long points tight");
+}
+
 }  // namespace
 
 void write_conditions(Html& html, const ReportRun& run, Language language) {
@@ -83,6 +139,7 @@ void write_conditions(Html& html, const ReportRun& run, Language language) {
   std::string state = output::state_text(h.state, language);
   if (run.superseded_by)
     state += ", " + phrase(Phrase::superseded, language, {std::to_string(*run.superseded_by)});
+  if (is_imported(h)) return html.facts(conditions_of_imported(run.results.run, state, language));
   const bool is_evaluation = h.provenance.recording_kind == "csv";  // nobody knows when it began
   html.facts({{of(is_evaluation ? Phrase::evaluated : Phrase::started), h.started_utc},
               {of(Phrase::state), state},
@@ -154,7 +211,10 @@ void write_results(Html& html, const ReportRun& run, Language language) {
   if (!rows.empty())
     html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::unit), "u", "U (95 %)", "k"},
                rows, "numbers");
-  html.element("p", of(Phrase::U_explained), "quiet");
+  html.element(
+      "p",
+      of(is_imported(run.results.run.header) ? Phrase::U_explained_imported : Phrase::U_explained),
+      "quiet");
   if (figures.budgets.empty())
     html.element("p",
                  phrase(Phrase::U_missing_because, language,
@@ -219,6 +279,7 @@ void write_charts(Html& html, const ReportRun& run, Language language) {
 void write_points(Html& html, const ReportRun& run, Language language) {
   const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
   const RunHeader& h = run.results.run.header;
+  if (is_imported(h)) return write_readings(html, run.results.run, language);
   const std::size_t all = run.results.run.points.size(), n = std::min(all, kMostListedPoints);
   html.element("h3", of(Phrase::points));
   html.element("p", of(Phrase::points_explained), "quiet");

@@ -8,6 +8,7 @@
 #include "algo/uncertainty/conformity/decision.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/version.h"
+#include "schema/imported/series.h"
 #include "schema/rig/reference.h"
 #include "schema/units.h"
 #include "tools/mdof/options.h"
@@ -67,7 +68,10 @@ Result<report::ReportRun> report_run(store::Store& store, std::int64_t number,
                                      Reference reference) {
   report::ReportRun run;
   MDOF_TRY(run.results, stated_results(store, number, reference));
-  MDOF_TRY(run.rig, daemon::rig_of(run.results.run.header));
+  run.rig.axis = run.results.run.header.axis;
+  if (!is_imported(run.results.run.header)) {
+    MDOF_TRY(run.rig, daemon::rig_of(run.results.run.header));
+  }
   MDOF_TRY(run.result_sha256, store.result_sha256(number));
   MDOF_TRY(run.superseded_by, store.superseded_by(number));
   return run;

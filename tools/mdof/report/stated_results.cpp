@@ -6,6 +6,7 @@
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
+#include "daemon/measure/imported/imported_run.h"
 #include "schema/imported/series.h"
 #include "tools/mdof/stored/run_choice.h"
 
@@ -35,12 +36,18 @@ Result<charts::StatedResults> stated_results(store::Store& store, std::int64_t r
                                              Reference reference) {
   charts::StatedResults results;
   MDOF_TRY(results.run, daemon::run_stated_at(store, run, reference));
-  MDOF_CHECK(check_measured(results.run.header, "charts of its five errors"));
+  results.marks = daemon::marks_of(results.run);
+  if (is_imported(results.run.header)) {
+    results.figures = daemon::imported_figures(store, results.run);
+    const bool declared =
+        !results.run.points.empty() && !results.run.points.front().point.probe_u_m.empty();
+    results.uncertainty.noise_only = !declared;
+    return results;
+  }
   daemon::StatedRun stated = daemon::stated_run(results.run);
   results.uncertainty = std::move(stated.points);
   results.figures = std::move(stated.figures);
   results.lines = algo::straightness_lines(results.run.header.moving(), results.run.points);
-  results.marks = daemon::marks_of(results.run);
   return results;
 }
 
@@ -61,7 +68,7 @@ std::vector<charts::SquarenessOfPair> squareness_of_runs(
   const auto along = [&](Axis axis) {
     std::vector<const charts::StatedResults*> found;
     for (const charts::StatedResults* each : runs)
-      if (each->run.header.axis == axis) found.push_back(each);
+      if (each->run.header.axis == axis && !is_imported(each->run.header)) found.push_back(each);
     return found;
   };
   std::vector<charts::SquarenessOfPair> pairs;

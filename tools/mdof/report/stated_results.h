@@ -12,7 +12,7 @@
 
 namespace mdof::tools {
 
-// Errors: no such run, an imported one.
+// Of an imported run: its figures, and no uncertainty of points. Error: no such run.
 Result<charts::StatedResults> stated_results(store::Store& store, std::int64_t run,
                                              Reference reference);
 

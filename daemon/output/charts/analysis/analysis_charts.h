@@ -9,6 +9,7 @@
 #include "algo/drift/warm_up.h"
 #include "daemon/measure/replay/parked_log.h"
 #include "daemon/measure/several_runs/comparison.h"
+#include "daemon/output/charts/run/run_charts.h"
 #include "daemon/output/phrases.h"
 #include "schema/iso230/positioning.h"
 #include "schema/iso230/reference_lines.h"
@@ -32,6 +33,10 @@ struct PositioningPicture {
   std::vector<PositioningSeries> series;  // one at least
 };
 std::string positioning_svg(const PositioningPicture& picture, output::Language language);
+
+// Of an imported run; `marks` as of StatedResults.
+RunCharts charts_of_imported(const Run& run, const std::vector<std::string>& marks,
+                             output::Language language);
 
 // Deviations in m over positions in m: with each reference line, and what is left about the
 // least-squares line.

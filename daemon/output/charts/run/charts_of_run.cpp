@@ -1,14 +1,38 @@
 #include <string>
 
+#include "daemon/output/charts/analysis/analysis_charts.h"
 #include "daemon/output/charts/plot_files.h"
 #include "daemon/output/charts/run/points.h"
 #include "daemon/output/charts/run/run_charts.h"
 #include "schema/axis.h"
+#include "schema/imported/series.h"
 
 namespace mdof::charts {
 
 using output::Phrase;
 using output::phrase;
+
+namespace {
+
+void add_budgets(const StatedResults& results, RunCharts& all, Language language) {
+  const std::string number = std::to_string(results.run.header.id);
+  const std::string run = "run " + number;
+  const std::string title =
+      phrase(Phrase::run_axis, language, {number, std::string(1, letter(results.run.header.axis))});
+  for (const Budget& budget : results.figures.budgets)
+    if (has_budget(budget))
+      all.charts.push_back({"run-" + number + "-budget-" + file_name(budget.figure) + ".svg",
+                            budget_svg(budget, title, results.marks, language)});
+    else
+      all.left_out.push_back(run + ": the budget of " + budget.figure +
+                             " needs u, but u is unknown");
+  if (results.figures.budgets.empty())
+    all.left_out.push_back(
+        run + ": chart of the budget: " +
+        (results.figures.why.empty() ? "the run has no calculated results" : results.figures.why));
+}
+
+}  // namespace
 
 RunCharts charts_of_run(const StatedResults& results, Language language) {
   const std::string number = std::to_string(results.run.header.id);
@@ -17,6 +41,11 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
   const auto add = [&](const std::string& name, std::string svg) {
     all.charts.push_back({"run-" + number + "-" + name + ".svg", std::move(svg)});
   };
+  if (is_imported(results.run.header)) {
+    all = charts_of_imported(results.run, results.marks, language);
+    add_budgets(results, all, language);
+    return all;
+  }
   if (!has_five_errors(results)) {
     all.left_out.push_back(run + ": no point has error values, but each chart needs such points");
     return all;
@@ -34,18 +63,7 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
                            ": the charts of repeatability and drift need a target that was visited "
                            "twice from the same side");
   }
-  const std::string title =
-      phrase(Phrase::run_axis, language, {number, std::string(1, letter(results.run.header.axis))});
-  for (const Budget& budget : results.figures.budgets)
-    if (has_budget(budget))
-      add("budget-" + file_name(budget.figure), budget_svg(budget, title, results.marks, language));
-    else
-      all.left_out.push_back(run + ": the budget of " + budget.figure +
-                             " needs u, but u is unknown");
-  if (results.figures.budgets.empty())
-    all.left_out.push_back(
-        run + ": chart of the budget: " +
-        (results.figures.why.empty() ? "the run has no calculated results" : results.figures.why));
+  add_budgets(results, all, language);
   return all;
 }
 

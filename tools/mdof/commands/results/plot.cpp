@@ -1,16 +1,12 @@
 // mdof plot RUN...: charts of stored runs as SVG files.
 #include <CLI/CLI.hpp>
 
-#include "algo/iso230/positioning/positioning.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
-#include "daemon/output/charts/analysis/analysis_charts.h"
 #include "daemon/output/charts/machine/table_maps.h"
 #include "daemon/output/charts/plot_files.h"
-#include "daemon/output/charts/run/points.h"
 #include "daemon/output/charts/run/run_charts.h"
 #include "schema/base/json_writer.h"
-#include "schema/imported/series.h"
 #include "schema/rig/reference.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
@@ -81,29 +77,6 @@ Status draw_table(store::Store& store, std::int64_t number, output::Language lan
   return {};
 }
 
-// Readings of another instrument, with the means of ISO 230-2 where the readings give them.
-Status draw_imported(const Run& run, output::Language language, Plotted& plotted) {
-  MDOF_TRY(const ImportedError error, imported_error(run.header.axis, run.header.provenance.model));
-  charts::PositioningSeries series{error.key(), {}, {}};
-  for (const MeasuredPoint& p : run.points)
-    series.readings.push_back({p.target_m, p.point.direction, p.run, p.point.probe_m.front()});
-  const std::string name = "run-" + std::to_string(run.header.id);
-  auto figures = algo::positioning(series.readings);
-  if (figures)
-    series.figures = std::move(*figures);
-  else
-    plotted.left_out.push_back(name + ": the means of ISO 230-2: " + figures.error().message);
-  charts::PositioningPicture picture;
-  picture.title = charts::title_of_run(
-      run.header, output::phrase(output::Phrase::positioning_of_run, language), language);
-  picture.about = charts::about_run(run.header, language);
-  picture.warnings = daemon::marks_of(run);
-  picture.series = {std::move(series)};
-  plotted.charts.push_back(
-      {name + "-" + error.name + ".svg", charts::positioning_svg(picture, language)});
-  return {};
-}
-
 Result<Plotted> draw_all(const PlotCommand& command) {
   Reference reference{};
   output::Language language{};
@@ -114,11 +87,6 @@ Result<Plotted> draw_all(const PlotCommand& command) {
   Plotted plotted;
   std::vector<charts::StatedResults> runs;
   for (const std::int64_t number : numbers) {
-    MDOF_TRY(const Run run, daemon::run_stated_at(store, number, reference));
-    if (is_imported(run.header)) {
-      MDOF_CHECK(draw_imported(run, language, plotted));
-      continue;
-    }
     MDOF_TRY(auto results, stated_results(store, number, reference));
     plotted.take(charts::charts_of_run(results, language));
     for (const std::size_t row : command.points) {

@@ -1,0 +1,36 @@
+// An imported run: the readings of another instrument, with the means of ISO 230-2 where the
+// readings give them.
+#include "algo/iso230/positioning/positioning.h"
+#include "daemon/output/charts/analysis/analysis_charts.h"
+#include "daemon/output/charts/run/points.h"
+#include "schema/imported/series.h"
+
+namespace mdof::charts {
+
+using output::Language;
+using output::Phrase;
+using output::phrase;
+
+RunCharts charts_of_imported(const Run& run, const std::vector<std::string>& marks,
+                             Language language) {
+  RunCharts all;
+  const ImportedError error = error_of_imported(run.header);
+  PositioningSeries series{error.key(), {}, {}};
+  for (const MeasuredPoint& p : run.points)
+    series.readings.push_back({p.target_m, p.point.direction, p.run, deviation(p)});
+  const std::string name = "run-" + std::to_string(run.header.id);
+  auto figures = algo::positioning(series.readings);
+  if (figures)
+    series.figures = std::move(*figures);
+  else
+    all.left_out.push_back(name + ": the means of ISO 230-2: " + figures.error().message);
+  PositioningPicture picture;
+  picture.title = title_of_run(run.header, phrase(Phrase::positioning_of_run, language), language);
+  picture.about = about_run(run.header, language);
+  picture.warnings = marks;
+  picture.series = {std::move(series)};
+  all.charts.push_back({name + "-" + error.name + ".svg", positioning_svg(picture, language)});
+  return all;
+}
+
+}  // namespace mdof::charts

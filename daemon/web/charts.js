@@ -24,7 +24,7 @@ const colour = (name) => getComputedStyle(document.documentElement).getPropertyV
 const kDash = [6, 3];
 
 // series: [{label, name, colour, dash, wide, line, marks, points: [[x, low, value, high]]}]: name is said in the legend, wide is
-// seen below another, line has no marks and no band, marks have no line; points in any order of x.
+// seen below another, line has no marks and no band, marks have no line, envelope is a range and its mean; points in any order of x.
 // place: what a place on the x axis is called.
 // Rows for dygraphs with a column a series; a place that a series lacks stays open.
 export function rowsOf(series) {
@@ -70,7 +70,8 @@ export class Chart {
       colors: this.series.map((one) => colour(one.colour)),
       series: Object.fromEntries(this.series.map((one) => [one.label, {
         strokePattern: one.dash ? kDash : null, drawPoints: one.points.length < 200,
-        pointSize: one.line ? 0 : one.marks ? 6 : 3, strokeWidth: one.marks ? 0 : one.wide ? 4 : 1.6, fillAlpha: one.line || one.marks ? 0 : 0.2}])),
+        pointSize: one.line || one.envelope ? 0 : one.marks ? 6 : 3, strokeWidth: one.marks ? 0 : one.wide ? 4 : one.envelope ? 0.8 : 1.6,
+        fillAlpha: one.line || one.marks ? 0 : one.envelope ? 0.1 : 0.2}])),
       axisLineColor: colour("rule"), gridLineColor: colour("grid"), axisLabelFontSize: 12,
       connectSeparatedPoints: true, highlightCircleSize: 5, xlabel: this.xlabel, xLabelHeight: 16, xRangePad: 8, yRangePad: 12,
       strokeWidth: 1.6, axes: {y: {axisLabelWidth: 62}},
@@ -93,35 +94,43 @@ export class Chart {
   }
 }
 
-const kMostPasses = 4;  // shown while many are there; the others are in the table
+const kMostPasses = 4;  // each with its own line and band; the older ones share one
 
-export const approach = (direction) => direction > 0
-  ? {name: "forward", colour: "blue", dash: false} : {name: "reverse", colour: "orange", dash: true};
+export const approach = (direction) => direction > 0 ? {name: "forward", colour: "blue", dash: false}
+  : direction < 0 ? {name: "reverse", colour: "orange", dash: true} : {name: "approach unknown", colour: "text", dash: false};
+const sign = (direction) => direction > 0 ? "+" : direction < 0 ? "−" : "?";
 // Values without U as points of a series.
 export const plain = (map) => [...map].map(([x, y]) => [x, y, y, y]);
 
-// Points of run.points -> a series for each pass and approach, with ± U.
+// Points of run.points -> a series for each of the newest passes and approach, with ± U, after one for all older passes of an
+// approach: their mean, and from the smallest to the largest value, so that no outlier is out of the picture.
 export function passes(points, key, most = kMostPasses) {
-  const found = new Map();
+  const last = points.reduce((most_so_far, p) => Math.max(most_so_far, p.run), 0);
+  const older = new Map(), newest = new Map();
   for (const p of points) {
-    const id = `${p.run}${p.direction > 0 ? "+" : "−"}`;
-    if (!found.has(id)) found.set(id, {label: id, ...approach(p.direction), run: p.run, points: []});
-    const U = p.U?.[key] ?? 0;
-    found.get(id).points.push([p.target_mm ?? p.position_mm, p[key] - U, p[key], p[key] + U]);
+    const is_new = p.run > last - most, id = `${is_new ? p.run : "older "}${sign(p.direction)}`, found = is_new ? newest : older;
+    if (!found.has(id)) found.set(id, {label: id, ...approach(p.direction), points: [], values: new Map()});
+    const one = found.get(id), U = p.U?.[key] ?? 0, x = p.target_mm ?? p.position_mm;
+    if (is_new) one.points.push([x, p[key] - U, p[key], p[key] + U]);
+    else if (isNumber(p[key])) one.values.set(x, [...one.values.get(x) ?? [], p[key]]);
   }
-  const all = [...found.values()];
-  const last = Math.max(...all.map((one) => one.run));
-  return all.filter((one) => one.run > last - most);
+  for (const one of older.values()) {
+    one.name = `older passes, ${one.name}: mean, smallest to largest`;
+    one.envelope = true;
+    one.points = [...one.values].map(([x, all]) => [x, Math.min(...all), all.reduce((a, b) => a + b, 0) / all.length, Math.max(...all)]);
+  }
+  return [...older.values(), ...newest.values()];
 }
 
-// Mean over all passes of one approach (or of both, direction 0) at each target: Map target_mm -> value.
+// Mean over all passes of one approach (or of both, direction 0) at each target: Map target_mm -> value. A reading that does
+// not say its approach counts for both.
 export function means(points, key, direction = 0) {
   const sums = new Map();
   for (const p of points) {
-    if (direction !== 0 && p.direction !== direction || !isNumber(p[key])) continue;
+    if (direction && p.direction && p.direction !== direction || !isNumber(p[key])) continue;
     const x = p.target_mm ?? p.position_mm;
     const side = sums.get(x) ?? {1: [], "-1": []};
-    side[p.direction].push(p[key]);
+    for (const d of p.direction ? [p.direction] : direction ? [direction] : [1, -1]) side[d].push(p[key]);
     sums.set(x, side);
   }
   const mean = (list) => list.reduce((a, b) => a + b, 0) / list.length;

@@ -18,15 +18,18 @@ export function budgetBars(budget, unit) {
 
 const kShown_deg = 8;  // the angle is drawn so large, whatever it is
 
-// The angle from the first axis to the second one is 90° + error_urad.
+// The angle from the first axis to the second one is 90° + this sign times the error: EB0Z turns X towards -Z (ISO 230-1).
+export const squarenessSign = (first, second) => first === "X" && second === "Z" ? -1 : 1;
+
+// Axes in the order X, Y, Z; the error as it is named: EC0Y, EB0Z, EA0Z.
 export function squarenessPicture(first, second, error_urad) {
-  const sign = Math.sign(error_urad);
+  const beyond_urad = squarenessSign(first, second) * error_urad, sign = Math.sign(beyond_urad);
   const angle = (90 + kShown_deg * sign) * Math.PI / 180, length = 130;
   const end = [60 + length * Math.cos(angle), 160 - length * Math.sin(angle)];
   const line = (kind, x1, y1, x2, y2) => s("line", {class: kind, x1, y1, x2, y2});
   const text = (x, y, content) => s("text", {x, y}, content);
   return s("svg", {class: "picture", viewBox: "0 0 260 190", role: "img", "aria-label":
-    `The angle from +${first} to +${second} is ${error_urad > 0 ? "larger" : "smaller"} than 90 degrees, by ${fixed(Math.abs(error_urad), 2)} µrad; drawn much enlarged`},
+    `The angle from +${first} to +${second} is ${beyond_urad > 0 ? "larger" : "smaller"} than 90 degrees, by ${fixed(Math.abs(error_urad), 2)} µrad; drawn much enlarged`},
   line("rule dash", 60, 160, 60, 20), line("blue", 60, 160, 230, 160), line("orange", 60, 160, ...end),
   text(235, 165, `+${first}`), text(end[0] - 8, end[1] - 6, `+${second}`), text(22, 95, "90°"));
 }

@@ -8,7 +8,8 @@ export async function units(page) {
     const {difference} = await import("/views/run_pair.js");
     const {valueAt} = await import("/views/compensation.js");
     const {expected} = await import("/views/capture.js");
-    const {rowsOf, means} = await import("/charts.js");
+    const {rowsOf, means, passes} = await import("/charts.js");
+    const {squarenessPicture} = await import("/pictures.js");
     const {controlSeries, verdict: control} = await import("/views/run_trend.js");
     const {hoursLeft} = await import("/views/health.js");
     const {layer} = await import("/views/volume.js");
@@ -38,6 +39,11 @@ export async function units(page) {
       rows: rowsOf([{points: [[1, 0, 1, 2], [0, 0, 0, 0]]}, {points: [[1, 4, 5, 6], [2, 0, null, 0]]}]),
       // Both approaches count alike, however often each was passed.
       means: [...means([{target_mm: 0, direction: 1, k: 1}, {target_mm: 0, direction: 1, k: 3}, {target_mm: 0, direction: -1, k: 6}], "k")],
+      undirected: [0, 1, -1].map((d) => [...means([{target_mm: 0, direction: null, k: 2}, {target_mm: 0, direction: 1, k: 4}], "k", d)]),
+      // Six passes of one target: the first two are one range, with the outlier of the first.
+      passes: passes([9, 1, 2, 3, 4, 5].map((k, i) => ({run: i + 1, direction: 1, target_mm: 0, k, U: {k: 1}})), "k").map((one) => [one.label, one.points]),
+      // EB0Z turns about Y, from +Z to +X: a positive one makes the angle from +X to +Z smaller.
+      squares: [["X", "Y", 3], ["X", "Z", 3], ["Y", "Z", 3], ["X", "Z", -3]].map((of) => squarenessPicture(...of).getAttribute("aria-label").match(/larger|smaller/)[0]),
       // 36 MB of 100 s, 3.6 GB left.
       hours: hoursLeft({free_bytes: 3.6e9, newest_recording: {bytes: 36e6}}, {scans: 100_000, plausibility: {rate_hz: 1000}}),
       layer: layer([[0, 0, 0], [0, 0, 5], [1, 0, 5]], "XY", 5).length,
@@ -49,6 +55,9 @@ export async function units(page) {
       numbers: [fixed(-0.0001, 2), fixed(-1.5, 1), fixed(null, 2), measured({value: 1.83045, U: 0.0886, k: 2}, "µm"), measured({value: 1}, "µm"), short(0.000123456)],
     };
   });
+  assert.deepEqual(found.undirected, [[[0, 2.5]], [[0, 3]], [[0, 2]]]);
+  assert.deepEqual(found.passes, [["older +", [[0, 1, 5, 9]]], ["3+", [[0, 1, 2, 3]]], ["4+", [[0, 2, 3, 4]]], ["5+", [[0, 3, 4, 5]]], ["6+", [[0, 4, 5, 6]]]]);
+  assert.deepEqual(found.squares, ["larger", "smaller", "larger", "larger"]);
   assert.match(found.right, /as the rig states/);
   assert.match(found.wrong, /REVERSED.*probe A/);
   assert.match(found.across, /across/);

@@ -7,6 +7,17 @@ import {call, pages} from "../rpc.js";
 export const facts = (list) => h("dl", {}, list.filter(([, x]) => x !== null && x !== undefined && x !== "")
   .map(([name, x]) => [h("dt", {}, name), h("dd", {}, x)]));
 
+export const isImported = (run) => run.recording.kind.startsWith("imported");
+
+function headOfImported(run) {
+  const {about, u_um, u_urad} = run.options?.imported ?? {}, u = isNumber(u_um) ? `${u_um} µm` : isNumber(u_urad) ? `${u_urad} µrad` : "not declared";
+  return facts([["State", run.state], ["Data", run.simulated ? "SIMULATED: no machine was measured" : "imported: measured by another instrument"],
+    ["Imported", time(run.started_utc)], ["Note", run.note], ["Error", run.error], ["Declared standard uncertainty", u],
+    ["Stated in the file", about?.join("; ")], ["Positive deviation", run.positioning_sense === "body" ? "moving body too far along + of the machine axis"
+      : run.positioning_sense === "command" ? "along + of the coordinates of the controller" : null],
+    ["Readings", String(run.points_total)], ["File", run.recording.path], ["SHA-256 of the file", run.recording.sha256]]);
+}
+
 function head(run) {
   const t = run.temperature_C;
   return facts([["State", run.state], ["Data", run.simulated ? "SIMULATED: no machine was measured" : "measured"],
@@ -84,8 +95,8 @@ export function pointsTable(points) {
   const keys = errorKeys(points.find((p) => errorKeys(p).length));
   return h("details", {}, h("summary", {}, `All ${points.length} points with U`), table("Points in the order measured",
     [["target/mm", "n"], ["pass", "n"], ["approach"], ["position/mm", "n"], ...keys.flatMap((key) => [[`${nameOf(key)}/${unitOf(key)}`, "n"], [`U/${unitOf(key)}`, "n"]]), ["flags"]],
-    points.map((p) => [fixed(p.target_mm, 3), String(p.run), p.direction > 0 ? "forward" : "reverse", fixed(p.position_mm, 4),
-      ...keys.flatMap((key) => [fixed(p[key], decimals(p.U?.[key])), fixed(p.U?.[key], decimals(p.U?.[key]))]), [p.reason, ...p.flags].filter(Boolean).join(", ")])));
+    points.map((p) => [fixed(p.target_mm, 3), String(p.run), approach(p.direction).name, fixed(p.position_mm, 4),
+      ...keys.flatMap((key) => [fixed(p[key], decimals(p.U?.[key])), fixed(p.U?.[key], decimals(p.U?.[key]))]), [p.reason, ...p.flags ?? []].filter(Boolean).join(", ")])));
 }
 
 const deeds = (list) => list.length === 0 ? null : h("section", {}, h("h2", {}, "History"), h("ul", {},
@@ -96,8 +107,9 @@ function partners(run, runs) {
   const of = (test) => runs.filter((r) => r.run !== run.run && test(r)).map((r) => [r.run, `run ${r.run}, ${r.axis}, ${time(r.started_utc)} ${r.note ?? ""}`]);
   const pick = (label, options, how) => options.length === 0 ? null
     : field(label, select([["", "choose …"], ...options], "", (other) => { if (other) location.hash = `runs/${run.run}/${how}/${other}`; }));
-  return h("div", {class: "fields"}, pick("Compare with", of((r) => r.axis === run.axis), "with"),
-    pick("Squareness with", of((r) => r.axis !== run.axis && r.simulated === run.simulated), "square"));
+  const alike = (r) => isImported(r) === isImported(run);
+  return h("div", {class: "fields"}, pick("Compare with", of((r) => r.axis === run.axis && alike(r)), "with"),
+    isImported(run) ? null : pick("Squareness with", of((r) => r.axis !== run.axis && r.simulated === run.simulated && alike(r)), "square"));
 }
 
 export const kResumable = ["partial", "aborted"];
@@ -111,12 +123,26 @@ async function resume(run, place) {
   }
 }
 
+// One error at each reading, and the figures of positioning.
+function showImported(body, run, points, runs, opened) {
+  const keys = errorKeys(points[0]), charts = new ErrorCharts(keys), figures = Object.entries(run.uncertainty ?? {});
+  opened.push(charts);
+  body.replaceChildren(h("h2", {}, `Run ${run.run}, axis ${run.axis}: imported`),
+    h("div", {class: "columns"}, headOfImported(run), h("div", {}, partners(run, runs), covers(run))), notices(run.notices) ?? "",
+    h("h2", {}, "Readings"), charts.element,
+    h("p", {class: "quiet"}, "Deviations are actual − nominal, as in the file. Blue solid line: forward; orange dashed line: reverse."), pointsTable(points),
+    h("h2", {}, "Figures by ISO 230-2"), figures.length === 0 ? h("p", {}, `No figures: ${run.uncertainty_reason ?? "none could be calculated"}.`)
+      : facts(figures.map(([key, figure]) => [titleOf(key), measured(figure, unitOf(key))])), deeds(run.history) ?? "");
+  charts.set(points);
+}
+
 export function openRun(place, id) {
   const body = h("div", {}, h("p", {class: "quiet"}, "Loading …"));
   const opened = [];
   place.append(h("p", {}, h("a", {href: "#runs"}, "← All runs")), body);
   async function read() {
     const [run, {points}, {runs}] = await Promise.all([call("run.get", {run: id}), pages("run.points", {run: id}, "points"), call("run.list", {count: 100})]);
+    if (run.imported) return showImported(body, run, points, runs, opened);
     const charts = new ErrorCharts(errorKeys(points.find((p) => errorKeys(p).length)));
     const straightness = new Straightness(run, points);
     opened.push(charts, ...straightness.charts.map(([, chart]) => chart));
@@ -126,7 +152,7 @@ export function openRun(place, id) {
         kResumable.includes(run.state) ? h("p", {}, h("button", {onclick: () => resume(id, wrong)}, "Resume (continue as a new run)")) : null, wrong,
         covers(run))), notices(run.notices) ?? "",
       h("h2", {}, "Five errors"), charts.element,
-      h("p", {class: "quiet"}, "Errors are actual − nominal. Blue solid line: forward; orange dashed line: reverse. The charts show the newest four passes. Bands: ± U (95 %)."), pointsTable(points),
+      h("p", {class: "quiet"}, "Errors are actual − nominal. Blue solid line: forward; orange dashed line: reverse. Bands of the newest four passes: ± U (95 %). Bands of all older passes: from the smallest to the largest error, with the mean as a thin line."), pointsTable(points),
       straightness.element, h("h2", {}, "Angles"), angles(run), new Budget(run).element, deeds(run.history) ?? "");
     charts.set(points);
     straightness.draw();

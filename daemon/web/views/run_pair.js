@@ -1,7 +1,7 @@
 // Two runs: laid over each other with their difference element by element; the squareness of two axes.
 import {Chart, errorKeys, means, plain} from "../charts.js";
 import {covers, h, measured, nameOf, notices, problem, short, table, time, titleOf, unitOf} from "../dom.js";
-import {budgetBars, squarenessPicture} from "../pictures.js";
+import {budgetBars, squarenessPicture, squarenessSign} from "../pictures.js";
 import {call, pages} from "../rpc.js";
 
 const kSame_mm = 0.01;  // targets of two runs that are one
@@ -89,7 +89,7 @@ export function openSquareness(place, first, second) {
     body.replaceChildren(h("h2", {}, `Squareness of ${a} and ${b}: runs ${heads.map((run) => run.run).join(" and ")}`),
       h("div", {class: "columns"}, squarenessPicture(a, b, budget.value),
         h("div", {}, h("p", {class: "result"}, `${nameOf(key)} = ${measured(budget, "µrad")}`),
-          h("p", {}, `The angle from +${a} to +${b} is 90° + ${nameOf(key)}. The picture exaggerates the deviation from 90°.`),
+          h("p", {}, `The angle from +${a} to +${b} is 90° ${squarenessSign(a, b) > 0 ? "+" : "−"} ${nameOf(key)}. The picture exaggerates the deviation from 90°.`),
           heads.map((run) => h("p", {class: "quiet"}, `${run.axis}: run ${run.run}, ${time(run.started_utc)}, ${run.state}${run.simulated ? ", SIMULATED" : ""}`)),
           h("p", {}, h("button", {onclick: store}, "Store this squareness")), stored)),
       notices(found.notices) ?? "", h("h2", {}, "Uncertainty budget"), budgetBars(budget, "µrad"),

@@ -2,7 +2,7 @@
 import {field, h, problem, select, setRows, table, time} from "../dom.js";
 import * as live from "../live.js";
 import {call} from "../rpc.js";
-import {openRun} from "./run_detail.js";
+import {isImported, openRun} from "./run_detail.js";
 import {openPair, openSquareness} from "./run_pair.js";
 import {openTrend} from "./run_trend.js";
 
@@ -11,14 +11,14 @@ const kStates = ["complete", "partial", "open", "aborted", "failed"];
 
 const headOf = (run) => h("a", {href: `#runs/${run.run}`}, String(run.run));
 const rowOf = (run) => [headOf(run), run.axis, (run.state === "complete" ? "● " : "▲ ") + run.state, time(run.started_utc),
-  run.simulated ? "SIMULATED" : "no", String(run.notices.length), run.supersedes ? `run ${run.supersedes}` : "", run.note];
+  run.simulated ? "SIMULATED" : isImported(run) ? "imported" : "measured", String(run.notices.length), run.supersedes ? `run ${run.supersedes}` : "", run.note];
 
 export class RunList {
   runs = [];
   total = 0;
   filter = {axis: "", state: "", text: ""};
   constructor() {
-    this.table = table("Runs, newest first", [["run"], ["axis"], ["state", "w"], ["started", "w"], ["simulated"], ["notices", "n"],
+    this.table = table("Runs, newest first", [["run"], ["axis"], ["state", "w"], ["started", "w"], ["data"], ["notices", "n"],
       ["supersedes"], ["note"]], []);
     const choose = (key, all, values) => select([["", all], ...values.map((v) => [v, v])], "", (v) => { this.filter[key] = v; this.draw(); });
     this.count = h("p", {class: "quiet", role: "status"});

@@ -4,8 +4,9 @@
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";
+import zlib from "node:zlib";
 import {accessible, launch, text, watch} from "./browser.mjs";
-import {Daemon} from "./daemon.mjs";
+import {Daemon, kData} from "./daemon.mjs";
 
 const [, , program, folder, minutes = "60"] = process.argv;
 const kWidths = [1280, 390];
@@ -42,7 +43,28 @@ async function measured(axis, targets_mm, note) {
   return run;
 }
 
-// Two runs of X and one of Y, two tables of which one is active, a table of the volume.
+// Of a recorded log, its readings larger by a part that goes up and down: what a control chart has limits of.
+async function replayed() {
+  const lines = zlib.gunzipSync(fs.readFileSync(`${kData}/log_X.csv.gz`)).toString().trim().split("\n");
+  const [head, ...rows] = lines.filter((line) => !line.startsWith("#"));
+  const probe = head.split(",").map((name) => /^[A-E](_|$)/.test(name));
+  assert.ok(probe.filter(Boolean).length === 5, head);
+  const rig = fs.readFileSync(`${kData}/rig_X.toml`, "utf8");
+  for (let k = 0; k < 10; ++k) {
+    const log = path.join(folder, `log-${k}.csv`), factor = 1 + 0.01 * Math.sin(k * k);
+    fs.writeFileSync(log, [head, ...rows.map((row) => row.split(",").map((cell, i) => probe[i] && cell ? cell * factor : cell).join(","))].join("\n") + "\n");
+    await daemon.call("run.replay", {path: log, rig});
+  }
+}
+
+async function imported() {
+  const file = path.join(folder, "laser.csv");
+  const readings = [1, 2, 3].flatMap((k) => [1, -1].flatMap((d) => [0, 10, 20, 30].map((x) => [x, d, k, (Math.sin(x / 9) + 0.1 * d + 0.02 * k).toFixed(3)])));
+  fs.writeFileSync(file, "target_mm,direction,run,deviation_um\n" + readings.map((row) => row.join(",") + "\n").join(""));
+  return (await daemon.call("run.import", {path: file, axis: "X", u_um: 0.05})).run;
+}
+
+// Two runs of X and one of Y, two tables of which one is active, a table of the volume, replayed logs, an imported run.
 async function world() {
   const x = await measured("X", [0, 2, 4, 6], "before scraping");
   const later = await measured("X", [0, 2, 4, 6], "after scraping");
@@ -50,7 +72,8 @@ async function world() {
   const {table} = await daemon.call("compensation.build", {runs: [x]});
   await daemon.call("compensation.build", {runs: [later]});
   const volume = await daemon.call("compensation.build_volume", {machine: kMachine, axes: "XY", step_mm: 10, incomplete: true});
-  return {x, later, y, table, volume: volume.table};
+  await replayed();
+  return {x, later, y, table, volume: volume.table, laser: await imported()};
 }
 
 // Of an axis or of the volume: both at once would correct twice.
@@ -60,7 +83,7 @@ async function activate(table, other) {
 }
 
 // Each view: address, and what is done before the picture.
-function views({x, later, y, table, volume}) {
+function views({x, later, y, table, volume, laser}) {
   const tables = async (page) => {
     await activate(table, "volume");
     await page.getByRole("button", {name: "Show table 2"}).click();
@@ -74,6 +97,7 @@ function views({x, later, y, table, volume}) {
     setup: ["#setup", (page) => page.getByText(/Noise s =/).first().waitFor()], capture: ["#capture"],
     measuring: ["#capture", (page) => page.locator(".chart canvas").first().waitFor()],
     runs: ["#runs"], run: [`#runs/${x}`], with: [`#runs/${later}/with/${x}`], square: [`#runs/${x}/square/${y}`],
+    imported: [`#runs/${laser}`], trend: ["#runs/trend", (page) => page.getByText(/upper limit|beyond/).first().waitFor()],
     compensation: ["#compensation/X", tables], volume: ["#compensation/volume", plane], health: ["#health", (page) => page.getByText(/h at the rate/).waitFor()],
   };
 }

@@ -35,9 +35,10 @@ void read_index(TomlTable& table, ChannelInput& channel) {
   channel.index_mm = table.number("index_mm", 0);
   channel.index_where = table.where("index_mm");
   if (channel.id != kEncoderChannel)
-    table.reject("index_mm",
-                 "applies to the encoder only (axis position at the reference mark); remove "
-                 "index_mm from this channel");
+    table.reject(
+        "index_mm",
+        "is the axis position at the reference mark and applies to the encoder only; remove "
+        "index_mm from this channel");
   if (table.has("offset_mm"))
     table.reject("index_mm",
                  "contradicts offset_mm, because positions are counted from the reference mark; "

@@ -28,9 +28,10 @@ Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
                     [k](const SurfaceMap& error) { return std::isnan(error.z_m[k]); }))
       for (SurfaceMap& error : errors) error.z_m[k] = SurfaceMap::kMissing;
   if (errors.front().measured() < 2)
-    return bad_input(passes.wanted.name +
-                     ": has no pixel in common with the maps of the cuts; give all maps in the "
-                     "same coordinates");
+    return bad_input(
+        passes.wanted.name +
+        ": has fewer than 2 pixels in common with the maps of the cuts; give all maps in the "
+        "same coordinates");
   return errors;
 }
 

@@ -179,11 +179,10 @@ class Turn {
         u_[instant(phase, i)] = U.segment(row(i, 0, 0), 2 * elements());
       return {};
     }
-    return fail(ErrorCode::check,
-                "no stable equilibrium of force and deflection at " +
-                    std::to_string(turned(phase) * 360 / kWholeTurn_rad) +
-                    " degrees of the turn; the tool is too weak for this cut: shorten overhang_mm "
-                    "or lower the depths");
+    return fail(ErrorCode::check, "no stable equilibrium of force and deflection at " +
+                                      std::to_string(turned(phase) * 360 / kWholeTurn_rad) +
+                                      " degrees of the turn; the tool is too weak for this cut: "
+                                      "reduce overhang_mm or the depths of cut");
   }
 
   bool settle(std::size_t phase, double first_step, VectorXd& U) {

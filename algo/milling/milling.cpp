@@ -21,10 +21,10 @@ double largest_deflection_m(const MillingPlan& plan, const CutTurn& turn) {
 Status check_deflection(const MillingPlan& plan, const CutTurn& turn) {
   const double deflection_m = largest_deflection_m(plan, turn);
   if (deflection_m <= plan.radius_m() / 2) return {};
-  return fail(ErrorCode::check, "the tip is deflected by " + std::to_string(deflection_m * 1e6) +
-                                    " µm, which is more than half of the tool's radius; the tool "
-                                    "is too weak for this cut: shorten overhang_mm or lower the "
-                                    "depths");
+  return fail(ErrorCode::check,
+              "the tip is deflected by " + std::to_string(deflection_m * 1e6) +
+                  " µm, which is more than half of the tool's radius; the tool "
+                  "is too weak for this cut: reduce overhang_mm or the depths of cut");
 }
 
 WallFigures wall_figures(const MillingPlan& plan, const CutTurn& turn) {

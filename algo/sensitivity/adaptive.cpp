@@ -39,7 +39,7 @@ Result<AdaptiveRule> AdaptiveRule::create(const std::vector<std::string>& output
       return bad_input("tolerance of \"" + key + "\": no such output; the outputs are " + known);
     }
     if (!(value > 0) || !std::isfinite(value)) {
-      return bad_input("tolerance of \"" + key + "\": must be above zero");
+      return bad_input("tolerance of \"" + key + "\": must be a finite number above zero");
     }
     rule.outputs_[static_cast<std::size_t>(found - outputs.begin())].absolute = value;
   }

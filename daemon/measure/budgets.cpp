@@ -77,7 +77,7 @@ StatedFigures stated_figures(const Run& run, const Result<algo::RunBudgets>& of_
   std::erase_if(stated.budgets, [](const Budget& budget) { return !std::isfinite(budget.value); });
   if (stated.budgets.empty())
     stated.why =
-        "no figure could be calculated, because too few targets of the run have error values";
+        "no result could be calculated, because the errors are known at too few targets of the run";
   return stated;
 }
 

@@ -301,17 +301,17 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "compensation.at",
        .summary = "Returns the correction at a position: interpolated linearly between grid "
                   "points; outside the grid the end value, with \"inside\" = false.",
-       .params =
-           {axis,
-            {"position_mm", ParamType::number, "position on the axis; required for an axis", false},
-            {"X_mm", ParamType::number,
-             "for the volume: command of X; required if X is an axis of the grid [default: the "
-             "position of X in the table]",
-             false},
-            {"Y_mm", ParamType::number, "for the volume: command of Y, as for X", false},
-            {"Z_mm", ParamType::number, "for the volume: command of Z, as for X", false},
-            {"direction", ParamType::integer, "1: forward, -1: reverse, 0: mean of both", false,
-             "0"}},
+       .params = {axis,
+                  {"position_mm", ParamType::number, "position on the axis; required for an axis",
+                   false},
+                  {"X_mm", ParamType::number,
+                   "for the volume: command of X; required if X is an axis of the grid; if it is "
+                   "not, the default is the position of X in the table",
+                   false},
+                  {"Y_mm", ParamType::number, "for the volume: command of Y, as for X", false},
+                  {"Z_mm", ParamType::number, "for the volume: command of Z, as for X", false},
+                  {"direction", ParamType::integer, "1: forward, -1: reverse, 0: mean of both",
+                   false, "0"}},
        .result = "Axis: error (um, urad), correction (to be added to the command; null with "
                  "correction_reason if its sign is unknown), u, inside (true: this approach was "
                  "measured at this position), simulated, doubtful, generation. Volume: correction, "

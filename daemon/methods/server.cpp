@@ -230,14 +230,16 @@ Change change_active(Methods& m, std::string reply_members,
 }
 
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
-  table.add({.name = "server.info",
-             .summary = "Returns version, uptime, axes and the compensation generation.",
-             .result =
-                 "identity of the daemon; http: url of the web page and path of its token file, or "
+  table.add(
+      {.name = "server.info",
+       .summary =
+           "Returns the version, the uptime, the axes and the generation (a number that grows "
+           "with each change of the active compensation).",
+       .result = "identity of the daemon; http: url of the web page and path of its token file, or "
                  "null; chain: link and sha256 of the newest entry in the chain of hashes, for a "
                  "later check of the database; axes: devices, run under way, datum of the encoder "
                  "(absolute, none, configured, set or index), offset_mm, note",
-             .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
+       .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add(
       {.name = "device.list",
        .summary = "Lists the devices with axis, state, last error, channels and numbers of scans.",

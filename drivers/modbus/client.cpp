@@ -225,7 +225,7 @@ Status too_many(const char* what, int address, std::size_t count, int most) {
       address + static_cast<int>(count) - 1 <= modbus::kLastAddress)
     return {};
   return bad_input(registers_text(what, address, count) + ": a request can contain 1 to " +
-                   std::to_string(most) + " registers within 0 to 65535");
+                   std::to_string(most) + " registers, with addresses from 0 to 65535");
 }
 
 }  // namespace

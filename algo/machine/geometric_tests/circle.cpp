@@ -73,7 +73,7 @@ Status check_path(const CircularPath& path) {
   if ((path.ccw_m.empty() && path.cw_m.empty()) || !fits(path.ccw_m) || !fits(path.cw_m))
     return bad_input("a circular path needs a deviation for each angle in at least one direction");
   if (!finite(path.angle_rad) || !finite(path.ccw_m) || !finite(path.cw_m))
-    return bad_input("a circular path: every angle and deviation must be a finite number");
+    return bad_input("every angle and deviation of a circular path must be a finite number");
   if (n < kFewestAngles || largest_gap(path.angle_rad) > kLargestGap_rad + 1e-9)
     return bad_input(
         "a circular path needs at least 8 angles and no gap of more than 90 degrees, because an "

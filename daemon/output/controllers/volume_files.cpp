@@ -85,8 +85,8 @@ std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& 
   for (const Vec3& node : t.u_m)
     for (std::size_t k = 0; k < 3; ++k) u[k] = std::max(u[k], node[k]);
   lines.push_back("largest u of X, Y, Z: " + plain_number(to_um(u[0])) + ", " +
-                  plain_number(to_um(u[1])) + ", " + plain_number(to_um(u[2])) + " um; " +
-                  one_plain_line(covers_text(t)));
+                  plain_number(to_um(u[1])) + ", " + plain_number(to_um(u[2])) +
+                  " um; u contains " + one_plain_line(covers_text(t)));
   for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
   return lines;
 }

@@ -54,8 +54,9 @@ constexpr Advice kAdvice[] = {
     {SQLITE_NOTADB, "SQLITE_NOTADB", ErrorCode::bad_input,
      "This is not a SQLite database: name the right file."},
     {SQLITE_CORRUPT, "SQLITE_CORRUPT", ErrorCode::bad_input,
-     "The file is damaged: keep a copy, then restore it from a backup or rebuild it from the "
-     "recordings."},
+     "The file is damaged: make a copy of it, then restore the file from a backup or rebuild it "
+     "from "
+     "the recordings."},
     {SQLITE_IOERR, "SQLITE_IOERR", ErrorCode::io,
      "The disk reported an error: check the health, the free space and the quotas of the disk, and "
      "read the system log."},

@@ -114,8 +114,8 @@ void Check::check_calibration(std::size_t k) {
   const double high_um = c.valid_um ? (*c.valid_um)[1] : c.reads_gap ? range_um : range_um / 2;
   if (c.offset_um >= low_um && c.offset_um <= high_um) return;
   add(std::abs(c.offset_um) > kRange_um.most_possible, "probe", k, "offset_um",
-      text_of(c.offset_um) + " um is outside of the readings of the probe \"" + probe.id + "\" (" +
-          text_of(low_um) + " to " + text_of(high_um) +
+      text_of(c.offset_um) + " um is outside the range of readings of the probe \"" + probe.id +
+          "\" (" + text_of(low_um) + " to " + text_of(high_um) +
           " um); give the raw reading at the nominal surface, in um");
 }
 

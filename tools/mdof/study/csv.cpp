@@ -64,7 +64,8 @@ std::string study_csv(const StudyResult& result) {
              std::to_string(result.trials));
   rows.end();
   if (!result.binned_key.empty()) {
-    rows.field("# from and to: part of the range of " + result.binned_key + "; empty: whole range");
+    rows.field("# columns from and to: the limits of a bin in " + result.binned_key +
+               "; both are empty in a row for the whole range");
     rows.end();
   }
   if (result.outputs.empty()) return rows.take();

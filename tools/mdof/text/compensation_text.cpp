@@ -115,8 +115,8 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
   if (t.has_positioning()) return table_of_positioning_text(t);
   return noise_only_notice(t.noise_only()) + simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) + ", " +
-                     state_of(generation) + ", from the runs " + runs_of(t.runs) + ", " +
-                     t.created_utc,
+                     state_of(generation) + ", created " + t.created_utc + ", from the runs " +
+                     runs_of(t.runs),
                  terminal_columns()) +
          "\nerrors: actual - nominal, of the moving " + t.sides.moves() + "\nstraightness " +
          (t.slope_removed ? "about its least-squares line" : "as measured") +

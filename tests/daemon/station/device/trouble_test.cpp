@@ -70,7 +70,7 @@ TEST(Unsolved, NamesTheProbesAndTheirDeviceAndNotTheConsequence) {
                rig, two, "now");
   EXPECT_EQ(trouble_line(*of_both),
             "unsolved: the stop at 12.500 mm has no error values: no usable readings of probe A; "
-            "end of the range reached by probe C");
+            "at the end of its range: probe C");
 }
 
 TEST(TroubleLog, NoTroubleIsNoLine) {

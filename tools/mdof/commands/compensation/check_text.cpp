@@ -27,7 +27,9 @@ std::string causes_text(const CheckedError& e) {
   const std::string unit = e.angle ? " µrad" : " µm";
   std::string text;
   if (e.nothing && e.before > 0)
-    text += e.error + ": nothing to correct: errors are below the step of the format\n";
+    text +=
+        e.error +
+        ": nothing to correct, because all errors are smaller than the last digit of the format\n";
   if (e.by_reversal > kShown)
     text += e.error + ": " + fixed(e.by_reversal * 1e6, 4) + unit +
             " stay in each approach, because the errors differ between the approaches and the file "
@@ -96,7 +98,8 @@ std::string check_text(const controllers::Check& check) {
                      "see --residual-um and --residual-percent\n";
   for (const CheckedError& e : check.errors) text += causes_text(e);
   if (check.nothing_to_correct())
-    text += "nothing to correct: the errors are below the step of the format\n";
+    text +=
+        "nothing to correct, because all errors are smaller than the last digit of the format\n";
   for (const std::string& error : check.not_judged)
     text += error + ": not checked, because the sign of its correction is unknown\n";
   return text;

@@ -27,7 +27,8 @@ Status check_tables(const CheckTablesCommand& command) {
   if (exported.check.passed()) return {};
   if (exported.check.nothing_to_correct())
     return fail(ErrorCode::check,
-                "nothing to correct: the errors are below the step of the format; check the unit "
+                "nothing to correct, because all errors are smaller than the last digit of the "
+                "format; check the unit "
                 "of the measured values");
   return fail(
       ErrorCode::check,

@@ -301,9 +301,10 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   MDOF_TRY(out.format, controllers::format_named(request.format));
   const bool square = out.format->square.write != nullptr;
   if (square && (request.squareness.empty() || !request.tables.empty()))
-    return fail(ErrorCode::usage, request.format +
-                                      " holds the squareness only; give --squareness with a number "
-                                      "or \"latest\", and give no table");
+    return fail(ErrorCode::usage,
+                request.format +
+                    " contains only the squareness; give --squareness with the "
+                    "number of a stored squareness or \"latest\", and give no table");
   if (!square && !request.squareness.empty())
     return fail(ErrorCode::usage, request.format + " takes tables; leave out --squareness");
   if (!square && request.tables.empty())

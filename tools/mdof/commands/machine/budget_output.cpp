@@ -204,7 +204,7 @@ std::string machine_budget_json(const Machine& machine, const BudgetRequest& req
       .field("coverage", kBudgetCoverage)
       .key("by")
       .begin_object()
-      .field("u_um", "linear form with exact derivatives, GUM")
+      .field("u_um", "law of propagation of uncertainty (GUM), with exact derivatives")
       .field("interval_um", "exact product of rotations, Monte Carlo")
       .field("volume_p95_um", "exact product of rotations, Monte Carlo")
       .end_object();

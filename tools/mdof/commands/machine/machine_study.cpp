@@ -180,7 +180,7 @@ std::string grooving_rotary_text(const algo::GroovingTable& t) {
   };
   add("readings as they are", t.raw);
   add("tilt of the table removed", t.without_tilt);
-  add("tilt and errors of X, Y removed", t.without_both);
+  add("tilt of the table, errors of X and Y removed", t.without_both);
   table.add({"true value (simulated machine)", angle_urad(t.EA0C_rad), angle_urad(t.EB0C_rad), ""});
   return table.text(terminal_columns()) +
          wrapped("height over one turn at radius " + in_mm(t.radius_m) + " mm: range " +

@@ -52,7 +52,7 @@ Action declare_encoder_set(CLI::App& command) {
 Command encoder_set_command() {
   return {
       .name = "encoder set",
-      .summary = "Set the present position of an axis with an incremental encoder",
+      .summary = "Set the present position of an axis that has an incremental encoder",
       .footer =
           "HAZARD: before you drive the axis to a known position with the fixture mounted, run\n"
           "mdof clearance RIG.toml to see which motions drive the target into a probe.\n"

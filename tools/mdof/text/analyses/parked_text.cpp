@@ -111,11 +111,10 @@ std::string parked_verdict(const daemon::ParkedLog& log, const algo::WarmUp& fou
            " min: from then on every window is below its limit";
   const std::string what = limiting_cause(log, found);
   return "not ready yet: " +
-         (what.empty()
-              ? "the log must end with " + std::to_string(algo::kFewestBelow) +
-                    " or more windows below the limit that last " +
-                    minutes(algo::kShortestBelow_s) + " min or more in total; record for longer"
-              : what);
+         (what.empty() ? "at the end of the log, at least " + std::to_string(algo::kFewestBelow) +
+                             " windows (together at least " + minutes(algo::kShortestBelow_s) +
+                             " min) must be below the limit; record for longer"
+                       : what);
 }
 
 std::string parked_text(const daemon::ParkedLog& log, const algo::WarmUp& found,

@@ -31,6 +31,8 @@ class Pipeline : RunBuilder {
   // The points complete so far, in sequence, solved, stated at the fixture. Targets are as far as
   // known until finish().
   const std::vector<MeasuredPoint>& points();
+  // The stops that are none of these points, as far as known.
+  const std::vector<StopLeftOut>& left_out() const { return sequence_.left_out; }
   // The newest instant, calibrated, for the live view; size 0 before the first.
   const FrameBlock& newest() const { return newest_; }
   // Called with the instants of each push, calibrated, before dwells are looked for.

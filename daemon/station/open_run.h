@@ -20,6 +20,7 @@ struct Station::OpenRun {
   Unrecorded unrecorded;                           // not yet handed to the store
   std::chrono::steady_clock::time_point recorded;  // when the last were
   std::uint64_t blocks_not_recorded = 0;           // the store's queue was full
+  std::optional<std::int64_t> left_out_ns = {};    // begin of the last stop reported as left out
   TroubleLog troubles = {};                        // of the devices, since it began
   EncoderDatum datum = {};                         // of its positions
   Model model = Model::rigid;

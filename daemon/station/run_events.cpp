@@ -1,8 +1,12 @@
 #include "daemon/station/run_events.h"
 
 #include "algo/uncertainty/run_uncertainty.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_page.h"
+#include "schema/base/number/number_text.h"
+#include "schema/notice/notice.h"
 #include "schema/run_json.h"
+#include "schema/units.h"
 
 namespace mdof::daemon {
 namespace {
@@ -56,6 +60,22 @@ std::vector<std::string> points_messages(std::int64_t run, const Rig& rig, Model
   for (std::size_t next = 1; next < part.points.size();)
     messages.push_back(points_json(part, uncertainty, first_row, next));
   return messages;
+}
+
+std::string left_out_message(std::int64_t run, Axis axis, double position_m) {
+  const double mm = to_mm(position_m);
+  const Notice left_out = notice(NoticeCode::stop_near_no_target, "",
+                                 {{"stops", 1}, {"positions_mm", plain_number(mm, 9)}});
+  JsonWriter json;
+  json.begin_object()
+      .field("type", "left_out")
+      .field("run", run)
+      .field("axis", std::string(1, letter(axis)))
+      .field("position_mm", mm)
+      .field("code", to_string(left_out.code))
+      .field("text", words::text(left_out))
+      .end_object();
+  return json.take();
 }
 
 }  // namespace mdof::daemon

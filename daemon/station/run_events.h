@@ -17,4 +17,8 @@ std::vector<std::string> points_messages(std::int64_t run, const Rig& rig, Model
                                          const std::vector<MeasuredPoint>& points,
                                          std::size_t first_row);
 
+// {"type": "left_out", "run", "axis", "position_mm", "code", "text"}: a stop that is near no
+// target.
+std::string left_out_message(std::int64_t run, Axis axis, double position_m);
+
 }  // namespace mdof::daemon

@@ -125,6 +125,7 @@ class Station {
   void storage_ended(std::int64_t run, const std::string& reason);
   void end_run(bool abort, const HistoryEntry& action, const RunDone& done);
   void report_unsolved(const std::vector<MeasuredPoint>& points);
+  void report_left_out();
   void keep_new_points(const std::vector<MeasuredPoint>& points);
   void attach(std::int64_t run, const RunRequest& request, const Options& options,
               Beginning* beginning, const RunDone& done);

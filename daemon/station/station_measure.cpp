@@ -195,6 +195,7 @@ void Station::attach(std::int64_t run, const RunRequest& request, const Options&
   watch_range(open_->pipeline);
   open_->datum = options->datum;
   open_->model = options->model;
+  if (beginning) open_->left_out_ns = beginning->end_ns;  // those before were reported then
   shared_->run = run;
   shared_->events.run_event(event_json("started", run, config_.rig.axis));
   done(run);
@@ -225,6 +226,7 @@ void Station::take_samples(SampleBlock& block) {
   const auto& points = open_->pipeline.points();
   const std::size_t before = open_->stored.size();
   if (!points.empty() && !approach_assumed(points.back())) keep_new_points(points);
+  report_left_out();
   if (open_->pipeline.is_full()) return finish(RunState::complete, {});
   const RunRequest& asked = open_->request;
   const std::size_t all = 2 * asked.targets_m.size() * static_cast<std::size_t>(asked.repeats);
@@ -260,6 +262,16 @@ void Station::report_unsolved(const std::vector<MeasuredPoint>& points) {
     if (!trouble) continue;
     open_->troubles.add(*trouble);
     shared_->events.trouble(config_.rig.axis, open_->id, *trouble);
+  }
+}
+
+// Who waits for the next point sees why this stop is none.
+void Station::report_left_out() {
+  for (const StopLeftOut& stop : open_->pipeline.left_out()) {
+    if (stop.reason != to_string(NoticeCode::stop_near_no_target)) continue;
+    if (open_->left_out_ns && stop.begin_ns <= *open_->left_out_ns) continue;
+    open_->left_out_ns = stop.begin_ns;
+    shared_->events.run_event(left_out_message(open_->id, config_.rig.axis, stop.position_m));
   }
 }
 

@@ -74,6 +74,8 @@ class Wizard {
   }
 }
 
+const kMostTold = 100;
+
 class Progress {
   points = [];
   constructor(axis, run, reply) {
@@ -123,17 +125,22 @@ class Progress {
     this.charts?.set(this.points);
   }
   event(e) {
-    if (e.type === "trouble" && e.axis === this.axis)
-      this.trouble.append(h("p", {class: "notice doubtful"}, `▲ ${e.device ? `${e.device}: ` : ""}${e.kind}: ${e.text}`));
+    if (e.type === "trouble" && e.axis === this.axis) this.tell(`${e.device ? `${e.device}: ` : ""}${e.kind}: ${e.text}`);
     // Its id may be another one: of the run that supersedes it.
     if (e.type === "ended" && e.axis === this.axis && !this.over) return this.ended(e);
     if (e.run !== this.run) return;
+    if (e.type === "left_out") this.tell(e.text);
     if (e.type === "points") {
       if (e.offset > this.points.length) return this.read();
       this.points.splice(e.offset, e.points.length, ...e.points);
       this.draw(e);
     }
     if (e.type === "progress") this.progress(e);
+  }
+  // The newest ones; all are in the notices of the run.
+  tell(problem) {
+    this.trouble.append(h("p", {class: "notice doubtful"}, `▲ ${problem}`));
+    while (this.trouble.childElementCount > kMostTold) this.trouble.firstElementChild.remove();
   }
   progress({points, of, done, awaited_mm}) {
     if (of) {

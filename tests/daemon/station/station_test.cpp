@@ -92,6 +92,21 @@ TEST_F(StationTest, APointIsToldOnceItIsOnTheDiskAndTheEndAfterAll) {
   EXPECT_SAYS(events_.wait_for({"\"ended\""}), "\"state\":\"complete\"");
 }
 
+// Once, while the run goes on; without targets each stop is one.
+TEST_F(StationTest, AStopNearNoTargetIsToldAtOnce) {
+  RunRequest request = both_ways_once();
+  const double left_out_m = request.targets_m[1];
+  request.targets_m.erase(request.targets_m.begin() + 1);
+  ASSERT_TRUE(start(request));
+  give(axis_, 0, 1400);
+  const std::string told = events_.wait_for({"\"left_out\""});
+  EXPECT_SAYS(told, "\"code\":\"stop_near_no_target\"");
+  EXPECT_SAYS(told, "\"position_mm\":" + std::to_string(static_cast<int>(left_out_m * 1e3)));
+  EXPECT_EQ(events_.count("\"ended\""), 0u);
+  ASSERT_TRUE(stop());
+  EXPECT_EQ(events_.count("\"left_out\""), 1u);
+}
+
 TEST_F(StationTest, ItEndsByItselfOnceAllThatWasAskedForIsMeasured) {
   const auto id = start(both_ways_once());
   give(axis_);

@@ -120,7 +120,9 @@ Action declare_live(CLI::App& command) {
   add_json_flag(command, o->json);
   command
       .add_flag("--ndjson", o->ndjson,
-                "Print one JSON object per line: updates, and device faults (type \"trouble\")")
+                "Print one JSON object per line: updates, device faults (type \"trouble\"), stops "
+                "near no "
+                "target (type \"left_out\")")
       ->excludes("--json");
   return [o] { return live(*o); };
 }

@@ -124,12 +124,16 @@ std::optional<TroubleEvent> read_trouble(std::string_view notification) {
   if (parser.parse(simdjson::padded_string(notification)).get(root)) return std::nullopt;
   if (text(root, "method") != "run.event" || root["params"]["value"].get(value))
     return std::nullopt;
-  if (text(value, "type") != "trouble") return std::nullopt;
+  const std::string type = text(value, "type"), axis = text(value, "axis");
+  if (type == "left_out")
+    return TroubleEvent{axis, "axis " + axis + ": " + text(value, "text"),
+                        simdjson::to_string(value)};
+  if (type != "trouble") return std::nullopt;
   const std::string device = text(value, "device");
-  const std::string line = text(value, "utc") + " axis " + text(value, "axis") + ": " +
+  const std::string line = text(value, "utc") + " axis " + axis + ": " +
                            (device.empty() ? "" : "device \"" + device + "\": ") +
                            text(value, "kind") + ": " + text(value, "text");
-  return TroubleEvent{text(value, "axis"), line, simdjson::to_string(value)};
+  return TroubleEvent{axis, line, simdjson::to_string(value)};
 }
 
 std::string range_bar(double um, double range_um, std::size_t width) {

@@ -28,7 +28,8 @@ struct LiveUpdate {
 // nullopt: the line is something else.
 std::optional<LiveUpdate> read_update(std::string_view notification);
 
-// A "run.event" of the type "trouble": a device is lost, back, suspect or slow.
+// A "run.event" of the type "trouble" (a device is lost, back, suspect or slow) or "left_out" (a
+// stop is near no target).
 struct TroubleEvent {
   std::string axis, line;  // for people
   std::string json;        // all of it

@@ -37,7 +37,7 @@ void read_index(TomlTable& table, ChannelInput& channel) {
   if (channel.id != kEncoderChannel)
     table.reject(
         "index_mm",
-        "is the axis position at the reference mark and applies to the encoder only; remove "
+        "applies to the encoder only; it is the axis position at the reference mark; remove "
         "index_mm from this channel");
   if (table.has("offset_mm"))
     table.reject("index_mm",

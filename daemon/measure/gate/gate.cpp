@@ -13,6 +13,25 @@ namespace {
 
 constexpr std::size_t kMostMarks = 5;
 
+using words::Language;
+
+std::string name_of(const Judged& judged, Language language) {
+  const bool german = language == Language::german;
+  switch (judged.kind) {
+    case JudgedKind::run:
+      return (german ? "Messung " : "run ") + judged.name;
+    case JudgedKind::table:
+      return (german ? "Tabelle " : "table ") + judged.name;
+    case JudgedKind::squareness:
+      return (german ? "Rechtwinkligkeit " : "squareness ") + judged.name;
+    case JudgedKind::separation:
+      return german ? "diese Trennung" : "this separation";
+    case JudgedKind::file:
+      break;
+  }
+  return judged.name;
+}
+
 }  // namespace
 
 Notices without_information(Notices notices) {
@@ -43,52 +62,60 @@ Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& t
 }
 
 Result<Judged> judged_table(store::Store& store, const CompensationTable& table) {
-  Judged judged{"table " + std::to_string(table.id), table.simulated, {}};
+  Judged judged{JudgedKind::table, std::to_string(table.id), table.simulated, {}};
   MDOF_TRY(judged.doubtful, doubtful_notices(store, table));
   return judged;
 }
 
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence) {
+  const std::string name = name_of(judged, Language::english);
   if (judged.simulated && !consent.simulated)
     return fail(ErrorCode::conflict,
-                judged.what + " is simulated (no machine was measured), so " + consequence,
+                name + " is simulated (no machine was measured), so " + consequence,
                 Remedy::allow_simulated);
   const auto wrong = std::find_if(judged.doubtful.begin(), judged.doubtful.end(),
                                   [](const Notice& n) { return n.severity == Severity::invalid; });
   if (wrong != judged.doubtful.end())
-    return fail(ErrorCode::conflict, judged.what + " is invalid, so " + consequence + ": " +
+    return fail(ErrorCode::conflict, name + " is invalid, so " + consequence + ": " +
                                          words::text(*wrong) + ". No option overrides this check");
   if (judged.doubtful.empty() || consent.despite_warnings) return {};
   const std::size_t n = judged.doubtful.size();
   return fail(ErrorCode::conflict,
-              judged.what + " is doubtful (" + std::to_string(n) +
+              name + " is doubtful (" + std::to_string(n) +
                   (n == 1 ? " notice), so " : " notices), so ") + consequence + ": " +
                   words::text(judged.doubtful.front()) +
                   (n > 1 ? "; and " + std::to_string(n - 1) + " more" : ""),
               Remedy::allow_doubtful);
 }
 
-std::vector<std::string> marks_of(const Judged& judged) {
+std::vector<std::string> marks_of(const Judged& judged, Language language) {
+  const bool german = language == Language::german;
+  const std::string of = name_of(judged, language) + ": ";
+  const std::string doubtful = (german ? "ZWEIFELHAFT: " : "DOUBTFUL: ") + of;
   std::vector<std::string> marks;
-  if (judged.simulated) marks.push_back("SIMULATED: " + judged.what + ": no machine was measured");
+  if (judged.simulated)
+    marks.push_back((german ? "SIMULIERT: " : "SIMULATED: ") + of +
+                    (german ? "keine Maschine wurde gemessen" : "no machine was measured"));
   const std::size_t n = judged.doubtful.size(), shown = std::min(n, kMostMarks);
   for (std::size_t i = 0; i < shown; ++i)
-    marks.push_back("DOUBTFUL: " + judged.what + ": " + words::line(judged.doubtful[i]));
-  if (shown < n)
-    marks.push_back("DOUBTFUL: " + judged.what + ": and " + std::to_string(n - shown) +
-                    (n - shown == 1 ? " more notice" : " more notices"));
+    marks.push_back(doubtful + words::line(judged.doubtful[i], language));
+  if (const std::size_t more = n - shown; more > 0)
+    marks.push_back(doubtful + (german ? "und " : "and ") + std::to_string(more) +
+                    (german ? (more == 1 ? " weiterer Hinweis" : " weitere Hinweise")
+                            : (more == 1 ? " more notice" : " more notices")));
   for (std::string& mark : marks)  // what it quotes is no line of its own
     for (char& c : mark)
       if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
   return marks;
 }
 
-std::vector<std::string> marks_of(const Run& run) {
+std::vector<std::string> marks_of(const Run& run, Language language) {
   Notices notices;
   if (run.header.state == RunState::partial) notices.push_back(notice(NoticeCode::run_partial));
   append(notices, run.header.notices);
-  return marks_of(Judged{"run " + std::to_string(run.header.id), run.header.simulated,
-                         doubtful_notices(std::move(notices))});
+  return marks_of(Judged{JudgedKind::run, std::to_string(run.header.id), run.header.simulated,
+                         doubtful_notices(std::move(notices))},
+                  language);
 }
 
 }  // namespace mdof::daemon

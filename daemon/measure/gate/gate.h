@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/store/store.h"
+#include "daemon/words/words.h"
 #include "schema/base/result.h"
 #include "schema/compensation_table.h"
 #include "schema/notice/notice.h"
@@ -19,8 +20,10 @@ struct Consent {
   bool simulated = false, despite_warnings = false;
 };
 
+enum class JudgedKind { run, table, squareness, separation, file };
 struct Judged {
-  std::string what;  // "table 3"
+  JudgedKind kind = JudgedKind::table;
+  std::string name;  // its number or file; empty: there is one alone
   bool simulated = false;
   Notices doubtful;  // doubtful and invalid ones
 };
@@ -39,7 +42,9 @@ Result<Judged> judged_table(store::Store& store, const CompensationTable& table)
 // with.
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence);
 // What a file of it says, one line each: SIMULATED, DOUBTFUL.
-std::vector<std::string> marks_of(const Judged& judged);
-std::vector<std::string> marks_of(const Run& run);
+std::vector<std::string> marks_of(const Judged& judged,
+                                  words::Language language = words::Language::english);
+std::vector<std::string> marks_of(const Run& run,
+                                  words::Language language = words::Language::english);
 
 }  // namespace mdof::daemon

@@ -145,9 +145,9 @@ Result<Run> imported_run(const ImportRequest& request) {
   append(header.notices, series.notices);
   for (const ImportedReading& r : series.readings)
     run.points.push_back(point_of(r, targets, u_si, error));
-  MDOF_CHECK(check_gate({request.file, false, without_information(header.notices)},
-                        {.simulated = false, .despite_warnings = request.despite_warnings},
-                        "it is not stored"));
+  MDOF_CHECK(check_gate(
+      {JudgedKind::file, request.file, false, without_information(header.notices)},
+      {.simulated = false, .despite_warnings = request.despite_warnings}, "it is not stored"));
   return run;
 }
 

@@ -125,7 +125,7 @@ Result<Notices> doubtful_notices(store::Store& store, const VolumetricTable& tab
 }
 
 Result<Judged> judged_table(store::Store& store, const VolumetricTable& table) {
-  Judged judged{"table " + std::to_string(table.id), table.simulated, {}};
+  Judged judged{JudgedKind::table, std::to_string(table.id), table.simulated, {}};
   MDOF_TRY(judged.doubtful, doubtful_notices(store, table));
   return judged;
 }

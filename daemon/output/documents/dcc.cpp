@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/documents/dcc_parts.h"
 #include "schema/base/sha256.h"
 #include "schema/imported/series.h"
@@ -152,7 +153,7 @@ void write_statements(Xml& xml, const Report& report) {
   xml.open("dcc:statements");
   write_declaration(xml, "dcc:statement", "test report", kWhatItIs);
   for (const ReportRun& run : report.runs)
-    for (const std::string& mark : run.results.marks)
+    for (const std::string& mark : daemon::marks_of(run.results.run))
       write_declaration(xml, "dcc:statement", "warning", mark);
   if (!report.facts.conditions.empty())
     write_declaration(xml, "dcc:statement", "conditions as stated", report.facts.conditions);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/labels.h"
 #include "daemon/output/charts/run/points.h"
 #include "daemon/output/charts/svg.h"
@@ -207,8 +208,9 @@ void write_decisions(Xml& xml, const ReportRun& run) {
 void write_notices(Xml& xml, const ReportRun& run) {
   const RunHeader& header = run.results.run.header;
   constexpr const char* kMetaData = "dcc:metaData";
-  for (const std::string& mark : charts::head_marks(run.results.uncertainty.noise_only,
-                                                    run.results.marks, output::Language::english))
+  for (const std::string& mark :
+       charts::head_marks(run.results.uncertainty.noise_only, daemon::marks_of(run.results.run),
+                          output::Language::english))
     write_declaration(xml, kMetaData, "warning", mark);
   for (const Notice& notice : header.notices)
     write_declaration(xml, kMetaData, to_string(notice.severity),

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/labels.h"
 #include "daemon/output/charts/run/points.h"
 #include "daemon/output/charts/svg.h"
@@ -249,8 +250,9 @@ std::vector<Attribute> facts_of(const ReportRun& run) {
                                   {"SHA-256 of the recording", header.provenance.recording_sha256},
                                   {"SHA-256 of the result", run.result_sha256},
                                   {"measured with", header.provenance.software_version}};
-  for (const std::string& mark : charts::head_marks(run.results.uncertainty.noise_only,
-                                                    run.results.marks, output::Language::english))
+  for (const std::string& mark :
+       charts::head_marks(run.results.uncertainty.noise_only, daemon::marks_of(run.results.run),
+                          output::Language::english))
     facts.emplace_back("warning", mark);
   for (const Notice& notice : header.notices)
     facts.emplace_back(to_string(notice.severity), words::text(notice, output::Language::english));

@@ -1,5 +1,6 @@
 #include "daemon/output/report/report.h"
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/labels.h"
 #include "daemon/output/charts/run/points.h"
 #include "daemon/output/report/html.h"
@@ -27,8 +28,8 @@ std::string name_of_run(const ReportRun& run, Language language) {
 void write_alarms(Html& html, const Report& report) {
   for (const ReportRun& run : report.runs) {
     const bool noise_only = run.results.uncertainty.noise_only;
-    for (const std::string& mark :
-         charts::head_marks(noise_only, run.results.marks, report.language))
+    for (const std::string& mark : charts::head_marks(
+             noise_only, daemon::marks_of(run.results.run, report.language), report.language))
       html.element("p", name_of_run(run, report.language) + ": " + mark, "alarm");
   }
 }

@@ -7,6 +7,7 @@
 
 #include "algo/uncertainty/conformity/decision.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/gate/gate.h"
 #include "daemon/version.h"
 #include "schema/imported/series.h"
 #include "schema/rig/reference.h"
@@ -165,7 +166,7 @@ Result<report::Report> report_of_runs(const ReportRequest& request) {
 
 void warn_of(const report::Report& report) {
   for (const report::ReportRun& run : report.runs)
-    for (const std::string& mark : run.results.marks) warn(mark);
+    for (const std::string& mark : daemon::marks_of(run.results.run)) warn(mark);
   for (const daemon::Comparison& comparison : report.comparisons)
     show_notices(comparison.notices, false);
 }

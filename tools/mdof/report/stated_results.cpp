@@ -5,7 +5,6 @@
 #include "algo/iso230/straightness.h"
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
-#include "daemon/measure/gate/gate.h"
 #include "daemon/measure/imported/imported_run.h"
 #include "schema/imported/series.h"
 #include "tools/mdof/stored/run_choice.h"
@@ -25,8 +24,6 @@ Result<charts::SquarenessResults> squareness_of_two(store::Store& store,
   results.budget = std::move(fitted.budgets.front());
   MDOF_TRY(results.run_a, daemon::run_stated_at(store, request.run_a, Reference::fixture));
   MDOF_TRY(results.run_b, daemon::run_stated_at(store, request.run_b, Reference::fixture));
-  for (const auto* run : {&a, &b})
-    results.marks.insert(results.marks.end(), run->marks.begin(), run->marks.end());
   return results;
 }
 
@@ -36,7 +33,6 @@ Result<charts::StatedResults> stated_results(store::Store& store, std::int64_t r
                                              Reference reference) {
   charts::StatedResults results;
   MDOF_TRY(results.run, daemon::run_stated_at(store, run, reference));
-  results.marks = daemon::marks_of(results.run);
   if (is_imported(results.run.header)) {
     results.figures = daemon::imported_figures(store, results.run);
     const bool declared =

@@ -34,9 +34,7 @@ struct PositioningPicture {
 };
 std::string positioning_svg(const PositioningPicture& picture, output::Language language);
 
-// Of an imported run; `marks` as of StatedResults.
-RunCharts charts_of_imported(const Run& run, const std::vector<std::string>& marks,
-                             output::Language language);
+RunCharts charts_of_imported(const Run& run, output::Language language);
 
 // Deviations in m over positions in m: with each reference line, and what is left about the
 // least-squares line.

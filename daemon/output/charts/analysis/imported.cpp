@@ -1,6 +1,7 @@
 // An imported run: the readings of another instrument, with the means of ISO 230-2 where the
 // readings give them.
 #include "algo/iso230/positioning/positioning.h"
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/analysis/analysis_charts.h"
 #include "daemon/output/charts/run/points.h"
 #include "schema/imported/series.h"
@@ -11,8 +12,7 @@ using output::Language;
 using output::Phrase;
 using output::phrase;
 
-RunCharts charts_of_imported(const Run& run, const std::vector<std::string>& marks,
-                             Language language) {
+RunCharts charts_of_imported(const Run& run, Language language) {
   RunCharts all;
   const ImportedError error = error_of_imported(run.header);
   PositioningSeries series{error.key(), {}, {}};
@@ -27,7 +27,7 @@ RunCharts charts_of_imported(const Run& run, const std::vector<std::string>& mar
   PositioningPicture picture;
   picture.title = title_of_run(run.header, phrase(Phrase::positioning_of_run, language), language);
   picture.about = about_run(run.header, language);
-  picture.warnings = marks;
+  picture.warnings = daemon::marks_of(run, language);
   picture.series = {std::move(series)};
   all.charts.push_back({name + "-" + error.name + ".svg", positioning_svg(picture, language)});
   return all;

@@ -1,5 +1,6 @@
 #include <string>
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/analysis/analysis_charts.h"
 #include "daemon/output/charts/plot_files.h"
 #include "daemon/output/charts/run/points.h"
@@ -17,12 +18,13 @@ namespace {
 void add_budgets(const StatedResults& results, RunCharts& all, Language language) {
   const std::string number = std::to_string(results.run.header.id);
   const std::string run = "run " + number;
+  const std::vector<std::string> marks = daemon::marks_of(results.run, language);
   const std::string title =
       phrase(Phrase::run_axis, language, {number, std::string(1, letter(results.run.header.axis))});
   for (const Budget& budget : results.figures.budgets)
     if (has_budget(budget))
       all.charts.push_back({"run-" + number + "-budget-" + file_name(budget.figure) + ".svg",
-                            budget_svg(budget, title, results.marks, language)});
+                            budget_svg(budget, title, marks, language)});
     else
       all.left_out.push_back(run + ": the budget of " + budget.figure +
                              " needs u, but u is unknown");
@@ -42,7 +44,7 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
     all.charts.push_back({"run-" + number + "-" + name + ".svg", std::move(svg)});
   };
   if (is_imported(results.run.header)) {
-    all = charts_of_imported(results.run, results.marks, language);
+    all = charts_of_imported(results.run, language);
     add_budgets(results, all, language);
     return all;
   }

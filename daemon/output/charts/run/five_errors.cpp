@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "algo/iso230/target_means.h"
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/labels.h"
 #include "daemon/output/charts/panel.h"
 #include "daemon/output/charts/run/points.h"
@@ -96,12 +97,12 @@ std::string five_errors_svg(const StatedResults& results, Language language) {
   const auto means = means_of(results.run);
   const auto notes = notes_of(results, marks.front(), language);
   const std::vector<std::string> marks_of_head =
-      head_marks(results.uncertainty.noise_only, results.marks, language);
+      head_marks(results.uncertainty.noise_only, daemon::marks_of(results.run, language), language);
   const double top = run_head_height(marks_of_head);
   const Sheet sheet(top + kLegendPx, y, kOutputPx);
   const std::string title = title_of_run(header, phrase(Phrase::five_errors, language), language);
   std::string words = about_run(header, language) + ".";
-  for (const std::string& mark : results.marks) words += " " + mark + ".";
+  for (const std::string& mark : daemon::marks_of(results.run, language)) words += " " + mark + ".";
   const double notes_top = sheet.bottom();
   Svg svg(kWidthPx, notes_top + notes_height(notes) + 12, title, words, Theme::light);
   draw_run_head(svg, title, about_run(header, language), marks_of_head, language);

@@ -1,4 +1,5 @@
 #include "daemon/output/charts/run/raw_stop.h"
+#include "daemon/measure/gate/gate.h"
 
 #include <array>
 #include <cmath>
@@ -73,7 +74,7 @@ std::string raw_stop_svg(const StatedResults& results, std::size_t row,
       language);
   const std::string about = about_run(results.run.header, language);
   const std::vector<std::string> notes = {phrase(Phrase::raw_note, language)};
-  const auto head = head_marks(false, results.marks, language);
+  const auto head = head_marks(false, daemon::marks_of(results.run, language), language);
   const double top = run_head_height(head);
   const Sheet sheet(top + kRawLegendPx, y, kOutputPx);
   Svg svg(kWidthPx, sheet.bottom() + notes_height(notes) + 12, title, about, Theme::light);

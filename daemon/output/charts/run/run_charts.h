@@ -26,7 +26,6 @@ struct StatedResults {
   RunUncertainty uncertainty;            // of its points
   StatedFigures figures;                 // budgets, or why there are none
   std::vector<StraightnessLines> lines;  // about which straightness is stated
-  std::vector<std::string> marks;        // "SIMULATED: …", "DOUBTFUL: …"; empty: neither
 };
 
 // Each says whether there is anything to show, and draws it then.
@@ -57,7 +56,6 @@ struct SquarenessResults {
   Squareness squareness;
   Budget budget;     // of EC0Y, EB0Z or EA0Z
   Run run_a, run_b;  // stated at the fixture
-  std::vector<std::string> marks;
 };
 // Of two axes with one run each among several runs; nothing where it cannot be calculated.
 struct SquarenessOfPair {

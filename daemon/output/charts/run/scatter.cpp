@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/labels.h"
 #include "daemon/output/charts/panel.h"
 #include "daemon/output/charts/run/points.h"
@@ -94,12 +95,12 @@ std::string scatter_svg(const StatedResults& results, const Scatter& scatter,
     for (const Mark& mark : marks) x.include(mark.x);
   }
   const std::vector<std::string> notes = {phrase(chart.note, language)};
-  const auto marks_of_head = head_marks(false, results.marks, language);
+  const auto marks_of_head = head_marks(false, daemon::marks_of(results.run, language), language);
   const double top = run_head_height(marks_of_head);
   const Sheet sheet(top + kScatterLegendPx, y, kOutputPx);
   const std::string title = title_of_run(header, phrase(chart.title, language), language);
   std::string words = about_run(header, language) + ".";
-  for (const std::string& mark : results.marks) words += " " + mark + ".";
+  for (const std::string& mark : daemon::marks_of(results.run, language)) words += " " + mark + ".";
   Svg svg(kWidthPx, sheet.bottom() + notes_height(notes) + 12, title, words, Theme::light);
   draw_run_head(svg, title, about_run(header, language), marks_of_head, language);
   draw_marks_legend(svg, top, legend_of(scatter.marks.front()), {}, language);

@@ -82,8 +82,8 @@ Status show(const ShowTableCommand& command) {
   const Notices doubtful = read.value_or(Notices{notice(NoticeCode::run_unreadable)});
   show_notices(doubtful);
   if (command.csv && table.simulated) warn("simulated data: no machine was measured");
-  const auto marks =
-      daemon::marks_of({"table " + std::to_string(table.id), table.simulated, doubtful});
+  const auto marks = daemon::marks_of(
+      {daemon::JudgedKind::table, std::to_string(table.id), table.simulated, doubtful});
   if (command.csv)
     return write_out(noise_only_comment(table.noise_only()) + csv_marks(marks) + table_csv(table));
   return command.json ? write_line(table_document(table, generation, !doubtful.empty()))

@@ -276,8 +276,9 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
     return bad_input(name + " is " + squareness_name(stored.axes) +
                      "; the controllers of this format take the squareness of X and Y only");
   MDOF_TRY(const daemon::FittedSquareness fitted, daemon::stored_squareness(store, stored));
-  MDOF_CHECK(
-      judge({name, stored.simulated, daemon::without_information(fitted.notices)}, request, out));
+  MDOF_CHECK(judge({daemon::JudgedKind::squareness, std::to_string(stored.id), stored.simulated,
+                    daemon::without_information(fitted.notices)},
+                   request, out));
   MDOF_TRY(const Chain x, chain_of_run(store, stored.run_a));
   MDOF_TRY(const Chain y, chain_of_run(store, stored.run_b));
   if (!(x == y))

@@ -71,7 +71,7 @@ Status draw_table(store::Store& store, std::int64_t number, output::Language lan
   const std::string name = "table-" + std::to_string(number);
   if (charts::has_table(table))
     plotted.charts.push_back(
-        {name + ".svg", charts::table_svg(table, daemon::marks_of(judged), language)});
+        {name + ".svg", charts::table_svg(table, daemon::marks_of(judged, language), language)});
   else
     plotted.left_out.push_back("table " + std::to_string(number) + " has no values");
   return {};

@@ -115,11 +115,9 @@ Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessC
 Status draw_both_axes(const SquarenessCommand& command, const Squareness& s, const Budget& budget) {
   if (command.plots.empty()) return {};
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  charts::SquarenessResults drawn{s, budget, {}, {}, {}};
+  charts::SquarenessResults drawn{s, budget, {}, {}};
   MDOF_TRY(drawn.run_a, daemon::run_stated_at(store, s.run_a, Reference::fixture));
   MDOF_TRY(drawn.run_b, daemon::run_stated_at(store, s.run_b, Reference::fixture));
-  for (const Run* run : {&drawn.run_a, &drawn.run_b})
-    for (std::string& mark : daemon::marks_of(*run)) drawn.marks.push_back(std::move(mark));
   const std::string name =
       "squareness-" + std::to_string(s.run_a) + "-" + std::to_string(s.run_b) + ".svg";
   return write_plots({{name, charts::squareness_svg(drawn, words::Language::english)}},

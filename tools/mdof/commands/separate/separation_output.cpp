@@ -68,7 +68,7 @@ Status separate_and_print(LoadedSources loaded, const char* method, const Output
   Notices& notices = loaded.notices;
   append(notices, record.result.notices);
   show_notices(notices, options.all_warnings);
-  const daemon::Judged judged{"this separation", record.simulated,
+  const daemon::Judged judged{daemon::JudgedKind::separation, "", record.simulated,
                               daemon::doubtful_notices(notices)};
   MDOF_CHECK(check_map(record, judged, options));
   record.marks = daemon::marks_of(judged);

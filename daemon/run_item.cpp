@@ -2,6 +2,8 @@
 
 #include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
+#include "schema/imported/series.h"
+#include "schema/recording/run_options.h"
 #include "schema/run_json.h"
 
 namespace mdof::daemon {
@@ -17,11 +19,23 @@ std::string cut(const std::string& text, std::size_t bytes) {
   return text.substr(0, bytes) + " ... (cut)";
 }
 
+// Of all options what the signs of an imported run hang on; "" of another run.
+std::string sense_of_imported(const RunHeader& header) {
+  if (!is_imported(header)) return "";
+  const ImportedSense stated = run_options(header).imported;
+  JsonWriter json;
+  json.begin_object().key("imported").begin_object().field("sense", to_string(stated.sense));
+  json.key("travel");
+  stated.against_command ? json.value(*stated.against_command ? "-" : "+") : json.null();
+  json.end_object().end_object();
+  return json.take();
+}
+
 }  // namespace
 
 RunHeader shortened(RunHeader header) {
   header.note = cut(header.note, kNoteBytes);
-  header.provenance.options_json.clear();
+  header.provenance.options_json = sense_of_imported(header);
   std::size_t bytes = 0, kept = 0;
   for (; kept < header.notices.size() && bytes < kNoticesBytes; ++kept) {
     for (auto& [key, x] : header.notices[kept].values)

@@ -6,6 +6,7 @@
 #include "schema/imported/series.h"
 #include "schema/iso230/figures_json.h"
 #include "schema/plausibility/plausibility_json.h"
+#include "schema/recording/run_options.h"
 #include "schema/rig/correction.h"
 #include "schema/uncertainty/budget_json.h"
 #include "schema/units.h"
@@ -156,13 +157,29 @@ void write_temperature(JsonWriter& json, const std::optional<Temperature>& read)
 
 }  // namespace
 
+namespace {
+
+// Of an imported run its import says the travel alone, or nothing does.
+void write_sides(JsonWriter& json, const RunHeader& h) {
+  json.key("moves");
+  is_imported(h) ? json.null() : json.value(h.sides.moves());
+  json.key("travel");
+  if (!is_imported(h)) {
+    json.value(h.sides.travel());
+    return;
+  }
+  const auto against_command = run_options(h).imported.against_command;
+  against_command ? json.value(*against_command ? "-" : "+") : json.null();
+}
+
+}  // namespace
+
 void write_header_members(JsonWriter& json, const RunHeader& h, NoticeWords words) {
   const std::string axis(1, letter(h.axis));
   json.field("run", h.id).field("axis", axis).field("model", h.provenance.model);
   write_reference(json, h.stated);
-  json.field("moves", h.sides.moves())
-      .field("travel", h.sides.travel())
-      .field("state", to_string(h.state))
+  write_sides(json, h);
+  json.field("state", to_string(h.state))
       .field("simulated", h.simulated)
       .field("started_utc", h.started_utc)
       .field("note", h.note);

@@ -5,6 +5,7 @@
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/imported/imported_run.h"
+#include "daemon/measure/imported/positioning_figures.h"
 #include "daemon/methods/methods.h"
 #include "daemon/methods/run_pages.h"
 #include "daemon/paths.h"
@@ -249,8 +250,11 @@ Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::i
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
   MDOF_TRY(const auto actions, store.actions_of_run(id));
   if (is_imported(run.header)) {
-    const StatedFigures figures = imported_figures(store, run);
-    return imported_document(run, figures, sha256, actions, false);
+    run = with_positioning_notices(std::move(run));
+    const StatedFigures figures = positioning_figures(run);
+    std::string whole = imported_document(run, run.header, figures, sha256, actions, false);
+    if (whole.size() <= kPageBytes) return whole;
+    return imported_document(run, shortened(run.header), figures, sha256, actions, false);
   }
   const StatedRun stated = stated_in_a_call(run);
   const auto document = [&](const RunHeader& header, std::size_t most_visits) {
@@ -354,7 +358,8 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
        .params = {run, reference},
        .result =
            "the run; straightness in um, slopes and angles in urad; uncertainty of each figure "
-           "(of imported positioning: E and B of ISO 230-2); "
+           "(of imported positioning: E and B of ISO 230-2, or the range where "
+           "readings do not say their approach); "
            "straightness_lines; result_sha256; n_ij (numbers of visits) is null if the "
            "list is too long for a reply",
        .example = R"({"run": 1})",

@@ -106,11 +106,17 @@ export const plain = (map) => [...map].map(([x, y]) => [x, y, y, y]);
 // approach: their mean, and from the smallest to the largest value, so that no outlier is out of the picture.
 export function passes(points, key, most = kMostPasses) {
   const last = points.reduce((most_so_far, p) => Math.max(most_so_far, p.run), 0);
-  const older = new Map(), newest = new Map();
+  const older = new Map(), newest = new Map(), times = new Map();
   for (const p of points) {
-    const is_new = p.run > last - most, id = `${is_new ? p.run : "older "}${sign(p.direction)}`, found = is_new ? newest : older;
-    if (!found.has(id)) found.set(id, {label: id, ...approach(p.direction), points: [], values: new Map()});
-    const one = found.get(id), U = p.U?.[key] ?? 0, x = p.target_mm ?? p.position_mm;
+    const is_new = p.run > last - most, found = is_new ? newest : older, U = p.U?.[key] ?? 0, x = p.target_mm ?? p.position_mm;
+    let id = `${is_new ? p.run : "older "}${sign(p.direction)}`;
+    if (is_new) {  // a place that a pass has twice is in two series: a series has one value at a place
+      const here = `${id} ${x}`;
+      times.set(here, (times.get(here) ?? 0) + 1);
+      if (times.get(here) > 1) id += ` (${times.get(here)})`;
+    }
+    if (!found.has(id)) found.set(id, {label: id, ...approach(p.direction), marks: !p.direction, points: [], values: new Map()});
+    const one = found.get(id);
     if (is_new) one.points.push([x, p[key] - U, p[key], p[key] + U]);
     else if (isNumber(p[key])) one.values.set(x, [...one.values.get(x) ?? [], p[key]]);
   }

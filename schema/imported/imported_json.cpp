@@ -20,9 +20,7 @@ void write_imported_members(JsonWriter& json, const RunHeader& header, NoticeWor
   json.field("imported", true).field("error", header.provenance.model);
   json.field("sense", "actual - nominal, as in the file");
   if (header.provenance.model != positioning_name(header.axis)) return;
-  const ImportedSense stated = run_options(header).imported;
-  json.field("positioning_sense", to_string(stated.sense)).key("travel");
-  stated.against_command ? json.value(*stated.against_command ? "-" : "+") : json.null();
+  json.field("positioning_sense", to_string(run_options(header).imported.sense));
 }
 
 }  // namespace mdof

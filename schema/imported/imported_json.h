@@ -12,8 +12,8 @@ namespace mdof {
 // null: none was declared.
 void write_imported_point(JsonWriter& json, const MeasuredPoint& point, const std::string& key);
 
-// The header, "imported", "error", "sense"; of positioning "positioning_sense" and "travel" (null:
-// not said), too. Members of an open object.
+// The header, "imported", "error", "sense"; of positioning "positioning_sense", too. Members of an
+// open object.
 void write_imported_members(JsonWriter& json, const RunHeader& header, NoticeWords words);
 
 }  // namespace mdof

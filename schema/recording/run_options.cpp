@@ -2,6 +2,8 @@
 
 #include <simdjson.h>
 
+#include <utility>
+
 namespace mdof {
 
 RunOptions run_options(const RunHeader& run) {
@@ -18,6 +20,9 @@ RunOptions run_options(const RunHeader& run) {
   if (is("/imported/sense", "body")) options.imported.sense = PositioningSense::body;
   if (is("/imported/travel", "+")) options.imported.against_command = false;
   if (is("/imported/travel", "-")) options.imported.against_command = true;
+  for (const auto& [member, limit] : {std::pair{"/imported/limit_um", &options.limit_um},
+                                      {"/imported/limit_um_per_mm", &options.limit_um_per_mm}})
+    if (double x = 0; !root.at_pointer(member).get(x)) *limit = x;
   simdjson::dom::array about;
   if (root.at_pointer("/imported/about").get(about)) return options;
   for (const simdjson::dom::element line : about)

@@ -2,6 +2,7 @@
 // by them; all of them: daemon/measure/replay/request_json.h.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ struct RunOptions {
   bool remove_drift = false;
   bool on_the_fly = false;
   ImportedSense imported;  // of imported positioning; one of an older version: of the command
-  std::vector<std::string> about;  // what an imported file says of itself
+  std::vector<std::string> about;                   // what an imported file says of itself
+  std::optional<double> limit_um, limit_um_per_mm;  // that an import asked for
 };
 // Of options that say nothing of one, or are none: as above.
 RunOptions run_options(const RunHeader& run);

@@ -45,6 +45,15 @@ std::string list_of(const std::vector<std::string>& keys) {
 }  // namespace
 
 Decision decision(const Budget& budget, double limit) {
+  if (!(budget.u > 0) || !std::isfinite(budget.u)) {
+    Decision unknown;
+    unknown.limit = limit;
+    unknown.guard_factor = unknown.guard_band = std::nan("");
+    unknown.rule = "ISO 14253-1:2017, no guard band without u";
+    unknown.reason = budget.u == 0 ? "u is 0, so no uncertainty was found or declared"
+                                   : "the uncertainty is unknown";
+    return unknown;
+  }
   Guard guard = guard_of(budget, limit);
   Decision d;
   d.limit = limit;
@@ -53,12 +62,14 @@ Decision decision(const Budget& budget, double limit) {
   d.rule = std::move(guard.rule);
   const double size = std::abs(budget.value);
   if (!budget.not_declared.empty())
-    d.reason = "U is incomplete: the rig does not declare " + list_of(budget.not_declared);
+    d.reason = budget.is_imported
+                   ? "U is incomplete: no uncertainty was declared at import"
+                   : "U is incomplete: the rig does not declare " + list_of(budget.not_declared);
   else if (size + d.guard_band <= limit)
     d.conformity = Conformity::conform;
   else if (size - d.guard_band > limit)
     d.conformity = Conformity::not_conform;
-  else  // and where nothing is known: NaN
+  else  // and where the value is not known: NaN
     d.reason = "the value lies within the guard band of the tolerance";
   return d;
 }

@@ -32,6 +32,15 @@ std::string options_json(const ImportRequest& request, const ImportedError& erro
     json.key("travel");
     request.against_command ? json.value(*request.against_command ? "-" : "+") : json.null();
   }
+  const auto limit = [&](const char* key, double asked, double otherwise, double to_unit) {
+    if (asked != otherwise) json.field(key, asked * to_unit);
+  };
+  const algo::TableLimits plain;
+  limit("limit_um", error.angle ? request.limits.angle_rad : request.limits.length_m,
+        error.angle ? plain.angle_rad : plain.length_m, 1e6);
+  limit("limit_um_per_mm",
+        error.angle ? request.limits.angle_slope_rad_per_m : request.limits.length_slope,
+        error.angle ? plain.angle_slope_rad_per_m : plain.length_slope, 1e3);
   json.key("about").begin_array();
   for (const std::string& line : series.about) json.value(line);
   json.end_array().end_object().end_object();

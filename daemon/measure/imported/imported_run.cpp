@@ -1,8 +1,7 @@
 #include "daemon/measure/imported/imported_run.h"
 
+#include "algo/compensation/imported_table.h"
 #include "daemon/history.h"
-#include "daemon/measure/several_runs/compared_points.h"
-#include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
 #include "schema/imported/imported_json.h"
 #include "schema/imported/series.h"
@@ -21,26 +20,24 @@ TableRequest table_of_imported(const Run& run, const Run& other) {
   return request;
 }
 
-StatedFigures imported_figures(store::Store& store, const Run& run) {
-  if (run.header.provenance.model != positioning_name(run.header.axis))
-    return {{}, "of an imported run, only positioning has figures"};
-  const auto built = calculate_table(store, table_of_imported(run, run));
-  if (!built) return {{}, words::text(built.error())};
-  return {positioning_budgets({run, built->table}), ""};
+Run with_positioning_notices(Run run) {
+  if (run.header.provenance.model == positioning_name(run.header.axis))
+    append(run.header.notices, algo::positioning_notices({run}));
+  return run;
 }
 
 Covers covers_of_readings(const Run& run) {
-  const bool is_declared = !run.points.empty() && !run.points.front().point.probe_u_m.empty();
+  const bool is_declared = !run.points.empty() && u_of_deviation(run.points.front()) > 0;
   return {is_declared ? Covered::declared_at_import : Covered::undeclared_at_import,
           Covered::no_repeatability};
 }
 
-std::string imported_document(const Run& run, const StatedFigures& figures,
+std::string imported_document(const Run& run, const RunHeader& header, const StatedFigures& figures,
                               const std::string& result_sha256,
                               const std::vector<HistoryEntry>& actions, bool with_points) {
   JsonWriter json;
   json.begin_object();
-  write_imported_members(json, run.header, words::text);
+  write_imported_members(json, header, words::text);
   if (!figures.budgets.empty()) write_covers(json, figures.budgets);
   write_stated(json, figures);
   json.field("points_total", static_cast<std::uint64_t>(run.points.size()));

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "daemon/measure/evaluation.h"
-#include "daemon/store/store.h"
 #include "schema/run.h"
 #include "schema/uncertainty/budget.h"
 #include "schema/uncertainty/covers.h"
@@ -16,14 +15,14 @@ namespace mdof::daemon {
 // more: figures of one run ask with the run itself as the other.
 TableRequest table_of_imported(const Run& run, const Run& other);
 
-// Of positioning, those of positioning_budgets(); of another error none. Left out, with the reason,
-// where they cannot be calculated.
-StatedFigures imported_figures(store::Store& store, const Run& run);
+// With what its readings alone show: no approach, one reading a target.
+Run with_positioning_notices(Run run);
 // What u of its readings covers.
 Covers covers_of_readings(const Run& run);
 
-// What `mdof show` and run.get give of it, as run_document() of other runs.
-std::string imported_document(const Run& run, const StatedFigures& figures,
+// What `mdof show` and run.get give of it, as run_document() of other runs; `header`: the run's, or
+// a shorter one.
+std::string imported_document(const Run& run, const RunHeader& header, const StatedFigures& figures,
                               const std::string& result_sha256,
                               const std::vector<HistoryEntry>& actions, bool with_points);
 

@@ -10,7 +10,6 @@
 #include "schema/base/json_writer.h"
 #include "schema/compensation_table.h"
 #include "schema/run.h"
-#include "schema/uncertainty/budget.h"
 
 namespace mdof::daemon {
 
@@ -39,13 +38,6 @@ struct TabledRun {
 // of the repeats at the target, else with k = 1.96. What a run declares counts in both approaches
 // alike, so that it is not in U of the reversal.
 ComparedPoints compared_points(const TabledRun& before, const TabledRun& after);
-
-// Of imported positioning, by the names and definitions of ISO 230-2: E, the bi-directional
-// systematic error (range of the means of both approaches), E_forward, E_reverse, and B, the
-// largest reversal. What one approach alone does not give is left out, and of readings that do
-// not say their approach all but E. U of a range is that of the
-// difference of its two ends; NaN where a target has one reading.
-std::vector<Budget> positioning_budgets(const TabledRun& of);
 
 // "points": [{"position_mm", "forward": {"EXX_um": {"before", "after", "U_before", "U_after"}},
 // "reverse": {...}, "reversal": {...}}] of an open object; null: not known.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "daemon/measure/imported/imported_run.h"
+#include "daemon/measure/imported/positioning_figures.h"
 #include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/base/json_writer.h"
@@ -134,7 +135,10 @@ Result<Comparison> compare_positioning(store::Store& store, const Run& before, c
   append(found.notices, std::move(first.notices));
   append(found.notices, std::move(second.notices));
   const TabledRun a{before, first.table}, b{after, second.table};
-  MDOF_CHECK(add_figures(found, positioning_budgets(a), positioning_budgets(b)));
+  const auto figures_of = has_unknown_approach(before) || has_unknown_approach(after)
+                              ? positioning_range
+                              : positioning_figures;
+  MDOF_CHECK(add_figures(found, figures_of(before).budgets, figures_of(after).budgets));
   found.points = compared_points(a, b);
   if (found.points.points.empty())
     found.why_no_points = "the runs have no target in common (within 0.1 mm)";

@@ -197,7 +197,8 @@ void write_decisions(Xml& xml, const ReportRun& run) {
     xml.leaf("dcc:norm", "ISO 14253-1:2017");
     write_text(xml, "dcc:declaration",
                "limit " + shown(decision.limit) + ": " + to_string(decision.conformity) + "; " +
-                   decision.rule + " = " + shown(decision.guard_band) +
+                   decision.rule +
+                   (std::isnan(decision.guard_band) ? "" : " = " + shown(decision.guard_band)) +
                    (decision.reason.empty() ? "" : "; " + decision.reason));
     if (decision.conformity != Conformity::undecided)
       xml.leaf("dcc:conformity", decision.conformity == Conformity::conform ? "pass" : "fail");

@@ -1,6 +1,8 @@
 #include "daemon/output/report/replay_command.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "daemon/measure/replay/request_json.h"
 #include "daemon/output/charts/svg.h"
@@ -51,8 +53,17 @@ std::string import_options(const Run& run) {
   const double u = run.points.empty() ? std::nan("") : u_of_deviation(run.points.front());
   if (std::isfinite(u))
     text += option(error_of_imported(h).angle ? "--u-urad" : "--u-um", to_key_unit(u));
+  constexpr std::string_view kKind = "imported ";  // and the format
+  if (h.provenance.recording_kind.starts_with(kKind))
+    text += " --format " + h.provenance.recording_kind.substr(kKind.size());
+  const RunOptions options = run_options(h);
+  if (options.limit_um) text += option("--limit-um", *options.limit_um);
+  if (options.limit_um_per_mm) text += option("--limit-um-per-mm", *options.limit_um_per_mm);
+  if (std::any_of(h.notices.begin(), h.notices.end(),
+                  [](const Notice& n) { return n.severity != Severity::information; }))
+    text += " --despite-warnings";
   if (h.provenance.model != positioning_name(h.axis)) return text;
-  const ImportedSense stated = run_options(h).imported;
+  const ImportedSense stated = options.imported;
   text += std::string(" --sense ") + to_string(stated.sense);
   if (stated.against_command) text += *stated.against_command ? " --travel -" : " --travel +";
   return text;

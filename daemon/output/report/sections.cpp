@@ -211,15 +211,16 @@ void write_results(Html& html, const ReportRun& run, Language language) {
   if (!rows.empty())
     html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::unit), "u", "U (95 %)", "k"},
                rows, "numbers");
-  html.element(
-      "p",
-      of(is_imported(run.results.run.header) ? Phrase::U_explained_imported : Phrase::U_explained),
-      "quiet");
-  if (figures.budgets.empty())
-    html.element("p",
-                 phrase(Phrase::U_missing_because, language,
-                        {figures.why.empty() ? "the run has no calculated results" : figures.why}));
-  else
+  if (!is_imported(run.results.run.header))
+    html.element("p", of(Phrase::U_explained), "quiet");
+  else if (!figures.budgets.empty())
+    html.element("p", of(Phrase::U_explained_imported), "quiet");
+  if (figures.budgets.empty() || !figures.why.empty())
+    html.element(
+        "p", phrase(figures.budgets.empty() ? Phrase::U_missing_because : Phrase::left_out_because,
+                    language,
+                    {figures.why.empty() ? "the run has no calculated results" : figures.why}));
+  if (!figures.budgets.empty())
     html.element(
         "p", phrase(Phrase::u_covers, language, {words::text(covers(figures.budgets), language)}));
   std::string keys;
@@ -243,7 +244,10 @@ void write_decisions(Html& html, const ReportRun& run, Language language) {
                     budget ? value_text(to_key_unit(budget->value), U) : "–",
                     charts::number_text(to_key_unit(decision.limit), 6), unit_of_key(figure),
                     conformity_text(decision.conformity, language),
-                    decision.rule + " = " + uncertainty_text(to_key_unit(decision.guard_band)) +
+                    decision.rule +
+                        (std::isnan(decision.guard_band)
+                             ? ""
+                             : " = " + uncertainty_text(to_key_unit(decision.guard_band))) +
                         (decision.reason.empty() ? "" : "; " + decision.reason)});
   }
   html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::tolerance), of(Phrase::unit),

@@ -1,7 +1,7 @@
 // Compensation: the active tables, what is stored, the difference, and the change from one to another.
 import {change} from "../activation.js";
 import {Chart, errorKeys} from "../charts.js";
-import {covers, decimals, fixed, h, nameOf, notices, problem, setRows, table, time, unitOf} from "../dom.js";
+import {covers, decimals, fixed, h, isNumber, nameOf, notices, problem, setRows, table, time, unitOf} from "../dom.js";
 import * as live from "../live.js";
 import * as machine from "../machine.js";
 import {call, pages} from "../rpc.js";
@@ -13,8 +13,10 @@ const rows = (id) => pages("compensation.table", {table: id}, "points");
 // The values of one approach of a table as points of a series, band ± U by k = 2.
 const kCoverage = 2;
 function sideOf(points, side, key) {
-  return points.map((p) => [p.position_mm, p[side]?.[key] - kCoverage * (p[side]?.u?.[key] ?? 0), p[side]?.[key],
-    p[side]?.[key] + kCoverage * (p[side]?.u?.[key] ?? 0)]);
+  return points.filter((p) => isNumber(p[side]?.[key])).map((p) => {
+    const value = p[side][key], U = isNumber(p[side].u?.[key]) ? kCoverage * p[side].u[key] : null;
+    return [p.position_mm, U === null ? null : value - U, value, U === null ? null : value + U];
+  });
 }
 
 // At the place x between the points of a table; null outside: nothing is extrapolated here.
@@ -23,14 +25,37 @@ export function valueAt(points, side, key, x) {
   if (i < 0 || (i === 0 && points[0].position_mm > x + 1e-3)) return null;
   const b = points[i], a = points[Math.max(i - 1, 0)];
   const w = b.position_mm > a.position_mm ? Math.min(Math.max((x - a.position_mm) / (b.position_mm - a.position_mm), 0), 1) : 1;
-  return a[side][key] * (1 - w) + b[side][key] * w;
+  const before = a[side][key], after = b[side][key];
+  return isNumber(before) && isNumber(after) ? before * (1 - w) + after * w : w === 1 && isNumber(after) ? after : null;
 }
 
 const kSides = [["forward", false], ["reverse", true]];
+const factorOf = (t, key) => t.correction?.[key]?.factor ?? null;
+
+// What a control gets of two tables, factor times error, differs by this at the points of the first: [x, difference]. Null: one of
+// them does not correct this error.
+export function changeOfCorrection(shown, other, side, key) {
+  const [a, b] = [shown, other].map((t) => factorOf(t, key));
+  if (a === null || b === null || shown.correction[key].command !== other.correction[key].command) return null;
+  return shown.points.map((p) => [p.position_mm, p[side][key], valueAt(other.points, side, key, p.position_mm)])
+    .filter(([, mine, theirs]) => isNumber(mine) && isNumber(theirs)).map(([x, mine, theirs]) => [x, a * mine - b * theirs]);
+}
+
+// What two tables state differently besides their values.
+export function statedDifferently(t, other) {
+  const text = (x) => typeof x === "object" && x !== null ? JSON.stringify(x) : String(x ?? "not stated");
+  const found = [["reference", "reference point"], ["reference_mm", "reference point in mm"], ["straightness_reference", "straightness"], ["moves", "moving body"], ["travel", "travel"]]
+    .filter(([key]) => text(t[key]) !== text(other[key])).map(([key, name]) => `${name}: ${text(t[key])} (table ${other.table}: ${text(other[key])})`);
+  for (const key of Object.keys(t.correction ?? {}))
+    if (factorOf(t, key) !== factorOf(other, key) || t.correction[key].command !== other.correction?.[key]?.command)
+      found.push(`correction of ${nameOf(key)}: ${correctionText(key, t.correction[key])} (table ${other.table}: ${other.correction?.[key] ? correctionText(key, other.correction[key]) : "none"})`);
+  return found;
+}
+const differences = (t, other) => other && other.table !== t.table ? notices(statedDifferently(t, other), `Table ${t.table} states differently from table ${other.table}`) ?? "" : "";
 
 class TablePicture {
   constructor(shown, active) {
-    const keys = errorKeys(shown.points[0]?.forward);
+    const keys = errorKeys(shown.points[0]?.forward).filter((key) => shown.points.some((p) => kSides.some(([side]) => isNumber(p[side][key]))));
     const other = active && active.table !== shown.table ? active : null;
     this.charts = [];
     this.element = h("div", {class: "charts"}, keys.map((key) => this.pair(key, shown, other)));
@@ -41,12 +66,13 @@ class TablePicture {
     const series = (of, colour) => kSides.map(([side, dash]) => ({label: `table ${of.table} ${side}`, colour, dash, points: sideOf(of.points, side, key)}));
     const draws = [[chart, [...series(shown, "blue"), ...(other ? series(other, "orange") : [])]]];
     const parts = [chart.element];
-    if (other) {
-      const gap = new Chart(`${nameOf(key)} in ${unit}: table ${shown.table} − active table ${other.table}`, unit, {height_px: 140});
-      const of = (side) => shown.points.map((p) => [p, valueAt(other.points, side, key, p.position_mm)]).filter(([, v]) => v !== null)
-        .map(([p, v]) => [p.position_mm, p[side][key] - v, p[side][key] - v, p[side][key] - v]);
-      draws.push([gap, kSides.map(([side, dash]) => ({label: side, colour: "text", dash, points: of(side)}))]);
+    const changes = other ? kSides.map(([side]) => changeOfCorrection(shown, other, side, key)) : [];
+    if (changes.some((change) => change?.length)) {
+      const gap = new Chart(`Correction of the command of ${shown.correction[key].command} from ${nameOf(key)} in ${unit}: table ${shown.table} − active table ${other.table}`, unit, {height_px: 140});
+      draws.push([gap, kSides.map(([side, dash], i) => ({label: side, colour: "text", dash, points: changes[i].map(([x, v]) => [x, v, v, v])}))]);
       parts.push(gap.element);
+    } else if (other) {
+      parts.push(h("p", {class: "quiet"}, "No change of a correction is drawn: one of the tables does not correct this error, or has no value here."));
     }
     this.draws = [...this.draws ?? [], ...draws];
     this.charts.push(...draws.map(([c]) => c));
@@ -58,19 +84,21 @@ class TablePicture {
 
 function numbers({points}) {
   const keys = errorKeys(points[0]?.forward);
-  return h("details", {}, h("summary", {}, "All numbers with u"), table("Errors of the table, actual − nominal; u: standard uncertainty",
+  return h("details", {}, h("summary", {}, "All numbers with u"), table("Values of the table; u: standard uncertainty",
     [["position/mm", "n"], ["approach"], ...keys.flatMap((key) => [[`${nameOf(key)}/${unitOf(key)}`, "n"], [`u/${unitOf(key)}`, "n"]])],
     points.flatMap((p) => kSides.map(([side]) => [fixed(p.position_mm, 3), side,
       ...keys.flatMap((key) => { const u = p[side].u[key]; return [fixed(p[side][key], decimals(u)), fixed(u, decimals(u))]; })]))));
 }
 
-const signs = (t) => Object.entries(t.correction).map(([key, c]) => c.factor === null ? `${nameOf(key)}: none (${c.reason})`
-  : `${c.factor > 0 ? "+" : "−"}${nameOf(key)} is added to the command of ${c.command}`).join("; ");
+function correctionText(key, c) {
+  return c.factor === null ? `${nameOf(key)}: none (${c.reason})` : `${c.factor > 0 ? "+" : "−"}${nameOf(key)} is added to the command of ${c.command}`;
+}
+const signs = (t) => Object.entries(t.correction).map(([key, c]) => correctionText(key, c)).join("; ");
 
 function card(t) {
   return facts([["Axis", t.axis], ["Data", t.simulated ? "SIMULATED: no machine was measured" : "measured"], ["Runs", t.runs.join(", ")],
     ["Range", `${fixed(t.first_mm, 3)} … ${fixed(t.last_mm, 3)} mm, ${t.points_total} points`], ["Reference point", t.reference],
-    ["Straightness relative to", t.straightness_reference], ["Correction", signs(t)], ["Built", time(t.created_utc)],
+    ["Straightness relative to", t.straightness_reference], ["Values", t.sense], ["Correction", signs(t)], ["Built", time(t.created_utc)],
     ["Warnings", t.doubtful ? "▲ notices of its runs make this table doubtful" : null], ["Active since", t.activated_utc && `${time(t.activated_utc)}, by ${t.activated_by}`]]);
 }
 
@@ -88,15 +116,18 @@ class AxisPanel {
       h("section", {}, h("h2", {}, "Stored tables"), this.table), this.builder, h("section", {}, h("h2", {}, "History"), this.history));
   }
   async read() {
-    const {axis} = this;
+    const {axis} = this, mine = this.readings = (this.readings ?? 0) + 1;
     try {
       const [status, list, {runs}, {history}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis}),
         call("run.list", {axis, count: 100}), call("history.list", {count: 200})]);
+      if (mine !== this.readings) return;  // a newer reading is under way
       this.now = status.axes[axis] ?? null;
       this.active.replaceChildren(...this.now ? [h("p", {class: "result"}, `Table ${this.now.table}, generation ${this.now.generation}`), card(this.now), covers(this.now) ?? "",
         h("p", {class: "buttons"}, h("button", {onclick: () => this.show(this.now.table)}, "Show this table"), h("button", {class: "danger", onclick: () => this.deactivate()}, "Deactivate …"))]
-        : [h("p", {}, "No table is active: nothing is corrected on this axis.")]);
+        : [h("p", {}, status.volume ? `No table of this axis is active. Table ${status.volume.table} of the volume (${status.volume.machine}) corrects the axes.`
+          : "No table is active: nothing is corrected on this axis.")]);
       setRows(this.table, list.tables.map((t) => this.row(t)));
+      if (this.openId) this.show(this.openId);
       this.build(runs.filter((r) => ["complete", "partial"].includes(r.state)));
       const deeds = history.filter((d) => d.deed.startsWith("compensation."));
       this.history.replaceChildren(deeds.length === 0 ? h("p", {}, "No table was built or activated yet.") : table("Tables of all axes: who did what, newest first",
@@ -136,13 +167,16 @@ class AxisPanel {
     }
   }
   async show(id) {
+    const mine = this.shows = (this.shows ?? 0) + 1;
+    this.openId = id;
     try {
       const [shown, active] = await Promise.all([rows(id), this.now ? rows(this.now.table) : null]);
+      if (mine !== this.shows) return;  // another one was asked for meanwhile
       this.opened?.close();
       this.opened = new TablePicture(shown, active);
       this.shown.replaceChildren(h("section", {class: "panel", "aria-label": `Table ${id}`}, h("h2", {}, `Table ${id}${shown.active ? ", active" : active ? `, compared with the active table ${active.table}` : ", not active"}`),
-        h("p", {class: "quiet"}, `Blue: table ${id}${active && !shown.active ? `, orange: active table ${active.table}` : ""}; solid: forward, dashed: reverse. Bands: ± U = ${kCoverage} u.`),
-        this.opened.element, numbers(shown), card(shown), covers(shown) ?? ""));
+        h("p", {class: "quiet"}, `Blue: table ${id}${active && !shown.active ? `, orange: active table ${active.table}` : ""}; solid: forward, dashed: reverse. Bands: ± U = ${kCoverage} u, where u is known.`),
+        active ? differences(shown, active) : "", this.opened.element, numbers(shown), card(shown), covers(shown) ?? ""));
       this.opened.draw();
     } catch (error) {
       this.wrong.replaceChildren(problem(error));
@@ -160,7 +194,7 @@ class AxisPanel {
   async activate(id) {
     const t = await call("compensation.table", {table: id, count: 1}).catch((error) => this.wrong.replaceChildren(problem(error)));
     if (t) this.change("compensation.activate", {table: id}, {title: `Activate table ${id} on axis ${t.axis}?`, action: "Activate", marks: t,
-      text: [card(t), this.now ? h("p", {}, `Table ${id} replaces table ${this.now.table} at once, for all clients.`) : null]});
+      text: [card(t), this.now ? differences(t, this.now) : null, this.now ? h("p", {}, `Table ${id} replaces table ${this.now.table} at once, for all clients.`) : null]});
   }
   deactivate() {
     this.change("compensation.deactivate", {axis: this.axis}, {title: `Deactivate the table of axis ${this.axis}?`, action: "Deactivate",
@@ -178,6 +212,6 @@ export function open(place, [asked]) {
   const panel = new AxisPanel(axis);
   place.append(panel.element);
   panel.read();
-  const off = live.on("run.event", ({type}) => { if (["compensation", "ended"].includes(type)) panel.read(); });
-  return () => { off(); panel.close(); };
+  const offs = [live.on("run.event", ({type}) => { if (["compensation", "ended"].includes(type)) panel.read(); }), live.on("gap", () => panel.read())];
+  return () => { offs.forEach((off) => off()); panel.close(); };
 }

@@ -24,21 +24,19 @@ function head(run) {
     ["Started", time(run.started_utc)], ["Note", run.note], ["Supersedes", run.supersedes && `run ${run.supersedes}`],
     ["Points", String(run.points_total)], ["Reference point", run.reference + (run.reference_mm ? ` (${run.reference_mm.map((x) => fixed(x, 3)).join(", ")}) mm` : "")],
     ["Temperature", isNumber(t?.mean) ? `${fixed(t.mean, 2)} °C` : null],
-    ["Lost scans", `${run.scans_lost} of ${run.scans}`], ["Model", run.model],
+    ["Moving body, its direction when the encoder counts up", `${run.moves}, ${run.travel}`],
+    ["Lost scans", isNumber(run.scans_lost) ? `${run.scans_lost} of ${run.scans}` : `not known, of ${run.scans}`], ["Model", run.model],
     ["Recording", run.recording.path], ["SHA-256 of the recording", run.recording.sha256]]);
 }
 
-// Least squares or through both ends, as [x, y] of both ends of the line.
-export function lineThrough(points, kind) {
-  const n = points.length, first = points[0], last = points[n - 1];
-  if (n < 2) return [];
-  if (kind === "end_point") return [first, last];
-  const mx = points.reduce((a, [x]) => a + x, 0) / n, my = points.reduce((a, [, y]) => a + y, 0) / n;
-  const slope = points.reduce((a, [x, y]) => a + (x - mx) * (y - my), 0) / points.reduce((a, [x]) => a + (x - mx) ** 2, 0);
-  return [first, last].map(([x]) => [x, my + slope * (x - mx)]);
+// The line of mdofd at these places of the encoder: its slope is over the travel of the moving body, which goes against the
+// encoder where the rig says travel "-".
+export function lineAt(line, travel, places_mm) {
+  if (!line || !isNumber(line.slope_um_per_m)) return [];
+  return places_mm.map((x) => [x, line.intercept_um + line.slope_um_per_m * (travel === "-" ? -x : x) / 1000]);
 }
 
-const kLines = [["least_squares", "least squares line"], ["end_point", "line through both ends"]];
+const kLines = [["least_squares", "least squares line"], ["end_point", "line through both ends"], ["minimum_zone", "minimum zone line"]];
 
 class Straightness {
   constructor(run, points) {
@@ -50,15 +48,17 @@ class Straightness {
       h("div", {class: "charts"}, this.charts.map(([, chart, text]) => h("div", {}, chart.element, text))));
   }
   draw(kind = "least_squares") {
+    const {run} = this;
     for (const [key, chart, text] of this.charts) {
-      const mean = [...means(this.points, key)], of = this.run.straightness[key].mean, name = nameOf(key);
-      const {uncertainty} = this.run;
-      const least = kind === "least_squares";
-      text.textContent = `Straightness ${measured(least ? uncertainty?.[`${name}_straightness_um`] ?? {value: of.least_squares_um} : {value: of.end_point_um}, "µm")}; ` +
-        `slope ${measured(least ? uncertainty?.[`${name}_slope_urad`] ?? {value: of.slope_least_squares_urad} : {value: of.slope_end_point_urad}, "µrad")}. Mean of both approaches.`;
+      const places = [...means(this.points, key).keys()], name = nameOf(key), line = run.straightness_lines?.[key]?.mean?.[kind];
+      const stated = (figure, value) => measured(kind === "least_squares" && run.uncertainty?.[`${name}_${figure}`] || {value}, figure.endsWith("_um") ? "µm" : "µrad");
+      const sides = [1, -1].filter((d) => this.points.some((p) => p.direction === d && isNumber(p[key])));
+      text.textContent = `Straightness ${stated("straightness_um", line?.zone_um)}; slope ${stated("slope_urad", line?.slope_um_per_m)} over the travel of the moving body` +
+        (run.travel === "-" ? ", which goes against the encoder: over the positions shown the slope has the opposite sign" : "") +
+        (sides.length === 2 ? ". Mean of both approaches." : ". Only one approach was measured.");
       chart.set([
         ...[1, -1].map((d) => ({label: approach(d).name, ...approach(d), points: plain(means(this.points, key, d))})),
-        {label: "reference line", colour: "text", line: true, dash: true, points: lineThrough(mean, kind).map(([x, y]) => [x, y, y, y])},
+        {label: "reference line", colour: "text", line: true, dash: true, points: lineAt(line, run.travel, [places[0], places.at(-1)]).map(([x, y]) => [x, y, y, y])},
       ], text.textContent);
     }
   }
@@ -67,7 +67,7 @@ class Straightness {
 function angles(run) {
   return table("Angles: range over the travel, mean of both approaches", [["error"], ["range", "w"], ["at start/µrad", "n"], ["smallest/µrad", "n"], ["largest/µrad", "n"]],
     Object.entries(run.angles ?? {}).map(([key, {mean}]) => [nameOf(key), measured(run.uncertainty?.[key.replace("_urad", "_range_urad")] ?? {value: mean.range_urad}, "µrad"),
-      fixed(mean.start_urad, 3), fixed(mean.min_urad, 3), fixed(mean.max_urad, 3)]));
+      fixed(mean.start_urad, 3), fixed(mean.start_urad + mean.min_urad, 3), fixed(mean.start_urad + mean.max_urad, 3)]));  // as stored they are from the start on
 }
 
 class Budget {
@@ -79,8 +79,10 @@ class Budget {
     if (figures.length) this.read(run.run, figures[0]);
   }
   async read(run, figure) {
+    const turn = this.turn = (this.turn ?? 0) + 1;
     try {
       const reply = await call("run.budget", {run, figure});
+      if (turn !== this.turn) return;  // another one was chosen meanwhile
       const budget = reply.figures[figure], unit = unitOf(figure);
       this.place.replaceChildren(h("p", {class: "result"}, `${titleOf(figure)}: ${measured(budget, unit)}; u = ${fixed(budget.u, decimals(budget.u))} ${unit}`),
         budgetBars(budget, unit), covers({u_covers: budget.u_covers, u_not_declared: budget.not_declared}) ?? "");
@@ -106,8 +108,11 @@ const deeds = (list) => list.length === 0 ? null : h("section", {}, h("h2", {}, 
 function partners(run, runs) {
   const of = (test) => runs.filter((r) => r.run !== run.run && test(r)).map((r) => [r.run, `run ${r.run}, ${r.axis}, ${time(r.started_utc)} ${r.note ?? ""}`]);
   const pick = (label, options, how) => options.length === 0 ? null
-    : field(label, select([["", "choose …"], ...options], "", (other) => { if (other) location.hash = `runs/${run.run}/${how}/${other}`; }));
-  const alike = (r) => isImported(r) === isImported(run);
+    : field(label, select([["", "choose …"], ...options], "", (other) => {
+      const [later, earlier] = [Math.max(run.run, Number(other)), Math.min(run.run, Number(other))];
+      if (other) location.hash = `runs/${later}/${how}/${earlier}`;
+    }));
+  const alike = (r) => isImported(r) === isImported(run) && (!isImported(run) || r.model === run.model);
   return h("div", {class: "fields"}, pick("Compare with", of((r) => r.axis === run.axis && alike(r)), "with"),
     isImported(run) ? null : pick("Squareness with", of((r) => r.axis !== run.axis && r.simulated === run.simulated && alike(r)), "square"));
 }
@@ -123,6 +128,13 @@ async function resume(run, place) {
   }
 }
 
+function readings(points) {
+  const key = errorKeys(points[0])[0];
+  return h("details", {}, h("summary", {}, `All ${points.length} readings`), table("Readings in the order of the file; u: declared standard uncertainty",
+    [["target", "n"], ["pass", "n"], ["approach"], ["position/mm", "n"], [`${nameOf(key)}/${unitOf(key)}`, "n"], [`u/${unitOf(key)}`, "n"]],
+    points.map((p) => [String(p.target), String(p.run), approach(p.direction).name, fixed(p.position_mm, 4), fixed(p[key], decimals(p.u[key], 4)), fixed(p.u[key], decimals(p.u[key]))])));
+}
+
 // One error at each reading, and the figures of positioning.
 function showImported(body, run, points, runs, opened) {
   const keys = errorKeys(points[0]), charts = new ErrorCharts(keys), figures = Object.entries(run.uncertainty ?? {});
@@ -130,8 +142,8 @@ function showImported(body, run, points, runs, opened) {
   body.replaceChildren(h("h2", {}, `Run ${run.run}, axis ${run.axis}: imported`),
     h("div", {class: "columns"}, headOfImported(run), h("div", {}, partners(run, runs), covers(run))), notices(run.notices) ?? "",
     h("h2", {}, "Readings"), charts.element,
-    h("p", {class: "quiet"}, "Deviations are actual − nominal, as in the file. Blue solid line: forward; orange dashed line: reverse."), pointsTable(points),
-    h("h2", {}, "Figures by ISO 230-2"), figures.length === 0 ? h("p", {}, `No figures: ${run.uncertainty_reason ?? "none could be calculated"}.`)
+    h("p", {class: "quiet"}, "Deviations are actual − nominal, as in the file. Blue solid line: forward; orange dashed line: reverse; marks without a line: approach unknown."), readings(points),
+    h("h2", {}, "Figures by ISO 230-2"), run.uncertainty_reason ? h("p", {}, `Not calculated: ${run.uncertainty_reason}.`) : "", figures.length === 0 ? ""
       : facts(figures.map(([key, figure]) => [titleOf(key), measured(figure, unitOf(key))])), deeds(run.history) ?? "");
   charts.set(points);
 }

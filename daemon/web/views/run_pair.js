@@ -3,6 +3,7 @@ import {Chart, errorKeys, means, plain} from "../charts.js";
 import {covers, h, measured, nameOf, notices, problem, short, table, time, titleOf, unitOf} from "../dom.js";
 import {budgetBars, squarenessPicture, squarenessSign} from "../pictures.js";
 import {call, pages} from "../rpc.js";
+import {isImported} from "./run_detail.js";
 
 const kSame_mm = 0.01;  // targets of two runs that are one
 
@@ -14,12 +15,20 @@ export function difference(a, b) {
   return found;
 }
 
+// Of each approach that both runs have at a target, the mean of these: a run with one approach more does not differ by its reversal.
+export function differenceOfRuns(a, b, key) {
+  const found = new Map();
+  for (const d of [1, -1])
+    for (const [x, value] of difference(means(a, key, d), means(b, key, d))) found.set(x, [...found.get(x) ?? [], value]);
+  return new Map([...found].map(([x, all]) => [x, all.reduce((sum, v) => sum + v, 0) / all.length]).sort((p, q) => p[0] - q[0]));
+}
+
 function seriesOf(name, points, key, colour, wide) {
   return [1, -1].map((d) => ({label: `${name} ${d > 0 ? "forward" : "reverse"}`, colour, wide, dash: d < 0, points: plain(means(points, key, d))}));
 }
 
 function pairCharts(key, a, b) {
-  const unit = unitOf(key), gap = difference(means(a.points, key), means(b.points, key));
+  const unit = unitOf(key), gap = differenceOfRuns(a.points, b.points, key);
   const over = new Chart(`${nameOf(key)} in ${unit}: both runs`, unit, {height_px: 200});
   const apart = new Chart(`${nameOf(key)} in ${unit}: run ${a.run} − run ${b.run}`, unit, {height_px: 140});
   const largest = Math.max(...[...gap.values()].map(Math.abs));
@@ -28,7 +37,7 @@ function pairCharts(key, a, b) {
     apart.set([{label: "difference", colour: "text", points: plain(gap)}], `Largest difference ${short(largest)} ${unit}`);
   };
   return {charts: [over, apart], draw, element: h("div", {}, over.element, apart.element,
-    h("p", {}, gap.size === 0 ? "The runs have no target in common." : `Largest difference of the means of both approaches: ${short(largest)} ${unit}`))};
+    h("p", {}, gap.size === 0 ? "The runs have no target in common." : `Largest difference of the means, of each approach that both runs have: ${short(largest)} ${unit}`))};
 }
 
 const effects = {reduced: "▼ reduced", increased: "▲ increased", "not shown": "● not shown"};
@@ -37,6 +46,13 @@ const figures = (found, first, second) => table(`Results of run ${first} (before
   [["result"], [`run ${first}`, "w"], [`run ${second}`, "w"], ["change of |value|", "w"], ["effect", "w"]],
   Object.entries(found.figures).map(([key, f]) => [titleOf(key), measured(f.before, unitOf(key), {with_k: false}), measured(f.after, unitOf(key), {with_k: false}),
     measured(f.change, unitOf(key), {with_k: false}), effects[f.effect] ?? f.effect]));
+
+// Two imported runs may state their deviations in different senses: mdofd gives both in one.
+function inOneSense({points}, after, before) {
+  const of = (run, which) => ({run, points: points.flatMap((p) => [[1, "forward"], [-1, "reverse"]].map(([direction, side]) =>
+    ({run: 1, direction, target_mm: p.position_mm, ...Object.fromEntries(Object.entries(p[side]).map(([key, of_key]) => [key, of_key[which]]))})))});
+  return [of(after, "after"), of(before, "before")];
+}
 
 function back(run) {
   return h("p", {}, h("a", {href: `#runs/${run}`}, `← Run ${run}`));
@@ -47,12 +63,15 @@ export function openPair(place, first, second) {
   const opened = [];
   place.append(back(first), body);
   async function read() {
-    const [before, after] = [Math.min(first, second), Math.max(first, second)];
-    const [a, b] = await Promise.all([after, before].map((run) => pages("run.points", {run}, "points")));
+    const [after, before] = [first, second];
+    const heads = await Promise.all([after, before].map((run) => call("run.get", {run})));
+    const [a, b] = heads.every(isImported) ? inOneSense(await call("run.compare", {before, after}), after, before)
+      : await Promise.all([after, before].map((run) => pages("run.points", {run}, "points")));
     const pairs = errorKeys(a.points.find((p) => errorKeys(p).length)).map((key) => pairCharts(key, a, b));
     const table = h("div", {});
     opened.push(...pairs.flatMap((pair) => pair.charts));
     body.replaceChildren(h("h2", {}, `Run ${after} compared with run ${before}`),
+      h("p", {}, `Run ${before} is taken as the run before, run ${after} as the run after. `, h("a", {href: `#runs/${before}/with/${after}`}, "Exchange them")),
       h("p", {class: "quiet"}, `Means over all passes. Blue: run ${after}, orange: run ${before}; solid: forward, dashed: reverse. U is calculated for the results below, not for single differences.`),
       h("div", {class: "charts"}, pairs.map((pair) => pair.element)), h("h2", {}, "Results"), table);
     pairs.forEach((pair) => pair.draw());

@@ -49,18 +49,20 @@ export class Noise {
 export function stateOf(um, quality, low, high, stale) {
   if (stale) return ["invalid", "✕", "stale"];
   if (!kUsable.includes(quality)) return ["invalid", "■", quality.replaceAll("_", " ")];
+  if (!isNumber(um)) return ["invalid", "✕", "no reading"];
   const share = Math.abs(um - (low + high) / 2) / ((high - low) / 2);
   if (share > kNearEnd) return ["doubtful", "▲", "near the end of its range"];
   return share > kOffCentre ? ["doubtful", "◆", "off centre"] : ["good", "●", "in range"];
 }
 
-export function shimText(um, probe) {
-  const off = um - (probe.low_um + probe.high_um) / 2;
-  if (!isNumber(off)) return "Shim: not known without a reading";
+// Beyond the end of the range the reading is the end: the way back is longer by what is not seen.
+export function shimText(um, probe, quality = "good") {
+  if (!isNumber(um) || !(kUsable.includes(quality) || quality === "over_range")) return "Shim: not known without a reading";
+  const off = um - (probe.low_um + probe.high_um) / 2, least = quality === "over_range" ? "at least " : "";
   if (Math.abs(off) < kCentred * (probe.high_um - probe.low_um) / 2) return "Centred: no shim needed";
   const probeTowards = off > 0 ? along(probe.direction) : opposite(probe.direction);
   const targetTowards = off > 0 ? opposite(probe.direction) : along(probe.direction);
-  return `Shim ${fixed(Math.abs(off), 1)} µm: move the probe towards ${probeTowards}, or the target towards ${targetTowards}`;
+  return `Shim ${least}${fixed(Math.abs(off), 1)} µm: move the probe towards ${probeTowards}, or the target towards ${targetTowards}`;
 }
 
 // Lowest and highest reading of the last second; between two pictures there are many more readings.
@@ -104,7 +106,7 @@ class ProbeCard {
     this.swing.style.left = `${place(lowest)}%`;
     this.swing.style.width = `${place(highest) - place(lowest)}%`;
     setText(this.range, stale ? "" : rangeText(lowest, highest));
-    setText(this.shim, stale ? "Shim: not known, because no new values arrive" : shimText(um, this.probe));
+    setText(this.shim, stale ? "Shim: not known, because no new values arrive" : shimText(um, this.probe, quality));
     const {pooled} = this.noise;
     setText(this.quiet, pooled === null ? "Noise: shown when the axis is at rest" : `Noise s = ${fixed(pooled[0], 4)} µm (${pooled[1]} degrees of freedom, at rest)`);
   }
@@ -126,7 +128,7 @@ class SignCheck {
         cards.map((card, i) => h("tr", {}, h("th", {scope: "row"}, card.probe.id), h("td", {}, along(card.probe.direction)), ...this.rows[i]))));
   }
   begin() {
-    this.base = this.cards.map((card) => card.noise.values.length ? card.noise.mean : card.last);
+    this.base = this.cards.map((card) => !isNumber(card.last) ? null : card.noise.values.length ? card.noise.mean : card.last);
     this.start.textContent = "Start again";
     this.draw();
   }
@@ -134,7 +136,7 @@ class SignCheck {
     if (!this.base) return;
     const push = this.push.value && [0, 1, 2].map((k) => "XYZ"[k] !== this.push.value[1] ? 0 : this.push.value[0] === "+" ? 1 : -1);
     this.cards.forEach((card, i) => {
-      const change = card.last - this.base[i];
+      const change = isNumber(card.last) && isNumber(this.base[i]) ? card.last - this.base[i] : null;
       setText(this.rows[i][0], fixed(change, 2));
       setText(this.rows[i][1], verdict(change, card, push));
     });
@@ -192,8 +194,9 @@ export function open(place, [asked]) {
       : h("p", {class: "notice"}, "mdofd has no axis to measure; add an [[axis]] to mdofd.toml and restart mdofd."));
     return machine.onChange(() => { if (machine.axes().length) location.reload(); });
   }
-  const rig = machine.state.rigs.get(axis);
+  const rig = machine.state.rigs.get(axis), drawn_of = JSON.stringify(rig);
   const cards = rig.probes.map((probe) => new ProbeCard(probe));
+  const cardOf = new Map(cards.map((card) => [card.probe.id, card]));
   const check = new SignCheck(cards), devices = new Devices();
   const where = h("p", {class: "where"}), stale = h("p", {class: "quiet"}), errors = h("dl", {class: "errors"});
   place.append(
@@ -225,7 +228,7 @@ export function open(place, [asked]) {
     if (now - drawn < kText_ms) return;
     drawn = now;
     const old = machine.isStale(axis);
-    value.probes.forEach((p, i) => cards[i]?.draw(p, old));
+    for (const p of value.probes) cardOf.get(p.id)?.draw(p, old);
     setText(where, `${axis} at ${fixed(value.encoder_mm, 4)} mm, ${value.still ? "at rest" : "moving"}` +
       (value.run ? `, run ${value.run}` : "") + (value.waiting_for ? `, waiting for ${value.waiting_for}` : ""));
     drawErrors(old ? null : value.errors);
@@ -233,11 +236,12 @@ export function open(place, [asked]) {
   }
   function take(value) {
     if (value.axis !== axis) return;
-    value.probes.forEach((p, i) => {
-      if (!cards[i]) return;
-      cards[i].last = p.um;
-      cards[i].noise.add(p.um, value.still && kUsable.includes(p.quality));
-    });
+    for (const p of value.probes) {
+      const card = cardOf.get(p.id);
+      if (!card) continue;
+      card.last = kUsable.includes(p.quality) ? p.um : null;
+      card.noise.add(p.um, value.still && kUsable.includes(p.quality));
+    }
     draw(value);
   }
   const newest = machine.state.newest.get(axis);
@@ -249,8 +253,15 @@ export function open(place, [asked]) {
       const last = machine.state.newest.get(axis);
       setText(stale, last ? `Age of the values: ${age(machine.ageOf(axis))}` : "No values yet");
       place.classList.toggle("stale", machine.isStale(axis));
-      if (last && machine.isStale(axis)) draw(last.value);
+      if (!last || !machine.isStale(axis)) return;
+      for (const card of cards) card.last = null;
+      draw(last.value);
     }, 300)];
   const off = live.on("live.update", take);
-  return () => { off(); timers.forEach(clearInterval); };
+  // mdofd was restarted with another rig: other directions, ranges, probes.
+  const offRig = machine.onChange(() => {
+    const now = machine.state.rigs.get(axis);
+    if (now && JSON.stringify(now) !== drawn_of) window.dispatchEvent(new HashChangeEvent("hashchange"));
+  });
+  return () => { off(); offRig(); timers.forEach(clearInterval); };
 }

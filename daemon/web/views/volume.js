@@ -51,10 +51,11 @@ export function planePicture(nodes, plane, largest_um) {
   h("p", {class: "quiet"}, `Seen ${view}. Longest arrow: ${fixed(largestInPlane, 3)} µm in the plane. A stronger blue shows a larger correction in space (0 to ${fixed(largest_um, 3)} µm).`)];
 }
 
-async function grid() {
+// Of one generation: mdofd refuses a page of another one.
+async function grid(generation) {
   const nodes = [];
   for (;;) {
-    const page = await call("compensation.grid", {axis: "volume", offset: nodes.length});
+    const page = await call("compensation.grid", {axis: "volume", offset: nodes.length, generation});
     nodes.push(...page.points);
     if (page.points.length === 0 || nodes.length >= page.nodes) return nodes;
   }
@@ -85,13 +86,16 @@ function pictures(volume, nodes) {
   return h("div", {}, h("div", {class: "fields"}, field("Plane", select(planes.map((p) => [p, `${p}, ${kPlanes[p][2]}`]), plane, choose)), layers), place);
 }
 
+const rotaryText = ({rotary}) => Object.entries(rotary ?? {}).map(([name, deg]) => `${name.replace("_deg", "")} ${fixed(deg, 3)}°`).join(", ");
+const placeText = (place) => place?.some((x) => x !== 0) ? `(${place.map((x) => fixed(x, 3)).join(", ")}) mm` : "";
+
 function activeOf(volume, nodes) {
   return [h("h2", {}, `Table ${volume.table} of ${volume.machine}, generation ${volume.generation}`),
     h("p", {class: "result"}, largestText(nodes)),
     volume.simulated ? h("p", {class: "notice doubtful"}, "▲ SIMULATED: no machine was measured") : "",
     volume.not_measured.length ? h("p", {class: "notice doubtful"}, `▲ Not measured, so not corrected: ${volume.not_measured.join(", ")}`) : "",
     covers({u_covers: volume.u_covers, u_not_declared: volume.not_declared}) ?? "", pictures(volume, nodes),
-    facts([["Approach", volume.approach], ["Errors whose table does not cover the grid", volume.beyond_tables.join(", ")],
+    facts([["Rotary axes at", rotaryText(volume)], ["Tool point", placeText(volume.tool_point_mm)], ["Approach", volume.approach], ["Errors whose table does not cover the grid", volume.beyond_tables.join(", ")],
       ["Interpolation error", Object.entries(volume.interpolation).map(([k, x]) => `${k[0]} ${isNumber(x) ? fixed(x, 4) : "–"} µm`).join(", ")],
       ["Active since", `${time(volume.activated_utc)}, by ${volume.activated_by}`], ["Sense", volume.sense]]),
     h("details", {}, h("summary", {}, "All nodes with u"), table("Corrections of the nodes; u: standard uncertainty",
@@ -121,10 +125,13 @@ function stored(tables, active, done) {
 export function openVolume(place) {
   const wrong = h("div", {}), body = h("div", {});
   place.append(wrong, body);
+  let turn = 0;
   async function read() {
+    const mine = ++turn;
     const [{volume}, {tables}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis: "volume"})]);
-    const now = volume ? activeOf(volume, await grid())
+    const now = volume ? activeOf(volume, await grid(volume.generation))
       : [h("p", {class: "notice"}, "No table of the volume is active. Build a table with mdof compensation build --machine, then activate it here.")];
+    if (mine !== turn) return;  // a newer reading is under way
     body.replaceChildren(...now, tables.length ? stored(tables, volume, again) : "");
   }
   function again(error) {
@@ -132,5 +139,6 @@ export function openVolume(place) {
     return read().catch((e) => wrong.replaceChildren(problem(e)));
   }
   again();
-  return live.on("run.event", ({type}) => { if (type === "compensation") again(); });
+  const offs = [live.on("run.event", ({type}) => { if (type === "compensation") again(); }), live.on("gap", () => again())];
+  return () => offs.forEach((off) => off());
 }

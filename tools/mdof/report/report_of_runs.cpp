@@ -109,9 +109,10 @@ Status decide(report::Report& all, const std::vector<std::pair<std::string, doub
         found = true;
       }
     if (!found)
-      return fail(ErrorCode::usage, "--tolerance " + figure +
-                                        ": no run of the report has this figure with its "
-                                        "uncertainty; mdof budget RUN lists the figures");
+      return fail(ErrorCode::usage,
+                  "--tolerance " + figure +
+                      ": no run of the report has this figure with its "
+                      "uncertainty; a report without --tolerance lists the figures");
   }
   return {};
 }

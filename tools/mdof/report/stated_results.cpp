@@ -6,6 +6,7 @@
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/imported/imported_run.h"
+#include "daemon/measure/imported/positioning_figures.h"
 #include "schema/imported/series.h"
 #include "tools/mdof/stored/run_choice.h"
 
@@ -34,9 +35,10 @@ Result<charts::StatedResults> stated_results(store::Store& store, std::int64_t r
   charts::StatedResults results;
   MDOF_TRY(results.run, daemon::run_stated_at(store, run, reference));
   if (is_imported(results.run.header)) {
-    results.figures = daemon::imported_figures(store, results.run);
+    results.run = daemon::with_positioning_notices(std::move(results.run));
+    results.figures = daemon::positioning_figures(results.run);
     const bool declared =
-        !results.run.points.empty() && !results.run.points.front().point.probe_u_m.empty();
+        !results.run.points.empty() && u_of_deviation(results.run.points.front()) > 0;
     results.uncertainty.noise_only = !declared;
     return results;
   }

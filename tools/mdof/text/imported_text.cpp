@@ -58,7 +58,8 @@ std::string imported_text(const Run& run, const StatedFigures& figures,
                      (std::isnan(u) ? std::string("none")
                                     : fixed(u, 4) + (error.angle ? " µrad" : " µm")),
                  width) +
-         "\n" + (figures.budgets.empty() ? "" : "\n" + budgets_text(figures.budgets, width));
+         "\n" + (figures.budgets.empty() ? "" : "\n" + budgets_text(figures.budgets, width)) +
+         (figures.why.empty() ? "" : wrapped("Not calculated: " + figures.why + ".", width) + "\n");
 }
 
 }  // namespace mdof::tools

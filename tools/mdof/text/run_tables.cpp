@@ -25,7 +25,7 @@ const char* label_of(Severity severity) {
 }
 
 std::string labelled(std::string label, const std::string& text, std::size_t width) {
-  label.resize(kLabel, ' ');
+  label.resize(std::max(kLabel, label.size() + 1), ' ');
   return wrapped(label + one_line(text), width, kLabel) + "\n";
 }
 

@@ -96,7 +96,9 @@ std::string budget_svg(const Budget& budget, const std::string& title_of,
   const std::string line = budget_line(budget);
   std::vector<std::string> notes = {
       phrase(Phrase::u_covers, language, {words::text(covers(budget), language)})};
-  if (!budget.not_declared.empty()) {
+  if (budget.is_imported && !budget.not_declared.empty()) {
+    notes.emplace_back(phrase(Phrase::undeclared_at_import, language));
+  } else if (!budget.not_declared.empty()) {
     std::string keys;
     for (const std::string& key : budget.not_declared) keys += (keys.empty() ? "" : ", ") + key;
     notes.push_back(phrase(Phrase::not_declared, language, {keys}));

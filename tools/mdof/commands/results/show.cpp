@@ -4,6 +4,7 @@
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/imported/imported_run.h"
+#include "daemon/measure/imported/positioning_figures.h"
 #include "schema/base/output/output_files.h"
 #include "schema/imported/series.h"
 #include "tools/mdof/commands/command.h"
@@ -25,13 +26,15 @@ Status write_json(const ChosenRun& choice, const std::string& json) {
                             : write_file(choice.out, json + "\n", Existing::replace);
 }
 
-Status show_imported(store::Store& store, const Run& run, const ChosenRun& choice) {
+Status show_imported(store::Store& store, Run run, const ChosenRun& choice) {
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
   if (choice.csv) return write_csv_of(run, false, imported_csv(run), choice);
-  const StatedFigures figures = daemon::imported_figures(store, run);
+  run = daemon::with_positioning_notices(std::move(run));
+  const StatedFigures figures = daemon::positioning_figures(run);
   if (choice.json)
-    return write_json(choice, daemon::imported_document(run, figures, sha256, actions, true));
+    return write_json(choice,
+                      daemon::imported_document(run, run.header, figures, sha256, actions, true));
   const std::size_t width = terminal_columns();
   return write_out(imported_text(run, figures, sha256, width, choice.all_warnings) +
                    history_text(actions, width));

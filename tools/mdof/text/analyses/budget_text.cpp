@@ -69,7 +69,11 @@ std::string decision_text(const Budget& b, const Decision& decision, std::size_t
   return wrapped("Tolerance " + shown(b, decision.limit) + " " + unit_of(b) + ": " +
                      to_string(decision.conformity) +
                      (decision.reason.empty() ? "" : ": " + decision.reason) + " (" +
-                     decision.rule + " = " + shown(b, decision.guard_band) + " " + unit_of(b) + ")",
+                     decision.rule +
+                     (std::isnan(decision.guard_band)
+                          ? ""
+                          : " = " + shown(b, decision.guard_band) + " " + unit_of(b)) +
+                     ")",
                  width) +
          "\n";
 }

@@ -4,9 +4,9 @@ import assert from "node:assert/strict";
 export async function units(page) {
   const found = await page.evaluate(async () => {
     const {Noise, verdict, shimText, stateOf, rangeText} = await import("/views/setup.js");
-    const {lineThrough} = await import("/views/run_detail.js");
-    const {difference} = await import("/views/run_pair.js");
-    const {valueAt} = await import("/views/compensation.js");
+    const {lineAt} = await import("/views/run_detail.js");
+    const {difference, differenceOfRuns} = await import("/views/run_pair.js");
+    const {valueAt, changeOfCorrection, statedDifferently} = await import("/views/compensation.js");
     const {expected} = await import("/views/capture.js");
     const {rowsOf, means, passes} = await import("/charts.js");
     const {squarenessPicture} = await import("/pictures.js");
@@ -31,8 +31,20 @@ export async function units(page) {
       shim: shimText(40, probe), shim_back: shimText(-40, probe), centred: shimText(5, probe),
       states: [[0, "good"], [60, "good"], [-90, "simulated"], [0, "over_range"]].map(([um, q]) => stateOf(um, q, -100, 100, false)[2]),
       ranges: [rangeText(-1.234, 37), rangeText(null, null)],
-      // y = 2x + 1 with one point 3 too high: by hand slope 2, mean y (1 + 6 + 5) / 3.
-      least: lineThrough([[0, 1], [1, 6], [2, 5]], "least_squares"), ends: lineThrough([[0, 1], [1, 6], [2, 5]], "end_point"),
+      no_reading: [shimText(null, probe), shimText(5, probe, "missing"), shimText(100, probe, "over_range"), stateOf(null, "good", -100, 100, false)[2]],
+      // 2 um/m over the travel of the body: over 50 mm of the encoder 0.1 um up, or down where the body goes the other way.
+      lines: [lineAt({slope_um_per_m: 2, intercept_um: 1}, "+", [0, 50]), lineAt({slope_um_per_m: 2, intercept_um: 1}, "-", [0, 50]), lineAt(undefined, "+", [0, 1])],
+      // Forward +2, reverse -2 in both runs; one has the reverse at 5 mm alone.
+      of_runs: [...differenceOfRuns([0, 5].flatMap((x) => [1, -1].map((d) => ({target_mm: x, direction: d, k: 2 * d}))),
+        [{target_mm: 0, direction: 1, k: 2}, {target_mm: 5, direction: 1, k: 2}, {target_mm: 5, direction: -1, k: -2}], "k")],
+      // The same errors, but added with the other sign: the command changes by twice the error.
+      changes: (() => {
+        const of = (factor, k) => ({table: 1, travel: factor < 0 ? "+" : "-", correction: {k: {factor, command: "Y", reason: "no axis"}}, points: [{position_mm: 0, forward: {k}}, {position_mm: 9, forward: {k: null}}]});
+        return [changeOfCorrection(of(1, 3), of(-1, 3), "forward", "k"), changeOfCorrection(of(-1, 3), of(-1, 1), "forward", "k"),
+          changeOfCorrection(of(null, 3), of(-1, 3), "forward", "k"), statedDifferently(of(1, 3), of(-1, 3)).length, statedDifferently(of(1, 3), of(1, 4)).length];
+      })(),
+      nothing_there: [valueAt([{position_mm: 0, forward: {k: null}}, {position_mm: 1, forward: {k: 4}}], "forward", "k", 0.5)],
+      twice: passes([[0, 1], [0, 2], [5, 3]].map(([x, k]) => ({run: 1, direction: null, target_mm: x, k})), "k").map((one) => [one.label, one.points.length, one.marks]),
       difference: [...difference(new Map([[0, 3], [5, 4]]), new Map([[0.004, 1], [7, 0]]))],
       between: [valueAt(points, "forward", "k", 5), valueAt(points, "forward", "k", 10), valueAt(points, "forward", "k", 11), valueAt(points, "forward", "k", -1)],
       expected: [expected({from_mm: 0, to_mm: 30, interval_mm: 5, repeats: 5}), expected({targets_mm: [1, 2], repeats: 0}), expected({from_mm: 0, to_mm: 1, interval_mm: 0})],
@@ -55,6 +67,13 @@ export async function units(page) {
       numbers: [fixed(-0.0001, 2), fixed(-1.5, 1), fixed(null, 2), measured({value: 1.83045, U: 0.0886, k: 2}, "µm"), measured({value: 1}, "µm"), short(0.000123456)],
     };
   });
+  assert.deepEqual(found.no_reading, ["Shim: not known without a reading", "Shim: not known without a reading",
+    "Shim at least 100.0 µm: move the probe towards +Z, or the target towards −Z", "no reading"]);
+  assert.deepEqual(found.lines, [[[0, 1], [50, 1.1]], [[0, 1], [50, 0.9]], []]);
+  assert.deepEqual(found.of_runs, [[0, 0], [5, 0]]);
+  assert.deepEqual(found.changes, [[[0, 6]], [[0, -2]], null, 2, 0]);
+  assert.deepEqual(found.nothing_there, [null]);
+  assert.deepEqual(found.twice, [["1?", 2, true], ["1? (2)", 1, true]]);
   assert.deepEqual(found.undirected, [[[0, 2.5]], [[0, 3]], [[0, 2]]]);
   assert.deepEqual(found.passes, [["older +", [[0, 1, 5, 9]]], ["3+", [[0, 1, 2, 3]]], ["4+", [[0, 2, 3, 4]]], ["5+", [[0, 3, 4, 5]]], ["6+", [[0, 4, 5, 6]]]]);
   assert.deepEqual(found.squares, ["larger", "smaller", "larger", "larger"]);
@@ -68,8 +87,6 @@ export async function units(page) {
   assert.deepEqual(found.noise, [null, [Math.sqrt((2 + 8 + 0) / 21), 21]]);
   assert.deepEqual(found.states, ["in range", "off centre", "near the end of its range", "over range"]);
   assert.deepEqual(found.ranges, ["Last second: −1.23 to 37.00 µm", "Last second: no reading"]);
-  assert.deepEqual(found.least, [[0, 2], [2, 6]]);
-  assert.deepEqual(found.ends, [[0, 1], [2, 5]]);
   assert.deepEqual(found.difference, [[0, 2]]);
   assert.deepEqual(found.between, [2, 3, null, null]);
   assert.deepEqual(found.expected, [{targets: 7, points: 70}, {targets: 2, points: null}, null]);

@@ -44,7 +44,7 @@ export function changeOfCorrection(shown, other, side, key) {
 // What two tables state differently besides their values.
 export function statedDifferently(t, other) {
   const text = (x) => typeof x === "object" && x !== null ? JSON.stringify(x) : String(x ?? "not stated");
-  const found = [["reference", "reference point"], ["reference_mm", "reference point in mm"], ["straightness_reference", "straightness"], ["moves", "moving body"], ["travel", "travel"]]
+  const found = [["reference", "reference point"], ["reference_mm", "reference point in mm"], ["straightness_reference", "straightness"], ["moves", "moving body"], ["travel", "travel"], ["chain", "chain"], ["chain_travel", "travel of the chain"]]
     .filter(([key]) => text(t[key]) !== text(other[key])).map(([key, name]) => `${name}: ${text(t[key])} (table ${other.table}: ${text(other[key])})`);
   for (const key of Object.keys(t.correction ?? {}))
     if (factorOf(t, key) !== factorOf(other, key) || t.correction[key].command !== other.correction?.[key]?.command)

@@ -81,5 +81,17 @@ TEST(Decision, KeepsTheLimit) {
   EXPECT_EQ(decision(budget_of(0.5), 1.25).limit, 1.25);
 }
 
+// A u of 0 or none is no uncertainty that a decision can rest on.
+TEST(Decision, IsUndecidedWithoutU) {
+  for (const double u : {0.0, std::nan("")}) {
+    Budget budget = budget_of(0.5);
+    budget.u = budget.U = u;
+    const Decision d = decision(budget, 1.0);
+    EXPECT_EQ(d.conformity, Conformity::undecided);
+    EXPECT_NE(d.reason.find(u == 0 ? "u is 0" : "unknown"), std::string::npos);
+    EXPECT_TRUE(std::isnan(d.guard_band));
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

@@ -125,7 +125,8 @@ class SameDocument(unittest.TestCase):
             file.write("HEADER::\nFile type  : rtl\n\nTARGET DATA::\nFiletype : ISO\nTarget-count: 2\nTargets :\n0.0000 10.0000\n\nUSER-TEXT::\n" +
                        "".join(f"Remark {i}: {'x' * 40}\n" for i in range(3000)) +
                        "RUNS::\nRun-count: 2\n\nDEVIATIONS::\nRun Target Data:\n1 1 0.5\n1 2 0.7\n2 2 -0.3\n2 1 -0.5\nEOF::\n")
-        self.said("import", text, "--axis", "X", "--sense", "body", "--travel=-", "--socket", self.daemon.socket)
+        self.said("import", text, "--axis", "X", "--sense", "body", "--travel=-", "--db", self.daemon.database,
+                  "--socket", self.daemon.socket)
         run = self.client.call("run.get", run=5)
         self.assertEqual((run["positioning_sense"], run["travel"], run["points_total"]), ("body", "-", 4))
         self.assertEqual(run["uncertainty"]["EXX_B_um"]["value"], 1)

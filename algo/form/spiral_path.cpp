@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "schema/base/number/number_text.h"
 #include "schema/base/random.h"
@@ -15,6 +17,10 @@ namespace {
 constexpr double kMostPoints = 1e10;
 constexpr double kTouching = 1e-6;  // of the tool's radius: the last step of the contact
 constexpr int kMostSteps = 40;
+constexpr double kNowhere = -std::numeric_limits<double>::infinity();
+constexpr double kHigher_m = 1e-9;    // than the place that was found from the middle
+constexpr double kBetweenPixels = 4;  // times as curved as pixels the surface may be between them
+constexpr int kFewestPlaces = 64, kMostPlaces = 2000;
 
 // Eq. 9 over s in [0, L], from height and slope at one end to those at the other.
 double hermite(double s, double L, double z0, double slope0, double z1, double slope1) {
@@ -23,10 +29,52 @@ double hermite(double s, double L, double z0, double slope0, double z1, double s
          L * t * u * (u * slope0 - t * slope1);
 }
 
+// Largest second derivative along rows, columns and diagonals: how narrow the surface's valleys
+// are.
+double sharpest_valley_per_m(const SurfaceMap& map) {
+  double sharpest = 0;
+  const auto nx = static_cast<std::ptrdiff_t>(map.nx), ny = static_cast<std::ptrdiff_t>(map.ny);
+  const auto z = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
+    return map.z_m[static_cast<std::size_t>(j * nx + i)];
+  };
+  for (const auto& [di, dj] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
+    const double step2 = di * di * map.dx_m * map.dx_m + dj * dj * map.dy_m * map.dy_m;
+    for (std::ptrdiff_t j = 1; j + 1 < ny || (ny == 1 && dj == 0 && j == 1); ++j)
+      for (std::ptrdiff_t i = 1; i + 1 < nx; ++i) {
+        const double second = z(i - di, j - dj) - 2 * z(i, j) + z(i + di, j + dj);
+        if (second > sharpest * step2) sharpest = second / step2;
+      }
+  }
+  return sharpest;
+}
+
+// The largest of height(off) for |off| < r: the best of places so many to a pixel, then between its
+// neighbours.
+template <class Height>
+double highest(const Height& height, double r, int places) {
+  const double step = 2 * r / (places + 1);
+  double best = kNowhere, at = 0;
+  for (int k = 1; k <= places; ++k)
+    if (const double off = k * step - r, z = height(off); z > best) {
+      best = z;
+      at = off;
+    }
+  double low = std::max(at - step, -r), high = std::min(at + step, r);
+  for (int k = 0; k < kMostSteps; ++k) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    (height(a) < height(b) ? low : high) = height(a) < height(b) ? a : b;
+  }
+  return std::max(best, height((low + high) / 2));
+}
+
 }  // namespace
 
 SpiralPath::SpiralPath(const SurfaceMap& map, const SpiralRequest& request)
     : request_(request), surface_(map, request.extend_pixels, Extension::line) {
+  const double r = request.tool_radius_m;
+  may_touch_twice_ = r > 0 && kBetweenPixels * r * sharpest_valley_per_m(map) > 1;
+  const double to_a_pixel = 4 * r / std::min(map.dx_m, map.dy_m);
+  places_ = static_cast<int>(std::clamp(to_a_pixel, 1.0 * kFewestPlaces, 1.0 * kMostPlaces));
   const std::size_t n = request.points_per_turn;
   for (std::size_t k = 0; k < n; ++k) {
     const double turns = static_cast<double>(k) / static_cast<double>(n);
@@ -74,7 +122,8 @@ bool SpiralPath::at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part
 }
 
 // In the plane of rho and z: the circle of the tool's edge touches where the surface is steeper by
-// d / sqrt(r^2 - d^2), d from its lowest point; z is that point's.
+// d / sqrt(r^2 - d^2), d from its lowest point; z is that point's. Where the surface is curved more
+// than the tool there are several such places, of which the highest stops the tool.
 bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) const {
   const double r = request_.tool_radius_m;
   const auto surface_at = [&](double rho, SurfacePoint& point, OnPart& on_part) {
@@ -84,32 +133,30 @@ bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) con
   if (!surface_at(rho_m, point, found.on_part)) return false;
   double d = 0;
   OnPart there = found.on_part;
-  for (int step = 0; r > 0 && step < kMostSteps; ++step) {
+  bool is_found = r <= 0;
+  for (int step = 0; !is_found && step < kMostSteps; ++step) {
     const double slope = point.slope_x * cos + point.slope_y * sin;
     const double next = r * slope / std::sqrt(1 + slope * slope);
-    const bool is_last = std::abs(next - d) < kTouching * r;
+    is_found = std::abs(next - d) < kTouching * r;
     d = next;
     if (!surface_at(rho_m + d, point, there)) return false;
-    if (is_last) break;
-    found.is_too_sharp = step + 1 == kMostSteps;
   }
   const auto lowest = [&](double z, double off) {
     return z - off * off / (r + std::sqrt(r * r - off * off));
   };
-  if (found.is_too_sharp) {  // the highest of many places
-    double best = -1e300, best_d = 0;
-    for (int k = -32; k <= 32; ++k) {
-      SurfacePoint other;
-      if (const double off = r * k / 33.0; surface_at(rho_m + off, other, there))
-        if (const double z = lowest(other.z_m, off); z > best) {
-          best = z;
-          best_d = off;
-        }
-    }
-    d = best_d;
-    if (!surface_at(rho_m + d, point, there)) return false;
-  }
   found.z_m = r > 0 ? lowest(point.z_m, d) : point.z_m;
+  found.is_too_sharp = !is_found;
+  if (may_touch_twice_) {
+    const auto height = [&](double off) {
+      SurfacePoint other;
+      return surface_at(rho_m + off, other, there) ? lowest(other.z_m, off) : kNowhere;
+    };
+    const double best = highest(height, r, places_);
+    if (found.is_too_sharp || best > found.z_m + kHigher_m) {
+      found.z_m = best;
+      found.is_too_sharp = true;
+    }
+  }
   // The path turns: its direction is across rho.
   found.along = point.slope_y * cos - point.slope_x * sin;
   return true;

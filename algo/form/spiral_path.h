@@ -33,7 +33,7 @@ struct PathPoint {
 
 struct SpiralCounts {
   std::size_t points = 0, measured = 0, extended = 0, bridged = 0;
-  std::size_t too_sharp = 0;  // the tool touches in two places: its radius is above the surface's
+  std::size_t too_sharp = 0;  // the tool is stopped elsewhere: its radius is above the surface's
 };
 
 class SpiralPath {
@@ -65,6 +65,8 @@ class SpiralPath {
 
   SpiralRequest request_;
   Surface surface_;
+  bool may_touch_twice_ = false;  // the surface is somewhere curved more than the tool
+  int places_ = 0;                // over the tool's width, to look for the highest
   std::size_t points_ = 0;
   std::vector<double> cos_, sin_;  // of the points of a turn
 };

@@ -33,7 +33,11 @@ class TurnSpectrum {
  public:
   // What lies above `band_harmonic` is what a low pass leaves out; a negative one: no low pass.
   TurnSpectrum(std::size_t points_per_turn, double band_harmonic);
-  void add(double z);  // points of the last turn that is not whole have no part in it
+  // Points of the last turn that is not whole have no part in it. A turn ends at another height
+  // than it begins, by the feed: the line from its start to the start of the next is no undulation.
+  void add(double z);
+  // A last turn that is whole, but has no next one, drifts as the turn before it.
+  void finish();
 
   // The largest harmonic whose amplitude in any turn is at least `share` of the largest amplitude
   // of any harmonic and turn; 0: nothing moves.
@@ -42,13 +46,15 @@ class TurnSpectrum {
   std::size_t turns() const { return turns_; }
 
  private:
-  void finish_turn();
+  void finish_turn(double next);
   Dft dft_;
   double band_harmonic_;
   std::vector<double> turn_, largest_;  // largest_[n]: amplitude of harmonic n over all turns
   std::vector<std::complex<double>> work_;
   std::size_t turns_ = 0;
   double squares_ = 0, least_ = 0, most_ = 0, height_ = 0;
+  double change_ = 0;  // from the start of a turn to the start of the next
+  double bend_ = 0;    // the largest by which that differs from turn to turn
 };
 
 }  // namespace mdof::algo

@@ -69,6 +69,7 @@ TEST(ResultsOfNothing, APlateThatIsNotBentHasNoStress) {
 TEST(ResultsOfNothing, APathWithoutALowPassLeavesNothingOut) {
   TurnSpectrum path(8, -1);
   for (int k = 0; k < 16; ++k) path.add(1e-15 * std::cos(k * std::numbers::pi / 4));
+  path.finish();
   EXPECT_EQ(path.turns(), 2u);
   EXPECT_EQ(path.left_out().pv, 0);
   EXPECT_EQ(path.left_out().rms, 0);

@@ -142,31 +142,6 @@ TEST(DftByDefinition, OfAllLengthsUpToSixty) {
   }
 }
 
-// The highest harmonic of an even length stands for itself: its amplitude is not halved.
-TEST(TurnSpectrumByHand, HighestHarmonicAndBand) {
-  TurnSpectrum spectrum(8, 1);
-  EXPECT_EQ(spectrum.turns(), 0u);
-  EXPECT_EQ(spectrum.left_out().pv, 0);
-  EXPECT_EQ(spectrum.left_out().rms, 0);
-  EXPECT_EQ(spectrum.undulations(0.1), 0u);
-  for (int k = 0; k < 8; ++k)
-    spectrum.add(3 + std::cos(k * std::numbers::pi / 4) + (k % 2 == 0 ? 0.6 : -0.6));
-  EXPECT_EQ(spectrum.turns(), 1u);
-  EXPECT_EQ(spectrum.undulations(0.59), 4u);
-  EXPECT_EQ(spectrum.undulations(0.61), 1u);
-  EXPECT_EQ(spectrum.undulations(1), 1u);
-  EXPECT_NEAR(spectrum.left_out().pv, 1.2, 1e-12);
-  EXPECT_NEAR(spectrum.left_out().rms, 0.6, 1e-12);
-  // A band up to the second harmonic has the first and not the fourth, too; one of 0 neither.
-  for (const double band : {0.0, 0.9, 1.0, 3.9, 4.0}) {
-    TurnSpectrum other(8, band);
-    for (int k = 0; k < 8; ++k)
-      other.add(3 + std::cos(k * std::numbers::pi / 4) + (k % 2 == 0 ? 0.6 : -0.6));
-    const double expected = band < 1 ? std::sqrt(0.5 + 0.36) : band < 4 ? 0.6 : 0;
-    EXPECT_NEAR(other.left_out().rms, expected, 1e-12) << band;
-  }
-}
-
 // Passes over 2 x 2 pixels with the wanted height 0.
 CuttingPasses passes_by_hand(std::vector<std::vector<double>> cuts, bool repeated,
                              CuttingGain gain) {

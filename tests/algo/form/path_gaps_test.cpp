@@ -235,6 +235,34 @@ TEST(PathGaps, OfARequestThatSaysNoMore) {
   EXPECT_NEAR(farthest - edge, 3 * 0.2e-3, 0.1e-3);
 }
 
+// The highest harmonic of an even length stands for itself: its amplitude is not halved.
+TEST(TurnSpectrumByHand, HighestHarmonicAndBand) {
+  TurnSpectrum spectrum(8, 1);
+  EXPECT_EQ(spectrum.turns(), 0u);
+  EXPECT_EQ(spectrum.left_out().pv, 0);
+  EXPECT_EQ(spectrum.left_out().rms, 0);
+  EXPECT_EQ(spectrum.undulations(0.1), 0u);
+  const auto add_turn = [](TurnSpectrum& to) {
+    for (int k = 0; k < 8; ++k)
+      to.add(3 + std::cos(k * std::numbers::pi / 4) + (k % 2 == 0 ? 0.6 : -0.6));
+    to.finish();
+  };
+  add_turn(spectrum);
+  EXPECT_EQ(spectrum.turns(), 1u);
+  EXPECT_EQ(spectrum.undulations(0.59), 4u);
+  EXPECT_EQ(spectrum.undulations(0.61), 1u);
+  EXPECT_EQ(spectrum.undulations(1), 1u);
+  EXPECT_NEAR(spectrum.left_out().pv, 1.2, 1e-12);
+  EXPECT_NEAR(spectrum.left_out().rms, 0.6, 1e-12);
+  // A band up to the second harmonic has the first and not the fourth, too; one of 0 neither.
+  for (const double band : {0.0, 0.9, 1.0, 3.9, 4.0}) {
+    TurnSpectrum other(8, band);
+    add_turn(other);
+    const double expected = band < 1 ? std::sqrt(0.5 + 0.36) : band < 4 ? 0.6 : 0;
+    EXPECT_NEAR(other.left_out().rms, expected, 1e-12) << band;
+  }
+}
+
 // Amplitudes far below 1 are told from each other as well.
 TEST(TurnSpectrumSmall, UndulationsAreSharesOfTheLargest) {
   TurnSpectrum spectrum(36, -1);
@@ -242,6 +270,7 @@ TEST(TurnSpectrumSmall, UndulationsAreSharesOfTheLargest) {
     const double angle = 2 * std::numbers::pi * k / 36;
     spectrum.add(1e-6 * std::cos(2 * angle) + 0.3e-6 * std::sin(7 * angle));
   }
+  spectrum.finish();
   EXPECT_EQ(spectrum.undulations(0.29), 7u);
   EXPECT_EQ(spectrum.undulations(0.31), 2u);
 }

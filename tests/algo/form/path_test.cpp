@@ -89,6 +89,30 @@ TEST(SpiralPath, AToolThatDoesNotFitIsCounted) {
   }
 }
 
+// Against the highest of very many places of the tool: at the bottom of a groove, too, where the
+// surface is level, and nowhere deeper than the tool can go.
+TEST(SpiralPath, AToolRounderThanAGrooveRestsOnItsWalls) {
+  constexpr double r = 5e-3, kWave = 2e-3;
+  const auto groove = [](double x, double y) {
+    return 50e-6 * std::cos(2 * std::numbers::pi * std::hypot(x, y) / kWave);
+  };
+  const Walked walked = walk(map_of(groove, 0.05e-3), {0, 0, 2.5e-3, 0.1e-3, 8, r, 3});
+  double deepest = 0, most_apart = 0;
+  for (const PathPoint& p : walked.points) {
+    double expected = -1;
+    for (int k = -9999; k < 10000; ++k) {
+      const double d = 1e-4 * k * r;
+      if (std::abs(p.rho_m + d) < 5e-3)
+        expected = std::max(expected, groove(p.rho_m + d, 0) - r + std::sqrt(r * r - d * d));
+    }
+    deepest = std::min(deepest, p.z_m - expected);
+    most_apart = std::max(most_apart, std::abs(p.z_m - expected));
+  }
+  EXPECT_GT(deepest, -0.1e-6);
+  EXPECT_LT(most_apart, 0.1e-6);
+  EXPECT_GT(walked.counts.too_sharp, walked.points.size() / 4);
+}
+
 // A part half as wide as it is long: measured inside, three pixels more, and bridges between.
 TEST(SpiralPath, EdgesAreExtendedAndBridged) {
   const double d = 0.2e-3, half = 8e-3;
@@ -194,8 +218,9 @@ TEST(TurnSpectrum, HarmonicsOfAnyLength) {
       for (std::size_t k = 0; k < n; ++k) {
         const double a = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
         spectrum.add(5 + std::cos(a) + 0.3 * std::sin(3 * a) +
-                     0.02 * (turn + 1) / 3 * std::cos(static_cast<double>(highest) * a + 1));
+                     0.02 * (turn + 1) / 3 * std::sin(static_cast<double>(highest) * a));
       }
+    spectrum.add(6);
     spectrum.add(99);  // of a turn that does not end
     EXPECT_EQ(spectrum.turns(), 3u);
     EXPECT_EQ(spectrum.undulations(0.01), highest) << n;
@@ -211,7 +236,23 @@ TEST(TurnSpectrum, HarmonicsOfAnyLength) {
   }
   TurnSpectrum flat(360, -1);
   for (int k = 0; k < 720; ++k) flat.add(1e-3);
+  flat.finish();
   EXPECT_EQ(flat.undulations(0.01), 0u);
+}
+
+// A turn of a spiral over a ball ends higher than it begins: that is no undulation.
+TEST(TurnSpectrum, TheFeedIsNoUndulation) {
+  constexpr std::size_t n = 72;
+  for (const double wave_m : {0.0, 1e-6}) {
+    TurnSpectrum spectrum(n, 5);
+    for (std::size_t k = 0; k <= 40 * n; ++k) {
+      const double turns = static_cast<double>(k) / n, rho_m = 10e-3 - turns * 4e-6;
+      spectrum.add(-rho_m * rho_m / 0.2 + wave_m * std::cos(4 * std::numbers::pi * turns));
+    }
+    EXPECT_EQ(spectrum.turns(), 40u);
+    EXPECT_EQ(spectrum.undulations(0.01), wave_m > 0 ? 2u : 0u);
+    EXPECT_LT(spectrum.left_out().pv, 1e-10);
+  }
 }
 
 TEST(FeedRoughness, OfThePaper) {

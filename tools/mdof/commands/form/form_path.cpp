@@ -137,6 +137,7 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
     return writer.add(point);
   }));
   MDOF_CHECK(writer.finish());
+  spectrum.finish();
   found.undulations = spectrum.undulations(o.undulation_share);
   found.frequency_hz = static_cast<double>(found.undulations) * per_s;
   found.stroke_m = motion.stroke_m();
@@ -147,7 +148,7 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
     warn(o.out + ": the path has less than one turn, so the undulations are unknown");
   if (found.counts.too_sharp > 0)
     warn(o.map + ": at " + std::to_string(found.counts.too_sharp) +
-         " points the surface is curved more than the tool; the tool leaves material there");
+         " points the tool is too round to reach the surface; it leaves material there");
   return found;
 }
 

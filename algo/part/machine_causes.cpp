@@ -34,10 +34,10 @@ std::vector<Known> known_errors(const Machine& machine, std::size_t points, Mach
 // What a unit of the source does to the tool here; errors that were measured have it in their
 // value.
 Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, const Command& command,
-                          const std::vector<ErrorDerivative>& all) {
+                          const std::vector<ErrorDerivative>& all, bool with_axes) {
   Eigen::Vector3d effect = Eigen::Vector3d::Zero();
   for (const SourceEffect& acts : source.acts_on) {
-    if (machine.frames[acts.frame].is_known(acts.k, acts.of_line)) continue;
+    if (with_axes && machine.frames[acts.frame].is_known(acts.k, acts.of_line)) continue;
     const double factor = per_unit_at(machine, acts, command);
     for (const ErrorDerivative& d : all)
       if (d.frame == acts.frame && d.k == acts.k && d.of_line == acts.of_line)
@@ -75,7 +75,8 @@ void add_shared(const Machine& machine, const std::vector<ErrorDerivative>& all,
 
 }  // namespace
 
-MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m) {
+MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m,
+                             bool with_axes) {
   MachineCauses causes;
   const std::vector<Known> known = known_errors(machine, at_m.size(), causes);
   const std::size_t measured = causes.axes.size();
@@ -99,7 +100,7 @@ MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Ve
     add_shared(machine, all, values, p, at_m.size(), measured, causes);
     for (std::size_t s = 0; s < machine.sources.size(); ++s)
       causes.budget[s].u_m[p] =
-          effect_of(machine, machine.sources[s], command, all) * machine.sources[s].u;
+          effect_of(machine, machine.sources[s], command, all, with_axes) * machine.sources[s].u;
     const ToolError error = tool_error(machine, command, MachineApproach::mean);
     for (std::size_t k = 0; k < 3; ++k) {
       add_new(error.not_measured[k], causes.not_measured);

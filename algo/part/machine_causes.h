@@ -17,6 +17,8 @@ struct MachineCauses {
 };
 
 // Places of the path are commands of X, Y and Z; an axis that the chain has not stays.
-MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m);
+// `with_axes`: the measured errors count; else the sources act on these, too, as designed.
+MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m,
+                             bool with_axes = true);
 
 }  // namespace mdof::algo

@@ -172,15 +172,27 @@ PartError part_error(const PartPath& path, const std::vector<PartCause>& causes,
   const std::vector<double> thinned = sizes(path, all, xi, every);
   const double p95_m = quantile_95(thinned),
                max_m = *std::max_element(thinned.begin(), thinned.end());
-  std::vector<double> off_p95, off_max;
+  std::vector<double> drawn_p95, drawn_max;
   for (std::size_t trial = 0; trial < trials.errors; ++trial) {
     for (std::size_t c = 0; c < causes.size(); ++c) xi[c] = drawn(trials.seed, trial, c);
     const std::vector<double> drawn_sizes = sizes(path, all, xi, every);
-    off_p95.push_back(std::abs(quantile_95(drawn_sizes) - p95_m));
-    off_max.push_back(std::abs(*std::max_element(drawn_sizes.begin(), drawn_sizes.end()) - max_m));
+    drawn_p95.push_back(quantile_95(drawn_sizes));
+    drawn_max.push_back(*std::max_element(drawn_sizes.begin(), drawn_sizes.end()));
   }
-  result.U_p95_m = quantile_95(off_p95);
-  result.U_max_m = quantile_95(off_max);
+  // What is known by its u alone makes sizes larger, never smaller: the median of the draws is the
+  // estimate.
+  const auto take = [](std::vector<double> drawn, double thinned_m, double& estimate_m,
+                       double& U_m) {
+    if (drawn.empty()) return;
+    std::nth_element(drawn.begin(), drawn.begin() + static_cast<std::ptrdiff_t>(drawn.size() / 2),
+                     drawn.end());
+    const double median_m = drawn[drawn.size() / 2];
+    estimate_m += median_m - thinned_m;
+    for (double& m : drawn) m = std::abs(m - median_m);
+    U_m = quantile_95(std::move(drawn));
+  };
+  take(std::move(drawn_p95), p95_m, result.p95_m, result.U_p95_m);
+  take(std::move(drawn_max), max_m, result.max_m, result.U_max_m);
   return result;
 }
 

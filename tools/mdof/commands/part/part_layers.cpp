@@ -1,5 +1,6 @@
 #include "tools/mdof/commands/part/part_layers.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -51,47 +52,23 @@ Result<algo::PartPath> load_path(const std::string& file) {
 
 // ---- axes and budget ----
 
-// Into the machine, as columns of a file would be.
-Status add_table(Machine& machine, const CompensationTable& table, const std::string& from) {
-  for (MachineFrame& frame : machine.frames) {
-    if (frame.kind != FrameKind::linear || frame.id != std::string(1, letter(table.axis))) continue;
-    for (std::size_t named = 0; named < error_names(table.axis).size(); ++named) {
-      const ErrorName& name = error_names(table.axis)[named];
-      const std::size_t k =
-          std::string_view(name.angle ? "ABC" : "XYZ").find(name.name[1]) + (name.angle ? 3 : 0);
-      ErrorFunction& f = frame.error[k];
-      if (f.known())
-        return bad_input(from + ": " + error_name(frame, k) +
-                         " is also in the machine file; give this error only once");
-      for (std::size_t row = 0; row < table.position_m.size(); ++row) {
-        const double forward = table.forward[named][row], reverse = table.reverse[named][row];
-        const double value = std::isnan(reverse)   ? forward
-                             : std::isnan(forward) ? reverse
-                                                   : (forward + reverse) / 2;
-        if (std::isnan(value)) continue;
-        f.position.push_back(table.position_m[row]);
-        f.forward.push_back(value);
-        f.u.push_back(
-            table.u_of(std::isnan(forward) ? table.u_reverse : table.u_forward, named, row));
-      }
-      if (f.forward.empty()) f = {};
-    }
-    machine.simulated = machine.simulated || table.simulated;
-    machine.noise_only = machine.noise_only || table.noise_only();
-    return {};
-  }
-  return bad_input(from + ": this is a table of axis " + std::string(1, letter(table.axis)) +
-                   ", but the chain " + machine.chain.text +
-                   " does not contain this axis; give tables of axes of the chain");
-}
-
-Status add_tables(LoadedPart& part, const PartLayer& layer, const std::string& database) {
+// Tables of the plan count as those that the machine file names: with its checks and their senses.
+Status name_tables(Machine& machine, const PartLayer& layer, const std::string& database) {
   if (layer.from.empty()) return {};
   MDOF_TRY(store::Store store, open_to_read(database));
   for (const std::string& from : layer.from) {
-    MDOF_TRY(const CompensationTable table, store.table(*table_number(from)));
-    MDOF_CHECK(add_table(part.machine, table, from));
-    if (table.slope_removed)
+    const std::int64_t number = *table_number(from);
+    MDOF_TRY(const CompensationTable table, store.table(number));
+    const auto frame =
+        std::find_if(machine.frames.begin(), machine.frames.end(), [&](const MachineFrame& f) {
+          return f.kind == FrameKind::linear && f.id == std::string(1, letter(table.axis));
+        });
+    if (frame == machine.frames.end())
+      return bad_input(from + ": this is a table of axis " + std::string(1, letter(table.axis)) +
+                       ", but the chain " + machine.chain.text +
+                       " does not contain this axis; give tables of axes of the chain");
+    frame->tables.ids.push_back(number);
+    if (!table.has_positioning() && table.slope_removed && !machine.squareness.any())
       warn(from +
            ": the straightness in this table has no slope (a line was subtracted), so the error of "
            "the part does not contain squareness; to include squareness, build the table with "
@@ -175,6 +152,12 @@ algo::PartCause without_value(algo::PartCause cause) {
   return cause;
 }
 
+double sum_of_u(const algo::PartCause& cause) {
+  double sum = 0;
+  for (const Eigen::Vector3d& u : cause.u_m) sum += u.norm();
+  return sum;
+}
+
 void add_layer(LoadedPart& part, const PartLayer& plan, const std::string& compensated_by,
                const std::vector<algo::PartCause>& causes) {
   const std::size_t number = part.layers.size();
@@ -186,19 +169,20 @@ void add_layer(LoadedPart& part, const PartLayer& plan, const std::string& compe
   }
 }
 
-Status add_machine_layers(LoadedPart& part, const std::string& database) {
+Status add_machine_layers(LoadedPart& part) {
   const PartLayer *axes = nullptr, *budget = nullptr;
   for (const PartLayer& layer : part.plan.layers) {
     if (layer.on && layer.name == "axes") axes = &layer;
     if (layer.on && layer.name == "budget") budget = &layer;
   }
-  if (axes) MDOF_CHECK(add_tables(part, *axes, database));
   if (!axes && !budget) return {};
-  const algo::MachineCauses found = algo::machine_causes(part.machine, part.path.at_m);
+  const algo::MachineCauses found =
+      algo::machine_causes(part.machine, part.path.at_m, axes != nullptr);
   if (axes && found.axes.empty())
-    return bad_input(part.plan.machine +
-                     ": the machine file has no measured errors, which the layer \"axes\" needs; "
-                     "add measured errors, or set axes = \"table:N\" in the part file");
+    return bad_input(
+        part.plan.machine +
+        ": the machine file has no measured errors, which the layer \"axes\" needs; "
+        "add measured errors, or tables of its axes: axes = \"table:N\" in the part file");
   if (budget && found.budget.empty())
     return bad_input(
         part.plan.machine +
@@ -228,9 +212,12 @@ Result<LoadedPart> load_part(const std::string& file, const std::string& databas
   MDOF_TRY(part.plan, parse_part_plan(text, file));
   const auto folder = std::filesystem::path(file).parent_path();
   const auto beside = [&folder](const std::string& name) { return (folder / name).string(); };
-  MDOF_TRY(part.machine, load_machine(beside(part.plan.machine), database));
+  MDOF_TRY(part.machine, described_machine(beside(part.plan.machine)));
+  for (const PartLayer& layer : part.plan.layers)
+    if (layer.name == "axes") MDOF_CHECK(name_tables(part.machine, layer, database));
+  MDOF_CHECK(add_stored_errors(part.machine, database));
   MDOF_TRY(part.path, load_path(beside(part.plan.path)));
-  MDOF_CHECK(add_machine_layers(part, database));
+  MDOF_CHECK(add_machine_layers(part));
   for (const PartLayer& layer : part.plan.layers) {
     if (!layer.on) continue;
     if (layer.name == "form") {
@@ -243,6 +230,7 @@ Result<LoadedPart> load_part(const std::string& file, const std::string& databas
     if (layer.name == "milling") {
       MDOF_TRY(const auto causes, milling_causes(part, beside(layer.from.front())));
       add_layer(part, layer, "radius wear offset (mdof milling --offset)", causes);
+      if (sum_of_u(causes.front()) == 0) part.no_u.push_back(causes.front().name);
     }
   }
   return part;

@@ -9,34 +9,13 @@
 #include "algo/compensation/shared_quantities.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
+#include "daemon/measure/machine/table_functions.h"
 #include "schema/imported/series.h"
 
 namespace mdof::daemon {
 namespace {
 
 constexpr std::int64_t kPage = 50;
-
-// One error of a table, without the positions at which it has no value.
-ErrorFunction function_of(const std::vector<double>& position, const std::vector<double>& forward,
-                          const std::vector<double>& reverse, const std::vector<double>& u,
-                          const std::vector<double>& u_noise) {
-  ErrorFunction f;
-  for (std::size_t i = 0; i < position.size(); ++i) {
-    const bool has_forward = std::isfinite(forward[i]), has_reverse = std::isfinite(reverse[i]);
-    if (!has_forward && !has_reverse) continue;
-    f.position.push_back(position[i]);
-    f.forward.push_back(has_forward ? forward[i] : reverse[i]);
-    f.reverse.push_back(has_reverse ? reverse[i] : forward[i]);
-    f.u.push_back(std::isfinite(u[i]) ? u[i] : 0);
-    f.u_independent.push_back(std::isfinite(u_noise[i]) ? u_noise[i] : 0);
-  }
-  return f;
-}
-
-std::vector<double> scaled(std::vector<double> values, double by) {
-  for (double& x : values) x *= by;
-  return values;
-}
 
 std::string axis_of(const MachineFrame& frame) {
   return "axis " + frame.id + " of the machine: ";
@@ -167,24 +146,26 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
       MDOF_CHECK(algo::check_travel(header, frame.against_command));
     }
     const PositioningErrors& along = table.positioning;
-    std::vector<double> u = along.u_forward;
+    const std::vector<double> noise = larger(along.u_forward, along.u_reverse);
+    std::vector<double> u = noise;  // of one reading a target nothing but what is declared
     for (std::size_t i = 0; table.has_declared() && i < u.size(); ++i)
-      u[i] = std::hypot(u[i], along.u_declared[i]);
+      u[i] = std::hypot(std::isnan(u[i]) ? 0 : u[i], along.u_declared[i]);
     // Its errors are those of the place in the controller's coordinates; the body's are along +.
     const double body = frame.against_command ? -1 : 1;
     return take(frame, frame.direction,
                 function_of(table.position_m, scaled(along.forward, body),
-                            scaled(along.reverse, body), u, along.u_forward));
+                            scaled(along.reverse, body), u, noise));
   }
   MDOF_CHECK(check_set_up(machine, frame, table));
   taken.stated.push_back({frame.id, table.stated, table.slope_removed});
   for (std::size_t named = 0; named < 5; ++named) {
     std::vector<double> u;
     for (std::size_t row = 0; row < table.position_m.size(); ++row)
-      u.push_back(table.u_of(table.u_forward, named, row));
+      u.push_back(std::fmax(table.u_of(table.u_forward, named, row),
+                            table.u_of(table.u_reverse, named, row)));
     MDOF_CHECK(take(frame, body_error_of(table, named),
                     function_of(table.position_m, table.forward[named], table.reverse[named], u,
-                                table.u_forward[named])));
+                                larger(table.u_forward[named], table.u_reverse[named]))));
   }
   return take_correlation(store, frame, table, taken);
 }

@@ -51,8 +51,9 @@ std::string covers_text(const RunUncertainty& uncertainty) {
 }
 
 bool is_noise_only(const RunUncertainty& uncertainty) {
-  if (!uncertainty.why.empty() || !uncertainty.declares) return true;
+  if (!uncertainty.why.empty()) return true;
   if (uncertainty.not_declared.empty()) return false;
+  if (!uncertainty.declares) return true;
   for (const ErrorsUncertainty& point : uncertainty.points)
     for (std::size_t k = 0; k < kErrorCount; ++k) {
       const double square = point.u[k] * point.u[k] - point.u_random[k] * point.u_random[k];

@@ -44,7 +44,7 @@ std::string list_of(const std::vector<std::string>& keys) {
 
 }  // namespace
 
-Decision decision(const Budget& budget, double limit) {
+Decision decision(const Budget& budget, double limit, const std::string& against) {
   if (!(budget.u > 0) || !std::isfinite(budget.u)) {
     Decision unknown;
     unknown.limit = limit;
@@ -61,10 +61,14 @@ Decision decision(const Budget& budget, double limit) {
   d.guard_band = guard.factor * budget.u;
   d.rule = std::move(guard.rule);
   const double size = std::abs(budget.value);
-  if (!budget.not_declared.empty())
+  if (!against.empty())
+    d.reason = against;
+  else if (!budget.not_declared.empty())
     d.reason = budget.is_imported
                    ? "U is incomplete: no uncertainty was declared at import"
                    : "U is incomplete: the rig does not declare " + list_of(budget.not_declared);
+  else if (budget.is_single_run)
+    d.reason = "U is incomplete: no target was visited again, so slow noise is not in U";
   else if (size + d.guard_band <= limit)
     d.conformity = Conformity::conform;
   else if (size - d.guard_band > limit)

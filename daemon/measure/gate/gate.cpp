@@ -67,6 +67,37 @@ Result<Judged> judged_table(store::Store& store, const CompensationTable& table)
   return judged;
 }
 
+bool is_invalid(const RunHeader& run) {
+  return std::any_of(run.notices.begin(), run.notices.end(),
+                     [](const Notice& n) { return n.severity == Severity::invalid; });
+}
+
+const char* only_approach(const Run& run) {
+  bool forward = false, reverse = false, unknown = false;
+  for (const MeasuredPoint& p : run.points) {
+    if (!p.errors.valid && !is_imported(run.header)) continue;
+    forward = forward || p.point.direction > 0;
+    reverse = reverse || p.point.direction < 0;
+    unknown = unknown || p.point.direction == 0;
+  }
+  if (unknown || forward == reverse) return "";
+  return forward ? "forward" : "reverse";
+}
+
+std::string against_decision(store::Store& store, const Run& run) {
+  const std::string of = "run " + std::to_string(run.header.id);
+  for (const Notice& each : run.header.notices)
+    if (each.severity == Severity::invalid) return of + " is invalid: " + words::text(each);
+  if (run.header.state != RunState::complete) return of + " is " + to_string(run.header.state);
+  const auto by = store.superseded_by(run.header.id);
+  if (!by) return by.error().message;
+  if (*by) return "run " + std::to_string(**by) + " supersedes " + of;
+  const std::string approach = only_approach(run);
+  if (!approach.empty() && !is_imported(run.header))
+    return of + " has the " + approach + " approach alone, so the reversal is unknown";
+  return "";
+}
+
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence) {
   const std::string name = name_of(judged, Language::english);
   if (judged.simulated && !consent.simulated)

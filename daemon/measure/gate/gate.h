@@ -38,6 +38,14 @@ Notices doubtful_notices(const std::vector<Run>& runs);
 Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& table);
 Result<Judged> judged_table(store::Store& store, const CompensationTable& table);
 
+// Any of its notices says that its numbers are wrong.
+bool is_invalid(const RunHeader& run);
+// By the one approach that the run has; "": by both, or by unknown ones.
+const char* only_approach(const Run& run);
+// Why no conformity is decided of its figures, without a full stop; empty: it can be. Invalid,
+// incomplete, superseded, of one approach.
+std::string against_decision(store::Store& store, const Run& run);
+
 // `consequence`: "it is not activated". Error (conflict) with the first notice and what to ask
 // with.
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence);

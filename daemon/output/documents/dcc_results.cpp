@@ -235,6 +235,10 @@ void write_meta_data(Xml& xml, const ReportRun& run) {
   write_declaration(xml, kMetaData, "straightness stated at", to_string(header.stated.reference));
   write_declaration(xml, kMetaData, "moving body, travel",
                     std::string(header.sides.moves()) + ", " + header.sides.travel());
+  if (run.superseded_by)
+    write_declaration(xml, kMetaData, "superseded by run", std::to_string(*run.superseded_by));
+  if (const std::string approach = daemon::only_approach(run.results.run); !approach.empty())
+    write_declaration(xml, kMetaData, "only approach", approach + "; the reversal is unknown");
   write_decisions(xml, run);
   write_notices(xml, run);
   write_declaration(xml, kMetaData, "SHA-256 of the recording", header.provenance.recording_sha256);
@@ -265,6 +269,14 @@ void write_run(Xml& xml, const ReportRun& run) {
   xml.close();
 }
 
+std::string not_declared_text(const Budget& budget) {
+  std::string keys;
+  for (const std::string& key : budget.not_declared) keys += (keys.empty() ? "" : ", ") + key;
+  return keys.empty()
+             ? ""
+             : ". Uncertainties that the rigs do not declare, so that U is too small: " + keys;
+}
+
 void write_squareness(Xml& xml, const charts::SquarenessResults& of) {
   const AxisPair axes = of.squareness.axes;
   xml.open("dcc:measurementResult");
@@ -274,7 +286,8 @@ void write_squareness(Xml& xml, const charts::SquarenessResults& of) {
                  std::to_string(of.squareness.run_b) + ")");
   xml.open("dcc:results");
   open_result(xml, "squareness",
-              squareness_sense(axes, " degrees") + ". U covers: " + covers_text(of.budget));
+              squareness_sense(axes, " degrees") + ", at the fixture. U covers: " +
+                  covers_text(of.budget) + not_declared_text(of.budget));
   write_figure(xml, of.budget, squareness_name(axes));
   close_result(xml);
   xml.close();

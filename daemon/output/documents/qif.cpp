@@ -242,14 +242,25 @@ void write_measurement(Xml& xml, const Measured& of, const std::string& kind, st
 
 std::vector<Attribute> facts_of(const ReportRun& run) {
   const RunHeader& header = run.results.run.header;
-  std::vector<Attribute> facts = {{"run", std::to_string(header.id)},
-                                  {"axis", std::string(1, letter(header.axis))},
-                                  {"state", to_string(header.state)},
-                                  {"simulated", header.simulated ? "true" : "false"},
-                                  {"U covers", covers_text(run.results.uncertainty)},
-                                  {"SHA-256 of the recording", header.provenance.recording_sha256},
-                                  {"SHA-256 of the result", run.result_sha256},
-                                  {"measured with", header.provenance.software_version}};
+  std::vector<Attribute> facts = {
+      {"run", std::to_string(header.id)},
+      {"axis", std::string(1, letter(header.axis))},
+      {"state", to_string(header.state)},
+      {"simulated", header.simulated ? "true" : "false"},
+      {"U covers", covers_text(run.results.uncertainty)},
+      {"SHA-256 of the recording", header.provenance.recording_sha256},
+      {"SHA-256 of the result", run.result_sha256},
+      {"measured with", header.provenance.software_version},
+      {"straightness stated at", to_string(header.stated.reference)},
+      {"moving body, travel", std::string(header.sides.moves()) + ", " + header.sides.travel()}};
+  std::string keys;
+  for (const std::string& key : run.results.uncertainty.not_declared)
+    keys += (keys.empty() ? "" : ", ") + key;
+  if (!keys.empty()) facts.emplace_back("not declared, so that U is too small", keys);
+  if (run.superseded_by)
+    facts.emplace_back("superseded by run", std::to_string(*run.superseded_by));
+  if (const std::string approach = daemon::only_approach(run.results.run); !approach.empty())
+    facts.emplace_back("only approach", approach);
   for (const std::string& mark :
        charts::head_marks(run.results.uncertainty.noise_only, daemon::marks_of(run.results.run),
                           output::Language::english))

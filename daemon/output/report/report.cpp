@@ -92,6 +92,10 @@ void write_squareness(Html& html, const charts::SquarenessOfPair& pair, Language
   html.element("p", phrase(Phrase::squareness_is, language,
                            {angle, a, b_axis, squareness_sign(pair.axes) > 0 ? "+" : "−"}));
   html.element("p", phrase(Phrase::u_covers, language, {words::text(covers(b), language)}));
+  std::string keys;
+  for (const std::string& key : b.not_declared) keys += (keys.empty() ? "" : ", ") + key;
+  if (!keys.empty()) html.element("p", phrase(Phrase::not_declared, language, {keys}));
+  html.element("p", phrase(Phrase::at_the_fixture, language), "quiet");
   html.figure(charts::squareness_svg(*pair.results, language));
 }
 

@@ -29,6 +29,7 @@ struct ReportRun {
   std::vector<Decided> decided;  // of the figures that have a tolerance
   std::string result_sha256;
   std::optional<std::int64_t> superseded_by;
+  std::string against_decision;  // why nothing is decided of it; empty: it can be
 };
 
 // A file inside the report, which a reader can save.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/labels.h"
 #include "daemon/output/charts/machine/fixture_chart.h"
 #include "daemon/output/report/numbers.h"
@@ -215,6 +216,8 @@ void write_results(Html& html, const ReportRun& run, Language language) {
     html.element("p", of(Phrase::U_explained), "quiet");
   else if (!figures.budgets.empty())
     html.element("p", of(Phrase::U_explained_imported), "quiet");
+  if (const std::string approach = daemon::only_approach(run.results.run); !approach.empty())
+    html.element("p", phrase(Phrase::one_approach, language, {approach}));
   if (figures.budgets.empty() || !figures.why.empty())
     html.element(
         "p", phrase(figures.budgets.empty() ? Phrase::U_missing_because : Phrase::left_out_because,

@@ -75,6 +75,7 @@ Result<report::ReportRun> report_run(store::Store& store, std::int64_t number,
   }
   MDOF_TRY(run.result_sha256, store.result_sha256(number));
   MDOF_TRY(run.superseded_by, store.superseded_by(number));
+  run.against_decision = daemon::against_decision(store, run.results.run);
   return run;
 }
 
@@ -105,7 +106,8 @@ Status decide(report::Report& all, const std::vector<std::pair<std::string, doub
     bool found = false;
     for (report::ReportRun& run : all.runs)
       if (const Budget* budget = find_budget(run.results.figures.budgets, figure)) {
-        run.decided.push_back({figure, algo::decision(*budget, from_um(tolerance))});
+        run.decided.push_back(
+            {figure, algo::decision(*budget, from_um(tolerance), run.against_decision)});
         found = true;
       }
     if (!found)

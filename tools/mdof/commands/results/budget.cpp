@@ -132,10 +132,18 @@ Status budget(const BudgetCommand& command) {
                                               : of_two_runs(store, command, runs));
   show_notices(found.notices, command.all_warnings);
   if (const std::string text = not_declared_text(found.budgets); !text.empty()) warn(text);
-  const auto decided =
-      command.tolerance
-          ? std::optional(algo::decision(found.budgets.front(), from_um(*command.tolerance)))
-          : std::nullopt;
+  std::string against;
+  for (const std::int64_t id : runs) {
+    MDOF_TRY(const Run run, store.run(id));
+    if (const std::string approach = daemon::only_approach(run); !approach.empty())
+      warn("run " + std::to_string(id) + " has the " + approach +
+           " approach alone: its figures are of this approach, and the reversal is unknown");
+    if (against.empty()) against = daemon::against_decision(store, run);
+  }
+  const auto decided = command.tolerance
+                           ? std::optional(algo::decision(found.budgets.front(),
+                                                          from_um(*command.tolerance), against))
+                           : std::nullopt;
   const bool shows_marks = command.csv || !command.plots.empty();
   MDOF_TRY(const Marked of, shows_marks ? marked(store, runs) : Result<Marked>());
   MDOF_CHECK(draw_budgets(of, command, found.budgets));

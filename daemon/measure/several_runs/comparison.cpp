@@ -51,6 +51,12 @@ ComparedFigure compared(const Budget& before, const Budget& after) {
     return figure;
   }
   algo::complete(change);
+  // A range of noisy means is biased upwards, which first order does not know.
+  if (before.U_by_trials || after.U_by_trials) {
+    change.U = std::max(change.U, std::hypot(before.U, after.U));
+    change.U_by_trials = true;
+    if (change.u > 0) change.coverage_factor = change.U / change.u;
+  }
   change.noise_only = before.noise_only && after.noise_only;
   if (change.value < -change.U) figure.effect = Effect::reduced;
   if (change.value > change.U) figure.effect = Effect::increased;

@@ -1,4 +1,5 @@
 #include "daemon/measure/several_runs/trends.h"
+#include "daemon/measure/gate/gate.h"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 
 #include "algo/uncertainty/budget/budget.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/gate/gate.h"
 #include "daemon/words/error_text.h"
 #include "schema/imported/series.h"
 #include "schema/recording/run_options.h"
@@ -88,7 +90,7 @@ void choose_kind(Chosen& chosen, bool mixed) {
 
 Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
   Chosen chosen;
-  std::vector<std::int64_t> simulated, partial, superseded, again, imported;
+  std::vector<std::int64_t> simulated, partial, invalid, superseded, again, imported;
   std::set<std::string> recordings;
   for (std::int64_t offset = 0;; offset += kRunsPage) {
     MDOF_TRY(const auto page, store.list_runs(offset, kRunsPage, axis));  // newest first
@@ -104,6 +106,8 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
         simulated.push_back(run.id);
       else if (run.state != RunState::complete)
         partial.push_back(run.id);
+      else if (is_invalid(run))
+        invalid.push_back(run.id);
       else if (!recording.empty() && !recordings.insert(recording).second)
         again.push_back(run.id);
       else
@@ -114,6 +118,7 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
   leave_out(chosen.left_out, imported, "imported; trends do not include imported runs");
   leave_out(chosen.left_out, simulated, "simulated");
   leave_out(chosen.left_out, partial, "not complete");
+  leave_out(chosen.left_out, invalid, "invalid by a notice");
   leave_out(chosen.left_out, superseded, "superseded");
   leave_out(chosen.left_out, again, "a newer run of the same recording exists");
   std::sort(chosen.runs.begin(), chosen.runs.end(), earlier);
@@ -125,9 +130,14 @@ void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& 
                const Budget& budget, bool u_is_known) {
   trend.values.push_back({std::move(runs), started_utc, budget.value,
                           u_is_known ? budget.u : std::nan(""), budget.u_random});
-  trend.u_covers = covers(budget);
-  trend.noise_only = budget.noise_only;
-  trend.u_not_declared = budget.not_declared;
+  // What one value lacks, the chart lacks.
+  const bool is_first = trend.values.size() == 1;
+  if (is_first || budget.noise_only) trend.u_covers = covers(budget);
+  trend.noise_only = (!is_first && trend.noise_only) || budget.noise_only;
+  for (const std::string& key : budget.not_declared)
+    if (std::find(trend.u_not_declared.begin(), trend.u_not_declared.end(), key) ==
+        trend.u_not_declared.end())
+      trend.u_not_declared.push_back(key);
 }
 
 // Of all wanted figures at once: a run is read once.

@@ -90,9 +90,11 @@ Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, doubl
 
 Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMap& map) {
   algo::SpiralRequest request;
-  const algo::MapMiddle middle = algo::middle_of(map);
-  request.x_centre_m = middle.x_m;
-  request.y_centre_m = middle.y_m;
+  if (!run_of_map(o.map)) {  // a scan has the spindle's axis at (0, 0)
+    const algo::MapMiddle middle = algo::middle_of(map);
+    request.x_centre_m = middle.x_m;
+    request.y_centre_m = middle.y_m;
+  }
   if (!o.centre.empty()) {
     double x = 0, y = 0;
     char after = 0;
@@ -247,8 +249,10 @@ Action declare_form_path(CLI::App& command) {
       ->required()
       ->type_name("FILE");
   command
-      .add_option("--centre-mm", o->centre,
-                  "Position of the spindle axis [default: middle of the measured part]")
+      .add_option(
+          "--centre-mm", o->centre,
+          "Position of the spindle axis [default: middle of the measured part; of a run: 0,0, "
+          "where the spindle axis of a scan is]")
       ->type_name("X,Y");
   command
       .add_option("--outer-radius-mm", o->outer_radius_mm,

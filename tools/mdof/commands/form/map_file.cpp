@@ -57,8 +57,9 @@ class MapReader {
   bool is_reported_ = false, is_complete_ = false;
 };
 
-// The run of "run:12", and of "12" where no file is called so.
-std::optional<std::int64_t> run_of(const std::string& name) {
+}  // namespace
+
+std::optional<std::int64_t> run_of_map(const std::string& name) {
   constexpr std::string_view kRun = "run:";
   const bool says_run = name.starts_with(kRun);
   const std::string digits = says_run ? name.substr(kRun.size()) : name;
@@ -67,8 +68,6 @@ std::optional<std::int64_t> run_of(const std::string& name) {
   if (!is_number || (!says_run && std::filesystem::exists(name))) return std::nullopt;
   return std::stoll(digits);
 }
-
-}  // namespace
 
 void add_map_options(CLI::App& command, MapOptions& options) {
   command
@@ -94,7 +93,7 @@ Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
 }
 
 Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options) {
-  if (const auto run = run_of(file)) {
+  if (const auto run = run_of_map(file)) {
     MDOF_TRY(daemon::RadialScan scan, load_scan({*run}, std::nullopt, options.database));
     return std::move(scan.map);
   }

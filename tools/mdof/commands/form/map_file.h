@@ -20,6 +20,9 @@ namespace mdof::tools {
 struct MapOptions {
   std::string unit, database;
 };
+// The run of "run:12", and of "12" where no file is called so.
+std::optional<std::int64_t> run_of_map(const std::string& name);
+
 void add_map_options(CLI::App& command, MapOptions& options);
 
 // A file, recognised by what is in it: .sdf, Zygo .dat, CSV, XYZ; or "run:12", and "12" where no

@@ -138,6 +138,10 @@ Status budget(const BudgetCommand& command) {
     if (const std::string approach = daemon::only_approach(run); !approach.empty())
       warn("run " + std::to_string(id) + " has the " + approach +
            " approach alone: its figures are of this approach, and the reversal is unknown");
+    MDOF_TRY(const auto by, store.superseded_by(id));
+    if (by)
+      warn("run " + std::to_string(*by) + " supersedes run " + std::to_string(id) +
+           "; see mdof show " + std::to_string(*by));
     if (against.empty()) against = daemon::against_decision(store, run);
   }
   const auto decided = command.tolerance

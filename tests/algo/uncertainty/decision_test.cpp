@@ -93,5 +93,13 @@ TEST(Decision, IsUndecidedWithoutU) {
   }
 }
 
+TEST(Decision, IsUndecidedOfARunThatIsNoGoodOrWasVisitedOnce) {
+  EXPECT_EQ(decision(budget_of(0.1), 1.0, "run 3 is partial").reason, "run 3 is partial");
+  EXPECT_EQ(decision(budget_of(0.1), 1.0, "run 3 is partial").conformity, Conformity::undecided);
+  Budget once = budget_of(0.1);
+  once.is_single_run = true;
+  EXPECT_EQ(decision(once, 1.0).conformity, Conformity::undecided);
+}
+
 }  // namespace
 }  // namespace mdof::algo

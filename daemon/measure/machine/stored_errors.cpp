@@ -348,6 +348,22 @@ Status take_squareness(store::Store& store, Machine& machine, const StatedAxes& 
   return {};
 }
 
+// A slope that a table kept is the squareness that a key of an axis gives: it would count twice.
+Status check_slopes(const Machine& machine, const StatedAxes& stated) {
+  for (const StatedStraightness& s : stated) {
+    if (s.slope_removed) continue;
+    for (const MachineFrame& frame : machine.frames)
+      for (std::size_t about = 3; about < kBodyErrors; ++about)
+        if (frame.location[about].value && "XYZ"[about - 3] != s.axis.front())
+          return bad_input("axis " + s.axis +
+                           " of the machine: its table contains the straightness slope, which " +
+                           location_name(frame, about) +
+                           " contains too, so the slope would count twice; build the table without "
+                           "the slope, or remove the angle from the machine file");
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64_t> id,
@@ -369,6 +385,7 @@ Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine) {
     MDOF_CHECK(take_tables(store, machine, frame, all, taken));
   }
   take_shared(taken);
+  MDOF_CHECK(check_slopes(machine, taken.stated));
   if (machine.squareness.any()) MDOF_CHECK(take_squareness(store, machine, taken.stated, all));
   for (MachineFrame& frame : machine.frames) frame.runs = frame.tables = {};
   machine.squareness = {};

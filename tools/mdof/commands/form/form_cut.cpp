@@ -112,6 +112,8 @@ Status form_cut(const FormCutCommand& o) {
   if (o.random_um) passes.random_rms_m = from_um(*o.random_um);
   passes.smooth_m = from_mm(o.smooth_mm);
   MDOF_TRY(const algo::CuttingResult found, algo::next_cut(passes));
+  warn_of_few(passes.wanted, found.pixels,
+              "the next path has no height at the others, where form path bridges it");
   MDOF_CHECK(save_map(found.next, o.out));
   MDOF_CHECK(plot_maps({{"next-path", "Path of the next pass", found.next}}, o.plots));
   return o.json ? write_line(cut_json(found, o)) : write_out(cut_text(found, o));

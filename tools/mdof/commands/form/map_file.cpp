@@ -69,6 +69,13 @@ std::optional<std::int64_t> run_of_map(const std::string& name) {
   return std::stoll(digits);
 }
 
+void warn_of_few(const SurfaceMap& map, std::size_t common, const std::string& rest) {
+  const std::size_t measured = map.measured();
+  if (10 * common >= 9 * measured) return;
+  warn(map.name + ": the other maps have only " + std::to_string(common) + " of its " +
+       std::to_string(measured) + " pixels; " + rest);
+}
+
 void add_map_options(CLI::App& command, MapOptions& options) {
   command
       .add_option("--unit", options.unit,

@@ -23,6 +23,10 @@ struct MapOptions {
 // The run of "run:12", and of "12" where no file is called so.
 std::optional<std::int64_t> run_of_map(const std::string& name);
 
+// A warning where `common` pixels are less than nine tenths of those of `map`; `rest`: what becomes
+// of the others.
+void warn_of_few(const SurfaceMap& map, std::size_t common, const std::string& rest);
+
 void add_map_options(CLI::App& command, MapOptions& options);
 
 // A file, recognised by what is in it: .sdf, Zygo .dat, CSV, XYZ; or "run:12", and "12" where no

@@ -39,8 +39,9 @@ double sharpest_valley_per_m(const SurfaceMap& map) {
   };
   for (const auto& [di, dj] : {std::pair{1, 0}, {0, 1}, {1, 1}, {1, -1}}) {
     const double step2 = di * di * map.dx_m * map.dx_m + dj * dj * map.dy_m * map.dy_m;
-    for (std::ptrdiff_t j = 1; j + 1 < ny || (ny == 1 && dj == 0 && j == 1); ++j)
-      for (std::ptrdiff_t i = 1; i + 1 < nx; ++i) {
+    const std::ptrdiff_t rows_off = std::abs(dj);
+    for (std::ptrdiff_t j = rows_off; j + rows_off < ny; ++j)
+      for (std::ptrdiff_t i = di; i + di < nx; ++i) {
         const double second = z(i - di, j - dj) - 2 * z(i, j) + z(i + di, j + dj);
         if (second > sharpest * step2) sharpest = second / step2;
       }
@@ -48,8 +49,8 @@ double sharpest_valley_per_m(const SurfaceMap& map) {
   return sharpest;
 }
 
-// The largest of height(off) for |off| < r: the best of places so many to a pixel, then between its
-// neighbours.
+// The off, |off| < r, where height(off) is largest: the best of equally spaced places, then refined
+// between its neighbours.
 template <class Height>
 double highest(const Height& height, double r, int places) {
   const double step = 2 * r / (places + 1);
@@ -62,9 +63,13 @@ double highest(const Height& height, double r, int places) {
   double low = std::max(at - step, -r), high = std::min(at + step, r);
   for (int k = 0; k < kMostSteps; ++k) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    (height(a) < height(b) ? low : high) = height(a) < height(b) ? a : b;
+    if (height(a) < height(b))
+      low = a;
+    else
+      high = b;
   }
-  return std::max(best, height((low + high) / 2));
+  const double refined = (low + high) / 2;
+  return height(refined) > best ? refined : at;
 }
 
 }  // namespace
@@ -123,7 +128,7 @@ bool SpiralPath::at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part
 
 // In the plane of rho and z: the circle of the tool's edge touches where the surface is steeper by
 // d / sqrt(r^2 - d^2), d from its lowest point; z is that point's. Where the surface is curved more
-// than the tool there are several such places, of which the highest stops the tool.
+// than the tool there are several such places. The highest of them stops the tool.
 bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) const {
   const double r = request_.tool_radius_m;
   const auto surface_at = [&](double rho, SurfacePoint& point, OnPart& on_part) {
@@ -146,13 +151,14 @@ bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) con
   };
   found.z_m = r > 0 ? lowest(point.z_m, d) : point.z_m;
   found.is_too_sharp = !is_found;
-  if (may_touch_twice_) {
+  if (may_touch_twice_ || !is_found) {
     const auto height = [&](double off) {
       SurfacePoint other;
       return surface_at(rho_m + off, other, there) ? lowest(other.z_m, off) : kNowhere;
     };
-    const double best = highest(height, r, places_);
+    const double off = highest(height, r, places_), best = height(off);
     if (found.is_too_sharp || best > found.z_m + kHigher_m) {
+      if (!surface_at(rho_m + off, point, there)) return false;
       found.z_m = best;
       found.is_too_sharp = true;
     }

@@ -265,7 +265,7 @@ void Station::report_unsolved(const std::vector<MeasuredPoint>& points) {
   }
 }
 
-// Who waits for the next point sees why this stop is none.
+// A client that waits for the next point learns why this stop gives none.
 void Station::report_left_out() {
   for (const StopLeftOut& stop : open_->pipeline.left_out()) {
     if (stop.reason != to_string(NoticeCode::stop_near_no_target)) continue;

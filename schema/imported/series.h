@@ -69,7 +69,7 @@ std::optional<PositioningSense> positioning_sense_from(std::string_view word);
 
 // Of an imported run.
 ImportedError error_of_imported(const RunHeader& run);
-// Of a point of an imported run, in m or rad; NaN: there is none.
+// Of a point of an imported run, in m or rad; NaN: the point has no deviation.
 double deviation(const MeasuredPoint& point);
 double u_of_deviation(const MeasuredPoint& point);
 

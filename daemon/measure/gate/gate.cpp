@@ -32,6 +32,13 @@ std::string name_of(const Judged& judged, Language language) {
   return judged.name;
 }
 
+// The first that says so; null: none does.
+const Notice* invalid_notice(const Notices& notices) {
+  const auto found = std::find_if(notices.begin(), notices.end(),
+                                  [](const Notice& n) { return n.severity == Severity::invalid; });
+  return found == notices.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 Notices without_information(Notices notices) {
@@ -68,8 +75,7 @@ Result<Judged> judged_table(store::Store& store, const CompensationTable& table)
 }
 
 bool is_invalid(const RunHeader& run) {
-  return std::any_of(run.notices.begin(), run.notices.end(),
-                     [](const Notice& n) { return n.severity == Severity::invalid; });
+  return invalid_notice(run.notices) != nullptr;
 }
 
 const char* only_approach(const Run& run) {
@@ -86,8 +92,8 @@ const char* only_approach(const Run& run) {
 
 std::string against_decision(store::Store& store, const Run& run) {
   const std::string of = "run " + std::to_string(run.header.id);
-  for (const Notice& each : run.header.notices)
-    if (each.severity == Severity::invalid) return of + " is invalid: " + words::text(each);
+  if (const Notice* wrong = invalid_notice(run.header.notices))
+    return of + " is invalid: " + words::text(*wrong);
   if (run.header.state != RunState::complete) return of + " is " + to_string(run.header.state);
   const auto by = store.superseded_by(run.header.id);
   if (!by) return by.error().message;
@@ -104,9 +110,7 @@ Status check_gate(const Judged& judged, const Consent& consent, const std::strin
     return fail(ErrorCode::conflict,
                 name + " is simulated (no machine was measured), so " + consequence,
                 Remedy::allow_simulated);
-  const auto wrong = std::find_if(judged.doubtful.begin(), judged.doubtful.end(),
-                                  [](const Notice& n) { return n.severity == Severity::invalid; });
-  if (wrong != judged.doubtful.end())
+  if (const Notice* wrong = invalid_notice(judged.doubtful))
     return fail(ErrorCode::conflict, name + " is invalid, so " + consequence + ": " +
                                          words::text(*wrong) + ". No option overrides this check");
   if (judged.doubtful.empty() || consent.despite_warnings) return {};

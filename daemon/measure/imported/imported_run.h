@@ -11,8 +11,8 @@
 
 namespace mdof::daemon {
 
-// For the table of this run alone, as both state their sense, or as it stands where neither states
-// more: figures of one run ask with the run itself as the other.
+// For the table of this run alone, to compare it with the other: its deviations as they stand where
+// both state one sense and neither is against the command, otherwise as each run states its sense.
 TableRequest table_of_imported(const Run& run, const Run& other);
 
 // With what its readings alone show: no approach, one reading a target.

@@ -31,15 +31,19 @@ double at_row(const std::vector<double>& values, std::size_t row, double none) {
 }
 
 // Readings of each target and approach; those that do not say theirs are of both.
-using Counts = std::array<std::vector<double>, 2>;  // forward, reverse; [row]
+struct Counts {
+  std::vector<double> forward, reverse;  // [row]
+  bool no_reversal = false;              // an imported run with readings that do not say theirs
+};
 
 Counts counts_of(const TabledRun& of) {
-  Counts counts;
-  for (auto& side : counts) side.assign(of.table.position_m.size(), 0);
+  const std::size_t rows = of.table.position_m.size();
+  Counts counts{std::vector<double>(rows), std::vector<double>(rows),
+                is_imported(of.run.header) && has_unknown_approach(of.run)};
   for (const MeasuredPoint& p : of.run.points) {
     const std::size_t row = algo::target_at(of.table.position_m, p.target_m);
-    if (p.point.direction >= 0) ++counts[0][row];
-    if (p.point.direction <= 0) ++counts[1][row];
+    if (p.point.direction >= 0) ++counts.forward[row];
+    if (p.point.direction <= 0) ++counts.reverse[row];
   }
   return counts;
 }
@@ -51,7 +55,8 @@ ApproachMean mean_at(const TabledRun& of, const Counts& counts, std::size_t erro
   if (t.has_positioning())
     return {(forward ? t.positioning.forward : t.positioning.reverse)[row],
             (forward ? t.positioning.u_forward : t.positioning.u_reverse)[row],
-            counts[forward ? 0 : 1][row] - 1, at_row(t.positioning.u_declared, row, 0)};
+            (forward ? counts.forward : counts.reverse)[row] - 1,
+            at_row(t.positioning.u_declared, row, 0)};
   return {(forward ? t.forward : t.reverse)[error][row],
           (forward ? t.u_forward : t.u_reverse)[error][row], kManyReadings,
           at_row(t.u_declared[error], row, 0)};
@@ -66,16 +71,15 @@ std::array<std::pair<double, double>, 3> sides_at(const TabledRun& of, const Cou
                                                   std::size_t error, std::size_t row) {
   const ApproachMean f = mean_at(of, counts, error, row, 1),
                      r = mean_at(of, counts, error, row, -1);
-  const bool no_reversal = is_imported(of.run.header) && has_unknown_approach(of.run);
   const auto U_of = [](const ApproachMean& m) {
     return expanded(m.u(), {{m.u_random, m.freedom}, {m.u_declared, kManyReadings}});
   };
   return {std::pair{f.value, U_of(f)},
           {r.value, U_of(r)},
-          {no_reversal ? kNaN : f.value - r.value,
-           no_reversal ? kNaN
-                       : expanded(std::hypot(f.u_random, r.u_random),
-                                  {{f.u_random, f.freedom}, {r.u_random, r.freedom}})}};
+          {counts.no_reversal ? kNaN : f.value - r.value,
+           counts.no_reversal ? kNaN
+                              : expanded(std::hypot(f.u_random, r.u_random),
+                                         {{f.u_random, f.freedom}, {r.u_random, r.freedom}})}};
 }
 
 std::vector<std::string> errors_of(const CompensationTable& table) {

@@ -1,5 +1,4 @@
 #include "daemon/measure/several_runs/trends.h"
-#include "daemon/measure/gate/gate.h"
 
 #include <algorithm>
 #include <array>

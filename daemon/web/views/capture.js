@@ -74,7 +74,7 @@ class Wizard {
   }
 }
 
-const kMostTold = 100;
+const kMostProblems = 100;
 
 class Progress {
   points = [];
@@ -140,7 +140,7 @@ class Progress {
   // The newest ones; all are in the notices of the run.
   tell(problem) {
     this.trouble.append(h("p", {class: "notice doubtful"}, `▲ ${problem}`));
-    while (this.trouble.childElementCount > kMostTold) this.trouble.firstElementChild.remove();
+    while (this.trouble.childElementCount > kMostProblems) this.trouble.firstElementChild.remove();
   }
   progress({points, of, done, awaited_mm}) {
     if (of) {

@@ -113,6 +113,36 @@ TEST(SpiralPath, AToolRounderThanAGrooveRestsOnItsWalls) {
   EXPECT_GT(walked.counts.too_sharp, walked.points.size() / 4);
 }
 
+// Of a map of one row, too: there the path is on the part twice a turn.
+TEST(SpiralPath, AToolRestsOnTheWallsOfOneRow) {
+  constexpr double r = 50e-3, kWave = 1e-3, kPixel = 0.02e-3;
+  const auto groove = [](double x) { return 1e-6 * std::cos(2 * std::numbers::pi * x / kWave); };
+  constexpr std::size_t n = 1501;
+  SurfaceMap row{"row", -kPixel * (n - 1) / 2, 0, kPixel, kPixel, n, 1, {}, {}};
+  for (std::size_t i = 0; i < n; ++i) row.z_m.push_back(groove(row.x_m(i)));
+  const Walked walked = walk(row, {0, 0, 5e-3, 0.13e-3, 4, r, 0});
+  std::size_t on_row = 0, sharp = 0;
+  for (const PathPoint& p : walked.points) {
+    if (p.index % 2 != 0) continue;
+    ASSERT_EQ(p.on_part, OnPart::measured);
+    ++on_row;
+    const double x = p.index % 4 == 0 ? p.rho_m : -p.rho_m;
+    double expected = -1, flattest = 0;
+    for (int k = -9999; k < 10000; ++k) {
+      const double d = 1e-4 * k * r;
+      const double z = groove(x + d) - d * d / (r + std::sqrt(r * r - d * d));
+      if (std::abs(x + d) < 14e-3 && z > expected) {
+        expected = z;
+        flattest = d;
+      }
+    }
+    sharp += std::abs(flattest) > kWave / 20 ? 1 : 0;
+    ASSERT_NEAR(p.z_m, expected, 2e-9) << x;
+  }
+  EXPECT_GT(on_row, 70u);
+  EXPECT_GT(sharp, 10u);
+}
+
 // A part half as wide as it is long: measured inside, three pixels more, and bridges between.
 TEST(SpiralPath, EdgesAreExtendedAndBridged) {
   const double d = 0.2e-3, half = 8e-3;

@@ -34,6 +34,7 @@ struct PositioningPicture {
 };
 std::string positioning_svg(const PositioningPicture& picture, output::Language language);
 
+// The readings of an imported run, with the means of ISO 230-2 where the readings give them.
 RunCharts charts_of_imported(const Run& run, output::Language language);
 
 // Deviations in m over positions in m: with each reference line, and what is left about the

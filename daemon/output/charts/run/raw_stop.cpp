@@ -1,9 +1,9 @@
 #include "daemon/output/charts/run/raw_stop.h"
-#include "daemon/measure/gate/gate.h"
 
 #include <array>
 #include <cmath>
 
+#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/labels.h"
 #include "daemon/output/charts/panel.h"
 #include "daemon/output/charts/run/points.h"

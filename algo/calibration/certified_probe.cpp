@@ -84,7 +84,8 @@ class CertificateReader {
     }
     if (any || wanted.empty()) return {};
     return fail(ErrorCode::usage, from_.source + ": has no result \"" + wanted +
-                                      "\"; its results are " + (names_.empty() ? "none" : names_));
+                                      "\"; the results of the certificate are " +
+                                      (names_.empty() ? "none" : names_));
   }
 
   void look_at(const DccQuantity& quantity) {
@@ -94,33 +95,33 @@ class CertificateReader {
   tl::unexpected<Error> nothing() const {
     return bad_input(
         from_.source +
-        ": states neither a sensitivity (a quantity in volts per length) nor a table (a "
-        "list of lengths or volts with refType basic_measuredValue, and "
-        "basic_measurementError or basic_referenceValue); ask the laboratory for a DCC "
-        "with these refTypes, or write um_per_V and linearity into the rig by hand");
+        ": contains neither a sensitivity (a quantity in volts per length) nor a table (a list of "
+        "readings in um or V with refType basic_measuredValue and a second list with refType "
+        "basic_measurementError or basic_referenceValue); ask the laboratory for a DCC with these "
+        "refTypes, or write um_per_V and linearity into the rig by hand");
   }
 
   tl::unexpected<Error> several(const char* what, long line, long other) const {
-    return bad_input(at(line) + "the certificate contains a second " + what + " (the first: line " +
-                     std::to_string(other) + "); choose one result of the certificate: " + names_);
+    return bad_input(at(line) + "the certificate contains a second " + what +
+                     " (the first is in line " + std::to_string(other) +
+                     "); choose one result of the certificate: " + names_);
   }
 
   tl::unexpected<Error> no_uncertainty(long line, const char* what) const {
     return bad_input(
         at(line) + "the " + what +
-        " has no uncertainty, so it cannot be used; ask the laboratory to complete the "
-        "DCC");
+        " has no uncertainty and cannot be used; ask the laboratory to complete the DCC");
   }
 
   Status take_sensitivity() {
     const DccQuantity& s = *sensitivities_.front();
     if (sensitivities_.size() > 1) return several("sensitivity", sensitivities_[1]->line, s.line);
     if (s.value.size() != 1)
-      return bad_input(
-          at(s.line) + "the sensitivity has " + std::to_string(s.value.size()) +
-          " values, and one is read; ask the laboratory for the mean sensitivity and a "
-          "table of errors");
-    if (s.value[0] == 0) return bad_input(at(s.line) + "the sensitivity is 0; ask the laboratory");
+      return bad_input(at(s.line) + "the sensitivity has " + std::to_string(s.value.size()) +
+                       " values, but mdof reads only one; ask the laboratory for the mean "
+                       "sensitivity and a table of errors");
+    if (s.value[0] == 0)
+      return bad_input(at(s.line) + "the sensitivity is 0; ask the laboratory to correct the DCC");
     if (s.u.empty()) return no_uncertainty(s.line, "sensitivity");
     const double m_per_V = s.unit.is(1, -1) ? s.value[0] : 1 / s.value[0];
     const double um_per_V = to_um(m_per_V);
@@ -146,7 +147,7 @@ class CertificateReader {
     const double ratio = um_per_V / *of_rig;
     if (ratio >= kLeastRatio && ratio <= kMostRatio) return {};
     return bad_input(
-        at(s.line) + "the sensitivity makes " + number(um_per_V) + " um_per_V, but probe \"" +
+        at(s.line) + "the sensitivity gives um_per_V = " + number(um_per_V) + ", but probe \"" +
         own_.id + "\" of " + rig_.source + " has " + number(*of_rig) +
         "; give the certificate of this probe, or correct the keys \"um_per_V\" and \"reads\" of "
         "the rig");
@@ -169,11 +170,10 @@ class CertificateReader {
     const auto& um_per_V =
         found_.probe.um_per_V ? found_.probe.um_per_V : own_.calibration.um_per_V;
     if (um_per_V) return *um_per_V;
-    return bad_input(
-        at(quantity.line) +
-        "the column is in volts, but neither the certificate nor the rig has the sensitivity; "
-        "add um_per_V to probe \"" +
-        own_.id + "\" of " + rig_.source);
+    return bad_input(at(quantity.line) +
+                     "the column is in volts, but neither the certificate nor the rig states the "
+                     "sensitivity; add um_per_V to probe \"" +
+                     own_.id + "\" of " + rig_.source);
   }
 
   struct Column {
@@ -184,9 +184,8 @@ class CertificateReader {
     if (!quantity) return column;
     if (quantity->value.size() != rows)
       return bad_input(at(quantity->line) + "the column has " +
-                       std::to_string(quantity->value.size()) +
-                       " values, but the readings of its table are " + std::to_string(rows) +
-                       "; ask the laboratory to correct the DCC");
+                       std::to_string(quantity->value.size()) + " values, but the table has " +
+                       std::to_string(rows) + " readings; ask the laboratory to correct the DCC");
     MDOF_TRY(const double um_per_unit, scale(*quantity));
     for (const double x : quantity->value) column.um.push_back(x * um_per_unit);
     for (const double u : quantity->u) column.u_um.push_back(u * std::abs(um_per_unit));
@@ -198,7 +197,9 @@ class CertificateReader {
     const DccQuantity& r = *table.measured;
     if (tables_.size() > 1) return several("table", tables_[1].measured->line, r.line);
     if (r.value.size() < 2)
-      return bad_input(at(r.line) + "the table has one row; ask the laboratory for more");
+      return bad_input(
+          at(r.line) +
+          "the table has only one row; ask the laboratory for a table of two rows or more");
     MDOF_TRY(const Column read, column(&r, r.value.size()));
     MDOF_TRY(const Column error, column(table.error, r.value.size()));
     MDOF_TRY(const Column reference, column(table.reference, r.value.size()));
@@ -229,8 +230,8 @@ class CertificateReader {
         (*most - *least);
     if (!(slope >= kLeastRatio && slope <= kMostRatio))
       return bad_input(at(table.measured->line) + "the readings change by " + number(slope) +
-                       " um for 1 um of the reference values; check the keys \"um_per_V\" and "
-                       "\"reads\" of probe \"" +
+                       " um when the reference values change by 1 um; check the keys \"um_per_V\" "
+                       "and \"reads\" of probe \"" +
                        own_.id + "\" in " + rig_.source +
                        ", and check the units of the table in the certificate");
     for (std::size_t i = 0; table.error && i < read.um.size(); ++i) {
@@ -239,9 +240,8 @@ class CertificateReader {
       if (error.u_um.empty() || off <= 2 * error.u_um[i]) continue;
       return bad_input(
           at(table.error->line) + "value " + std::to_string(i + 1) + " is " + number(error.um[i]) +
-          " um, but reading less reference is " + number(read.um[i] - reference.um[i]) +
-          " um; an error must be reading less reference: ask the laboratory to correct "
-          "the DCC");
+          " um, but reading minus reference is " + number(read.um[i] - reference.um[i]) +
+          " um; an error must be reading minus reference; ask the laboratory to correct the DCC");
     }
     return {};
   }
@@ -254,8 +254,8 @@ class CertificateReader {
     for (std::size_t i = 1; i < rows.size(); ++i)
       if (rows[i][0] <= rows[i - 1][0])
         return bad_input(at(line) +
-                         "two rows have the same reading; ask the laboratory for one "
-                         "table of one direction");
+                         "two rows have the same reading; ask the laboratory for a table with one "
+                         "direction of motion only");
     Calibration own;
     own.linearity = rows;
     const double at_zero_um = linearity_um(own, 0);

@@ -65,9 +65,9 @@ class Fit {
       if (size < kStepDone) return {};
     }
     return fail(ErrorCode::check,
-                "no mounting of the probes and no tilts of the target explain these readings; "
-                "check that each log contains one clamping only and the stated axis, and check in "
-                "which direction the target moves",
+                "no positions of the probes and no tilts of the target agree with these readings; "
+                "check that each log contains only one clamping and only the axis of the rig, and "
+                "check in which direction the target moves",
                 Remedy::reverse_target);
   }
 
@@ -256,10 +256,10 @@ Status check_places(const Rig& rig, const MountingFit& fit) {
     const double away_m = std::sqrt(x * x + y * y);
     if (away_m <= kFarthest_m) continue;
     return fail(ErrorCode::check,
-                rig.source + ": probe \"" + rig.probes[k].id + "\" would be " +
-                    plain_number(to_mm(away_m), 3) + " mm from its position_mm (limit " +
-                    plain_number(to_mm(kFarthest_m), 3) +
-                    " mm); check position_mm, check that no probes are exchanged, and check in "
+                rig.source + ": the readings put probe \"" + rig.probes[k].id +
+                    "\" at a distance of " + plain_number(to_mm(away_m), 3) +
+                    " mm from its position_mm (limit " + plain_number(to_mm(kFarthest_m), 3) +
+                    " mm); check position_mm, check that no two probes are exchanged, and check in "
                     "which direction the target moves",
                 Remedy::reverse_target);
   }

@@ -97,12 +97,13 @@ class Naming {
     const double u_m = declared ? 1 / length : std::nan("");
     double& u_axis = out_.u_together_m[axis];
     u_axis = std::isnan(u_m) || std::isnan(u_axis) ? std::nan("") : std::max(u_axis, u_m);
-    out_.sentences.push_back(
-        "the common position of " + ids_of(model_, group) + " along " +
-        std::string(1, "XYZ"[axis]) +
-        " (each clamping shifts the target too): the mean of position_mm in the rig is kept; " +
-        (declared ? "the u of this mean is " + plain_number(to_um(u_m), 3) + " um"
-                  : "the rig does not declare the u of this mean (u_position_mm)"));
+    out_.sentences.push_back("the common position of " + ids_of(model_, group) + " along " +
+                             std::string(1, "XYZ"[axis]) +
+                             ", because each clamping also shifts the target; the mean of "
+                             "position_mm in the rig is not changed; " +
+                             (declared
+                                  ? "the u of this mean is " + plain_number(to_um(u_m), 3) + " um"
+                                  : "the rig does not declare the u of this mean (u_position_mm)"));
   }
 
   void together_zero(const Group& group) {
@@ -115,7 +116,7 @@ class Naming {
     double length = 0;
     if (is_unseen(zero, length))
       out_.sentences.push_back("the common zero of " + ids_of(model_, group) +
-                               ": the mean zero (offset_um) in the rig is kept");
+                               "; the mean of offset_um in the rig is not changed");
   }
 
   void find_apart() {

@@ -86,12 +86,13 @@ SlopeUncertainty slope_uncertainty(const std::vector<std::vector<Reading>>& plac
 std::vector<std::string> blind_to(const Rig& rig) {
   std::vector<std::string> sentences = {
       "the scale error of the encoder: the sensitivity contains the whole scale error",
-      "the product of two angles, the squareness of the axis to the plane and the tilt of the "
-      "target: 1 mrad and 5 mrad change the sensitivity by 5 ppm"};
+      "the product of two angles (the squareness error of the axis to the plane, and the tilt of "
+      "the target): 1 mrad and 5 mrad together change the sensitivity by 5 ppm"};
   if (!rig.uncertainty.encoder.declared())
-    sentences.insert(sentences.begin(),
-                     "encoder errors that repeat at the same position, apart from the part in the "
-                     "residuals of the line: the rig does not declare [encoder] u_um");
+    sentences.insert(
+        sentences.begin(),
+        "encoder errors that repeat at the same position (only their part in the residuals of the "
+        "line is included), because the rig does not declare [encoder] u_um");
   return sentences;
 }
 
@@ -116,7 +117,7 @@ std::vector<Reading> places_of(std::vector<Reading> all, double apart_m) {
 
 Status check(const Probe& probe, const Line& line) {
   if (line.slope >= kLeast && line.slope <= kMost) return {};
-  const std::string wrong = "probe \"" + probe.id + "\" would read " + plain_number(line.slope, 4) +
+  const std::string wrong = "probe \"" + probe.id + "\" reads " + plain_number(line.slope, 4) +
                             " um for 1 um of travel (limits " + plain_number(kLeast, 3) + " and " +
                             plain_number(kMost, 3) + ")";
   if (line.slope < 0)
@@ -168,9 +169,9 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
   const double way_m = places.empty() ? 0 : places.back().read_m - places.front().read_m;
   if (places.size() < kFewest || way_m < kShortest * own.range_m)
     return fail(ErrorCode::check,
-                "probe \"" + own.id + "\" was read at " + std::to_string(places.size()) +
-                    " places over " + plain_number(to_um(way_m)) +
-                    " um; measure stops at three or more places that cover the used range of " +
+                "probe \"" + own.id + "\" has readings at " + std::to_string(places.size()) +
+                    " positions over " + plain_number(to_um(way_m)) +
+                    " um; measure at three or more positions that cover the used range of " +
                     plain_number(to_um(own.range_m)) + " um");
   std::vector<double> x, y;
   for (const Reading& reading : all) {

@@ -40,10 +40,11 @@ Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
         return std::abs(a - p.point.position_m) < std::abs(b - p.point.position_m);
       });
       if (std::abs(*near - p.point.position_m) > window) {
-        return bad_input("run " + std::to_string(run.header.id) + " has a stop at " +
-                         plain_number(to_mm(p.point.position_m), 7) + " mm, but run " +
-                         std::to_string(runs.front().header.id) +
-                         " has no target there; build one table from runs of the same targets");
+        return bad_input(
+            "run " + std::to_string(run.header.id) + " has a stop at " +
+            plain_number(to_mm(p.point.position_m), 7) + " mm, but run " +
+            std::to_string(runs.front().header.id) +
+            " has no target at this position; build a table from runs with the same targets");
       }
       p.target = static_cast<int>(near - grid.begin()) + 1;
       p.run += before;

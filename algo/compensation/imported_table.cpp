@@ -43,7 +43,7 @@ Status check_one(const Run& run, const Run& first) {
                      "; build a table from runs of one axis");
   if (error != positioning_name(axis))
     return bad_input(
-        name_of(run) + " is an imported " + error +
+        name_of(run) + " contains the imported error " + error +
         ", whose reference point is unknown; a table needs the imported positioning error (" +
         positioning_name(axis) + ")");
   if (run.header.simulated != first.header.simulated)
@@ -95,9 +95,10 @@ Result<std::vector<std::vector<double>>> readings_of(const std::vector<Run>& run
     for (const MeasuredPoint& p : run.points) {
       const std::size_t i = target_at(grid, p.target_m);
       if (std::abs(grid[i] - p.target_m) > kSamePosition_m)
-        return bad_input(name_of(run) + " has a target at " + plain_number(to_mm(p.target_m), 9) +
-                         " mm, but " + name_of(runs.front()) +
-                         " has no target there; build a table from runs with the same targets");
+        return bad_input(
+            name_of(run) + " has a target at " + plain_number(to_mm(p.target_m), 9) + " mm, but " +
+            name_of(runs.front()) +
+            " has no target at this position; build a table from runs with the same targets");
       if (p.point.direction == direction || p.point.direction == 0)
         at[i].push_back(signs[r] * p.point.probe_m.at(0));
     }

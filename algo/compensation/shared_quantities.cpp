@@ -36,8 +36,9 @@ Result<std::map<std::string, std::vector<InRun>>> quantities_of(
       if (!tables[t].rigs[r].declares_uncertainty()) continue;
       points += runs[t][r].points.size();
       if (points > kMostSharedPoints)
-        return bad_input("the runs of a table have more than " + std::to_string(kMostSharedPoints) +
-                         " points, the limit for declared uncertainties; leave some runs out");
+        return bad_input(
+            "the runs of a table have more than " + std::to_string(kMostSharedPoints) +
+            " points, the limit for runs with declared uncertainties; leave some runs out");
       MDOF_TRY(const auto of_run, contributors(tables[t].rigs[r], runs[t][r]));
       for (const Contributor& contributor : of_run)
         if (!contributor.common_as.empty())

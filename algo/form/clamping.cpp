@@ -27,8 +27,8 @@ void keep_common(SurfaceMap& map, const SurfaceMap& other) {
 Result<ClampingParts> clamping_by_K(const SurfaceMap& before, const SurfaceMap& after, double K) {
   if (!(K > -1 && std::isfinite(K)))
     return fail(ErrorCode::usage, "K is " + plain_number(K) +
-                                      "; K must be greater than -1, because the elastic part is "
-                                      "the clamping divided by 1 + K");
+                                      "; K must be greater than -1, because the elastic "
+                                      "deformation is the clamping deformation divided by 1 + K");
   ClampingParts result;
   MDOF_TRY(result.clamping, difference(before, after));
   remove_plane(result.clamping);

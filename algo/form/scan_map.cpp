@@ -163,9 +163,9 @@ Result<ScanMap> scan_map(const ScanPoints& points, double pixel_m) {
   set_range(points.y_m, pixel_m, map.y0_m, ny);
   constexpr std::size_t kMostScanPixels = kMostPixels / (kCellsOfPixel * kCellsOfPixel);
   if (!(nx * ny <= static_cast<double>(kMostScanPixels)))
-    return bad_input("pixels of " + std::to_string(pixel_m * 1e3) + " mm give more than " +
-                     std::to_string(kMostScanPixels) +
-                     " pixels over this scan; take larger pixels");
+    return bad_input("pixels of " + std::to_string(pixel_m * 1e3) +
+                     " mm divide this scan into more than " + std::to_string(kMostScanPixels) +
+                     " pixels; use larger pixels");
   map.nx = static_cast<std::size_t>(nx);
   map.ny = static_cast<std::size_t>(ny);
   map.z_m.assign(map.nx * map.ny, SurfaceMap::kMissing);
@@ -186,7 +186,7 @@ Result<ScanMap> scan_map(const ScanPoints& points, double pixel_m) {
   for (double& u : scan.u.z_m) u *= scan.noise_m;
   if (map.measured() > 0) return without_empty_edges(std::move(scan));
   return bad_input("no pixel of " + std::to_string(pixel_m * 1e3) +
-                   " mm has enough heights around it; take larger pixels, or scan more densely");
+                   " mm has enough heights around it; use larger pixels, or scan more densely");
 }
 
 }  // namespace mdof::algo

@@ -95,7 +95,7 @@ Result<SpiralPath> SpiralPath::over(const SurfaceMap& map, const SpiralRequest& 
     return fail(ErrorCode::usage,
                 "the path would have " + plain_number(steps) + " points (limit " +
                     plain_number(kMostPoints) +
-                    "); take a smaller radius, a larger feed or fewer points per turn");
+                    "); use a smaller radius, a larger feed or fewer points per turn");
   SpiralPath path(map, request);
   // A radius that is a whole number of turns ends in the centre, whatever was rounded.
   path.points_ = static_cast<std::size_t>(std::floor(steps * (1 + 1e-12) + 1e-9)) + 1;
@@ -105,9 +105,9 @@ Result<SpiralPath> SpiralPath::over(const SurfaceMap& map, const SpiralRequest& 
   for (std::size_t k = 0; k < path.points_; ++k)
     if (path.touch(k, found)) return path;
   const auto mm = [](double x_m) { return plain_number(to_mm(x_m), 6); };
-  return bad_input(map.name + ": no point of a spiral of radius " + mm(request.outer_radius_m) +
-                       " mm about x = " + mm(request.x_centre_m) +
-                       " mm, y = " + mm(request.y_centre_m) + " mm is on a measured pixel",
+  return bad_input(map.name + ": the spiral with radius " + mm(request.outer_radius_m) +
+                       " mm about x = " + mm(request.x_centre_m) + " mm, y = " +
+                       mm(request.y_centre_m) + " mm has no point on a measured pixel",
                    Remedy::change_spiral);
 }
 

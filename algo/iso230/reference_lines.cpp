@@ -101,7 +101,8 @@ Result<ReferenceLines> reference_lines(std::span<const double> positions_m,
   if (is_finite(lines.end_point) && is_finite(lines.least_squares) && is_finite(lines.minimum_zone))
     return lines;
   return bad_input(
-      "positions lie so close together that a slope is not finite; check the units of the columns");
+      "the positions lie so close together that no slope can be calculated; check the units of the "
+      "columns");
 }
 
 }  // namespace mdof::algo

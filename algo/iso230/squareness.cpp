@@ -139,8 +139,7 @@ Result<AxisPair> pair_of(const Run& a, const Run& b) {
     return "run " + std::to_string(run.header.id) + " measures axis " + letter(run.header.axis);
   };
   return bad_input(of(a) + " and " + of(b) +
-                   "; squareness needs runs of two different axes; give the runs in the order X, "
-                   "Y, Z of their axes");
+                   "; give runs of two different axes, in the order X, Y, Z");
 }
 
 Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t named,
@@ -149,9 +148,10 @@ Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t na
   const auto series = target_means(run.header.moving(), run.points, Approach::both);
   const auto x = own_travels(run.header.sides, series);
   if (series.size() < 3 || !can_fit(x)) {
-    return bad_input(
-        "run " + std::to_string(run.header.id) + " has " + std::to_string(series.size()) +
-        " targets with calculated errors, but a line with its uncertainty needs at least three");
+    return bad_input("run " + std::to_string(run.header.id) + " has " +
+                     std::to_string(series.size()) +
+                     " targets with calculated errors, but a straight line with uncertainty needs "
+                     "at least three");
   }
   StraightnessSlope slope;
   slope.line = least_squares_line(x, column(series, named));
@@ -192,12 +192,11 @@ Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const Art
   artefact.corner = face_a * face_b;
   if (artefact.angle_error_rad == 0 || artefact.corner != 0) return artefact;
   const Rig &unclear = face_a == 0 ? rig_a : rig_b, &other = face_a == 0 ? rig_b : rig_a;
-  return bad_input(
-      unclear.source +
-      ": it is unknown on which side of the fixture the face of the square normal to " +
-      letter(other.axis) + " lies, so the sign of " + kAngle +
-      " is unknown; state the side by position_mm of the probes at this face, or by "
-      "offset_mm of the [[plane]] of this face");
+  return bad_input(unclear.source +
+                   ": it is unknown on which side of the fixture the square's face normal to " +
+                   letter(other.axis) + " lies, so the sign of " + kAngle +
+                   " is unknown; give position_mm of the probes at this face, or offset_mm of the "
+                   "[[plane]] of this face");
 }
 
 Result<Squareness> squareness(const Run& run_a, const Run& run_b, const SquareArtefact& artefact,

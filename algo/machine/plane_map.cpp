@@ -15,7 +15,7 @@ Result<const MachineFrame*> linear_axis(const Machine& machine, std::size_t dire
   const MachineFrame* frame = machine.find(kAxes.substr(direction, 1));
   if (frame) return frame;
   return bad_input("the chain " + machine.chain.text + " has no axis " +
-                   std::string(kAxes.substr(direction, 1)) + "; name only axes of this chain");
+                   std::string(kAxes.substr(direction, 1)) + "; use only axes of this chain");
 }
 
 void add_points(const Machine& machine, const PlaneMapRequest& request, PlaneMap& map) {
@@ -72,8 +72,8 @@ Result<std::array<double, 2>> range_of(const MachineFrame& frame) {
   }
   if (range[0] < range[1] && std::isfinite(range[0])) return range;
   return bad_input("axis " + frame.id +
-                   " has neither range_mm nor tables with positions in common; add range_mm = "
-                   "[from, to] to its [[axis]]");
+                   " has neither range_mm nor error tables with a common range; add range_mm = "
+                   "[from, to] to the [[axis]] table of this axis");
 }
 
 Machine without_angles(Machine machine) {
@@ -91,7 +91,7 @@ Result<PlaneMap> plane_map(const Machine& machine, const PlaneMapRequest& reques
     return (r[1] - r[0]) / request.step_m + 2;
   };
   if (!(count(first_range) * count(second_range) < static_cast<double>(kMostPoints)))
-    return bad_input("the map would have a million points or more; take a larger step");
+    return bad_input("the map would have a million points or more; use a larger step");
   PlaneMap map{request.first,
                request.second,
                steps_over(first_range, request.step_m),

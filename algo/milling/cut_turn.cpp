@@ -179,7 +179,7 @@ class Turn {
         u_[instant(phase, i)] = U.segment(row(i, 0, 0), 2 * elements());
       return {};
     }
-    return fail(ErrorCode::check, "no stable equilibrium of force and deflection at " +
+    return fail(ErrorCode::check, "the force and the deflection have no stable equilibrium at " +
                                       std::to_string(turned(phase) * 360 / kWholeTurn_rad) +
                                       " degrees of the turn; the tool is too weak for this cut: "
                                       "reduce overhang_mm or the depths of cut");

@@ -62,12 +62,12 @@ Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
   }
   if (cosine(*best, probe) <= kLooksAt)
     return bad_input(rig.source + ": probe \"" + probe.id +
-                     "\" looks at none of the [[plane]] tables (its direction is more than 60° "
-                     "from every normal); add the [[plane]] that it measures");
+                     "\" does not look at any [[plane]] of the rig (its direction is more than 60° "
+                     "from the normal of every plane); add the [[plane]] that it measures");
   if (second && cosine(*second, probe) > cosine(*best, probe) - kMargin)
     return bad_input(rig.source + ": probe \"" + probe.id +
                      "\": its direction fits two planes, \"" + best->id + "\" and \"" + second->id +
-                     "\"; state one with plane = \"...\" in its [[probe]]");
+                     "\"; add plane = \"...\" with one of these two ids to the [[probe]]");
   return best;
 }
 
@@ -85,7 +85,7 @@ Status check_on_plane(const Rig& rig, const FixtureProbe& probe, const TargetPla
       "\": position_mm (the point where the line of the probe meets the plane) is at " +
       in_mm(probe.plane_offset_m) + " along the normal of the plane \"" + plane.id +
       "\", but offset_mm of that plane is " + in_mm(*plane.offset_m) +
-      "; correct one of the two, or name another plane");
+      "; correct one of the two values, or give the id of another plane");
 }
 
 // Probes of one plane, and without [[plane]] probes that look the same way, meet one surface.
@@ -101,10 +101,10 @@ Status check_common_planes(const Rig& rig, const Fixture& fixture,
       if (std::abs(a.plane_offset_m - of_b) <= kOnPlane_m) continue;
       return bad_input(
           rig.source + ": probes \"" + a.id + "\" and \"" + b.id +
-          "\" look at one plane, but the positions of this plane by position_mm differ: " +
+          "\" look at one plane, but their position_mm give two positions of this plane: " +
           in_mm(a.plane_offset_m) + " and " + in_mm(of_b) +
-          "; correct position_mm, or declare two [[plane]] tables with offset_mm and "
-          "state plane = \"...\" in each [[probe]]");
+          "; correct position_mm, or declare two [[plane]] tables with offset_mm and give plane = "
+          "\"...\" in each [[probe]]");
     }
   }
   return {};

@@ -78,7 +78,7 @@ std::string describe_unseen(const Fixture& fixture, const std::vector<bool>& use
   }
   return text + " (rank " + std::to_string(seen.rank) +
          " of 5); five probes are needed: three on one plane, not in a line, and two on a second "
-         "plane, apart along the motion";
+         "plane, at different positions along the motion";
 }
 
 }  // namespace mdof::algo

@@ -128,8 +128,8 @@ Status OnTheFly::explain_nothing() const {
   if (summary_.scans == 0) return bad_input("no scan has an encoder position");
   if (passes_.empty())
     return bad_input("the axis travels from " + travel +
-                         ", and this travel contains no whole bin of " +
-                         plain_number(to_mm(grid_.bin_m())) + " mm about a target",
+                         ", but this range contains no whole bin of " +
+                         plain_number(to_mm(grid_.bin_m())) + " mm around a target",
                      Remedy::smaller_bins);
   std::size_t bins = 0;
   double way_m = 0, passed_s = 0;
@@ -149,9 +149,10 @@ Status OnTheFly::explain_nothing() const {
                          " scans, but needs " + std::to_string(kFewestOfBin),
                      Remedy::larger_bins, plain_number(to_mm(needed_m), 3));
   }
-  return bad_input("the axis moves at a steady speed in none of " + std::to_string(bins) +
-                       " bins from " + travel + " (" + plain_number(to_mm(travel_m), 4) +
-                       " mm): it stops or changes its speed in each",
+  return bad_input("the axis does not move at a steady speed in any of the " +
+                       std::to_string(bins) + " bins from " + travel + " (" +
+                       plain_number(to_mm(travel_m), 4) +
+                       " mm): in each bin the axis stops or changes its speed",
                    Remedy::replay_with_stops);
 }
 

@@ -36,7 +36,8 @@ Result<AdaptiveRule> AdaptiveRule::create(const std::vector<std::string>& output
     if (found == outputs.end()) {
       std::string known;
       for (const std::string& output : outputs) known += (known.empty() ? "" : ", ") + output;
-      return bad_input("tolerance of \"" + key + "\": no such output; the outputs are " + known);
+      return bad_input("tolerance of \"" + key + "\": the output is unknown; the outputs are " +
+                       known);
     }
     if (!(value > 0) || !std::isfinite(value)) {
       return bad_input("tolerance of \"" + key + "\": must be a finite number above zero");

@@ -68,7 +68,7 @@ Result<long> step_on_target(const ReadAt& at, const SetUp& set_up, std::size_t n
   const double steps = (place_on_target(at, set_up, position_m) - origin) / grid.step_m;
   const double off = (steps - std::round(steps)) * grid.step_m;
   if (std::abs(off) <= match_m) return std::lround(steps);
-  return bad_input("set-up " + std::to_string(number) + ": its shift of " + in_mm(set_up.shift_m) +
+  return bad_input("set-up " + std::to_string(number) + ": the shift of " + in_mm(set_up.shift_m) +
                        " is " + in_mm(std::abs(off)) + " away from a multiple of the step, " +
                        in_mm(grid.step_m) +
                        ", so this set-up reads other places of the target than the first set-up",

@@ -46,7 +46,7 @@ Status check_request(const SeparationRequest& request) {
     readings += request.set_ups[k].position_m.size();
   }
   if (readings > kMostReadings)
-    return bad_input("these set-ups have " + std::to_string(readings) + " readings, and at most " +
+    return bad_input("these set-ups have " + std::to_string(readings) + " readings, but at most " +
                      std::to_string(kMostReadings) +
                      " can be separated at once; leave some set-ups out");
   if (!all_alike(request)) return {};
@@ -68,10 +68,10 @@ Status check_shared(const Grid& grid, const std::vector<SetUp>& set_ups) {
         shared = shared || first != k;
       }
     if (!shared)
-      return bad_input(std::string("the set-ups have no place of the ") +
+      return bad_input(std::string("no two set-ups read the same place of the ") +
                        (at == &grid.at_position ? "machine" : "target") +
-                       " in common, so the errors cannot be separated; measure at the same "
-                       "positions, and shift the target by less than the travel");
+                       ", so the errors cannot be separated; measure at the same positions, and "
+                       "shift the target by less than the travel");
   }
   return {};
 }

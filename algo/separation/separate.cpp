@@ -210,7 +210,7 @@ Result<Separation> separate(const SeparationRequest& request) {
   MDOF_CHECK(check_shared(grid, request.set_ups));
   const Equations e = equations_of(request, std::move(grid));
   if (e.A.cols() > in(kMostUnknowns))
-    return bad_input("these set-ups have " + std::to_string(e.A.cols()) + " places, and at most " +
+    return bad_input("these set-ups have " + std::to_string(e.A.cols()) + " places, but at most " +
                      std::to_string(kMostUnknowns) +
                      " can be separated at once; leave some set-ups out");
   const Solution solution = solve(e);

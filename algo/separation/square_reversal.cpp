@@ -18,13 +18,13 @@ Status check_corners(int first, int second) {
   if (first == 0 || second == 0)
     return bad_input(std::string("the ") + (first == 0 ? "first" : "second") +
                      " set-up does not state at which corner of the square the two faces meet; "
-                     "give the offset_mm of the [[plane]] in both rigs");
+                     "give offset_mm in the [[plane]] tables of both rigs");
   if (first == second)
     return bad_input(
         "both set-ups contain the angle of the square with the same sign, so this angle cannot be "
         "separated from the angle of the machine; turn the square over about X or Y, so that one "
-        "of its two faces is on the other side, and state the new places of the probes and of the "
-        "[[plane]] in that rig");
+        "of its two faces is on the other side, and give the new positions of the probes and of "
+        "the [[plane]] in the rig of that set-up");
   return {};
 }
 

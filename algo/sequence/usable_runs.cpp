@@ -49,9 +49,9 @@ std::string in_common(const Run& a, const Run& b) {
     return name_of(a) + " and " + name_of(b) + " come from the same recording (" +
            b.header.provenance.recording_path + ")";
   if (continues_from(b, a))
-    return name_of(b) + " continues " + name_of(a) + " and contains its readings";
+    return name_of(b) + " continues " + name_of(a) + " and contains the readings of " + name_of(a);
   if (continues_from(a, b))
-    return name_of(a) + " continues " + name_of(b) + " and contains its readings";
+    return name_of(a) + " continues " + name_of(b) + " and contains the readings of " + name_of(b);
   if (share_a_reading(a, b)) return name_of(a) + " and " + name_of(b) + " have readings in common";
   return "";
 }

@@ -350,7 +350,7 @@ Status check_angles(const Rig& rig) {
   if (small) return {};
   return bad_input(rig.source +
                    ": a declared u_direction_mrad or u_angle_mrad exceeds 125 mrad, the limit of "
-                   "the model; check that it is in mrad");
+                   "the model; check that the value is in mrad");
 }
 
 }  // namespace

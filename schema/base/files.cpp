@@ -34,9 +34,9 @@ Result<std::unique_ptr<Descriptor>> opened(const std::filesystem::path& file) {
   struct stat status {};
   if (in->get() < 0 || ::fstat(in->get(), &status) != 0)
     return bad_input(file.string() + ": cannot be read: " + std::strerror(errno));
-  if (S_ISDIR(status.st_mode)) return bad_input(file.string() + ": is a folder; name a file");
+  if (S_ISDIR(status.st_mode)) return bad_input(file.string() + ": is a folder; give a file");
   if (!S_ISREG(status.st_mode))
-    return bad_input(file.string() + ": is a pipe or a device; name a regular file");
+    return bad_input(file.string() + ": is a pipe or a device; give a regular file");
   return in;
 }
 

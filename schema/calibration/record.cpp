@@ -205,8 +205,8 @@ CalibrationCovariance read_covariance(TomlTable& table) {
     }
   if (right) return covariance;
   table.reject("covariance_um2",
-               "must be a symmetric matrix with a row and a column for each name of "
-               "covariance_of, and no correlation beyond 1");
+               "must be a symmetric matrix with a row and a column for each name of covariance_of, "
+               "and all correlations must be from -1 to 1");
   return {};
 }
 
@@ -222,7 +222,7 @@ std::string record_text(const CalibrationRecord& record, const CertificateFacts&
       record.kind + "-" + record.date + "-" + sha256_hex(body).substr(0, kIdDigits);
   const std::string hashed = line("id", id) + body;
   return "# Made by a calibration of " + record.kind +
-         ". A rig refers to it with calibration = \"this file\".\n# Do not edit: sha256 is the "
+         ". A rig uses this record with calibration = \"this file\".\n# Do not edit: sha256 is the "
          "hash of the text below it.\n" +
          std::string(kRecordHead) + "\n" + std::string(kHashKey) + sha256_hex(hashed) + "\"\n" +
          hashed;

@@ -117,7 +117,7 @@ Result<DccCertificate> read_dcc(std::string_view text, const std::string& source
   const std::string_view version = root.attribute("schemaVersion");
   if (!version.starts_with("3."))
     return bad_input(place_of(source, root) + ": schemaVersion is \"" + std::string(version) +
-                     "\", but 3.x is read; ask the laboratory for a DCC of version 3");
+                     "\", but mdof reads 3.x; ask the laboratory for a DCC of version 3");
   DccCertificate certificate;
   certificate.source = source;
   const XmlElement* data = root.child("dcc:administrativeData");

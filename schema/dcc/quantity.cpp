@@ -77,7 +77,8 @@ class QuantityReader {
     if (all.size() == 1) all.resize(n, all.front());
     if (all.size() != n)
       return bad_input(place_of(source_, *element) + ": has " + as_text(all.size()) +
-                       " numbers for " + as_text(n) + " values; give one for all or one for each");
+                       " numbers for " + as_text(n) +
+                       " values, but must have one number for all values or one for each value");
     return all;
   }
 

@@ -199,7 +199,7 @@ Status MapTextReader::xyz_row(std::string_view text) {
   }
   if (column != 3)
     return bad_input(place(line_) + "the line has " + std::to_string(column) +
-                     " numbers; a row of a map without header is x y z");
+                     " numbers; in a map without a header, each row has three numbers: x y z");
   return add(xyz);
 }
 
@@ -210,7 +210,7 @@ Status MapTextReader::add(const std::array<double, 3>& xyz) {
         "the line has no position (x or y is empty or nan); add the value or delete the line");
   const std::size_t point = points_.z_m.size();
   if (point == kMostPixels)
-    return bad_input(place(line_) + "more than " + std::to_string(kMostPixels) +
+    return bad_input(place(line_) + "the map has more than " + std::to_string(kMostPixels) +
                      " pixels; use a coarser map");
   if (stretch_.empty() || stretch_.back().second + (point - stretch_.back().first) != line_)
     stretch_.emplace_back(point, line_);

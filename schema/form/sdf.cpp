@@ -106,7 +106,7 @@ class SdfReader {
   Result<double> scale(const std::string& name) const {
     std::size_t line = 0;
     MDOF_TRY(const double x, number(name, line));
-    if (!(x > 0)) return bad_input(place(line) + name + " must be above 0; it is in metres");
+    if (!(x > 0)) return bad_input(place(line) + name + " must be above 0 (unit: metre)");
     return x;
   }
 
@@ -127,7 +127,8 @@ class SdfReader {
           return bad_input(place(line_) + "\"" + std::string(word.substr(0, 40)) +
                            "\" is neither a height nor BAD");
         if (map.z_m.size() == wanted)
-          return bad_input(place(line_) + "more heights than NumPoints times NumProfiles = " +
+          return bad_input(place(line_) +
+                           "the file has more heights than NumPoints times NumProfiles = " +
                            std::to_string(wanted));
         map.z_m.push_back(z * z_scale);
       }

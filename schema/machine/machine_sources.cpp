@@ -59,7 +59,7 @@ SourceEffect read_effect(TomlTable& table, const Machine& machine,
     for (const NamedError& e : errors) names.push_back(e.name);
     const std::string near = nearest_of(name, names);
     table.reject("error", "this machine has no error \"" + name + "\"; " +
-                              (near.empty() ? "give one such as " + errors.front().name
+                              (near.empty() ? "give an error such as " + errors.front().name
                                             : "did you mean \"" + near + "\"?"));
     return effect;
   }
@@ -98,7 +98,7 @@ ErrorSource read_source(TomlTable& table, const Machine& machine,
   for (const ErrorSource& other : machine.sources)
     if (other.name == source.name)
       table.reject("name",
-                   "\"" + source.name + "\" is given twice; give each source a name of its own");
+                   "\"" + source.name + "\" is given twice; give each source a different name");
   for (const NamedError& error : errors)
     if (error.name == source.name)
       table.reject("name",

@@ -30,7 +30,9 @@ void read_rows(TomlTable& table, const std::string& key, const MachineFrame& fra
   const auto rows = table.matrix(key);
   for (const auto& row : rows) {
     if (row.size() < 2 || row.size() > 3 || row.size() != rows.front().size()) {
-      table.reject(key, "each row must be [position, error], or each [position, forward, reverse]");
+      table.reject(
+          key,
+          "all rows must be [position, error], or all rows must be [position, forward, reverse]");
       return;
     }
     function.position.push_back(position_from_written(frame, row[0]));
@@ -96,7 +98,7 @@ void read_range(TomlTable& table, MachineFrame& frame) {
   if (!table.has(key)) return;
   const auto ends = table.numbers(key);
   if (ends.size() != 2 || !(ends[0] < ends[1])) {
-    table.reject(key, "must be two numbers, [from, to], the second greater than the first");
+    table.reject(key, "must be two numbers, [from, to]; the second must be greater than the first");
     return;
   }
   frame.range = {position_from_written(frame, ends[0]), position_from_written(frame, ends[1])};
@@ -126,7 +128,8 @@ StoredRows read_stored_rows(TomlTable& table, const std::string& key) {
 void read_axis(TomlTable& table, MachineFrame& frame) {
   if (frame.kind == FrameKind::rotary) {
     if (!table.has("centre_mm"))
-      table.reject("id", "a rotary axis needs centre_mm = [x, y, z], a point of its axis");
+      table.reject("id",
+                   "a rotary axis needs centre_mm = [x, y, z], a point on the axis of rotation");
     else
       frame.at_m = read_point(table, "centre_mm");
   } else {
@@ -142,8 +145,8 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
       frame.positioning_sense = sense == "command" ? StatedSense::command : StatedSense::body;
     if (sense != "command" && sense != "body")
       table.reject("positioning_sense",
-                   "must be \"body\" (along + of the machine) or \"command\" (actual - commanded "
-                   "position in coordinates of the controller)");
+                   "must be \"body\" (positive along + of the machine axis) or \"command\" (actual "
+                   "- commanded position in coordinates of the controller)");
     frame.runs = read_stored_rows(table, "runs");
     frame.tables = read_stored_rows(table, "tables");
     if (frame.tables.latest)
@@ -188,7 +191,7 @@ void read_axes(TomlTable& root, Machine& machine) {
   for (const ChainAxis& axis : machine.chain.axes)
     if (read.find(axis.letter) == std::string::npos)
       root.reject("axis", "axis " + std::string(1, axis.letter) +
-                              " of the chain has no [[axis]]; give one with id and " +
+                              " of the chain has no [[axis]] table; add a table with id and " +
                               (kLetters.find(axis.letter) < 3 ? "holds_at_mm" : "centre_mm"));
 }
 
@@ -224,7 +227,9 @@ void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& fr
   const std::string point = table.string("point", "moving");
   frame.point_moves = point == "moving";
   if (point != "moving" && point != "standing")
-    table.reject("point", "must be \"standing\" or \"moving\" (with the body)");
+    table.reject("point",
+                 "must be \"standing\" (errors at a fixed point) or \"moving\" (errors at a point "
+                 "that moves with the body)");
 }
 
 // A body that is no axis has errors all the same: how it was put upon the one before.
@@ -260,7 +265,8 @@ Result<Machine> parse_machine(std::string_view text, const std::string& source_n
   machine.simulated = root.boolean("simulated", false);
   machine.chain = read_machine(root);
   if (!machine.chain.known())
-    root.reject("machine", "[machine] chain is missing; give one such as chain = \"w-Y-X-b-Z-t\"");
+    root.reject("machine",
+                "[machine] chain is missing; add a chain such as chain = \"w-Y-X-b-Z-t\"");
   else
     read_axes(root, machine);
   read_fixed_frames(root, machine);

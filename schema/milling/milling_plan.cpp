@@ -132,7 +132,7 @@ feed_per_tooth_um = 15
 radial_depth_mm = 0.3
 axial_depth_mm = 0.05
 [force]
-source = "Al 7075 by carbide, dry: Chinese Journal of Mechanical Engineering 34 (2021), 10.1186/s10033-021-00536-9, Table 5, its forces of the edge left out; this paper gives none"
+source = "Al 7075 by carbide, dry: Chinese Journal of Mechanical Engineering 34 (2021), 10.1186/s10033-021-00536-9, Table 5, without its edge forces; the paper of Huo et al. states no force coefficients"
 Kt_N_per_mm2 = 1319.41
 Kr_N_per_mm2 = 788.83
 [model]

@@ -94,7 +94,7 @@ tl::unexpected<Error> damaged(const char* what) {
 
 Status get_channels(ByteReader& in, SampleBlock& block) {
   const std::uint64_t count = in.varint();
-  if (count > kMaxChunkChannels) return damaged("number of channels");
+  if (count > kMaxChunkChannels) return damaged("too many channels");
   block.channels.resize(count);
   for (Channel& channel : block.channels) {
     channel.id = in.string();
@@ -116,7 +116,8 @@ Status get_times(ByteReader& in, std::vector<std::int64_t>& time_ns) {
     last = t;
     time_ns[i] = static_cast<std::int64_t>(t);
   }
-  if (!in.ok() || !increasing(time_ns)) return damaged("time stamps");
+  if (!in.ok() || !increasing(time_ns))
+    return damaged("time stamps are missing or do not increase");
   return {};
 }
 
@@ -134,7 +135,7 @@ Status get_values(ByteReader& in, SampleBlock& block) {
   block.value.resize(block.channels.size());
   for (auto& values : block.value) {
     const std::string_view planes = in.take(8 * block.scans());
-    if (!in.ok()) return damaged("values cut short");
+    if (!in.ok()) return damaged("values are missing");
     values.resize(block.scans());
     get_planes(planes, values);
   }
@@ -144,7 +145,7 @@ Status get_values(ByteReader& in, SampleBlock& block) {
 Status get_quality(ByteReader& in, std::size_t scans, std::vector<Quality>& quality) {
   quality.clear();
   const std::uint8_t present = in.number<std::uint8_t>();
-  if (present > 1) return damaged("quality mark");
+  if (present > 1) return damaged("wrong quality mark");
   for (const char c : in.take(present * scans)) {
     const auto q = static_cast<std::uint8_t>(c);
     if (q >= kQualityCount) return damaged("unknown quality");
@@ -156,7 +157,7 @@ Status get_quality(ByteReader& in, std::size_t scans, std::vector<Quality>& qual
 Status get_qualities(ByteReader& in, SampleBlock& block) {
   block.quality.clear();
   const std::uint8_t present = in.number<std::uint8_t>();
-  if (present > 1) return damaged("quality mark");
+  if (present > 1) return damaged("wrong quality mark");
   block.quality.resize(present * block.channels.size());
   for (auto& quality : block.quality) MDOF_CHECK(get_quality(in, block.scans(), quality));
   return {};
@@ -195,7 +196,7 @@ Result<std::string> encode_chunk(const SampleBlock& block) {
   if (raw.size() > kMaxChunkBytes || block.channels.size() > kMaxChunkChannels)
     return bad_input("device \"" + block.device + "\": a block of " + std::to_string(raw.size()) +
                      " bytes and " + std::to_string(block.channels.size()) +
-                     " channels is too large for a chunk; split it");
+                     " channels is too large for a chunk; split the block");
   std::string out(kMagic);
   for (std::size_t k = 0; k < 4; ++k) out.push_back(static_cast<char>(raw.size() >> (8 * k)));
   out.resize(kHeadBytes + ZSTD_compressBound(raw.size()));
@@ -212,14 +213,14 @@ Result<std::string> encode_chunk(const SampleBlock& block) {
 Status decode_chunk(std::string_view bytes, SampleBlock& block) {
   if (bytes.size() < kHeadBytes || bytes.substr(0, 4) != kMagic) return damaged("no chunk mark");
   const std::size_t size = declared_size(bytes);
-  if (size > kMaxChunkBytes) return damaged("size over the limit");
+  if (size > kMaxChunkBytes) return damaged("the size exceeds the limit");
   const std::string_view frame = bytes.substr(kHeadBytes);
   // Before any memory is taken: the frame must claim the same size.
-  if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != size) return damaged("size");
+  if (ZSTD_getFrameContentSize(frame.data(), frame.size()) != size) return damaged("wrong size");
   std::string raw(size, '\0');
   const std::size_t got = ZSTD_decompress(raw.data(), size, frame.data(), frame.size());
   if (ZSTD_isError(got)) return damaged(ZSTD_getErrorName(got));
-  if (got != size) return damaged("size");
+  if (got != size) return damaged("wrong size");
   return unpack(raw, block);
 }
 

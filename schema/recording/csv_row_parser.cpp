@@ -279,7 +279,8 @@ Status CsvRowParser::report_blank_lines() {
 Status CsvRowParser::report_bad(std::uint64_t line, const std::string& reason) {
   bad_lines_.push_back(where(line) + reason);
   if (limits_.bad_lines == 0)
-    return bad_input(bad_lines_[0] + "; repair the line, because no row may be missing here");
+    return bad_input(bad_lines_[0] +
+                     "; repair the line, because no row of this file may be missing");
   if (bad_lines_.size() > limits_.bad_lines) {
     std::string message = header_.source + ": more than " + std::to_string(limits_.bad_lines) +
                           " bad lines; repair the file. The first bad lines:";

@@ -107,7 +107,8 @@ bool is_of_words(std::string_view name) {
 Status add_column(CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (name.empty())
-    return bad_input(where(header, column) + "has no name; name the column or remove its comma");
+    return bad_input(where(header, column) +
+                     "has no name; give the column a name or remove its comma");
   if (name == kTimeColumn && has_time(header.kind)) {
     if (header.time_column >= 0)
       return bad_input(where(header, column) + "is given twice; remove one of the columns");
@@ -149,7 +150,8 @@ Status check_required(const CsvHeader& header) {
                   [](const Channel& channel) { return channel.id == kEncoderChannel; });
   if (!encoder) return missing(kEncoderColumn);
   if (header.channels.size() < 2)
-    return bad_input(where(header) + "there is no column of a probe; add columns such as A_um");
+    return bad_input(where(header) +
+                     "the header has no column of a probe; add columns such as A_um");
   return {};
 }
 
@@ -166,7 +168,7 @@ Status check_encoding(std::string_view text, const std::string& source) {
   if (text.empty())
     return bad_input(source + ": the file is empty; check that the recording was saved");
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    return bad_input(source + ": the file is UTF-16; save it as plain CSV (UTF-8)");
+    return bad_input(source + ": the file is UTF-16; save the file as plain CSV (UTF-8)");
   return {};
 }
 

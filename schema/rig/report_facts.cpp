@@ -99,8 +99,8 @@ Result<ReportFacts> joined(const ReportFacts& a, const ReportFacts& b) {
       value = other;
     } else if (!other.empty() && other != value) {
       return fail(ErrorCode::usage,
-                  "[report] " + std::string(key.name) + ": \"" + value + "\" is in one rig and \"" +
-                      other + "\" is in another",
+                  "[report] " + std::string(key.name) + ": one rig has \"" + value +
+                      "\" and another rig has \"" + other + "\"",
                   Remedy::state_in_report, key.name);
     }
   }

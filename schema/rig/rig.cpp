@@ -104,8 +104,8 @@ Probe read_probe(TomlTable& table) {
   const double delay_us = table.number("delay_us", 0.0);
   if (!(delay_us >= 0 && delay_us <= kMostDelay_us))
     table.reject("delay_us",
-                 "must be from 0 to 10000000 (the time by which the readings come later than those "
-                 "of the encoder, for example because of a filter)");
+                 "must be from 0 to 10000000 (the delay of the readings relative to the encoder, "
+                 "for example because of a filter)");
   probe.delay_s = delay_us / 1e6;
   probe.uncertainty = {read_uncertainty(table, "u_calibration_um", from_um(1)),
                        read_uncertainty(table, "u_sensitivity_ppm", 1e-6),
@@ -174,8 +174,8 @@ void read_encoder(TomlTable& table, Rig& rig) {
   const double um_per_V = encoder->number("um_per_V");
   if (!(std::abs(um_per_V) > 0 && std::isfinite(um_per_V)))
     encoder->reject("um_per_V",
-                    "must be the um of axis motion per volt of the encoder (not 0; negative if the "
-                    "voltage falls as the position grows)");
+                    "must be the motion of the axis in um per volt of the encoder (not 0; negative "
+                    "if the voltage decreases when the position increases)");
   rig.encoder_um_per_V = um_per_V;
 }
 
@@ -193,7 +193,7 @@ void read_installation_and_drift(TomlTable& table, Rig& rig) {
   if (!(limit_um_per_h > 0 && std::isfinite(limit_um_per_h)))
     drift->reject(
         "limit_um_per_h",
-        "must be the largest permitted drift of the readings of a probe in um/h, more than 0");
+        "must be greater than 0 (the largest permitted drift of probe readings, in um/h)");
   rig.drift_limit_m_per_s = from_um(limit_um_per_h) / 3600;
 }
 
@@ -225,7 +225,7 @@ void reject_doubles(TomlTable& table, const std::vector<Probe>& probes) {
     for (std::size_t j = 0; j < i; ++j) {
       if (probes[i].id == probes[j].id) {
         table.reject("probe",
-                     "two probes are called \"" + probes[i].id + "\"; give each its own id");
+                     "two probes are called \"" + probes[i].id + "\"; give each probe its own id");
       }
       if (probes[i].position_m == probes[j].position_m &&
           probes[i].direction == probes[j].direction) {

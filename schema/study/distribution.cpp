@@ -105,7 +105,8 @@ void read_shape(TomlTable& table, Distribution& d) {
       d.spread = read_positive(table, "scale");
       d.dof = table.number("dof");
       if (!(d.dof >= 1 && d.dof <= kMostDof))
-        table.reject("dof", "must be from 1 to 10000; for more use distribution = \"normal\"");
+        table.reject("dof",
+                     "must be from 1 to 10000; for a larger value use distribution = \"normal\"");
       break;
     case Kind::empirical:
       break;
@@ -159,7 +160,7 @@ Result<Distribution> read_distribution(TomlTable& table, const std::filesystem::
   if (d.kind == Kind::empirical) {
     const std::string file = table.string("file");
     if (file.empty()) {
-      table.reject("file", "must name a file of one column of numbers");
+      table.reject("file", "must be the name of a file with one column of numbers");
       return d;
     }
     auto sample = load_sample(folder / file);

@@ -42,7 +42,7 @@ double read_above_zero(TomlTable& table, std::string_view key, double fallback) 
 Rig read_rig(TomlTable& table, std::string_view key, const std::filesystem::path& folder) {
   const std::string file = table.string(key);
   if (file.empty()) {
-    table.reject(key, "must name a rig file");
+    table.reject(key, "must be the name of a rig file");
     return {};
   }
   auto rig = load_rig(folder / file);
@@ -66,7 +66,7 @@ std::size_t read_choice(TomlTable& table, std::string_view key,
   const std::string word = table.string(key, choices[fallback]);
   const auto found = std::find(choices.begin(), choices.end(), word);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
-  table.reject(key, "\"" + word + "\" is not known here; " + known_or_list(word, choices));
+  table.reject(key, "\"" + word + "\" is unknown; " + known_or_list(word, choices));
   return fallback;
 }
 

@@ -131,7 +131,7 @@ void reject_doubles(TomlTable& table, const StudyPlan& plan) {
     for (const auto& target : targets ? *targets : std::vector<QuantityTarget>{}) {
       if (!seen.insert(target.name).second)
         table.reject("quantity", target.name + " is given twice, the second time by \"" +
-                                     quantity.name + "\"; give it once");
+                                     quantity.name + "\"; give this quantity only once");
     }
   }
 }
@@ -168,7 +168,7 @@ void read_matrix(TomlTable& table, PlannedCorrelation& group) {
   }
   if (!square) {
     table.reject("matrix", "must have a row and a column for each of the " + std::to_string(n) +
-                               " quantities (a star counts once for each probe)");
+                               " quantities (a name with * counts once for each probe)");
     group.matrix.assign(n * n, 0);
   }
   for (std::size_t i = 0; i < n; ++i) {
@@ -201,14 +201,14 @@ PlannedCorrelation read_correlation(TomlTable& table, StudyPlan& plan,
       if (!grouped.insert(target.name).second)
         table.reject(
             "quantities",
-            target.name + " is in two groups, or twice in one group; name each quantity once");
+            target.name + " is in two groups, or twice in one group; list each quantity only once");
       group.quantities.push_back(target.name);
     }
   }
   if (group.quantities.size() < 2)
     table.reject(
         "quantities",
-        "must name at least two quantities; * stands for any name, such as probe.*.drift_nm");
+        "must list at least two quantities; * stands for any name, such as probe.*.drift_nm");
   read_matrix(table, group);
   return group;
 }

@@ -26,13 +26,14 @@ Result<std::vector<double>> commands_along(const Machine& machine, std::size_t a
   const MachineFrame* frame = machine.find(name_of(axis));
   if (!frame)
     return bad_input("the chain " + machine.chain.text + " has no axis " + name_of(axis) +
-                     "; name only axes of this chain");
+                     "; use only axes of this chain");
   MDOF_TRY(const auto range, range_of(*frame));
   // A step of 0 is refused here as well.
   if (!((range[1] - range[0]) / step_m < static_cast<double>(kMostVolumetricCommands) - 1))
-    return bad_input("axis " + name_of(axis) + ": " + plain_number(to_mm(range[1] - range[0]), 6) +
-                     " mm in steps of " + plain_number(to_mm(step_m), 6) + " mm give more than " +
-                     std::to_string(kMostVolumetricCommands) + " nodes; take a larger step");
+    return bad_input("axis " + name_of(axis) + ": a range of " +
+                     plain_number(to_mm(range[1] - range[0]), 6) + " mm with a step of " +
+                     plain_number(to_mm(step_m), 6) + " mm has more than " +
+                     std::to_string(kMostVolumetricCommands) + " nodes; use a larger step");
   return steps_over(range, step_m);
 }
 
@@ -47,7 +48,7 @@ Status set_grid(VolumetricTable& table, const Machine& machine, const Volumetric
   for (std::size_t k = 0; k < 3; ++k) table.rotary_rad[k] = request.others[3 + k];
   if (table.nodes() <= kMostVolumetricNodes) return {};
   return bad_input("the grid has " + std::to_string(table.nodes()) + " nodes (limit " +
-                   std::to_string(kMostVolumetricNodes) + "); take a larger step");
+                   std::to_string(kMostVolumetricNodes) + "); use a larger step");
 }
 
 std::string place_text(const Vec3& command_m) {
@@ -68,8 +69,8 @@ class CorrectedPlace {
     MDOF_TRY(p.found_, compensating_command(machine, p.command_, request.approach));
     if (p.found_.converged) return p;
     return bad_input("at " + place_text(command_m) +
-                     ": the errors change too steeply to be compensated by any command; check the "
-                     "units of the tables");
+                     ": the errors change so steeply that no command can compensate them; check "
+                     "the units of the tables");
   }
   Vec3 correction_m() const {
     Vec3 c{};
@@ -174,10 +175,11 @@ Status check_measured(const VolumetricTable& table, const VolumetricRequest& req
   if (table.not_measured.empty() || request.incomplete) return {};
   std::string names;
   for (const std::string& name : table.not_measured) names += (names.empty() ? "" : ", ") + name;
-  return bad_input("the table would not correct errors that were not measured: " + names +
-                       "; add these errors to the machine file, with the value 0 where an error is "
-                       "known to be 0",
-                   Remedy::allow_incomplete);
+  return bad_input(
+      "the table would not correct these errors, because they were not measured: " + names +
+          "; add these errors to the machine file, with the value 0 where an error is "
+          "known to be 0",
+      Remedy::allow_incomplete);
 }
 
 GridCell cell_of(const std::vector<double>& commands, double command) {

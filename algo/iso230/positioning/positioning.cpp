@@ -55,7 +55,7 @@ Status check_count(double target_m, const char* approach, std::size_t count, boo
   if (count == 0)
     return bad_input(place + "no reading in " + approach +
                      " direction, but other targets have readings in this direction; measure this "
-                     "reading, or leave out the target or the whole direction");
+                     "target in this direction, or leave out the target or the whole direction");
   return bad_input(place + "only one reading in " + approach +
                    " direction, but repeatability needs at least two runs (ISO 230-2 needs five); "
                    "measure more runs, or leave out this target");

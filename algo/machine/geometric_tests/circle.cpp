@@ -76,8 +76,8 @@ Status check_path(const CircularPath& path) {
     return bad_input("every angle and deviation of a circular path must be a finite number");
   if (n < kFewestAngles || largest_gap(path.angle_rad) > kLargestGap_rad + 1e-9)
     return bad_input(
-        "a circular path needs at least 8 angles and no gap of more than 90 degrees, because an "
-        "arc does not determine the centre");
+        "a circular path needs at least 8 angles, with at most 90 degrees between neighbouring "
+        "angles, because an arc does not determine the centre");
   return {};
 }
 
@@ -103,7 +103,7 @@ Status check_request(const Machine& machine, const CircleRequest& request) {
     const std::string name(1, "XYZ"[axis]);
     if (!machine.find(name))
       return bad_input("the chain " + machine.chain.text + " has no axis " + name +
-                       "; name only axes of this chain");
+                       "; use only axes of this chain");
   }
   if (!(request.radius_m > 0 && request.radius_m <= kMostRadius_m))
     return bad_input("the radius of a circle must be above 0 and at most 10 m");

@@ -100,7 +100,7 @@ Result<std::vector<Diagonal>> plane_diagonals(const Machine& machine, std::size_
     if (!frame)
       return bad_input("the chain " + machine.chain.text + " has no axis " +
                        std::string(kAxisNames.substr(direction, 1)) +
-                       "; name only axes of this chain");
+                       "; use only axes of this chain");
     MDOF_TRY((direction == first ? c.first_range : c.second_range), range_of(*frame));
   }
   std::vector<Diagonal> diagonals = {along(machine, c, steps, approach)};

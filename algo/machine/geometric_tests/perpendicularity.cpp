@@ -65,7 +65,7 @@ Status check(const CircleReadings& r, int highest, bool drift) {
   if (n < unknowns + 2)
     return bad_input(std::to_string(n) + " readings are too few for " + std::to_string(highest) +
                      " harmonics; give at least " + std::to_string(unknowns + 2) +
-                     ", or fewer harmonics");
+                     " readings, or fewer harmonics");
   if (widest_gap(r.angle_rad) > kWidestGap_rad)
     return bad_input(
         "the readings leave out more than 60° of the circle, so the first harmonic cannot be "
@@ -100,7 +100,8 @@ Result<Perpendicularity> perpendicularity(const CircleReadings& r, int highest) 
   }
   const Eigen::LDLT<Eigen::MatrixXd> normal(A.transpose() * A);
   if (normal.rcond() < 1e-9)
-    return bad_input("these angles do not separate so many harmonics; give fewer harmonics");
+    return bad_input(
+        "readings at these angles cannot separate so many harmonics; give fewer harmonics");
   const Eigen::VectorXd x = normal.solve(A.transpose() * h);
   const Eigen::MatrixXd covariance = normal.solve(Eigen::MatrixXd::Identity(A.cols(), A.cols()));
   p.freedom = static_cast<double>(n - A.cols());

@@ -17,7 +17,7 @@ constexpr double kSamePlane_m = 1e-9;
 tl::unexpected<Error> not_of_this_kind(const std::string& why) {
   return bad_input(
       "the models \"simplified\" and \"exact\" need three probes along ±z on the plane z = 0 and "
-      "two along ±y on one plane: " +
+      "two probes along ±y on one plane: " +
       why + "; use the model \"rigid\"");
 }
 
@@ -46,8 +46,9 @@ Result<Roles> find_roles(const Fixture& fixture) {
     }
   }
   if (roles.top.size() != 3 || roles.side.size() != 2) {
-    return not_of_this_kind("this rig has " + std::to_string(roles.top.size()) + " along ±z and " +
-                            std::to_string(roles.side.size()) + " along ±y");
+    return not_of_this_kind("this rig has " + std::to_string(roles.top.size()) +
+                            " probes along ±z and " + std::to_string(roles.side.size()) +
+                            " along ±y");
   }
   return roles;
 }
@@ -103,12 +104,12 @@ Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture) {
   }
   f.h = fixture.probes[f.probe[3]].p_MP.y();
   if (std::abs(fixture.probes[f.probe[4]].p_MP.y() - f.h) > kSamePlane_m) {
-    return not_of_this_kind("the two side probes look at different planes");
+    return not_of_this_kind("the two probes along ±y look at different planes");
   }
-  if (!top_weights(f)) return not_of_this_kind("the three top probes are on one line");
+  if (!top_weights(f)) return not_of_this_kind("the three probes along ±z are on one line");
   const double span = f.x[4] - f.x[3];
   if (span < 1e-5)
-    return not_of_this_kind("the two side probes are at the same place along the motion");
+    return not_of_this_kind("the two probes along ±y have the same position along the motion");
   f.side_per_m = 1.0 / span;
   f.side_rise = (f.across[4] - f.across[3]) / span;
   f.x_D = f.x[3];

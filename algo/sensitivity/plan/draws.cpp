@@ -236,7 +236,7 @@ Status check_hashes(const std::vector<const PlanDraws*>& all) {
         const auto [at, fresh] = seen.emplace(hash, q.target.name);
         if (!fresh)
           return bad_input("quantities " + at->second + " and " + q.target.name +
-                           " would get the same random numbers; give a probe another id");
+                           " would get the same random numbers; change the id of one probe");
       }
     }
   }

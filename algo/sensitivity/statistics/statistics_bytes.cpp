@@ -133,7 +133,7 @@ Result<StudyStatistics> StudyStatistics::parse(std::string_view bytes, const Exp
   if (outputs != s.parts_->outputs.size() || bins != s.parts_->binned.bins) {
     return bad_input(what + std::to_string(outputs) + " outputs in " + std::to_string(bins) +
                      " bins, but the study has " + std::to_string(s.parts_->outputs.size()) +
-                     " in " + std::to_string(s.parts_->binned.bins));
+                     " outputs in " + std::to_string(s.parts_->binned.bins) + " bins");
   }
   s.parts_->trials = in.number<std::uint64_t>();
   bool good = read_scale(in, s.parts_->scale);

@@ -23,7 +23,7 @@ struct Guard {
 Guard guard_of(const Budget& budget, double limit) {
   const std::string standard = "ISO 14253-1:2017, 95 % conformance probability, ";
   if (budget.U_by_trials)
-    return {budget.coverage_factor, standard + "guard band g = U by Monte Carlo"};
+    return {budget.coverage_factor, standard + "guard band g = U from Monte Carlo trials"};
   const bool one_end = limit >= kOneEnd * budget.u;
   const double factor = one_end ? one_sided_factor(budget.freedom) : budget.coverage_factor;
   std::array<char, 32> text{};
@@ -49,7 +49,7 @@ Decision decision(const Budget& budget, double limit, const std::string& against
     Decision unknown;
     unknown.limit = limit;
     unknown.guard_factor = unknown.guard_band = std::nan("");
-    unknown.rule = "ISO 14253-1:2017, no guard band without u";
+    unknown.rule = "ISO 14253-1:2017; no guard band can be calculated without u";
     unknown.reason = budget.u == 0 ? "u is 0, so no uncertainty was found or declared"
                                    : "the uncertainty is unknown";
     return unknown;

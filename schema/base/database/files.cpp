@@ -105,7 +105,8 @@ Status check_room(const fs::path& database, off_t bytes, const fs::path& folder)
   const std::uint64_t room = std::uint64_t{disk.f_bavail} * disk.f_frsize / 2;
   if (static_cast<std::uint64_t>(bytes) <= room) return {};
   return io_error(database.string() +
-                  ": has changes in its journal, and must be copied to be read; " +
+                  ": the journal of this database contains changes, so mdof must copy the database "
+                  "to read it; " +
                   "the copy needs " + std::to_string(bytes >> 20) + " MB, but may use only " +
                   std::to_string(room >> 20) + " MB in " + folder.string() +
                   " (half of the free space); set TMPDIR to a folder with more free space");
@@ -153,10 +154,10 @@ Status check_journal(const fs::path& database) {
   const std::string end = bytes_at(journal, size - 16, 16);
   if (end.size() != 16 || end.substr(8) != kMagic || end.substr(0, 4) == std::string(4, '\0'))
     return {};
-  return bad_input(
-      name.string() +
-      ": names a super-journal, which mdof never makes and which SQLite would delete; the database "
-      "is not read. Remove the journal, or restore the database and the journal from a copy");
+  return bad_input(name.string() +
+                   ": names a super-journal. mdof never makes a super-journal, and SQLite would "
+                   "delete this file, so mdof does not read the database. Remove the journal, or "
+                   "restore the database and the journal from a copy");
 }
 
 // As SQLite: one whose first byte is 0 has been used up.
@@ -211,8 +212,8 @@ int open_foreign(const fs::path& file, int flags) {
 }
 
 std::string foreign_error_text(int error) {
-  if (error == EINVAL) return "it is a folder, a pipe or a device; name a regular file";
-  if (error == EBUSY) return "this program is writing this file; name another file";
+  if (error == EINVAL) return "it is a folder, a pipe or a device; give a regular file";
+  if (error == EBUSY) return "this program is writing this file; give another file";
   return std::strerror(error);
 }
 
@@ -222,7 +223,7 @@ Result<PrivateCopy> PrivateCopy::make(const fs::path& database, int timeout_ms) 
   std::error_code ec;
   std::string folder = (fs::temp_directory_path(ec) / "mdof-copy-XXXXXX").string();
   if (ec || !::mkdtemp(folder.data()))
-    return failed(folder, "make a private folder (TMPDIR sets another place)");
+    return failed(folder, "make a private folder (TMPDIR sets another folder)");
   PrivateCopy copy{fs::path(folder)};
   constexpr int kStepMs = 10;
   for (int waited_ms = 0;; waited_ms += kStepMs) {

@@ -204,7 +204,7 @@ void JournalWatch::note(std::string what, bool foreign_wal) {
            in_wal == in_database;
   leave_files_alone();
   if (!moved_) return lose(std::move(what));
-  fault_ = std::move(what) + "; all data stored before are in the database file";
+  fault_ = std::move(what) + "; all data stored before this change are in the database file";
   if (!foreign_wal) return;
   // It would be taken into the database when that is next opened.
   std::error_code ec;

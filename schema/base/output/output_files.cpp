@@ -204,7 +204,7 @@ Status write_file(const fs::path& path, std::string_view text, Existing existing
   MDOF_TRY(const std::size_t file, files.add(path));
   const std::string before = beginning(path);
   if (!before.empty() && is_markup(text) != is_markup(before))
-    return not_replaced(path, "holds something of another kind");
+    return not_replaced(path, "has content of another kind");
   MDOF_CHECK(files.write(file, text));
   return files.publish();
 }

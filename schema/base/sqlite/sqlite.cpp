@@ -47,12 +47,12 @@ constexpr Advice kAdvice[] = {
      "The disk is full: free some space and try again; the data stored before are unchanged."},
     {SQLITE_READONLY, "SQLITE_READONLY", ErrorCode::io,
      "The file or its folder cannot be written: check the owner and mode of both, check that the "
-     "file system is not mounted read-only, or choose another place."},
+     "file system is not mounted read-only, or choose another folder."},
     {SQLITE_CANTOPEN, "SQLITE_CANTOPEN", ErrorCode::io,
      "Check that the folder exists, and that this user may read and write the folder and the "
      "file."},
     {SQLITE_NOTADB, "SQLITE_NOTADB", ErrorCode::bad_input,
-     "This is not a SQLite database: name the right file."},
+     "This is not a SQLite database: give the right file."},
     {SQLITE_CORRUPT, "SQLITE_CORRUPT", ErrorCode::bad_input,
      "The file is damaged: make a copy of it, then restore the file from a backup or rebuild it "
      "from "

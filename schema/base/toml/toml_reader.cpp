@@ -318,7 +318,7 @@ Status TomlTable::finish() {
       if (!near.empty()) {
         why += "; did you mean \"" + near + "\"?";
       } else {
-        why += "; known here:";
+        why += "; known keys:";
         for (const auto& k : known) why += " " + k;
       }
       TomlTable(document_, node).reject(key.str(), why);

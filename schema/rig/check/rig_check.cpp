@@ -88,8 +88,8 @@ void Check::check_probe(std::size_t k) {
   if (!(length(probe.position_m) <= kMost_m))
     add(true, "probe", k, "position_mm",
         "probe \"" + probe.id + "\" is " + text_of(to_mm(length(probe.position_m))) +
-            " mm from the origin of M, but the limit is " + text_of(to_mm(kMost_m)) +
-            " mm; give position_mm in mm, not um");
+            " mm from the origin of the metrology frame, but the limit is " +
+            text_of(to_mm(kMost_m)) + " mm; give position_mm in mm, not um");
   within(kRange_um, to_um(probe.range_m), "probe", k, "range_um",
          " um is an unusual range of the probe \"" + probe.id +
              "\"; give the full range in um, not mm or nm");
@@ -102,8 +102,8 @@ void Check::check_calibration(std::size_t k) {
   const double range_um = to_um(probe.range_m);
   if (c.um_per_V)
     within(kFull_V, range_um / std::abs(*c.um_per_V), "probe", k, "um_per_V",
-           " V would be an unusual full range of the probe \"" + probe.id +
-               "\"; give um of displacement per volt");
+           " V is an unusual full range of the probe \"" + probe.id +
+               "\" (range_um divided by um_per_V); give um of displacement per volt");
   double most_um = 0;
   for (const auto& [reading_um, correction_um] : c.linearity)
     most_um = std::max(most_um, std::abs(correction_um));
@@ -134,8 +134,8 @@ void Check::check_distances() {
   }
   if (extent_m == 0) return;  // no geometry at all, which the solver says better
   within(kExtent_mm, to_mm(extent_m), "probe", b, "position_mm",
-         " mm is an unusual value of the largest distance between probes (\"" + rig_.probes[a].id +
-             "\" and \"" + rig_.probes[b].id + "\"); give positions in mm, not " +
+         " mm is an unusual distance between two probes (\"" + rig_.probes[a].id + "\" and \"" +
+             rig_.probes[b].id + "\"); give positions in mm, not " +
              (to_mm(extent_m) > kExtent_mm.most_usual ? "um" : "m"));
 }
 
@@ -144,7 +144,8 @@ void Check::check_plane(std::size_t k) {
   if (plane.offset_m && !(std::abs(*plane.offset_m) <= kMost_m))
     add(true, "plane", k, "offset_mm",
         text_of(to_mm(*plane.offset_m)) +
-            " mm from the origin of C is too far for a plane of a target; give offset_mm in mm");
+            " mm from the origin of the carriage frame is too far for a plane of a target; give "
+            "offset_mm in mm");
   double most_m = 0;
   for (const double height_m : plane.flatness.height_m)
     most_m = std::max(most_m, std::abs(height_m));

@@ -86,8 +86,8 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
       Eigen::VectorXd(unit(model, 0, kZero) + unit(model, 1, kZero) + unit(model, 2, kZero));
   const Unseen zero = named(model, {zeros, unit(model, 4, kZero)});
   EXPECT_EQ(zero.sentences, (std::vector<std::string>{
-                                "the common zero of A, B, C: the mean zero (offset_um) in the "
-                                "rig is kept",
+                                "the common zero of A, B, C; the mean of offset_um in the rig "
+                                "is not changed",
                                 "the zero of E relative to the other probes"}));
   EXPECT_EQ(zero.apart.cols(), 1);
 }

@@ -353,9 +353,9 @@ TEST(Artefact, NamesTheRigWhoseFaceIsNotClear) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("rig_Y: it is unknown on which side of the fixture"),
             std::string::npos);
-  EXPECT_NE(refused.error().message.find("square normal to X lies"), std::string::npos);
+  EXPECT_NE(refused.error().message.find("square's face normal to X lies"), std::string::npos);
   const auto [x_at_0, y] = rigs_at(0, -15, three, three);
-  EXPECT_NE(artefact_of(x_at_0, y, {}).error().message.find("square normal to Y lies"),
+  EXPECT_NE(artefact_of(x_at_0, y, {}).error().message.find("square's face normal to Y lies"),
             std::string::npos);
 }
 

@@ -169,7 +169,7 @@ TEST(OnTheFlyRun, TargetsOfARangeAreKnownBeforehand) {
 TEST(OnTheFlyRun, ExplainsWhyThereIsNoPoint) {
   const Status too_short = measured({.travel_m = 0.8e-3}).explain_nothing();
   ASSERT_FALSE(too_short);
-  expect_in(too_short.error().message, "contains no whole bin of 1 mm about a target");
+  expect_in(too_short.error().message, "contains no whole bin of 1 mm around a target");
   OnTheFlyOptions fine;
   fine.interval_mm = 0.02;  // 2 and 4 scans a bin; at least kFewestOfBin + 1 are asked for
   const Status dense = measured({}, fine).explain_nothing();

@@ -300,8 +300,9 @@ TEST(StudyStatistics, DamagedBytesAreAnErrorAndNothingWorse) {
   const OneOutput other([](double u, auto) { return u; }, 3);
   const auto wrong = StudyStatistics::parse(bytes, other);
   ASSERT_FALSE(wrong);
-  EXPECT_NE(wrong.error().message.find("1 outputs in 2 bins, but the study has 1 in 3"),
-            std::string::npos);
+  EXPECT_NE(
+      wrong.error().message.find("1 outputs in 2 bins, but the study has 1 outputs in 3 bins"),
+      std::string::npos);
 }
 
 TEST(StudyStatistics, MemoryDoesNotGrowWithTrials) {

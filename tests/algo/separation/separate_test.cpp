@@ -313,12 +313,13 @@ TEST(Separation, WhatCannotBeIsRefusedWithARemedy) {
   says(request_of(world, {{}}), "one set-up");
   says(request_of(world, {{}, {}}), "has the same place and orientation");
   says(request_of(world, {{}, {false, false, 4 * kMm}}), "away from a multiple of the step, 10 mm");
-  says(request_of(world, {{}, {false, false, 70 * kMm}}), "no place of the target in common");
+  says(request_of(world, {{}, {false, false, 70 * kMm}}),
+       "no two set-ups read the same place of the target");
   says(request_of({{}, 0, {0, 10e-3, 21e-3, 30e-3}}, {{}, {false, false, 10 * kMm}}),
        "not equally spaced");
   auto request = request_of(world, {{}, {true, false, 0}});
   for (double& x : request.set_ups[1].position_m) x += 1 * kMm;
-  says(request, "no place of the machine in common");
+  says(request, "no two set-ups read the same place of the machine");
   request = request_of(world, {{}, {true, false, 0}});
   request.set_ups[1].error_m[3] = std::nan("");
   says(request, "set-up 2: a value is not a finite number");

@@ -145,7 +145,7 @@ TEST(MachineToml, WhatIsWrongIsNamed) {
       {"centre_mm = [200, 200, 0]\n", "", "centre_mm"},
       {"id = \"Z\"", "id = \"Y\"", "twice"},
       {"id = \"Z\"", "id = \"B\"", "has no axis"},
-      {"[0, 400]", "[400, 0]", "the second greater than the first"},
+      {"[0, 400]", "[400, 0]", "the second must be greater than the first"},
       {"w-C-Y-b-X-Z-t", "w-C-Y-X-Z-t", "bed"},
       {"holds_at_mm = [1, 2, 3]", "holds_at_mm = [1, 2, inf]", "holds_at_mm"},
       {"name", "nam", "nam"},

@@ -31,7 +31,7 @@ Result<HttpAccess> http_at(const std::string& address) {
     return fail(ErrorCode::usage,
                 "\"" + address.substr(0, 64) +
                     "\" is not a local address with a port; give, for example, 127.0.0.1:8080 or "
-                    "[::1]:8080; from another computer use a tunnel (ssh -L 8080:localhost:8080)");
+                    "[::1]:8080; from another computer, use a tunnel (ssh -L 8080:localhost:8080)");
   out.address = v6 ? "::1" : "127.0.0.1";
   out.port = *port;
   return out;
@@ -50,9 +50,10 @@ std::optional<HttpAccess> read_http(TomlTable& root, const std::filesystem::path
   http->token_file = table->string("token_file", (folder / kTokenFile).string());
   http->hosts = table->strings("hosts");
   if (!std::all_of(http->hosts.begin(), http->hosts.end(), is_host))
-    table->reject("hosts",
-                  "must be a list of host names as in the address bar of a browser, such as "
-                  "\"mill.local:8080\"");
+    table->reject(
+        "hosts",
+        "must be a list of host names, as the address bar of a browser shows them, such as "
+        "\"mill.local:8080\"");
   return std::move(*http);
 }
 

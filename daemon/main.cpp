@@ -97,15 +97,16 @@ int run(const Options& options) {
 int main(int argc, char** argv) try {
   std::signal(SIGPIPE, SIG_IGN);
   CLI::App cli(
-      "mdofd: reads probes and encoder, calculates the five errors of an axis and serves the "
-      "results");
+      "mdofd: reads the probes and the encoder, calculates the five errors of an axis and serves "
+      "the results");
   Options options;
   cli.add_option("--config", options.config_file, "configuration file (TOML)")
       ->capture_default_str();
   cli.add_flag("--check-config", options.check_only,
-               "check the configuration, print what is wrong, and exit");
-  auto* http = cli.add_option("--http", options.http,
-                              "serve the web page [127.0.0.1:8080, or the address in [http]]");
+               "check the configuration, print the errors, and exit");
+  auto* http = cli.add_option(
+      "--http", options.http,
+      "serve the web page (default address: listen in [http], otherwise 127.0.0.1:8080)");
   http->type_name("[ADDRESS:PORT]")->expected(0, 1);
   cli.set_version_flag("--version", mdof::daemon::kVersion);
   try {

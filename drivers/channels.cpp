@@ -37,7 +37,7 @@ void read_index(TomlTable& table, ChannelInput& channel) {
   if (channel.id != kEncoderChannel)
     table.reject(
         "index_mm",
-        "applies to the encoder only; it is the axis position at the reference mark; remove "
+        "applies to the encoder only (index_mm is the axis position at the reference mark); remove "
         "index_mm from this channel");
   if (table.has("offset_mm"))
     table.reject("index_mm",
@@ -149,8 +149,8 @@ tl::unexpected<Error> no_such_input(const ChannelInput& channel,
                                     const std::vector<std::string>& inputs) {
   std::string known;
   for (const auto& input : inputs) known += (known.empty() ? "" : ", ") + input;
-  return bad_input(channel.where + ": the device has no input \"" + channel.input + "\"; it has " +
-                   known);
+  return bad_input(channel.where + ": the device has no input \"" + channel.input +
+                   "\"; the inputs of the device are " + known);
 }
 
 Status check_um_per_count(const ChannelInput& channel) {

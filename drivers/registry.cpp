@@ -46,7 +46,7 @@ const std::vector<DriverRow>& driver_rows() {
       {
           .name = "capancdt",
           .folder = "capancdt",
-          .devices = "Micro-Epsilon capaNCDT 6200: TCP, its command port and its data port",
+          .devices = "Micro-Epsilon capaNCDT 6200 over TCP (command port and data port)",
           .configure = configure_capancdt,
           .simulated = {{32, "up to 32 probes, in µm", "TCP: command, data",
                          capancdt::make_simulated_capancdt}},
@@ -67,7 +67,8 @@ const std::vector<DriverRow>& driver_rows() {
               "LabJack T7 over Ethernet: amplifier outputs and encoders in one hardware scan",
           .configure = configure_labjack_t7,
           .simulated = {{labjack_t7::kAins,
-                         "up to 14 probes or the encoder, in volts; also the encoder, in counts",
+                         "up to 14 probes, in volts; the encoder, in volts (one of the 14 inputs) "
+                         "or in counts",
                          "TCP: command, stream", labjack_t7::make_simulated_labjack_t7}},
           .no_index = kResetOnly,
       },
@@ -79,7 +80,7 @@ const std::vector<DriverRow>& driver_rows() {
           .node = UsbDevice{.name = "LabJack",
                             .vendor = labjack_u6::kVendor,
                             .note = "U3, U6, UE9, T4, T7, T8"},
-          .simulated = {{labjack_u6::kAins, "up to 14 probes, in volts; also the encoder", "USB",
+          .simulated = {{labjack_u6::kAins, "up to 14 probes, in volts, and the encoder", "USB",
                          labjack_u6::make_simulated_labjack_u6}},
           .no_index = kResetOnly,
       },
@@ -94,13 +95,14 @@ const std::vector<DriverRow>& driver_rows() {
                               .group = "iocard",
                               .remedy = "sudo usermod -aG iocard $USER, then log in again; the "
                                         "rules of libcomedi0 give boards to the group iocard",
-                              .note = "same rights as in 90-comedi.rules of libcomedi0 (read "
-                                      "later), and access for the user who is logged in"},
+                              .note = "same rights as in 90-comedi.rules of libcomedi0 (which "
+                                      "udev reads later), and access for the user who is logged "
+                                      "in"},
       },
       {
           .name = "linux_counter",
           .folder = "linux_counter",
-          .devices = "encoders at counters of the Linux kernel, through sysfs",
+          .devices = "encoders at counters that the Linux kernel supports, through sysfs",
           .configure = configure_linux_counter,
           .node = SysfsFile{.name = "104-QUAD-8 counter",
                             .subsystem = "counter",
@@ -129,7 +131,8 @@ const std::vector<DriverRow>& driver_rows() {
       {
           .name = "mcc_usb1608fs_plus",
           .folder = "mcc_usb1608fs_plus",
-          .devices = "MCC USB-1608FS-Plus: up to eight outputs sampled at the same instant",
+          .devices =
+              "MCC USB-1608FS-Plus: up to eight amplifier outputs, sampled at the same instant",
           .configure = configure_mcc_usb1608fs_plus,
           .node = UsbDevice{.name = "MCC USB-1608FS-Plus",
                             .vendor = mcc_usb1608fs_plus::kVendor,
@@ -140,8 +143,8 @@ const std::vector<DriverRow>& driver_rows() {
       {
           .name = "modbus",
           .folder = "modbus",
-          .devices = "any Modbus TCP or RTU device with a profile: Lika SMAX, ADAM-6017, PoKeys57E "
-                     "are included, or your own",
+          .devices = "any Modbus TCP or RTU device that has a profile: Lika SMAX, ADAM-6017 and "
+                     "PoKeys57E (included), or your own profile",
           .configure = configure_modbus,
           .simulated = {{64, "the values of the profile, in the order of the profile",
                          "TCP or a serial line", make_simulated_modbus}},
@@ -159,8 +162,8 @@ const std::vector<DriverRow>& driver_rows() {
                   .vendor = pokeys57u::kVendor,
                   .node = UsbNode::hidraw,
                   .interface = pokeys57u::kInterface,
-                  .note = "HID interface 1; interface 0 is a keyboard, interface 2 a joystick"},
-          .simulated = {{pokeys57u::kEncoders, "encoders; by default that of the machine",
+                  .note = "HID interface 1; interface 0 is a keyboard, interface 2 is a joystick"},
+          .simulated = {{pokeys57u::kEncoders, "encoders; default: the encoder of the machine",
                          "USB HID", pokeys57u::make_simulated_pokeys57u}},
           .no_index = "the manufacturer's specification and library (PoKeysLibEncoders.c) disagree "
                       "on how a PoKeys detects the reference mark, so mdof cannot use the mark",
@@ -175,22 +178,22 @@ const std::vector<DriverRow>& driver_rows() {
                             .product = 0x6001,
                             .node = UsbNode::tty,
                             .manufacturer = "US Digital",
-                            .note = "behind its FTDI chip"},
+                            .note = "connected through an FTDI chip"},
           .simulated = {{1, "the encoder", "a serial line", make_simulated_qsb}},
           .no_index = nullptr,
       },
       {
           .name = "replay",
           .folder = "recording",
-          .devices = "a recording of mdofd (`*.mdofrec`), chunk by chunk, every hash checked; or "
-                     "a probe log, CSV, plain or gzip (`csv/`, thread `csv read`)",
+          .devices = "a recording of mdofd (`*.mdofrec`), read by chunks, with every hash checked; "
+                     "or a probe log in CSV, plain or gzip (`csv/`, thread `csv read`)",
           .configure = configure_replay,
       },
       {
           .name = "simulator",
           .folder = "simulator",
-          .devices = "a moving axis with errors, noise and faults; the same seed gives the same "
-                     "bits",
+          .devices = "a moving axis with errors, noise and faults; the same seed gives identical "
+                     "samples",
           .configure = configure_simulator,
       },
   };

@@ -17,7 +17,7 @@ namespace mdof::drivers {
 // The simulated twin of a device, as mdof-simulate serves it: a kind of the name of its driver.
 struct SimulatedKind {
   std::size_t most_inputs;
-  const char* inputs;   // for people: "up to 14 probes, in volts; also the encoder"
+  const char* inputs;   // for people: "up to 14 probes, in volts, and the encoder"
   const char* reached;  // where a program reaches it: "TCP: command, stream"
   MakeSimulated make;
 };

@@ -51,11 +51,11 @@ std::string describe(const Method& method) {
 Method discover_method(const MethodTable& table) {
   return {.name = "rpc.discover",
           .summary = "Describes all methods in an OpenRPC 1.2.6 document.",
-          .params = {{"offset", ParamType::integer, "index of the first method of this page", false,
+          .params = {{"offset", ParamType::integer, "index of the first method on this page", false,
                       "0"},
                      {"max_bytes", ParamType::integer,
-                      "largest size of the reply line, from 4096 to 49152", false, "49152"}},
-          .result = "the document; x-next-offset is present if another page follows",
+                      "limit of the reply line in bytes, from 4096 to 49152", false, "49152"}},
+          .result = "the OpenRPC document; x-next-offset is present if another page follows",
           .result_schema = R"({"type":"object"})",
           .example = R"({"offset":0})",
           .handler = [&table](const Params& params) -> Result<std::string> {
@@ -97,7 +97,7 @@ MethodTable::MethodTable(std::string title, std::string version)
 void MethodTable::add(Method method) {
   std::string name = method.name;
   [[maybe_unused]] const bool added = methods_.emplace(std::move(name), std::move(method)).second;
-  assert(added && "a method of this name exists");
+  assert(added && "a method with this name already exists");
 }
 
 const Method* MethodTable::find(std::string_view name) const {

@@ -48,7 +48,7 @@ Status check_folder(const std::string& key, const fs::path& folder) {
 Status check_file(const std::string& key, const fs::path& file) {
   std::error_code failed;
   if (fs::is_directory(file, failed))
-    return bad_input(key + ": " + file.string() + " is a folder; name a file in it");
+    return bad_input(key + ": " + file.string() + " is a folder; give the path of a file");
   MDOF_CHECK(check_folder(key, fs::absolute(file, failed).parent_path()));
   if (!fs::exists(file, failed) || ::access(file.c_str(), R_OK | W_OK) == 0) return {};
   return bad_input(key + ": mdofd has no permission to read and write " + file.string() +
@@ -123,7 +123,7 @@ driver = "simulator"
 rate_hz = 1000
 targets_mm = [0, 5, 10, 15, 20]
 
-# --- rig_X.toml, beside it
+# --- rig_X.toml, in the same folder
 name = "five probes, X axis"
 axis = "X"
 [[probe]]

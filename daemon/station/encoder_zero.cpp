@@ -151,10 +151,11 @@ Result<DatumSetting> EncoderZero::find(Axis axis, double position_m, const std::
 Result<EncoderDatum> EncoderZero::put(const DatumSetting& setting, const std::string& by) {
   const std::lock_guard lock(mutex_);
   if (!std::exchange(found_, false))
-    return fail(ErrorCode::conflict,
-                "device \"" + setting.device +
-                    "\" has just lost power or passed its reference mark, so the reading of its "
-                    "encoder is no longer valid; set the position of the axis again");
+    return fail(
+        ErrorCode::conflict,
+        "device \"" + setting.device +
+            "\" has just lost power, or the axis has just passed the reference mark, so the "
+            "reading of the encoder is no longer valid; set the position of the axis again");
   datum_ = {EncoderDatum::Kind::set, setting.offset_m, setting.device, setting.utc, by};
   last_ = setting;
   since_start_ = true;

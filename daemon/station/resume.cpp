@@ -24,7 +24,7 @@ Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisCon
   if (run.state == RunState::open) return refused(run.id, "this run is under way");
   if (run.state == RunState::complete) return refused(run.id, "this run is complete");
   if (run.provenance.recording_kind != "recording")
-    return refused(run.id, "this run has no recording from devices");
+    return refused(run.id, "this run was not recorded from devices");
   MDOF_TRY(const auto later, reader.superseded_by(run.id));
   if (later) return refused(run.id, "run " + std::to_string(*later) + " supersedes this run");
   if (run.provenance.rig_text != axis.rig.text)
@@ -58,7 +58,8 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   MDOF_CHECK(check_can_go_on(reader, header, axis));
   const auto options = read_options_json(header.provenance.options_json, {});
   if (!options)
-    return refused(run, "the stored request of the run: " + words::text(options.error()));
+    return refused(run,
+                   "the stored request of the run is invalid: " + words::text(options.error()));
   RunRequest request;
   request.note = header.note;
   request.targets_m = options->sequence.targets_m;
@@ -79,29 +80,30 @@ Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool 
   if (of_run.kind == Kind::index || now.kind == Kind::index) {
     if (alike) return {};
     if (now.kind != Kind::index)
-      return refused(cut_off.id,
-                     "its positions were counted from the reference mark of the encoder, but the "
-                     "present positions of the axis are not",
-                     Remedy::pass_reference_mark_or_start);
+      return refused(
+          cut_off.id,
+          "the positions of this run were counted from the reference mark of the encoder, "
+          "but the present positions of the axis are not",
+          Remedy::pass_reference_mark_or_start);
     return refused(cut_off.id,
-                   "the axis passed its reference mark after the run ended, so the present "
-                   "positions have another zero than those of the run; start a new run");
+                   "the axis passed its reference mark after the run ended, so the zero of the "
+                   "present positions is not the zero of the run; start a new run");
   }
   const bool in_machine = of_run.kind == Kind::set || of_run.kind == Kind::configured;
   if (in_machine && now.kind == Kind::set) return {};  // each says where the axis stands
   if (alike && counts_on) return {};
   if (of_run.kind == Kind::none)
     return refused(cut_off.id,
-                   "its encoder had no datum and may have stopped counting after the run, so "
-                   "present positions may differ from those of the run",
+                   "the encoder had no datum in this run and may have stopped counting after the "
+                   "run, so the present positions may differ from the positions of the run",
                    Remedy::set_encoder_then_start);
   if (of_run.kind == Kind::absolute && now.kind != Kind::none)
     return refused(cut_off.id,
-                   "its positions are those that the device shows, but the present positions of "
-                   "the axis are not; start a new run");
+                   "the positions of this run are the readings of the device, but the present "
+                   "positions of the axis are not; start a new run");
   return refused(cut_off.id,
-                 "its positions are machine positions (" + datum_text(of_run) +
-                     "), but the encoder has lost its datum since then",
+                 "the positions of this run are machine positions (" + datum_text(of_run) +
+                     "), but the encoder has lost its datum since the run",
                  Remedy::set_encoder_then_resume);
 }
 

@@ -9,7 +9,7 @@
 
 namespace mdof::store {
 
-static_assert(std::endian::native == std::endian::little, "bytes of doubles are taken as they lie");
+static_assert(std::endian::native == std::endian::little, "stored doubles are little-endian bytes");
 
 inline std::string_view bytes_of(std::span<const double> x) {
   return {reinterpret_cast<const char*>(x.data()), x.size_bytes()};

@@ -116,8 +116,8 @@ std::string finding(const FactKind& kind, std::int64_t row, const char* what) {
          "; restore the database from a backup";
 }
 
-constexpr const char* kChanged = "was changed after it was stored (its hash differs)";
-constexpr const char* kUnlinked = "was not stored by mdof (it has no hash)";
+constexpr const char* kChanged = "was changed after it was stored (the hash differs)";
+constexpr const char* kUnlinked = "was not stored by mdof (the hash is missing)";
 constexpr const char* kGone = "is missing";
 
 tl::unexpected<Error> damaged(const Connection& connection, const std::string& what) {
@@ -169,9 +169,9 @@ Status check_all(Connection& connection, std::vector<std::string>& findings, Wan
     MDOF_TRY(const std::int64_t stored, count(connection, kind));
     if (stored != linked[static_cast<std::size_t>(kind.fact)])
       findings.push_back("table " + std::string(kind.name) + " has " + std::to_string(stored) +
-                         " rows, but the ledger has hashes of " +
+                         " rows, but the ledger has the hashes of " +
                          std::to_string(linked[static_cast<std::size_t>(kind.fact)]) +
-                         "; restore the database from a backup");
+                         " rows; restore the database from a backup");
   }
   return {};
 }

@@ -272,8 +272,8 @@ Status Store::check_points(std::int64_t run, std::int64_t offset,
 }
 
 tl::unexpected<Error> Store::other_rows(std::int64_t run) const {
-  return bad_input(file().string() + ": run " + std::to_string(run) +
-                   ": its results were changed after they were stored; replay its recording");
+  return bad_input(file().string() + ": the results of run " + std::to_string(run) +
+                   " were changed after they were stored; replay the recording of this run");
 }
 
 Result<std::vector<MeasuredPoint>> Store::read_points(std::int64_t run, std::int64_t offset,

@@ -41,7 +41,7 @@ Status check_one_name(const fs::path& file) {
   const auto names = fs::hard_link_count(file, ec);
   if (ec || names < 2) return {};
   return bad_input(file.string() + ": this database has " + std::to_string(names) +
-                   " names (hard links), but SQLite can use its journal under only one of these "
+                   " names (hard links), but the journal of SQLite works with only one of these "
                    "names; remove the other names, or copy the file if you need a copy");
 }
 
@@ -65,7 +65,7 @@ Status check_schema_is_current(Connection& connection) {
   if (version == known_version()) return {};
   return bad_input(connection.file().string() + ": has schema version " + std::to_string(version) +
                    ", but this program needs version " + std::to_string(known_version()) +
-                   "; start mdofd or store a run, which updates the database");
+                   "; to update the database, start mdofd or store a run");
 }
 
 Status set_up_writer(Connection& connection, Durability durability) {

@@ -68,8 +68,9 @@ Status check_shape(const CompensationTable& table) {
   for_each_series(table, parts_of(table),
                   [&](const auto& s) { fits &= s.size() == table.position_m.size(); });
   if (fits) return {};
-  return fail(ErrorCode::usage, "compensation table: each series must have one value for each of " +
-                                    std::to_string(table.position_m.size()) + " positions");
+  return fail(ErrorCode::usage,
+              "compensation table: each series must have one value for each position (" +
+                  std::to_string(table.position_m.size()) + " positions)");
 }
 
 std::vector<double> all_series(const CompensationTable& table) {

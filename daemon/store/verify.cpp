@@ -34,7 +34,7 @@ Status Store::check_head(const ChainHead& reported) {
   if (found) return {};
   MDOF_TRY(const ChainHead now, chain_head());
   return bad_input(file().string() + ": the chain of hashes has no link " +
-                   std::to_string(reported.link) + " of hash " + reported.sha256 +
+                   std::to_string(reported.link) + " with hash " + reported.sha256 +
                    ", which mdofd reported last; the chain ends at link " +
                    std::to_string(now.link) +
                    ", so the newest entries are missing or were changed. Restore the database from "
@@ -81,8 +81,8 @@ Status Store::verify_runs(std::vector<std::string>& findings) {
     const std::int64_t run = rows.integer(0);
     MDOF_TRY(const std::string sha256, result_sha256(run));
     if (sha256 != rows.text(1))
-      findings.push_back("run " + std::to_string(run) +
-                         ": its results were changed after they were stored; replay its recording");
+      findings.push_back("the results of run " + std::to_string(run) +
+                         " were changed after they were stored; replay the recording of this run");
   }
 }
 

@@ -33,8 +33,8 @@ bool has_room(const std::filesystem::path& file) {
 
 std::string not_writable(const Error& error) {
   return words::text(error) +
-         "; mdofd serves the active tables and tries again to open the database; nothing is stored "
-         "before that succeeds";
+         "; mdofd serves the active tables and tries again to open the database; until the "
+         "database is open, mdofd stores nothing";
 }
 
 // What is there can be served, though nothing can be stored.
@@ -187,7 +187,8 @@ std::string Storekeeper::chain_fault() {
   if (!store_) return {};
   const Status whole = store_->check_head(announced_);
   if (whole || whole.error().code != ErrorCode::bad_input) return {};
-  return words::text(whole.error()) + ", and restart mdofd; nothing is stored before the restart";
+  return words::text(whole.error()) +
+         ", and restart mdofd; until the restart, mdofd stores nothing";
 }
 
 // One that no longer has what was announced before is not announced anew: see watch_database().
@@ -227,10 +228,10 @@ void Storekeeper::watch_database() {
   std::string reason = database_.fault();
   if (!reason.empty())
     reason +=
-        " while mdofd was using it, so nothing can be stored; put back the old file, or restart "
-        "mdofd to continue with the present file (or with a new file, if there is none)";
+        " while mdofd was using the file, so mdofd cannot store data; restore the old file, or "
+        "restart mdofd to use the present file (if the file is missing, mdofd creates a new one)";
   else if (store_ && !(reason = store_->journal_fault()).empty())
-    reason += "; nothing more is stored; restart mdofd";
+    reason += "; mdofd has stopped storing data; restart mdofd";
   else
     reason = chain_fault();
   {
@@ -290,7 +291,7 @@ Result<std::string> Storekeeper::run(std::function<Result<std::string>(store::St
   try {
     return result.get();
   } catch (const std::future_error&) {  // destroyed without being run: see post()
-    return io_error("nothing can be stored now: " + storage().reason);
+    return io_error("mdofd cannot store data at present: " + storage().reason);
   }
 }
 

@@ -8,12 +8,12 @@ namespace mdof::daemon {
 namespace {
 
 constexpr const char* kHeld =
-    ": another program locks the database by a transaction that does not end; measured points wait "
-    "in memory and are in the recording; end that program";
+    ": another program locks the database with a transaction that does not end; the measured "
+    "points are in memory and in the recording, but not yet in the database; end that program";
 
 std::string too_many(std::size_t most) {
   return "; more than " + std::to_string(most) +
-         " points wait; further points are stored when their run ends";
+         " points are pending; further points are stored when their run ends";
 }
 
 store::RunEnd end_of(const Run& run) {
@@ -92,7 +92,7 @@ void Storekeeper::wait_for_database(Points points) {
 void Storekeeper::drop(const Points& points) {
   overflowed_[points.run] += points.points.size();
   dropped_points_ += points.points.size();
-  points.done(io_error("this point is not stored now" + too_many(options_.most_waiting)));
+  points.done(io_error("this point is not stored yet" + too_many(options_.most_waiting)));
 }
 
 // Their number is asked for once, when the run ends.

@@ -49,7 +49,7 @@ Result<std::vector<int>> take_listen_sockets() {
   std::vector<int> sockets;
   for (int fd = SD_LISTEN_FDS_START; fd < SD_LISTEN_FDS_START + count; ++fd) {
     if (sd_is_socket(fd, AF_UNSPEC, SOCK_STREAM, /*listening=*/1) <= 0)
-      return io_error("sockets from systemd: number " + std::to_string(fd) +
+      return io_error("sockets from systemd: descriptor " + std::to_string(fd) +
                       " is not a listening stream socket; use ListenStream= in mdofd.socket");
     sockets.push_back(fd);
   }

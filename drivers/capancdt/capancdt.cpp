@@ -71,7 +71,8 @@ Status Capancdt::open() {
 
 Result<ReadState> Capancdt::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, options_.name, channels_);
-  if (!session_) return naming_device({ErrorCode::io, "is not open; open it before reading"});
+  if (!session_)
+    return naming_device({ErrorCode::io, "is not open; open the device before reading"});
   Session& s = *session_;
   if ((s.waiting.empty() || !s.warm) && !s.failed)
     if (auto received = receive(timeout); !received) s.failed = std::move(received.error());
@@ -101,7 +102,7 @@ Status Capancdt::receive(milliseconds timeout) {
   if (!all) return in_context("the data connection", all.error());
   if (s.parser.skipped_now() > kMostGarbage)
     return io_error("the data from " + s.data.name() +
-                    " are not those of a capaNCDT 6200; correct data_port");
+                    " are not data of a capaNCDT 6200; correct the key \"data_port\"");
   return check_silence();
 }
 

@@ -63,7 +63,7 @@ Result<int> channel_number(const ChannelInput& channel) {
       number <= capancdt::kMostChannels && text[0] != '0')
     return number;
   return bad_input(channel.where + ": input \"" + text +
-                   "\" is not a channel of a controller; give \"1\" to \"" +
+                   "\" is not a channel of a controller; give a number from \"1\" to \"" +
                    std::to_string(capancdt::kMostChannels) + "\"");
 }
 

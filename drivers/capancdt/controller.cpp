@@ -32,7 +32,7 @@ Status identify(CommandPort& port, const Options& options, Setup& setup) {
   if (options.serial.empty() || options.serial == setup.serial) return {};
   return wrong("the controller is \"" + setup.description +
                    "\", but the configuration has serial = " + options.serial,
-               "correct serial or address");
+               "correct the key \"serial\" or \"address\"");
 }
 
 Status set(CommandPort& port, const std::string& command, std::optional<int> value) {
@@ -59,7 +59,7 @@ Result<std::optional<int>> setting(CommandPort& port, const std::string& command
 }
 
 constexpr const char* kCorrectOne =
-    "correct one of the two values, or give configure = true, so that the driver changes the "
+    "correct one of the two values, or give configure = true, so that the driver sets the "
     "controller";
 
 Status check(const char* key, std::optional<int> wanted, std::optional<int> is) {
@@ -221,7 +221,7 @@ Status check_filter(double sample_time_us, int averaged_values, double settle_s)
   if (settle_s <= 0 || averaged_values < 2 || filter_s <= settle_s) return {};
   return wrong("the averaging takes " + plain_number(filter_s) +
                    " s, which is longer than settle_s = " + plain_number(settle_s) +
-                   " s, so the first readings of a stop would contain the motion before the stop",
+                   " s, so the first readings of a stop would still contain motion",
                "lower averaged_values or sample_time_us, or raise [measure] settle_s to " +
                    plain_number(filter_s));
 }

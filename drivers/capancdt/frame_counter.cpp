@@ -69,8 +69,8 @@ Status FrameCounter::hold(Packet packet, std::deque<PlacedPacket>& placed) {
   if (*best < kVotes) {
     if (held_.size() < kMostHeld) return {};
     return io_error(
-        "the counter in the data counts neither frames nor values nor packets; check the averaging "
-        "of the controller");
+        "the counter in the data does not count frames, values or packets; check the averaging of "
+        "the controller");
   }
   unit_ = static_cast<CounterUnit>(best - votes_.begin());
   votes_ = {};

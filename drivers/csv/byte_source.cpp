@@ -47,7 +47,7 @@ Result<std::unique_ptr<ByteSource>> ByteSource::open(const std::string& path, bo
   const std::uint64_t size =
       known && S_ISREG(state.st_mode) ? static_cast<std::uint64_t>(state.st_size) : 0;
   std::unique_ptr<ByteSource> source(new ByteSource(descriptor, name, size));
-  if (known && S_ISDIR(state.st_mode)) return bad_input(name + ": is a folder; name a CSV file");
+  if (known && S_ISDIR(state.st_mode)) return bad_input(name + ": is a folder; give a CSV file");
   ::posix_fadvise(descriptor, 0, 0, POSIX_FADV_SEQUENTIAL);
   MDOF_CHECK(source->look_for_gzip(hash));
   return source;

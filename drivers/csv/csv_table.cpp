@@ -19,7 +19,7 @@ tl::unexpected<Error> no_column(const CsvHeader& header, const std::string& name
     if (stem_of(column) == stem_of(name))
       return bad_input(place + "column " + column +
                        " does not have the expected unit; convert the values and " +
-                       "name the column " + name);
+                       "rename the column to " + name);
     found += (found.empty() ? "" : ", ") + column;
   }
   return bad_input(place + "no column " + name + " (columns: " + found +
@@ -87,7 +87,7 @@ Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::
   }
   if (table.rows() <= most_rows) return {};
   return bad_input(table.source + ": has more than " + std::to_string(most_rows) +
-                   " rows, the limit of a series of targets");
+                   " rows, which is the limit for a series of targets");
 }
 
 }  // namespace

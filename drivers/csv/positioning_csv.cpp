@@ -14,7 +14,8 @@ namespace {
 enum Column { kTarget, kDirection, kRun, kDeviation };
 constexpr double kMostRuns = 1e6;
 constexpr const char* kWhatDirectionIs =
-    "1 if the target was approached in the + direction (forward), -1 if in the - direction";
+    "1 if the target was approached in the + direction (forward), -1 if it was approached in the "
+    "- direction";
 
 // The number of its first line.
 using Seen = std::map<std::tuple<double, int, int>, std::size_t>;
@@ -27,7 +28,7 @@ Result<PositioningReading> reading_of(const CsvTable& table, std::size_t row) {
                      kWhatDirectionIs);
   if (run != std::floor(run) || !(std::abs(run) <= kMostRuns))
     return bad_input(table.where(row) + "column run: " + plain_number(run) +
-                     "; number the runs 1, 2, 3 ...");
+                     "; use the run numbers 1, 2, 3 ...");
   return PositioningReading{from_mm(at(kTarget)), static_cast<int>(direction),
                             static_cast<int>(run), from_um(at(kDeviation))};
 }
@@ -37,7 +38,7 @@ Status check_new(const CsvTable& table, std::size_t row, const PositioningReadin
   if (is_new) return {};
   return bad_input(table.where(row) + "the line has the same target, direction and run as line " +
                    std::to_string(table.header_line + 1 + first->second) +
-                   "; number the runs 1, 2, 3 ... or delete one line");
+                   "; use the run numbers 1, 2, 3 ... or delete one line");
 }
 
 // A word where the direction must be: what to write instead.

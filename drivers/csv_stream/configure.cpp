@@ -56,9 +56,9 @@ CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
   if (table.has("command")) {
     options.command = table.strings("command");
     if (options.command.empty() || options.command[0].empty())
-      table.reject("command", "must name a program, such as [\"python3\", \"my_probe.py\"]");
+      table.reject("command", "must contain a program, such as [\"python3\", \"my_probe.py\"]");
     if (table.has("source"))
-      table.reject("source", "contradicts command; give only one of the two keys");
+      table.reject("source", "contradicts the key \"command\"; give only one of the two keys");
   } else {
     read_source(table, context.base_path, options);
   }

@@ -122,8 +122,8 @@ tl::unexpected<Error> CsvStream::no_header(Error why) const {
         "give header = \"encoder_mm,A_um,...\"";
   else if (why.code == ErrorCode::io)
     why.message +=
-        "; the script must send a header line first on each connection, and flush its output; for "
-        "a slow start raise start_s";
+        "; the script must send a header line first on each connection, and flush its output; if "
+        "the script starts slowly, raise start_s";
   return tl::unexpected(std::move(why));
 }
 
@@ -140,7 +140,8 @@ Status CsvStream::check_columns() const {
       {ErrorCode::bad_input,
        source_ + ": no column of the header is a channel of the rig (channels in the header: " +
            found + "; channels of the rig: " + wanted +
-           "); name the columns after channels of the rig, such as A_um, A_V or encoder_mm"});
+           "); give each column the name of a channel of the rig, such as A_um, A_V or "
+           "encoder_mm"});
 }
 
 Status CsvStream::check_units() const {
@@ -249,7 +250,7 @@ Status CsvStream::check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t
   if (fast || slow)
     return bad_input(source_ + ": column time_s advanced by " + seconds(device_ns) + " in " +
                      seconds(host_ns) +
-                     " of real time; time_s must be in seconds and keep pace with real time");
+                     " of real time; time_s must be in seconds and increase as fast as real time");
   if (host_ns > kPaceOver_ns) pace_from_ = {rows.back().time_ns, received_ns};
   return {};
 }
@@ -258,10 +259,11 @@ Status CsvStream::check_silence() const {
   const std::int64_t silent_ns = monotonic_ns() - last_row_ns_;
   if (silent_ns <= nanoseconds(options_.silence).count()) return {};
   const char* remedy = options_.port.empty()
-                           ? "; check that the script runs and flushes after each row; for a "
-                             "slow device raise silence_s"
+                           ? "; check that the script runs and flushes its output after each row; "
+                             "if the device is slow, raise silence_s"
                            : "; check the key \"baud\", and check that the device is switched on "
-                             "and sends without a request; for a slow device raise silence_s";
+                             "and sends rows without a request; if the device is slow, raise "
+                             "silence_s";
   return io_error(source_ + ": no row for " + seconds(silent_ns) + remedy);
 }
 

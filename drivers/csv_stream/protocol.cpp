@@ -62,7 +62,7 @@ Status CsvStreamProtocol::take_row(std::string_view line, std::vector<CsvStreamR
   if (parsed.state == CsvLine::State::blank) return skip(place + "empty line");
   if (parsed.state == CsvLine::State::bad) return skip(place + parsed.reason);
   if (parsed.time_ns > kLongest_ns || parsed.time_ns < -kLongest_ns)
-    return skip(place + "column time_s: more than 100 years from 0");
+    return skip(place + "column time_s: the time differs from 0 by more than 100 years");
   if (header_->time_column >= 0) {
     if (parsed.time_ns <= last_time_ns_)
       return bad_input(place + "column time_s: " + std::to_string(parsed.time_ns) + " ns follows " +

@@ -49,7 +49,7 @@ Result<ImportedSeries> series_of_csv(const std::string& path, bool angle, int de
     if (!run.empty()) {
       if (run[row] != std::floor(run[row]) || !(std::abs(run[row]) <= kMostRuns))
         return bad_input(table.where(row) + "column run: " + plain_number(run[row]) +
-                         "; number the runs 1, 2, 3 ...");
+                         "; use the run numbers 1, 2, 3 ...");
       r.run = static_cast<int>(run[row]);
     }
     series.readings.push_back(r);

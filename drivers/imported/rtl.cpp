@@ -18,8 +18,8 @@ namespace {
 constexpr std::size_t kMostTargets = 100'000, kMostRtlRuns = 1000;
 
 constexpr const char* kConvertAngles =
-    "whose scale in these files is not public; convert the file to CSV with columns "
-    "position_mm,deviation_urad, and import it as the error that was measured, such as EBX";
+    "but the scale of angles in these files is not public; convert the file to CSV with columns "
+    "position_mm,deviation_urad, and import the CSV file as the measured error, such as EBX";
 
 std::string utf8_from_latin1(std::string_view text) {
   std::string out;
@@ -99,8 +99,8 @@ class Rtl {
       if (descending ? !(targets_[i] < targets_[i - 1]) : !(targets_[i] > targets_[i - 1]))
         return bad_input(source_ + ": target " + std::to_string(i + 1) + " is not " +
                          (descending ? "less" : "greater") +
-                         " than the target before it, so forward and reverse cannot "
-                         "be distinguished");
+                         " than the previous target, so forward and reverse cannot be "
+                         "distinguished");
     if (series_.readings.size() != run_count_ * target_count_)
       return bad_input(source_ + ": has " + std::to_string(series_.readings.size()) +
                        " deviations instead of " + std::to_string(run_count_ * target_count_) +
@@ -132,8 +132,8 @@ class Rtl {
   Status check_linear(std::string_view key, std::string_view value) const {
     for (const char* const angle : {"angular", "rotary"})
       if (contains_word(value, angle))
-        return wrong(std::string(key) + " \"" + utf8_from_latin1(value) + "\" contains angles, " +
-                     kConvertAngles);
+        return wrong(std::string(key) + " \"" + utf8_from_latin1(value) +
+                     "\" means that the file contains angles, " + kConvertAngles);
     return {};
   }
 
@@ -186,7 +186,7 @@ class Rtl {
     if (!in_deviations_) return {};
     const auto words = words_of(line);
     if (words.size() != 3)
-      return wrong("a deviation line must contain run, target and deviation in µm");
+      return wrong("a deviation line must contain the run, the target and the deviation in µm");
     const std::size_t run = count_from(words[0], run_count_),
                       target = count_from(words[1], target_count_);
     const auto deviation_um = number_from(words[2]);
@@ -216,8 +216,8 @@ class Rtl {
     if (!same || right) return {};
     return wrong("run " + std::to_string(run) + " goes from target " + std::to_string(before) +
                  " to " + std::to_string(target) +
-                 "; odd runs must go forward and even runs backward; convert a test of one "
-                 "direction to CSV with columns target_mm,direction,run,deviation_um");
+                 "; odd runs must go forward and even runs backward; convert a unidirectional "
+                 "test to CSV with columns target_mm,direction,run,deviation_um");
   }
 
   // Programs write a run that was not measured, as the reverse runs of a test in one direction,
@@ -239,7 +239,7 @@ class Rtl {
     if (filled[odd] != runs[odd] || filled[1 - odd] > 0 || runs[1 - odd] == 0)
       return bad_input(
           source_ + ": run " + std::to_string(first) + " (" + (odd == 1 ? "forward" : "reverse") +
-          ") has a deviation of exactly 0 at every target, so it was not measured; write "
+          ") has a deviation of exactly 0 at every target, so this run was not measured; write "
           "the measured runs as CSV with columns target_mm,direction,run,deviation_um");
     std::erase_if(series_.readings,
                   [&](const ImportedReading& r) { return number_of(r) % 2 == odd; });
@@ -267,7 +267,7 @@ class Rtl {
 
 Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& source) {
   if (source.size() >= 4 && contains_word(source.substr(source.size() - 4), ".rta"))
-    return bad_input(source + ": a file of the kind .rta contains angles, " + kConvertAngles);
+    return bad_input(source + ": an .rta file contains angles, " + kConvertAngles);
   Rtl rtl(source);
   while (!text.empty()) {
     const std::size_t end = text.find('\n');

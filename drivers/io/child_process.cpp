@@ -140,7 +140,7 @@ std::string ChildProcess::how_it_ended() {
   else if (exit)
     text = "was killed by signal " + std::to_string(exit->si_status);
   const std::string& line = unfinished_.empty() ? last_line_ : unfinished_;
-  return text + (line.empty() ? "; it wrote nothing to its standard error"
+  return text + (line.empty() ? "; the program wrote nothing to its standard error"
                               : "; the last line of its standard error: " + line);
 }
 
@@ -152,8 +152,8 @@ Result<ByteStream> open_fifo(const std::string& path) {
   ByteStream stream(fd, path);
   struct stat what {};
   if (::fstat(fd, &what) != 0 || !S_ISFIFO(what.st_mode))
-    return io_error(path +
-                    ": is not a FIFO; name another path and create a FIFO there with mkfifo");
+    return io_error(
+        path + ": is not a FIFO; give another path and create a FIFO at that path with mkfifo");
   return stream;
 }
 

@@ -4,7 +4,7 @@ namespace mdof::drivers {
 
 void read_serial_settings(TomlTable& table, SerialSettings& line) {
   line.baud = static_cast<int>(table.integer("baud", line.baud));
-  if (line.baud < 1) table.reject("baud", "must be a rate such as 19200");
+  if (line.baud < 1) table.reject("baud", "must be a baud rate, such as 19200");
   const std::string parity = table.string("parity", std::string(1, line.parity));
   if (parity == "none" || parity == "even" || parity == "odd" || parity == "N" || parity == "E" ||
       parity == "O")

@@ -58,7 +58,8 @@ std::string Endpoint::text() const {
 }
 
 Result<Endpoint> parse_endpoint(const std::string& text, int default_port) {
-  const std::string remedy = "\"" + text + "\" is not an address; give one such as 192.168.0.5:502";
+  const std::string remedy =
+      "\"" + text + "\" is not an address; give an address such as 192.168.0.5:502";
   Endpoint to{text, default_port};
   std::string port;
   if (text.starts_with('[')) {
@@ -110,7 +111,7 @@ Error connect_error(const Endpoint& to, int error, bool service) {
   why.message +=
       forbidden ? "; a firewall, or IPAddressDeny of systemd, forbids the connection"
                 : "; check that the device is switched on and connected to the network, and that "
-                  "its address is correct";
+                  "the address is correct";
   if (forbidden || (service && error == ETIMEDOUT)) {
     why.remedy = Remedy::allow_network;
     why.remedy_for = to.host;

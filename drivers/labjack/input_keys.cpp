@@ -42,18 +42,18 @@ Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<I
     if (uses[i].ain < 0) {
       const auto [other, fresh] = counters.emplace(channels[i].further, channels[i].input);
       if (!fresh)
-        return bad_input(channels[i].where + ": \"" + channels[i].id +
-                         "\" is a second counter of this axis (the first is " + other->second +
-                         "), but an axis can use only one counter of a device. Connect \"" +
-                         channels[i].id +
-                         "\" to another device. If it is the encoder of another axis, declare it "
-                         "in the [axis.device] of that axis, with same_as");
+        return bad_input(
+            channels[i].where + ": \"" + channels[i].id +
+            "\" is a second counter of this axis (the first is " + other->second +
+            "), but an axis can use only one counter of a device. Connect \"" + channels[i].id +
+            "\" to another device. Or, if this is the encoder of another axis, declare "
+            "this encoder in [axis.device] of that axis, with the key \"same_as\"");
     }
     for (std::size_t other = 0; other < uses.size(); ++other)
       if (uses[i].ain >= 0 && uses[other].negative == uses[i].ain)
         return bad_input(channels[i].where + ": " + channels[i].input +
                          " is the negative input of \"" + channels[other].id +
-                         "\", so it cannot be a channel of its own; use another input");
+                         "\", so this input cannot be a separate channel; use another input");
   }
   return {};
 }

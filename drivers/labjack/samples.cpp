@@ -25,7 +25,7 @@ Status check(const AinCalibration& c, std::size_t gain) {
   return io_error("the calibration constants in the flash of the device are impossible (slopes " +
                   std::to_string(c.positive_slope) + ", " + std::to_string(c.negative_slope) +
                   " V, centre " + std::to_string(c.centre) +
-                  "); have the device calibrated by LabJack");
+                  "); send the device to LabJack for calibration");
 }
 
 double volts(const AinCalibration& c, std::uint16_t raw) {
@@ -45,7 +45,7 @@ Status ScanSplitter::take(std::span<const std::uint16_t> samples,
   }
   if (!gap_ || candidates_ > 0) return {};
   return io_error("the stream dropped " + std::to_string(*gap_) +
-                  " scans without marking the place, so the times of later scans are unknown");
+                  " scans, but does not report where, so the times of later scans are unknown");
 }
 
 void ScanSplitter::end_scan(std::vector<Scan>& scans) {

@@ -161,15 +161,15 @@ Status LabjackT7::take_start() {
   if (!(since >= 0 && since < ticks_per_scan_ + kEnable_s * kCore_Hz))
     return io_error(
         "STREAM_START_TIME_STAMP is " + std::to_string(stamp) +
-        ", which belongs to another stream; end the program that started or stopped a stream "
-        "meanwhile");
+        ", which belongs to another stream; end the other program that starts or stops streams "
+        "of this T7");
   start_ticks_ = start;
   return {};
 }
 
 Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
-  if (!stream_) return io_error(place() + " is not open; open it before reading");
+  if (!stream_) return io_error(place() + " is not open; open the device before reading");
   if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
   fill_block(block);
   return ReadState::more;

@@ -12,7 +12,7 @@ struct CodeText {
   const char* text;
 };
 constexpr CodeText kErrors[] = {
-    {2605, "a stream is active already: end the other program that streams"},
+    {2605, "a stream is already active: end the other program that reads a stream of the T7"},
     {2606, "the stream's configuration is invalid"},
     {2607, "the scan list is invalid"},
     {2608, "the scan rate is invalid: lower rate_hz"},
@@ -25,9 +25,13 @@ constexpr CodeText kErrors[] = {
      "a scan began before the previous scan had ended: lower rate_hz, resolution_index or "
      "settling_us"},
     {status::recovery_overflow,
-     "more scans were dropped than the device can count: check network and load, lower rate_hz"},
-    {status::burst_complete, "the device ended the stream like a burst, which was not requested"},
-    {status::buffer_full, "the stream's buffer is full: check network and load, lower rate_hz"},
+     "more scans were dropped than the device can count: check the network and the load of this "
+     "computer, or lower rate_hz"},
+    {status::burst_complete,
+     "the device ended the stream after a burst, but no burst was requested"},
+    {status::buffer_full,
+     "the stream's buffer is full: check the network and the load of this computer, or lower "
+     "rate_hz"},
 };
 
 }  // namespace

@@ -34,7 +34,7 @@ Status check_product(float product) {
 Status check_firmware(float firmware) {
   const auto is_older = [&](double than) { return firmware < than - 1e-5; };
   const char* lacks = is_older(kStampFirmware)      ? "the time stamp of a stream (new in 1.0214)"
-                      : is_older(kRecoveryFirmware) ? "streams that recover (new in 1.026)"
+                      : is_older(kRecoveryFirmware) ? "the recovery of streams (new in 1.026)"
                                                     : nullptr;
   if (!lacks) return {};
   return io_error("firmware " + plain_number(static_cast<double>(firmware), 5) + " lacks " + lacks +
@@ -63,7 +63,7 @@ Result<Identity> identify(Registers& registers, const Settings& settings) {
   if (settings.serial != 0 && serial != settings.serial)
     return io_error("the serial number of the device is " + std::to_string(serial) +
                     ", but the configuration has serial = " + std::to_string(settings.serial) +
-                    "; correct address or serial");
+                    "; correct the key \"address\" or \"serial\"");
   MDOF_TRY(const float firmware, registers.f32(reg::firmware));
   MDOF_CHECK(check_firmware(firmware));
   MDOF_CHECK(check_wire(registers));

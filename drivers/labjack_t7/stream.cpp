@@ -48,8 +48,8 @@ Result<bool> PacketReader::next(StreamPacket& packet) {
   if (b.size() < kHeader) return false;
   if (!is_header(b))
     return io_error(
-        "the data on the stream port are not stream packets of a T7; check that the address is "
-        "that of the T7");
+        "the data on the stream port are not stream packets of a T7; check the address of the "
+        "T7");
   const std::size_t size = kLengthFrom + word_at(b, 4);
   if (b.size() < size) return false;
   packet.transaction = word_at(b, 0);
@@ -64,8 +64,9 @@ Result<bool> PacketReader::next(StreamPacket& packet) {
 
 Status PacketLine::check(const StreamPacket& packet) const {
   if (packet.transaction != transaction_)
-    return io_error("stream packet " + std::to_string(packet.transaction) + " came instead of " +
-                    std::to_string(transaction_) + ", so packets are missing");
+    return io_error("stream packet " + std::to_string(packet.transaction) +
+                    " arrived instead of packet " + std::to_string(transaction_) +
+                    ", so packets are missing");
   if (packet.status != 0 && packet.status != status::recovering &&
       packet.status != status::recovered)
     return io_error("the stream has stopped: " + error_text(packet.status));

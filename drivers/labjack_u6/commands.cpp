@@ -40,7 +40,7 @@ std::string error_text(int code) {
     const char* text;
   };
   constexpr Row kRows[] = {
-      {kStreamActive, "a stream is active already"},
+      {kStreamActive, "a stream is already active"},
       {49, "the stream's configuration is invalid"},
       {50, "the stream's configuration is invalid"},
       {kNotRunning, "no stream was running"},

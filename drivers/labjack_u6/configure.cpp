@@ -49,10 +49,10 @@ void read_rate(TomlTable& table, Settings& settings) {
   const std::size_t words = scan_list(settings.inputs).size();
   settings.rate_hz = table.number("rate_hz", settings.rate_hz);
   if (!(settings.rate_hz >= 1 && settings.rate_hz * static_cast<double>(words) <= kMostSamples_Hz))
-    table.reject("rate_hz", "must be from 1 to " +
-                                std::to_string(static_cast<int>(kMostSamples_Hz) / words) +
-                                ": a U6 measures 50000 samples/s, and a scan of these inputs has " +
-                                std::to_string(words) + " samples (2 for a counter)");
+    table.reject("rate_hz",
+                 "must be from 1 to " + std::to_string(static_cast<int>(kMostSamples_Hz) / words) +
+                     ": a U6 measures at most 50000 samples/s, and a scan of these inputs has " +
+                     std::to_string(words) + " samples (2 for a counter)");
 }
 
 std::string counter_name(int line) {

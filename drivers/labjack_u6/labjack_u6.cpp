@@ -141,7 +141,7 @@ Status LabjackU6::take_up_counter() {
 
 Result<ReadState> LabjackU6::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
-  if (!stream_) return io_error(place() + " is not open; open it before reading");
+  if (!stream_) return io_error(place() + " is not open; open the device before reading");
   if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
   fill_block(block);
   return ReadState::more;
@@ -177,8 +177,8 @@ Status LabjackU6::why_silent() {
   stream_->cancel();
   if (const auto last = stream_->next(steady_clock::now())) MDOF_CHECK(take(*last));
   return io_error(
-      "no data for 2 s; another program has stopped the stream, or the U6 hangs; unplug the U6 and "
-      "plug it in again");
+      "no data for 2 s; another program has stopped the stream, or the U6 does not respond; unplug "
+      "the U6 and plug it in again");
 }
 
 Status LabjackU6::take(const usb::InStream::Chunk& chunk) {

@@ -44,7 +44,7 @@ Status check_frame(std::string_view bytes) {
 
 Status check_order(std::uint8_t counter, std::uint8_t expected) {
   if (counter == expected) return {};
-  return io_error("stream packet " + std::to_string(counter) + " came instead of " +
+  return io_error("stream packet " + std::to_string(counter) + " arrived instead of packet " +
                   std::to_string(expected) + ", so packets are missing");
 }
 
@@ -73,7 +73,8 @@ Result<std::string> extended_body(std::string_view reply, std::uint8_t command, 
   MDOF_CHECK(check_frame(reply));
   if (byte_at(reply, 1) != kExtended || byte_at(reply, 3) != command || reply.size() != size ||
       byte_at(reply, 2) != (size - kHead) / 2)
-    return io_error("the U6 answered another command; unplug the U6 and plug it in again");
+    return io_error(
+        "the reply of the U6 belongs to another command; unplug the U6 and plug it in again");
   return std::string(reply.substr(kHead));
 }
 
@@ -85,7 +86,8 @@ Result<int> normal_error(std::string_view reply, std::uint8_t command) {
   if (byte_at(reply, 0) != checksum8(reply.substr(1)))
     return io_error("a checksum in the data of the U6 is wrong; check the cable");
   if (byte_at(reply, 1) != command + 1 || reply.size() != kNormalReply)
-    return io_error("the U6 answered another command; unplug the U6 and plug it in again");
+    return io_error(
+        "the reply of the U6 belongs to another command; unplug the U6 and plug it in again");
   return static_cast<int>(byte_at(reply, 2));
 }
 
@@ -105,7 +107,7 @@ Result<StreamData> decode(std::string_view bytes, std::size_t samples) {
   MDOF_CHECK(check_frame(bytes));
   if (bytes.size() != stream_bytes(samples) || byte_at(bytes, 1) != kData ||
       byte_at(bytes, 2) != 4 + samples || byte_at(bytes, 3) != kStreamData)
-    return io_error("the data of the stream are not a packet of " + std::to_string(samples) +
+    return io_error("the stream data of the U6 are not a packet of " + std::to_string(samples) +
                     " samples");
   StreamData packet;
   packet.counter = byte_at(bytes, 10);

@@ -30,7 +30,7 @@ void read_range(TomlTable& table, Wiring& wiring) {
     if (ends.size() != 2 || !(ends[0] < ends[1]) || !std::isfinite(ends[1] - ends[0]))
       return table.reject(
           "range_v",
-          "must be both limits in volts, such as [0, 10], or one number (10 means -10 to 10 V)");
+          "must be the two limits in volts, such as [0, 10], or one number (10 means -10 to 10 V)");
     wiring.low_v = ends[0];
     wiring.high_v = ends[1];
     return;
@@ -88,7 +88,8 @@ Result<InputSetting> input_of(const ChannelInput& channel, const Wiring& wiring)
   if (channel.um_per_count != 0)
     return bad_input(channel.where + ": " + channel.input +
                      " gives volts; this driver does not read counters of Comedi boards; remove "
-                     "um_per_count here, and set um_per_V in the rig (also for an encoder)");
+                     "um_per_count from this channel, and set um_per_V in the rig (also for an "
+                     "encoder)");
   return InputSetting{
       {channel.id, Unit::volt}, number, wiring.low_v, wiring.high_v, wiring.reference};
 }

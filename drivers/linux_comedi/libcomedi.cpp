@@ -48,17 +48,17 @@ std::string open_error(const std::string& device, int error) {
   std::string what = device + ": " + comedi_strerror(error);
   if (error == ENOENT)
     return what +
-           "; check that the board is installed and its driver is loaded (to list the boards, run: "
-           "ls /dev/comedi*); attach an ISA board with comedi_config";
+           "; check that the board is installed and that its driver is loaded (to list the boards, "
+           "run: ls /dev/comedi*); attach an ISA board with comedi_config";
   if (error == ENODEV || error == ENXIO)
     return what +
            "; no board is attached to this file, because the board is unplugged or has another "
-           "number; correct device";
+           "number; correct the key \"device\"";
   if (error == EACCES || error == EPERM)
     return what +
            "; this user is not in the group iocard, which may use Comedi boards on Debian; run "
            "\"sudo usermod -aG iocard $USER\", then log in again";
-  if (error == ENOTTY) return what + "; this is not a Comedi device; correct device";
+  if (error == ENOTTY) return what + "; this is not a Comedi device; correct the key \"device\"";
   return what;
 }
 

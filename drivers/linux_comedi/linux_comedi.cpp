@@ -81,7 +81,7 @@ Status LinuxComedi::start() {
 // An error comes alone: what came before it has been given out.
 Result<ReadState> LinuxComedi::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
-  if (!board_) return io_error(place() + " is not open; open it before reading");
+  if (!board_) return io_error(place() + " is not open; open the device before reading");
   if (broken_) {
     if (auto received = receive(steady_clock::now() + timeout); !received)
       broken_ = in_context(place(), std::move(received.error()));
@@ -110,9 +110,10 @@ void LinuxComedi::take(std::size_t bytes) {
 
 Status LinuxComedi::check(StreamState stream) {
   if (stream == StreamState::overran)
-    return io_error("the buffer of the board, or of the kernel (" + plain_number(setup_.buffer_s) +
-                    " s), has overflowed; lower rate_hz, end programs that load this computer, or "
-                    "enlarge the buffer of the kernel (comedi_config --read-buffer)");
+    return io_error(
+        "the buffer of the board, or of the kernel (" + plain_number(setup_.buffer_s) +
+        " s), has overflowed; lower rate_hz, end programs that slow down this computer, or "
+        "enlarge the buffer of the kernel (comedi_config --read-buffer)");
   if (stream == StreamState::ended)
     return io_error("the board has stopped scanning without a request; dmesg may show the reason");
   const double silent_s = static_cast<double>(monotonic_ns() - received_ns_) * 1e-9;

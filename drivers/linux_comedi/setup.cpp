@@ -47,8 +47,8 @@ Status check_reference(const Subdevice& subdevice, const InputSetting& input) {
 Result<BoardInput> board_input(Board& board, unsigned subdevice, const Subdevice& has,
                                const InputSetting& input) {
   if (input.number >= has.channels)
-    return bad_input("the board has no input " + channel_text(input.number) + "; the last is " +
-                     channel_text(has.channels - 1));
+    return bad_input("the board has no input " + channel_text(input.number) +
+                     "; the last input is " + channel_text(has.channels - 1));
   MDOF_CHECK(check_reference(has, input));
   const auto ranges = board.ranges(subdevice, input.number);
   if (const auto at = range_index(ranges, input.low_v, input.high_v))
@@ -79,7 +79,7 @@ Status check_rate(const Command& command, double rate_hz) {
   if (std::abs(true_hz / rate_hz - 1) <= kRateOff) return {};
   const double each_us = convert_us(command);
   return bad_input("the board cannot scan at rate_hz = " + plain_number(rate_hz) +
-                   "; the nearest is " + plain_number(true_hz, 9) + " with " +
+                   "; the nearest rate is " + plain_number(true_hz, 9) + " Hz with " +
                    std::to_string(command.inputs.size()) + " inputs" +
                    (each_us > 0 ? " that are " + plain_number(each_us) + " us apart" : ""));
 }
@@ -97,8 +97,9 @@ Status convert(Board& board, const Subdevice& has, Setup& setup) {
     const BoardInput& input = command.inputs[i];
     const std::uint32_t greatest_code = board.greatest_code(command.subdevice, input.channel);
     if (greatest_code == 0)
-      return io_error(channel_text(input.channel) +
-                      ": the driver of the board does not report the greatest code");
+      return io_error(
+          channel_text(input.channel) +
+          ": the driver of the board does not report the largest code of the converter");
     const Range range = board.ranges(command.subdevice, input.channel).at(input.range);
     const bool corrected = used && calibration.to_volts.at(i).has_value();
     setup.conversions.push_back(
@@ -111,9 +112,9 @@ Status convert(Board& board, const Subdevice& has, Setup& setup) {
     setup.notices.push_back(uncalibrated(calibration.file + ": " + calibration.wrong));
   if (!calibration.found && has.soft_calibrated)
     setup.notices.push_back(
-        uncalibrated("the board needs a calibration by software, but " +
+        uncalibrated("the board needs a software calibration, but " +
                      (calibration.file.empty() ? "the calibration file" : calibration.file) +
-                     " does not exist; create it with comedi_soft_calibrate"));
+                     " does not exist; create this file with comedi_soft_calibrate"));
   setup.description +=
       used ? ", calibrated by " + calibration.file : ", nominal ranges without calibration";
   return {};
@@ -132,8 +133,9 @@ void describe(Board& board, const Settings& settings, Setup& setup) {
 Result<Setup> set_up(Board& board, const Settings& settings) {
   if (!settings.board.empty() && settings.board != board.name())
     return bad_input("the board is \"" + board.name() + "\" (driver " + board.driver() +
-                     "), but the configuration wants \"" + settings.board +
-                     "\"; Linux numbers boards in the order of detection; correct device");
+                     "), but the configuration has board = \"" + settings.board +
+                     "\"; Linux assigns device numbers in the order of detection; correct the key "
+                     "\"device\"");
   Setup setup;
   const auto subdevices = board.subdevices();
   MDOF_TRY(const unsigned subdevice, find_subdevice(subdevices, settings));

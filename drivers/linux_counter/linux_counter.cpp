@@ -111,8 +111,9 @@ Result<SysfsDevice> open_counter(const LinuxCounterOptions& options) {
                     options.sysfs_root + "/bus/counter/devices");
   if (!options.chip.empty() && chip.value_or("") != options.chip)
     return io_error(folder + "/name: is \"" + chip.value_or("") +
-                    "\", but the configuration wants chip \"" + options.chip +
-                    "\"; Linux numbers counters in the order of detection; correct device");
+                    "\", but the configuration has chip = \"" + options.chip +
+                    "\"; Linux assigns device numbers in the order of detection; correct the key "
+                    "\"device\"");
   SysfsDevice device;
   device.datum_lost = "the device was disconnected, and may have stopped counting in the meantime";
   device.datum_remedy = has_mark(options) ? Remedy::pass_reference_mark : Remedy::set_encoder;

@@ -16,7 +16,7 @@ Status check_quad8(const std::string& folder, const std::string& count, std::uin
   if (ceiling != kCeiling)
     return io_error(path + "/ceiling: is " + std::to_string(ceiling) + ", not " +
                     std::to_string(kCeiling) +
-                    ", so the count that is loaded at the mark is unknown; set count_mode to "
+                    ", so the count at the reference mark is unknown; set count_mode to "
                     "normal, or install a newer kernel (some old kernels use one bit too many)");
   const std::string number = count.substr(std::string("count").size());
   const auto n = parse_sysfs_integer(number);
@@ -26,7 +26,7 @@ Status check_quad8(const std::string& folder, const std::string& count, std::uin
   if (mode.value_or("") == "synchronous") return {};
   return to_be_written(
       signal + "/synchronous_mode",
-      "is \"" + mode.value_or("") + "\", so the mark would be as wide as the index pulse",
+      "is \"" + mode.value_or("") + "\", so the reference mark would be as wide as the index pulse",
       "synchronous");
 }
 
@@ -50,8 +50,8 @@ Result<Quad8Mark::State> Quad8Mark::take(std::int64_t count) {
   const State now = mark_.take(count);
   if (now == State::astray)
     return io_error(path_ + "/count: " + std::to_string(count) +
-                    " results neither from a motion nor from the reference mark; check the cable "
-                    "of the encoder");
+                    " cannot result from a motion or from the reference mark; check the cable of "
+                    "the encoder");
   if (now == State::passed && !off_) {
     MDOF_CHECK(enable(false));
     off_ = true;

@@ -6,7 +6,7 @@ namespace mdof::drivers {
 
 tl::unexpected<Error> to_be_written(const std::string& file, const std::string& why,
                                     const std::string& value) {
-  return io_error(file + ": " + why + "; set the value by a udev rule that runs: echo " + value +
+  return io_error(file + ": " + why + "; set the value with a udev rule that runs: echo " + value +
                   " > " + file);
 }
 
@@ -39,7 +39,7 @@ Result<std::uint64_t> check_count(const CountFiles& files, const std::string& pa
                          "0");
   if (!files.ceiling && ceiling == 0)
     return io_error(path +
-                    "/ceiling: does not exist; give the key \"ceiling\" in the configuration, the "
+                    "/ceiling: does not exist; set the key \"ceiling\" in the configuration to the "
                     "greatest count in the data sheet (65535 for 16 bits)");
   if (!files.ceiling) return ceiling;
   const auto value = parse_sysfs_integer(*files.ceiling);

@@ -29,7 +29,7 @@ GapLaw read_law(TomlTable& channel) {
   law.stray_pF = channel.number("stray_pF", 0);
   if (!(law.area_mm2 > 0 && law.area_mm2 < 1e6))
     channel.reject("area_mm2",
-                   "must be the area of the electrode, more than 0 and less than 1000000");
+                   "must be the area of the electrode, greater than 0 and less than 1000000 mm2");
   return law;
 }
 

@@ -24,13 +24,13 @@ Result<std::string> check_chip(const std::string& folder) {
                     "; to list the devices, run: grep . /sys/bus/iio/devices/*/name");
   if (*chip != "ad7745" && *chip != "ad7746")
     return io_error(folder + "/name: is \"" + *chip +
-                    "\", but must be \"ad7745\" or \"ad7746\"; Linux numbers devices in the order "
-                    "of detection; correct device");
+                    "\", but must be \"ad7745\" or \"ad7746\"; Linux assigns device numbers in the "
+                    "order of detection; correct the key \"device\"");
   MDOF_TRY(const auto scale, read_sysfs(folder + "/in_capacitance_scale"));
   const double pF = std::strtod(scale.value_or("").c_str(), nullptr);
   if (!(std::abs(pF / kAd7746_pF_per_count - 1) < 0.002))
     return io_error(folder + "/in_capacitance_scale: \"" + scale.value_or("") +
-                    "\", but this driver expects 0.000000488 pF; the driver of the kernel has "
+                    "\", but this driver expects 0.000000488 pF; the kernel driver has "
                     "changed; inform the authors of mdof");
   return *chip;
 }
@@ -52,7 +52,7 @@ Status set_sampling(const LinuxIioOptions& options, const std::string& folder) {
   if (options.rate_hz * scan_s <= 1) return {};
   return bad_input(file + ": a scan of " + std::to_string(options.channels.size()) +
                    " channels at " + std::to_string(*value) + " Hz takes " + plain_number(scan_s) +
-                   " s, too long for rate_hz = " + plain_number(options.rate_hz) +
+                   " s, which is too long for rate_hz = " + plain_number(options.rate_hz) +
                    "; lower rate_hz or raise sampling_hz");
 }
 
@@ -81,7 +81,7 @@ Result<SysfsInput> open_input(const LinuxIioOptions& options, std::size_t i) {
     MDOF_TRY(const std::int64_t raw, file->read_integer());
     if (raw < kAd7746LeastRaw || raw > kAd7746MostRaw)
       return io_error(file->path() + ": " + std::to_string(raw) +
-                      " exceeds 24 bits, so it is not a reading of an AD7746");
+                      " has more than 24 bits, so this is not a reading of an AD7746");
     return ad7746_gap_um(law, raw, subtracted);
   };
   return input;

@@ -28,8 +28,8 @@ std::vector<std::size_t> words_of(const std::vector<Input>& inputs) {
 
 const char* const kOverrun =
     "the FIFO of the device has overflowed, so an unknown number of scans is missing and later "
-    "times are unknown; lower rate_hz, or end programs that load this computer (it did not read "
-    "the USB for 80 ms)";
+    "times are unknown; lower rate_hz, or end programs that slow down this computer (this computer "
+    "did not read the USB for 80 ms)";
 
 }  // namespace
 
@@ -117,7 +117,7 @@ Status MccUsb1608fsPlus::read_calibrations() {
 
 Result<ReadState> MccUsb1608fsPlus::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
-  if (!stream_) return io_error(place() + " is not open; open it before reading");
+  if (!stream_) return io_error(place() + " is not open; open the device before reading");
   if (auto received = receive(steady_clock::now() + timeout); !received)
     return in_context(place(), std::move(received.error()));
   fill_block(block);

@@ -93,7 +93,7 @@ Result<Calibration> read_calibration(std::string_view pair) {
   if (possible(c)) return c;
   return io_error("the constants in the calibration memory are impossible (slope " +
                   std::to_string(c.slope) + ", offset " + std::to_string(c.offset) +
-                  " codes); have the device calibrated by Measurement Computing");
+                  " codes); send the device to Measurement Computing for calibration");
 }
 
 std::string calibration_memory(const Calibrations& calibrations) {

@@ -83,7 +83,7 @@ Status ModbusClient::Impl::configure() {
   if (done) return {};
   return bad_input(stream.name() + ": unit " + std::to_string(options.unit) + " or time-out " +
                    std::to_string(options.response_timeout.count()) +
-                   " ms is out of range; units are 1 to 247, with TCP also 255");
+                   " ms is out of range; units are from 1 to 247 (with TCP, also 255)");
 }
 
 // A request for values, with the place in front of its error.
@@ -108,7 +108,8 @@ Result<Answer> ModbusClient::Impl::ask_in_order(const std::string& pdu, int addr
                                                 modbus::Shape shape) {
   if (framing == Framing::tcp) {
     if (!trusted)
-      return io_error("replies may be mixed up after an error; open the connection again");
+      return io_error(
+          "after an error, replies may belong to other requests; open the connection again");
     return exchange(pdu);
   }
   if (!sentinels.add_regular(shape)) distrust();
@@ -158,8 +159,8 @@ Status ModbusClient::Impl::prove(int address, modbus::Shape regular) {
   const modbus::Shape sentinel = sentinels.pick(regular);
   if (sentinel.count == 0)
     return io_error(
-        "cannot test the line for late replies, because the profile uses reads of every length; "
-        "remove a value from the profile");
+        "cannot test the line for late replies, because the profile already uses every length of a "
+        "read; remove a value from the profile");
   const int last = modbus::kLastAddress + 1 - sentinel.count;
   const auto pdu = modbus::read_request(static_cast<modbus::Function>(sentinel.function),
                                         std::min(address, last), sentinel.count);
@@ -192,7 +193,7 @@ std::string ModbusClient::Impl::why_no_reply(int rc) const {
     return "the reply came from another unit; check that no two devices have the same address";
   if (error == ETIMEDOUT)
     return "no complete reply within " + std::to_string(options.response_timeout.count()) +
-           " ms; check that the device is switched on, and check the unit" +
+           " ms; check that the device is switched on, and check the unit number" +
            (framing == Framing::rtu ? ", the baud rate, the parity and the wiring"
                                     : " and the address");
   if (error == ECONNRESET) return "the device has closed the connection";

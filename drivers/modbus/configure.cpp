@@ -27,12 +27,12 @@ void read_ring(TomlTable& table, Profile& profile) {
     if (bits < 1 || bits > 16 * registers_of(value.type))
       table.reject("ring_bits", "must be from 1 to " +
                                     std::to_string(16 * registers_of(value.type)) +
-                                    ", the bits of the register");
+                                    " (the number of bits of the register)");
     value.ring_bits = static_cast<int>(bits);
   }
   if (!any)
-    table.reject("ring_bits",
-                 "profile " + profile.name + " has no value with ring_bits; remove ring_bits here");
+    table.reject("ring_bits", "profile " + profile.name +
+                                  " has no value with ring_bits; remove ring_bits from the device");
 }
 
 void read_where(TomlTable& table, ModbusSettings& settings) {

@@ -116,7 +116,7 @@ Status ModbusDriver::check(const modbus::Check& check) {
   MDOF_CHECK(ask_at_opening(check.at, std::span(&is, 1)));
   if ((is & check.mask) == check.equals) return {};
   return io_error(who() + ": " + check.says + " (register " + std::to_string(check.at.address) +
-                  " is " + hex(is) + ", the profile requires " + hex(check.equals) +
+                  " is " + hex(is) + ", but the profile requires " + hex(check.equals) +
                   "); correct the setting of the device, or give a profile that matches it");
 }
 

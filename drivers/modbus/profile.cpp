@@ -88,7 +88,7 @@ Value read_value(TomlTable& table) {
     table.reject("ring_bits", "applies to counters, not to the type \"f32\"; remove ring_bits");
   if (value.ring_bits > 16 * registers_of(value.type))
     table.reject("ring_bits", "must be at most " + std::to_string(16 * registers_of(value.type)) +
-                                  ", the bits of the register");
+                                  " (the number of bits of the register)");
   if (value.at.address + registers_of(value.type) - 1 > kLastAddress)
     table.reject("address", "the value ends beyond register 65535");
   return value;
@@ -102,8 +102,8 @@ void append_values(TomlTable& table, std::vector<Value>& values) {
   const auto hash = one.name.find('#');
   if (count > 1 && hash == std::string::npos)
     table.reject("name",
-                 "must contain \"#\" (the place of the number of each value), because the key "
-                 "\"count\" is given");
+                 "must contain \"#\", because the key \"count\" is given (the number of each value "
+                 "replaces \"#\")");
   for (int i = 0; i < count; ++i) {
     Value value = one;
     if (hash != std::string::npos) value.name.replace(hash, 1, std::to_string(first + i));
@@ -127,7 +127,7 @@ StatusBits read_status(TomlTable& table, const std::vector<Value>& values) {
   status.values = table.strings("values");
   for (const auto& name : status.values)
     if (std::none_of(values.begin(), values.end(), [&](auto& v) { return v.name == name; }))
-      table.reject("values", "there is no value \"" + name + "\"");
+      table.reject("values", "the profile has no value \"" + name + "\"");
   return status;
 }
 
@@ -153,7 +153,8 @@ Result<Profile> parse_profile(std::string_view text, const std::string& source_n
   profile.name = table.string("name");
   read_line(table, profile);
   for (TomlTable& value : table.tables("value")) append_values(value, profile.values);
-  if (profile.values.empty()) table.reject("value", "is missing: a profile needs [[value]]");
+  if (profile.values.empty())
+    table.reject("value", "is missing: a profile needs at least one [[value]]");
   for (TomlTable& status : table.tables("status"))
     profile.statuses.push_back(read_status(status, profile.values));
   for (TomlTable& check : table.tables("check")) profile.checks.push_back(read_check(check));
@@ -161,7 +162,7 @@ Result<Profile> parse_profile(std::string_view text, const std::string& source_n
     for (std::size_t k = 0; k < i; ++k)
       if (profile.values[i].name == profile.values[k].name)
         table.reject("value", "\"" + profile.values[i].name +
-                                  "\" is given twice; give each value a name of its own");
+                                  "\" is given twice; give each value a different name");
   MDOF_CHECK(table.finish());
   return profile;
 }
@@ -176,7 +177,7 @@ Result<Profile> load_profile(const std::string& name_or_path, const std::string&
   }
   if (name_or_path.find('/') == std::string::npos && !name_or_path.ends_with(".toml")) {
     const std::string nearest = nearest_of(name_or_path, names);
-    return bad_input("there is no profile \"" + name_or_path + "\"" +
+    return bad_input("unknown profile \"" + name_or_path + "\"" +
                      (nearest.empty() ? "." : "; did you mean \"" + nearest + "\"?") +
                      " Known profiles are " + known +
                      "; give one of these, or the path of your own profile");

@@ -32,7 +32,7 @@ std::string not_this(const char* what, unsigned got, unsigned wanted) {
 
 Result<Frame> unwrap_tcp(std::string_view adu) {
   if (adu.size() < kTcpHeader + 1) return io_error("the reply is incomplete");
-  if (word_at(adu, 2) != 0) return io_error("the reply is of another protocol");
+  if (word_at(adu, 2) != 0) return io_error("the reply belongs to another protocol");
   if (word_at(adu, 4) != adu.size() - 6)
     return io_error(not_this("length", word_at(adu, 4), static_cast<unsigned>(adu.size() - 6)));
   return Frame{word_at(adu, 0), byte_at(adu, 6), std::string(adu.substr(kTcpHeader))};
@@ -121,7 +121,7 @@ Result<Answer> answer_to(const Frame& asked, Framing framing, std::string_view a
   if (got != function) return io_error(not_this("function", got, function));
   if (function == kReadHolding || function == kReadInput) return read_answer(asked.pdu, reply.pdu);
   if (reply.pdu != asked.pdu.substr(0, kEchoed))
-    return io_error("the reply confirms another write than the requested one");
+    return io_error("the reply confirms a write that was not requested");
   return Answer{};
 }
 

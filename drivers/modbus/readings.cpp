@@ -109,7 +109,7 @@ std::uint16_t Readings::at(const Register& reg, int offset) const {
     if (from.function == reg.function && address >= from.address && address < from.address + count)
       return registers_[i][static_cast<std::size_t>(address - from.address)];
   }
-  assert(false && "a register that was planned");
+  assert(false && "this register is in the read plan");
   return 0;
 }
 

@@ -88,7 +88,7 @@ Status PoKeys57u::connect() {
     for (const auto& entry : found) others.push_back(entry.serial);
     return io_error(place() + ": " + std::to_string(found.size()) +
                     " PoKeys are plugged in (serial numbers on the USB: " + joined(others) +
-                    "); give the number of one of them as serial");
+                    "); give one of these numbers with the key \"serial\"");
   }
   for (const auto& entry : found) {
     const bool may_be = settings_.serial == 0 || entry.serial.empty() ||
@@ -104,7 +104,7 @@ Status PoKeys57u::connect() {
   if (!failed) return failed;
   return io_error(place() + ": is not plugged in" +
                   (others.empty() ? "" : " (found: " + joined(others) + ")") +
-                  "; check cable, power and serial number");
+                  "; check the cable, the power and the serial number");
 }
 
 Status PoKeys57u::try_candidate(const HidEntry& entry, std::vector<std::string>& others) {
@@ -135,7 +135,7 @@ Result<Frame> PoKeys57u::need(const Frame& asked, const char* what) {
 tl::unexpected<Error> PoKeys57u::does_not_say(const char* what) const {
   return io_error(place() + ": no reply to the " + what +
                   "; check that the device is a PoKeys57U " +
-                  "or 56U, and end any other program that uses it");
+                  "or 56U, and end any other program that uses the device");
 }
 
 Status PoKeys57u::set_up_encoders() {
@@ -216,7 +216,7 @@ Result<std::optional<Frame>> PoKeys57u::reply_to(std::uint8_t id, Time until) {
 
 Result<ReadState> PoKeys57u::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
-  if (!device_) return io_error(place() + ": is not open; open it before reading");
+  if (!device_) return io_error(place() + ": is not open; open the device before reading");
   const auto until = steady_clock::now() + timeout;
   do {
     std::this_thread::sleep_until(std::min(next_, until));

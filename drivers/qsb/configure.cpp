@@ -11,7 +11,8 @@ void read_place(TomlTable& table, QsbOptions& options) {
     options.port = table.string("port");
     return;
   }
-  if (table.has("port")) table.reject("port", "contradicts address; give only one of the two keys");
+  if (table.has("port"))
+    table.reject("port", "contradicts the key \"address\"; give only one of the two keys");
   const auto address = parse_endpoint(table.string("address"), 0);
   address ? void(options.address = *address) : table.reject("address", address.error().message);
 }

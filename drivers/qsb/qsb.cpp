@@ -111,7 +111,7 @@ Status Qsb::make_it_answer() {
     return {};
   }
   return io_error(place() + ": does not answer; check that the device is a QSB with baud rate " +
-                  std::to_string(options_.line.baud) + ", and check RTS and DTR");
+                  std::to_string(options_.line.baud) + ", and check the lines RTS and DTR");
 }
 
 Status Qsb::check_identity() {
@@ -209,7 +209,7 @@ std::optional<std::string> Qsb::next_line() {
 
 Result<ReadState> Qsb::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, name_, {{options_.channel.id, Unit::um}});
-  if (!stream_) return io_error(place() + ": is not open; open it before reading");
+  if (!stream_) return io_error(place() + ": is not open; open the device before reading");
   if (samples_.empty() && status_) status_ = fetch(timeout);
   if (samples_.empty()) MDOF_CHECK(status_);
   give_out(block);

@@ -95,7 +95,7 @@ Status RecordingLog::read_header() {
   if (sha256 == sha256_of(header_)) return {};
   return bad_input(
       file_.string() +
-      ": the header (rig, configuration, versions) is damaged, so its samples cannot be "
+      ": the header (rig, configuration, versions) is damaged, so the samples cannot be "
       "trusted; restore the file from a copy");
 }
 
@@ -193,7 +193,7 @@ Status RecordingLog::check_end() {
                    std::to_string(seal_->chunks) +
                    ", chunks in the file: " + std::to_string(chunks_) +
                    "). The chunks that were read are undamaged, but the " +
-                   "end may be missing; restore the file from a copy");
+                   "end of the recording may be missing; restore the file from a copy");
 }
 
 Progress RecordingLog::progress() const {

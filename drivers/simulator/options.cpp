@@ -154,7 +154,8 @@ Result<std::vector<NamedError>> in_order(const std::vector<NamedError>& given, A
                        letter(axis) + "; the errors of this axis are" + names_of(axis));
     NamedError& place = ordered[static_cast<std::size_t>(name - names.begin())];
     if (!place.name.empty())
-      return bad_input("[[error]] name \"" + error.name + "\" is given twice; give it once");
+      return bad_input("[[error]] name \"" + error.name +
+                       "\" is given twice; remove one of the two");
     place = error;
   }
   return ordered;

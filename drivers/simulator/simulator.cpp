@@ -53,7 +53,7 @@ Status Simulator::open() {
   if (!over)
     return io_error(
         "device \"" + name_ + "\": is disconnected until " + plain_number(gone_->to_s, 9) +
-        " s after its start (to_s of [[disconnect]] in its configuration); wait until then");
+        " s after the start (to_s of [[disconnect]] in the configuration); wait until that time");
   const std::int64_t resume_ns =
       options_.real_time ? std::max(gone_->to_ns(), now()) : gone_->to_ns();
   const std::uint64_t resume = first_scan_at(resume_ns);
@@ -66,7 +66,7 @@ Status Simulator::open() {
 Result<ReadState> Simulator::read(SampleBlock& block, std::chrono::milliseconds timeout) {
   start_block(block, name_, channels_);
   if (!start_ns_ || gone_)
-    return io_error("device \"" + name_ + "\" is not open; open it before reading");
+    return io_error("device \"" + name_ + "\" is not open; open the device before reading");
   const std::int64_t due_ns =
       options_.real_time ? wait_for_packet(timeout) : std::numeric_limits<std::int64_t>::max();
   for (std::size_t n = 0; n < kBlockScans; ++n, ++next_) {
@@ -81,7 +81,7 @@ Result<ReadState> Simulator::read(SampleBlock& block, std::chrono::milliseconds 
       gone_ = gone;
       return io_error(
           "device \"" + name_ +
-          "\": is disconnected by [[disconnect]] of its configuration; open the device again");
+          "\": is disconnected by [[disconnect]] in the configuration; open the device again");
     }
     gap ? void(++lost_) : append(block, t_ns);
   }

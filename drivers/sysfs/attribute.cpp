@@ -24,13 +24,14 @@ std::string sysfs_error(int error) {
       return text + "; the device is gone, or its driver is not loaded; check the cable and dmesg";
     case EACCES:
     case EPERM:
-      return text + "; give the user of mdofd access by a udev rule";
+      return text + "; give the user of mdofd access with a udev rule";
     case EBUSY:
       return text + "; another program or the kernel uses the device; end that program";
     case EIO:
     case EREMOTEIO:
     case ETIMEDOUT:
-      return text + "; the device does not answer its driver; check wires, supply and dmesg";
+      return text +
+             "; the device does not answer its driver; check the wires, the supply and dmesg";
     case EINVAL:
       return text + "; the device does not accept this value";
     default:

@@ -120,7 +120,7 @@ class Search {
   tl::unexpected<Error> not_opened(int code) const {
     if (code != LIBUSB_ERROR_ACCESS) return io_error(text_of_error(code));
     return io_error(std::string("no permission to use the device; the udev rules ") + kRules +
-                        " give it to the group mdof",
+                        " give access to the group mdof",
                     Remedy::install_udev_rules_for_usb, wanted_.model);
   }
 
@@ -135,7 +135,7 @@ class Search {
     if (wanted_.serial.empty() && count_ > 1)
       return io_error(
           std::to_string(count_) + " devices " + ids(wanted_) +
-          " are on the USB, and the key \"serial\" is missing; give one of these serial numbers: " +
+          " are on the USB, but the key \"serial\" is missing; give one of these serial numbers: " +
           all_seen());
     if (fitting_) return std::move(*fitting_);
     if (!failure_) return tl::unexpected(failure_.error());

@@ -135,7 +135,7 @@ TEST(Channels, AnUnknownInputNamesThoseThere) {
   channel.where = "mdofd.toml:3: channel.input";
   const std::string says = no_such_input(channel, {"AIN0", "AIN1"}).value().message;
   EXPECT_NE(says.find("mdofd.toml:3"), std::string::npos);
-  EXPECT_NE(says.find("it has AIN0, AIN1"), std::string::npos);
+  EXPECT_NE(says.find("the inputs of the device are AIN0, AIN1"), std::string::npos);
 }
 
 TEST(Unwrap, FollowsACounterOverBothEnds) {

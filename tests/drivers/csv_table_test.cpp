@@ -60,7 +60,7 @@ TEST_F(CsvTableTest, TakesOptionalColumnsWhereTheyAre) {
   EXPECT_EQ(none.columns, (std::vector<std::vector<double>>{{1}, {2}, {}, {}}));
   const auto unit = with("position_mm,deviation_um,u_mm\n1,2,3\n");
   ASSERT_FALSE(unit);
-  EXPECT_NE(unit.error().message.find("name the column u_um"), std::string::npos)
+  EXPECT_NE(unit.error().message.find("rename the column to u_um"), std::string::npos)
       << unit.error().message;
   // Without a value in any row it is not there; with one in some, a row is not as it should be.
   const auto empty = with("position_mm,u_um,deviation_um\n1,,2\n3,nan,4\n").value();
@@ -113,9 +113,9 @@ TEST_F(CsvTableTest, NamesTheLineAndTheRemedy) {
 }
 
 TEST_F(CsvTableTest, SaysWhichColumnOrUnitIsMeant) {
-  expect_error(
-      "position_um,deviation_um\n1,2\n",
-      {":1: column position_um does not have the expected unit", "name the column position_mm"});
+  expect_error("position_um,deviation_um\n1,2\n",
+               {":1: column position_um does not have the expected unit",
+                "rename the column to position_mm"});
   expect_error("x_mm,deviation_um\n1,2\n",
                {":1: no column position_mm (columns: x_mm, deviation_um)"});
   expect_error("position_inch,deviation_um\n1,2\n", {":1:", "position_inch", "unknown unit"});

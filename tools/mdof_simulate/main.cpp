@@ -34,7 +34,7 @@ int main(int argc, char** argv) try {
                "mdof-simulate"};
   app.set_version_flag("--version", mdof::daemon::kVersion);
   std::string plan, host = "127.0.0.1";
-  app.add_option("PLAN", plan, "TOML file with the machine and its devices")
+  app.add_option("PLAN", plan, "TOML file that describes the machine and the devices")
       ->required()
       ->type_name("");
   app.add_option("--host", host, "Address to listen on")->capture_default_str();

@@ -50,7 +50,7 @@ Result<std::vector<Served>> load_plan(const std::filesystem::path& file) {
     devices.push_back(std::move(served));
   }
   if (devices.empty())
-    root.reject("device", "there is no device; add [[device]] with \"name\" and \"kind\"");
+    root.reject("device", "missing [[device]] table; add [[device]] with \"name\" and \"kind\"");
   MDOF_CHECK(root.finish());
   return devices;
 }

@@ -115,9 +115,9 @@ Result<std::unique_ptr<UsbPort>> plug_into_uhid(drivers::usb::SimulatedUsb& devi
     return bad_input("the device has no HID interface that accepts reports; set bus = \"usb\"");
   Descriptor file(::open(kPath, O_RDWR | O_NONBLOCK | O_CLOEXEC));
   if (file.get() < 0)
-    return io_error(
-        std::string(kPath) + ": " + std::strerror(errno) +
-        (errno == EACCES ? "; run as root" : "; load the module as root with: modprobe uhid"));
+    return io_error(std::string(kPath) + ": " + std::strerror(errno) +
+                    (errno == EACCES ? "; run mdof-simulate as root"
+                                     : "; load the module as root with: modprobe uhid"));
   auto port = std::make_unique<UhidPort>(device, std::move(file), *pipes);
   if (!port->create()) return io_error(std::string(kPath) + ": " + std::strerror(errno));
   return port;

@@ -40,7 +40,8 @@ Status attach(int port, int fd, drivers::usb::Speed speed) {
   const std::string path = kController + "attach";
   const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.get() >= 0 && ::write(file.get(), text.data(), text.size()) >= 0) return {};
-  return io_error(path + ": " + std::strerror(errno) + (errno == EACCES ? "; run as root" : ""));
+  return io_error(path + ": " + std::strerror(errno) +
+                  (errno == EACCES ? "; run mdof-simulate as root" : ""));
 }
 
 class VhciPort final : public UsbPort {

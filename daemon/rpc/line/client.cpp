@@ -42,8 +42,8 @@ tl::unexpected<Error> cannot_connect(const std::string& path, int number) {
       "; start mdofd with \"systemctl start mdofd\", or by hand with \"mdofd\"";
   if (number == ENOENT) return io_error(path + ": mdofd is not running (no socket)" + kStart);
   if (number == ECONNREFUSED)
-    return io_error(
-        path + ": mdofd is not running (the socket is left over from an earlier start)" + kStart);
+    return io_error(path + ": mdofd is not running (the socket file is from an earlier start)" +
+                    kStart);
   if (number == EACCES)
     return io_error(path + ": permission denied; " + whose(path) + "become a member of the group " +
                     group_of(path) + " (\"sudo usermod -aG " + group_of(path) +

@@ -181,8 +181,9 @@ void Connection::check_times(Clock::time_point now) {
     return send_all();
   }
   if (stalled_since_ && now - *stalled_since_ > options.stall_timeout)
-    return drop("the client accepted none of " + std::to_string(output_.unsent()) +
-                " unsent bytes for " + std::to_string(options.stall_timeout.count()) + " ms");
+    return drop("the client has accepted no data for " +
+                std::to_string(options.stall_timeout.count()) +
+                " ms (bytes not sent: " + std::to_string(output_.unsent()) + ")");
   if ((input_ended_ || !reading_) && !has_turn_ && hung_up()) return close();
   if (!session_->is_idle(now)) return;
   session_->end_idle();

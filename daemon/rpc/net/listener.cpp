@@ -49,7 +49,7 @@ void Listener::accept_some() {
 
 // Out of descriptors or memory: the waiting client would wake the loop without end.
 void Listener::wait_a_little(int why) {
-  log_("cannot accept a client, trying again: " + system_error_text(why));
+  log_("cannot accept a client (mdofd tries again): " + system_error_text(why));
   pause_.emplace(socket_.get_executor(), kPause);
   pause_->async_wait([self = shared_from_this()](const LoopError& error) {
     if (!error && self->adopt_) self->start();

@@ -48,7 +48,8 @@ Status remove_stale(const std::string& path) {
         ErrorCode::conflict,
         path + ": another program (perhaps mdofd) answers on this socket; end that program first");
   if (answer.error() != ECONNREFUSED) return cannot(path, answer.error());
-  if (::unlink(path.c_str()) != 0) return cannot(path + ": cannot remove the stale socket", errno);
+  if (::unlink(path.c_str()) != 0)
+    return cannot(path + ": cannot remove the old socket file", errno);
   return {};
 }
 
@@ -103,10 +104,12 @@ Result<Descriptor> listen_on_unix(const std::string& path) {
   if (fd.get() < 0) return cannot(path, errno);
   // The mode of the descriptor is what the file is born with, less the umask: at no instant may
   // more clients connect than are meant to.
-  if (::fchmod(fd.get(), kMode) != 0) return cannot(path + ": cannot set its mode", errno);
+  if (::fchmod(fd.get(), kMode) != 0)
+    return cannot(path + ": cannot set the mode of the socket file", errno);
   sockaddr_un address = unix_address(path);
   MDOF_CHECK(bind_and_listen(fd.get(), address, sizeof address, path));
-  if (::chmod(path.c_str(), kMode) != 0) return cannot(path + ": cannot set its mode", errno);
+  if (::chmod(path.c_str(), kMode) != 0)
+    return cannot(path + ": cannot set the mode of the socket file", errno);
   return fd;
 }
 

@@ -9,7 +9,7 @@ Param offset_param() {
 Param count_param(std::int64_t most) {
   return {"count",
           ParamType::integer,
-          "largest number of items; fewer are sent if the reply line is full",
+          "largest number of items; mdofd sends fewer items if the reply line is full",
           false,
           std::to_string(most),
           {.least = 1, .most = static_cast<double>(most)}};

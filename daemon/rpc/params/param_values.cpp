@@ -76,7 +76,7 @@ tl::unexpected<Error> unknown_name(const Method& method, std::string_view name) 
   const bool sane = name.size() <= 64;  // the distance of long texts is costly and says nothing
   const std::string near = sane ? nearest_of(name, known) : "";
   return usage("unknown parameter " + in_quotes(name) +
-               (near.empty() ? "; " + method.name + " takes: " + names(method)
+               (near.empty() ? "; the parameters of " + method.name + " are: " + names(method)
                              : "; did you mean " + in_quotes(near) + "?"));
 }
 
@@ -120,7 +120,7 @@ Status set(const Method& method, std::size_t i, const element& value, ParamValue
     return usage("parameter " + in_quotes(param.name) + " must be of type " +
                  to_string(param.type) + ", not " + kind(value) +
                  (param.type == ParamType::integer && value.is_number()
-                      ? " with a fraction or beyond 64 bits"
+                      ? " with a fraction or with more than 64 bits"
                       : ""));
   MDOF_CHECK(check_bounds(param, value));
   out.values[i] = value;

@@ -19,7 +19,7 @@ const element* find(const ParamValues& values, std::string_view name,
     assert(!type || params[i].type == *type);
     return values.values[i] ? &*values.values[i] : nullptr;
   }
-  assert(false && "the method's row has no such parameter");
+  assert(false && "the method has no parameter of this name");
   return nullptr;
 }
 

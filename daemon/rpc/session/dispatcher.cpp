@@ -78,7 +78,7 @@ std::string not_an_approver(const std::string& method, const std::string& group,
 }
 
 std::string may_not_write(const std::string& method, const Caller& caller) {
-  if (!caller.over_http()) return method + " changes data; call it over the Unix socket";
+  if (!caller.over_http()) return method + " changes data; call this method over the Unix socket";
   return words::text({ErrorCode::usage,
                       method + " changes data and needs the token of mdofd in the header \"" +
                           "Authorization: Bearer TOKEN\"",

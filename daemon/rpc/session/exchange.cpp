@@ -104,12 +104,12 @@ Reply::~Reply() {
 }
 
 std::weak_ptr<const void> Reply::client() const {
-  assert(slot_ && "the call was answered");
+  assert(slot_ && "the call has already been answered");
   return slot_->exchange->sink();
 }
 
 void Reply::operator()(Result<std::string> result) {
-  assert(slot_ && "a call is answered once");
+  assert(slot_ && "a call may be answered only once");
   const auto executor = slot_->executor;
   executor->dispatch([slot = std::shared_ptr(std::move(slot_)), answer = std::move(result)] {
     slot->exchange->answer(slot->id, answer);

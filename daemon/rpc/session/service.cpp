@@ -36,7 +36,7 @@ std::string user_has_all(const Peer& peer, const ServerOptions& o) {
 
 std::string all_in_use(const ServerOptions& o) {
   return "all " + std::to_string(o.max_connections) + " connections are in use" +
-         (o.kept_for_group ? " or reserved for the group of cnc_group" : "") +
+         (o.kept_for_group ? " (some are reserved for the group in cnc_group)" : "") +
          "; close a connection, or raise \"connections\" in [rpc] of mdofd.toml";
 }
 

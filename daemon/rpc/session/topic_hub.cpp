@@ -19,7 +19,7 @@ void TopicHub::add(Topic topic) {
   std::string name = topic.name;
   [[maybe_unused]] const bool added =
       rows_.emplace(std::move(name), Row{std::move(topic), {}}).second;
-  assert(added && "a topic of this name exists");
+  assert(added && "a topic with this name already exists");
 }
 
 std::optional<std::chrono::milliseconds> TopicHub::wanted_every(std::string_view topic) const {
@@ -80,7 +80,7 @@ Status TopicHub::subscribe(Subscriber& who, std::string_view topic,
   MDOF_TRY(Row* const found, row(topic));
   if (const auto least = found->topic.min_interval; !found->topic.event && interval < least)
     return fail(ErrorCode::usage, "interval_ms: " + std::to_string(interval.count()) +
-                                      " is below the minimum of the topic, " +
+                                      " is less than the minimum interval of the topic, " +
                                       std::to_string(least.count()));
   for (const auto& [other, entry] : found->subscribers)
     if (other == &who) return entry->set_interval(interval), Status{};

@@ -89,11 +89,11 @@ tl::expected<void, HttpError> HttpConnection::judge() const {
   const bool rpc = head_->path == "/rpc", stream = head_->path == "/events";
   const bool reads = head_->method == "GET" || (head_->method == "HEAD" && !stream);
   if (!rpc && !stream && server_.files.find(head_->path) == nullptr)
-    return tl::unexpected(HttpError{404, "there is no such page"});
+    return tl::unexpected(HttpError{404, "this page does not exist"});
   if (rpc ? head_->method != "POST" : !reads)
     return tl::unexpected(HttpError{
-        405,
-        head_->path + " does not accept this HTTP method; the header Allow lists the methods"});
+        405, head_->path +
+                 " does not accept this HTTP method; the header Allow lists the accepted methods"});
   if (!rpc && head_->body_bytes > 0)
     return tl::unexpected(HttpError{400, "a request for this path must not have a body"});
   const std::string_view type =
@@ -289,8 +289,9 @@ void HttpConnection::drop(const std::string& why) {
 void HttpConnection::check_times(Clock::time_point now) {
   const auto& options = server_.service.options();
   if (stalled_since_ && now - *stalled_since_ > options.stall_timeout)
-    return drop("the browser accepted none of " + std::to_string(output_.unsent()) +
-                " unsent bytes for " + std::to_string(options.stall_timeout.count()) + " ms");
+    return drop("the browser has accepted no data for " +
+                std::to_string(options.stall_timeout.count()) +
+                " ms (bytes not sent: " + std::to_string(output_.unsent()) + ")");
   const auto passed = now - since_;
   if (is(State::draining) && passed > options.drain_timeout) return close();
   if (is(State::answering) && hung_up()) return close();

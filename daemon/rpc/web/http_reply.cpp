@@ -39,7 +39,7 @@ constexpr std::string_view kSecurity =
 std::string_view reason_of(int status) {
   for (const auto& [code, reason] : kReasons)
     if (code == status) return reason;
-  assert(false && "a status without its reason");
+  assert(false && "this HTTP status has no text");
   return "";
 }
 

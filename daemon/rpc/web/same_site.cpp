@@ -44,12 +44,12 @@ tl::expected<void, HttpError> check_same_site(const HttpHead& head,
                            "to hosts in [http] of mdofd.toml"});
   if (!origin.empty() && origin != "http://" + host && origin != "https://" + host)
     return tl::unexpected(
-        HttpError{403, "a page of " + in_quotes(head.origin) +
-                           " may not use mdofd; open the page that mdofd serves"});
+        HttpError{403, "a page from " + in_quotes(head.origin) +
+                           " is not allowed to use mdofd; open the web page of mdofd"});
   if (head.fetch_site == "cross-site" || head.fetch_site == "same-site") {
     if (head.path == "/rpc" || head.path == "/events")
       return tl::unexpected(HttpError{
-          403, "a page of another site may not use mdofd; open the page that mdofd serves"});
+          403, "a page from another site is not allowed to use mdofd; open the web page of mdofd"});
   }
   return {};
 }

@@ -26,7 +26,7 @@ constexpr std::array<FileType, 6> kFileTypes{{
 std::string_view type_of(std::string_view name) {
   for (const FileType& row : kFileTypes)
     if (name.ends_with(row.ending)) return row.type;
-  assert(false && "a file of the page has an ending without a type");
+  assert(false && "a file of the web page has an unknown extension");
   return "application/octet-stream";
 }
 

@@ -24,7 +24,8 @@ tl::unexpected<Error> cannot_use(const std::filesystem::path& file, const std::s
 Result<std::string> new_token() {
   std::array<unsigned char, kBytes> bytes{};
   if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    return io_error("token_file: the kernel gives no random numbers: " + system_error_text(errno));
+    return io_error("token_file: the kernel returned no random numbers: " +
+                    system_error_text(errno));
   std::string text;
   for (const unsigned char byte : bytes)
     for (const int digit : {byte >> 4, byte & 15}) text += "0123456789abcdef"[digit];
@@ -54,12 +55,13 @@ Result<std::string> read_token(const std::filesystem::path& file) {
   if (::fstat(fd.get(), &info) != 0) return cannot_use(file, "the file cannot be read", errno);
   if (!S_ISREG(info.st_mode))
     return fail(ErrorCode::check, "token_file: " + file.string() +
-                                      ": this is not a regular file; remove it and restart mdofd, "
-                                      "which creates a new token file");
+                                      ": this is not a regular file; remove this file and restart "
+                                      "mdofd; mdofd then creates a new token file");
   if ((info.st_mode & 077) != 0)
     return fail(ErrorCode::check, "token_file: " + file.string() +
-                                      ": other users can read this file; remove it and restart "
-                                      "mdofd, which creates a new token file (mode 0600)");
+                                      ": other users can read this file; remove this file and "
+                                      "restart mdofd; mdofd then creates a new token file (mode "
+                                      "0600)");
   std::array<char, 2 * kBytes + 2> bytes{};
   const ssize_t got = ::read(fd.get(), bytes.data(), bytes.size());
   std::string_view text(bytes.data(), got > 0 ? static_cast<std::size_t>(got) : 0);
@@ -68,7 +70,8 @@ Result<std::string> read_token(const std::filesystem::path& file) {
       text.find_first_not_of("0123456789abcdef") != std::string_view::npos)
     return fail(ErrorCode::check, "token_file: " + file.string() +
                                       ": this file does not contain 64 hexadecimal digits; remove "
-                                      "it and restart mdofd, which creates a new token file");
+                                      "this file and restart mdofd; mdofd then creates a new token "
+                                      "file");
   return std::string(text);
 }
 

@@ -242,16 +242,17 @@ void Acquisition::report_clock(const drivers::ClockState& clock) {
   const bool stepped = std::exchange(clock_steps_, clock.steps) != clock.steps;
   const bool was = std::exchange(clock_is_uncertain_, clock.doubtful);
   if (stepped)
-    report(Trouble::Kind::clock,
-           "the device clock jumped, or the link was slow for a long time. The times of the "
-           "samples are unknown while the clock settles (4 s). Stops in this time are left out, or "
-           "lack the probes of the device. Check power and network, then measure the points of "
-           "this time again");
+    report(
+        Trouble::Kind::clock,
+        "the device clock jumped, or the link was slow for a long time. The times of the "
+        "samples are unknown while the clock settles (4 s). Stops in these 4 s are not evaluated, "
+        "or are evaluated without the probes of this device. Check the power and the network, "
+        "then measure these stops again");
   else if (clock.doubtful && !was)
     report(Trouble::Kind::clock,
            "the packets arrive " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
-               " s late, or the device clock stood still; the samples are suspect while this "
-               "lasts; check the network and the load of this computer");
+               " s late, or the device clock stood still; the samples are suspect until this "
+               "ends; check the network and the load of this computer");
   else if (was && !clock.doubtful)
     report(Trouble::Kind::back, "the times of the samples are valid again");
 }
@@ -313,11 +314,11 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
                                     [](const Trouble& t) { return t.kind == Trouble::Kind::slow; });
   const bool slow = lost_in_window_ > 0 || rate_hz < (was_slow ? kWell : kSlow) * is.info.rate_hz;
   if (slow && !was_slow) {
-    report(Trouble::Kind::slow, "the device sends " + with_one_decimal(rate_hz) + " of " +
-                                    with_one_decimal(is.info.rate_hz) + " scans per second, and " +
-                                    std::to_string(lost_in_window_) +
-                                    " scans were lost in 5 s; check the network or cable and the "
-                                    "load of this computer, or lower the rate of the device");
+    report(Trouble::Kind::slow,
+           "the device sends " + with_one_decimal(rate_hz) + " scans per second instead of " +
+               with_one_decimal(is.info.rate_hz) + ", and " + std::to_string(lost_in_window_) +
+               " scans were lost in 5 s; check the network or cable and the "
+               "load of this computer, or lower the rate of the device");
   }
   if (was_slow && !slow) report(Trouble::Kind::back, "the device sends all scans again");
   window_end_ = now + kWindow;

@@ -20,14 +20,14 @@ Result<Hotplug> Hotplug::watch() {
     hotplug.monitor_.reset(udev_monitor_new_from_netlink(hotplug.udev_.get(), "udev"));
   if (!hotplug.monitor_)
     return io_error(
-        "cannot connect to udev, so mdofd does not notice when a device is plugged in; a lost "
-        "device is opened again after a pause");
+        "cannot connect to udev, so mdofd does not notice when a device is plugged in; mdofd "
+        "opens a disconnected device again only after a pause");
   for (const char* subsystem : {"usb", "hidraw", "tty", "counter", "iio"})
     udev_monitor_filter_add_match_subsystem_devtype(hotplug.monitor_.get(), subsystem, nullptr);
   if (udev_monitor_enable_receiving(hotplug.monitor_.get()) < 0)
     return io_error(
-        "udev does not report when a device is plugged in; a lost device is opened again after a "
-        "pause");
+        "udev does not report when a device is plugged in; mdofd opens a disconnected device again "
+        "only after a pause");
   return hotplug;
 }
 

@@ -57,9 +57,9 @@ std::optional<Trouble> unsolved(const MeasuredPoint& point, const Rig& rig,
     all.push_back(id);
   }
   std::string text = "the stop at " + number_mm(point.point.position_m) + " has no error values: ";
-  if (!silent.empty()) text += "no usable readings of probe " + join(silent);
+  if (!silent.empty()) text += "no usable readings from probe " + join(silent);
   if (!saturated.empty())
-    text += (silent.empty() ? "" : "; ") + ("at the end of its range: probe " + join(saturated));
+    text += (silent.empty() ? "" : "; ") + ("probe at the end of its range: " + join(saturated));
   if (all.empty()) text += point.errors.reason;
   return Trouble{Kind::unsolved, all.empty() ? "" : source_of(all, channels), text, utc};
 }

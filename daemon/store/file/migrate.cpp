@@ -58,14 +58,14 @@ Status check_kind(Connection& connection, int known) {
   MDOF_TRY(const std::int64_t tables, connection.integer("SELECT count(*) FROM sqlite_schema"));
   const std::string file = connection.file().string();
   if (application != kApplication && (application != 0 || tables > 0))
-    return bad_input(file + ": is a SQLite database of another application (application_id " +
-                     std::to_string(application) + "); give the database of mdof");
+    return bad_input(file + ": is an SQLite database of another application (application_id " +
+                     std::to_string(application) + "); give a database of mdof");
   MDOF_TRY(const std::int64_t version, connection.integer("PRAGMA user_version"));
   if (version > known)
     return bad_input(file + ": has schema version " + std::to_string(version) +
                      ", but this program supports versions up to " + std::to_string(known) +
-                     "; use the newer mdof that wrote it, or an earlier backup (" + file +
-                     ".schema-*.backup)");
+                     "; use the newer mdof that wrote this database, or an earlier backup (" +
+                     file + ".schema-*.backup)");
   return {};
 }
 

@@ -76,8 +76,8 @@ int descriptor_of(const fs::path& database, int flags) {
 
 tl::unexpected<Error> not_opened(const fs::path& database) {
   return io_error(database.string() + ": cannot be opened for writing: " + std::strerror(errno) +
-                  "; the database and its folder must be writable: check owner, mode and whether "
-                  "the file system is mounted read-only, or name another database");
+                  "; the database and its folder must be writable: check the owner, the mode, and "
+                  "whether the file system is mounted read-only; or give another database");
 }
 
 tl::unexpected<Error> not_locked(const std::string& database) {
@@ -119,7 +119,7 @@ Result<WriterLock> WriterLock::acquire(const fs::path& database, int timeout_ms)
   return fail(ErrorCode::conflict,
               database.string() +
                   ": another program (perhaps mdofd) is writing this database, and only one "
-                  "program can write; wait until that program ends, or name another database");
+                  "program can write; wait until that program ends, or give another database");
 }
 
 bool WriterLock::held_byte(const fs::path& database, std::int64_t byte) {

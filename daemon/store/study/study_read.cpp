@@ -92,8 +92,8 @@ Status Store::verify_studies(std::vector<std::string>& findings) {
     MDOF_TRY(const bool row, rows.step());
     if (!row) break;
     if (sha256_hex(rows.text(1)) != rows.text(2))
-      findings.push_back("study " + std::to_string(rows.integer(0)) +
-                         ": its figures were changed after they were stored; run the study again");
+      findings.push_back("the figures of study " + std::to_string(rows.integer(0)) +
+                         " were changed after they were stored; run the study again");
   }
   MDOF_TRY(Statement checkpoints, connection_.prepare("SELECT study FROM study_checkpoint"));
   for (;;) {

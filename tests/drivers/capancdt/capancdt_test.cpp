@@ -298,7 +298,7 @@ TEST(Capancdt, GarbageAloneIsAnError) {
   ASSERT_EQ(error_of(driver.open()), "");
   const Collected got = collect(driver, 1);
   EXPECT_EQ(got.all.scans(), 0u);
-  expect_has(got.error, "are not those of a capaNCDT 6200; correct data_port");
+  expect_has(got.error, "are not data of a capaNCDT 6200; correct the key \"data_port\"");
 }
 
 TEST(Capancdt, TwoControllersSideBySide) {

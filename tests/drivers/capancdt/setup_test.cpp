@@ -11,7 +11,7 @@ TEST(CapancdtSetup, IdentityIsChecked) {
   EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
   rack.options.serial = "1002";
   expect_has(error_of(Capancdt(rack.options).open()),
-             "but the configuration has serial = 1002; correct serial");
+             "but the configuration has serial = 1002; correct the key \"serial\"");
 }
 
 TEST(CapancdtSetup, AChannelThatIsNotThere) {
@@ -19,7 +19,9 @@ TEST(CapancdtSetup, AChannelThatIsNotThere) {
   device.inputs[2].present = false;
   Rack rack(device);
   const std::string absent = error_of(Capancdt(rack.options).open());
-  expect_has(absent, "rig.toml:7: channel.id: the device has no input \"3\"; it has 1, 2, 4");
+  expect_has(absent,
+             "rig.toml:7: channel.id: the device has no input \"3\"; the inputs of the device are "
+             "1, 2, 4");
   rack.options.channels[1].number = 5;
   rack.options.channels[1].input.input = "5";
   expect_has(error_of(Capancdt(rack.options).open()), "no input \"5\"");

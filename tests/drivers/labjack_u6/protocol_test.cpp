@@ -86,7 +86,7 @@ TEST(LabjackU6Protocol, RepliesAreRead) {
 TEST(LabjackU6Protocol, RefusalsHaveWords) {
   const Status active = read_stream_config(extended(kStreamConfig, bytes("30 00")));
   ASSERT_FALSE(active);
-  EXPECT_NE(active.error().message.find("48, a stream is active"), std::string::npos);
+  EXPECT_NE(active.error().message.find("48, a stream is already active"), std::string::npos);
   EXPECT_EQ(error_text(99), "U6 error 99");
 }
 

@@ -173,14 +173,15 @@ TEST_F(ComediBoard, WhatTheBoardLacksIsSaidWithWhatItHas) {
       "to 20");
   settings_.inputs[1].number = 8;
   settings_.inputs[0].high_v = 10;
-  expect_refused("the board has no input CH8; the last is CH7");
+  expect_refused("the board has no input CH8; the last input is CH7");
   settings_.subdevice = 0;
   expect_refused("subdevice 0 has no analogue inputs that stream; possible subdevices: 1");
   board_->subdevices[1].streams = false;
   expect_refused("the board has no analogue inputs that stream");
   settings_.board = "pci-6229";
   expect_refused(
-      "the board is \"sim-6221\" (driver sim_driver), but the configuration wants \"pci-6229\"");
+      "the board is \"sim-6221\" (driver sim_driver), but the configuration has board = "
+      "\"pci-6229\"");
   board_->open_error = "Permission denied";
   expect_refused("/dev/comedi0: Permission denied");
 }
@@ -193,23 +194,21 @@ TEST_F(ComediBoard, TheTrueRateIsSaidAndAWrongOneRefused) {
   board_->tick_ns = 50'350;  // 0.7 % off
   EXPECT_NEAR(opened().rate_hz, 1e9 / 100'700, 1e-9);
   board_->tick_ns = 50'600;  // 1.2 %
-  expect_refused("the nearest is 9881.42292");
+  expect_refused("the nearest rate is 9881.42292");
   board_->tick_ns = 70'000;
   expect_refused(
-      "the board cannot scan at rate_hz = 10000; the nearest is 7142.85714 with 2 inputs that are "
-      "70 us "
-      "apart");
+      "the board cannot scan at rate_hz = 10000; the nearest rate is 7142.85714 Hz with 2 inputs "
+      "that are 70 us apart");
   board_->tick_ns = 1000;
   board_->least_convert_ns = 60'000;  // two are more than a scan
-  expect_refused("the nearest is 8333.33333");
+  expect_refused("the nearest rate is 8333.33333");
 }
 
 TEST_F(ComediBoard, ACommandThatItDoesNotTake) {
   board_->refuses_inputs = true;
   expect_refused(
       "the board refuses the command (invalid chanlist); the board cannot scan these inputs "
-      "together with these ranges "
-      "and references");
+      "together with these ranges and references");
   board_->refuses_inputs = false;
   board_->start_error = "the board refuses the command: Device or resource busy";
   expect_refused("Device or resource busy");
@@ -250,7 +249,7 @@ TEST_F(ComediBoard, NominalVoltsOfABoardThatNeedsAFileAreWarnedOf) {
   board_->subdevices[1].soft_calibrated = true;
   ASSERT_EQ(opened().notices.size(), 1U);
   EXPECT_NE(test::shown(opened().notices[0])
-                .find("sim does not exist; create it with comedi_soft_calibrate"),
+                .find("sim does not exist; create this file with comedi_soft_calibrate"),
             std::string::npos);
   board_->subdevices[1].soft_calibrated = false;
   board_->calibration.found = true;

@@ -68,8 +68,7 @@ TEST(CheckCount, SaysWhatToWriteWhere) {
       {refused([](auto& f) { f.function.reset(); }, "quadrature x4"), "does not exist"},
       {refused([](auto& f) { f.count_mode = "range limit"; }), "stops counting at a limit"},
       {refused([](auto& f) { f.floor = "5"; }), "echo 0 > count0/floor"},
-      {refused([](auto& f) { f.ceiling.reset(); }),
-       "give the key \"ceiling\" in the configuration"},
+      {refused([](auto& f) { f.ceiling.reset(); }), "set the key \"ceiling\" in the configuration"},
       {refused([](auto& f) { f.ceiling = "0"; }), "is not a whole number above 0"},
       {refused([](auto& f) { f.ceiling = "many"; }), "is not a whole number above 0"},
   };
@@ -87,7 +86,7 @@ TEST(SysfsInteger, SignedUnsignedAndRubbish) {
 
 TEST(SysfsError, NamesTheRemedy) {
   EXPECT_NE(sysfs_error(EBUSY).find("another program"), std::string::npos);
-  EXPECT_NE(sysfs_error(EIO).find("check wires"), std::string::npos);
+  EXPECT_NE(sysfs_error(EIO).find("check the wires"), std::string::npos);
   EXPECT_NE(sysfs_error(ENODEV).find("gone"), std::string::npos);
   EXPECT_NE(sysfs_error(EACCES).find("udev rule"), std::string::npos);
   EXPECT_NE(sysfs_write_error(EACCES).find("60-mdof.rules"), std::string::npos);
@@ -206,7 +205,7 @@ TEST_F(LinuxCounter, TheKernelsOwnEio) {
   options_.read = sysfs_pread();
   const auto driver = make_linux_counter("scale", options_);
   ASSERT_TRUE(driver->open());
-  EXPECT_NE(collect(*driver, 5).error.find("check wires"), std::string::npos);
+  EXPECT_NE(collect(*driver, 5).error.find("check the wires"), std::string::npos);
 }
 
 TEST_F(LinuxCounter, CountsThatAreNone) {
@@ -223,9 +222,11 @@ TEST_F(LinuxCounter, WhatIsNotThereIsSaid) {
   tree_->remove("count0/count");
   expect_refused("count0/count: No such file");
   options_.channels[0].input = "count7";
-  expect_refused("mdofd.toml:5: channel: the device has no input \"count7\"; it has count0");
+  expect_refused(
+      "mdofd.toml:5: channel: the device has no input \"count7\"; the inputs of the device are "
+      "count0");
   options_.chip = "104-quad-8";
-  expect_refused("is \"simulated-counter\", but the configuration wants chip \"104-quad-8\"");
+  expect_refused("is \"simulated-counter\", but the configuration has chip = \"104-quad-8\"");
   options_.device = "counter3";
   expect_refused("to list the counters, run: ls ");
 }

@@ -173,11 +173,11 @@ TEST_F(LinuxIio, AnI2cErrorIsAnError) {
   const auto driver = make_linux_iio("probes", options_);
   ASSERT_TRUE(driver->open());
   tree_->fail_reads(EREMOTEIO);
-  EXPECT_NE(collect(*driver, 20).error.find("check wires, supply"), std::string::npos);
+  EXPECT_NE(collect(*driver, 20).error.find("check the wires, the supply"), std::string::npos);
   tree_->fail_reads(0, 0);
   ASSERT_TRUE(tree_->set("in_capacitance0_raw", "99999999"));
   ASSERT_TRUE(driver->open());
-  EXPECT_NE(collect(*driver, 20).error.find("exceeds 24 bits"), std::string::npos);
+  EXPECT_NE(collect(*driver, 20).error.find("has more than 24 bits"), std::string::npos);
 }
 
 TEST_F(LinuxIio, WhatIsNoAd7746IsRefused) {
@@ -224,7 +224,7 @@ TEST(LinuxIioConfiguration, KeysAndTheirErrors) {
       {"rate_hz = 1000" + channel + "area_mm2 = 5", "rate_hz: must be from 0.01 to 91"},
       {"sampling_hz = 90" + channel + "area_mm2 = 5", "must be one of 91"},
       {"[[channel]]\nid = \"A\"\ninput = \"voltage0\"\narea_mm2 = 5",
-       "no input \"voltage0\"; it has capacitance0"},
+       "no input \"voltage0\"; the inputs of the device are capacitance0"},
   };
   for (const auto& [toml, message] : wrong)
     EXPECT_NE(configured(toml).find(message), std::string::npos) << configured(toml);

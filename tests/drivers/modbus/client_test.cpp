@@ -113,7 +113,7 @@ TEST(ModbusClient, OptionsThatAreNoneAreRefused) {
     ByteStream other(ends[1], "other");
     const auto client = ModbusClient::over_rtu(ByteStream(ends[0], "line"), {unit, {}});
     ASSERT_FALSE(client) << unit;
-    EXPECT_NE(client.error().message.find("units are 1 to 247"), std::string::npos);
+    EXPECT_NE(client.error().message.find("units are from 1 to 247"), std::string::npos);
   }
 }
 

@@ -119,7 +119,7 @@ TEST(ModbusDriver, AnAdamInAnotherRangeOrNoAdamIsRefusedAtOpening) {
   const auto opened = driver->open();
   ASSERT_FALSE(opened);
   EXPECT_NE(opened.error().message.find("the input is not set to +-10 V (register 203 is 0x0142, "
-                                        "the profile requires 0x0143)"),
+                                        "but the profile requires 0x0143)"),
             std::string::npos)
       << opened.error().message;
 
@@ -359,7 +359,7 @@ TEST(ModbusConfiguration, WhatIsWrongIsNamedWithItsKey) {
   says(smax + "ring_bits = 17\n" + kPosition, "mdofd.toml:3: ring_bits");
   says(smax + "pol_ms = 5\n" + kPosition, "poll_ms");
   says(smax + channel("encoder", "positon"),
-       "the device has no input \"positon\"; it has position");
+       "the device has no input \"positon\"; the inputs of the device are position");
   says("profile = \"pokeys57e\"\naddress = \"box\"\n" + channel("encoder", "encoder1"),
        "a counting encoder needs um_per_count");
   says("profile = \"adam-6017\"\naddress = \"box\"\n" + channel("A", "AI0", "um_per_count = 1\n"),

@@ -149,9 +149,9 @@ TEST(ModbusProtocol, AWriteIsConfirmedByItsOwnEcho) {
     return why_not(Framing::tcp, asked, wrap(Framing::tcp, {4, 1, bytes(pdu)}));
   };
   EXPECT_EQ(reply("10 AB 7C 00 02"), "accepted");
-  EXPECT_EQ(reply("10 AB 7D 00 02"), "the reply confirms another write than the requested one");
-  EXPECT_EQ(reply("10 AB 7C 00 01"), "the reply confirms another write than the requested one");
-  EXPECT_EQ(reply("10 AB 7C 00 02 00"), "the reply confirms another write than the requested one");
+  EXPECT_EQ(reply("10 AB 7D 00 02"), "the reply confirms a write that was not requested");
+  EXPECT_EQ(reply("10 AB 7C 00 01"), "the reply confirms a write that was not requested");
+  EXPECT_EQ(reply("10 AB 7C 00 02 00"), "the reply confirms a write that was not requested");
 }
 
 TEST(ModbusProtocol, ExceptionsHaveNames) {

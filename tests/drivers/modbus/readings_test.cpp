@@ -208,7 +208,8 @@ TEST(ModbusProfiles, WhatIsWrongIsNamedWithLineAndKey) {
   says(head + value("scale = 0\n"), "scale: must not be 0");
   says(head + value("typ = \"u16\"\n"), "type");
   says(head + value("count = 3\n"), "name: must contain \"#\"");
-  says(head + value("ring_bits = 17\n"), "ring_bits: must be at most 16, the bits of the register");
+  says(head + value("ring_bits = 17\n"),
+       "ring_bits: must be at most 16 (the number of bits of the register)");
   says(head + value("type = \"f32\"\nring_bits = 8\n"), "ring_bits: applies to counters");
   says(head + value("") + value(""), "\"v\" is given twice");
   says(head + "[[value]]\nname = \"v\"\naddress = 65535\ntype = \"u32\"\n",
@@ -217,7 +218,7 @@ TEST(ModbusProfiles, WhatIsWrongIsNamedWithLineAndKey) {
   says(head + value("") + "[[status]]\naddress = 1\n", "mask: must have at least one bit set");
   says(head + value("") + "[[status]]\naddress = 1\nmask = 1\nmakes = \"bad\"\n", "makes");
   says(head + value("") + "[[status]]\naddress = 1\nmask = 1\nvalues = [\"w\"]\n",
-       "there is no value \"w\"");
+       "the profile has no value \"w\"");
 }
 
 TEST(ModbusSentinels, AreOfALengthThatNoValueIsAskedByAndThatNoneOwesStill) {

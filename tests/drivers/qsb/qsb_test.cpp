@@ -212,13 +212,13 @@ TEST(QsbConfiguration, KeysAndTheirErrors) {
   EXPECT_EQ(configured("address = \"192.168.0.7:2217\"" + channel), "qsb");
   const std::pair<std::string, const char*> wrong[] = {
       {channel, "port: is missing"},
-      {"port = \"a\"\naddress = \"b:1\"" + channel, "port: contradicts address"},
+      {"port = \"a\"\naddress = \"b:1\"" + channel, "port: contradicts the key \"address\""},
       {"address = \"b\"" + channel, "is not an address"},
       {"port = \"a\"\nbaud = 3" + channel, "baud: must be a baud rate"},
       {"port = \"a\"\ninterval = 0" + channel, "interval: must be from 1 to 512"},
       {"port = \"a\"\ncounting = \"x3\"" + channel, "counting: must be"},
       {"port = \"a\"\n[[channel]]\nid = \"encoder\"\ninput = \"count0\"\num_per_count = 1",
-       "no input \"count0\"; it has count"},
+       "no input \"count0\"; the inputs of the device are count"},
       {"port = \"a\"\n[[channel]]\nid = \"encoder\"\ninput = \"count\"", "needs um_per_count"},
   };
   for (const auto& [toml, message] : wrong)

@@ -68,7 +68,8 @@ tl::expected<EventQuery, HttpError> read_event_query(std::string_view query) {
     std::string_view value = cut(query, '&');
     const auto key = cut(value, '=');
     const auto text = decoded(value);
-    if (!text) return bad_query("the query of the address is not correctly percent-encoded");
+    if (!text)
+      return bad_query("the part of the address after \"?\" is not correctly percent-encoded");
     if (key == "topics") {
       MDOF_CHECK(take_topics(*text, out));
     } else if (key == "interval_ms") {

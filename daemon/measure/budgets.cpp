@@ -28,7 +28,7 @@ constexpr std::size_t kMostCost = 250'000;  // a second; 11 targets and all decl
 Result<algo::TargetMean> target_near(const algo::RunBudgets& run, std::int64_t id, double at_m) {
   const auto& targets = run.means().targets;  // ascending
   if (targets.empty())
-    return bad_input("no target of the run has error values, so no budget can be calculated",
+    return bad_input("no budget can be calculated, because no target of the run has error values",
                      Remedy::show_points);
   double interval_m = 0;
   const algo::TargetMean* nearest = &targets.front();
@@ -39,7 +39,7 @@ Result<algo::TargetMean> target_near(const algo::RunBudgets& run, std::int64_t i
   }
   const double first_m = targets.front().position_m, last_m = targets.back().position_m;
   if (at_m >= first_m - interval_m / 2 && at_m <= last_m + interval_m / 2) return *nearest;
-  return bad_input(plain_number(to_mm(at_m)) + " mm is outside the targets of run " +
+  return bad_input(plain_number(to_mm(at_m)) + " mm is outside the range of the targets of run " +
                    std::to_string(id) + " (" + plain_number(to_mm(first_m)) + " to " +
                    plain_number(to_mm(last_m)) + " mm); give a position within this range");
 }
@@ -52,8 +52,7 @@ Result<std::vector<algo::Figure>> chosen_figures(std::vector<algo::Figure> all,
     if (figure.name == name) return std::vector{std::move(figure)};
     names += (names.empty() ? "" : ", ") + figure.name;
   }
-  return fail(ErrorCode::usage,
-              "\"" + name + "\" is not a figure of this run; give one of: " + names);
+  return fail(ErrorCode::usage, "figure \"" + name + "\" is unknown; give one of: " + names);
 }
 
 // A run whose rig cannot be had.
@@ -68,16 +67,17 @@ RunUncertainty noise_of(const Run& run, const Error& error) {
 StatedFigures stated_figures(const Run& run, const Result<algo::RunBudgets>& of_run) {
   if (!of_run) return {{}, words::text(of_run.error())};
   if (of_run->cost() > kMostCost)
-    return {{},
-            "the uncertainty was not calculated, because it would take more than 1 s (" +
-                std::to_string(of_run->means().targets.size()) +
-                " targets, declared uncertainties of the rig); " +
-                words::remedy(Remedy::budget_run)};
+    return {
+        {},
+        "the uncertainty was not calculated, because the calculation would take more than 1 s (" +
+            std::to_string(of_run->means().targets.size()) +
+            " targets and the declared uncertainties of the rig); " +
+            words::remedy(Remedy::budget_run)};
   StatedFigures stated{of_run->of(algo::figures_of_run(run.header.axis)), ""};
   std::erase_if(stated.budgets, [](const Budget& budget) { return !std::isfinite(budget.value); });
   if (stated.budgets.empty())
     stated.why =
-        "no result could be calculated, because the errors are known at too few targets of the run";
+        "no result could be calculated, because too few targets of the run have error values";
   return stated;
 }
 

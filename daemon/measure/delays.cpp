@@ -31,7 +31,7 @@ std::string delay_problem(const std::string& id, const Rig& rig) {
 std::string too_long(double delay_s, double settle_s) {
   return "a delay of " + plain_number(delay_s, kDigits) +
          " s is longer than settle_s = " + plain_number(settle_s, kDigits) +
-         " s, so readings of the motion would be averaged into the stop";
+         " s, so the average of a stop would include readings from the motion";
 }
 
 }  // namespace
@@ -45,8 +45,8 @@ void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDela
       channel.reject("id", problem);
     if (!(delay_us >= 0 && delay_us <= kMost_us)) {
       channel.reject("delay_us", "must be from 0 to " + plain_number(kMost_us, kDigits) +
-                                     "; set 0 for the channel with the shortest delay, and for "
-                                     "each other channel the difference from this delay");
+                                     "; set 0 for the channel with the shortest delay, and set the "
+                                     "additional delay for each other channel");
     } else if (delay_us / 1e6 > settle_s) {
       channel.reject("delay_us", too_long(delay_us / 1e6, settle_s), Remedy::raise_settle,
                      plain_number(delay_us / 1e6, kDigits));

@@ -78,9 +78,9 @@ constexpr std::int64_t kMostPoints = 200'000;  // all in memory at once: some 15
 // Before any point is read: what would be refused in the end, or could not be held.
 Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& runs) {
   if (runs.size() > kMostRuns)
-    return fail(ErrorCode::usage, "a table is built from at most " + std::to_string(kMostRuns) +
-                                      " runs, but " + std::to_string(runs.size()) +
-                                      " are given; give fewer runs");
+    return fail(ErrorCode::usage,
+                "at most " + std::to_string(kMostRuns) + " runs are allowed for a table, but " +
+                    std::to_string(runs.size()) + " runs are given; give fewer runs");
   const std::set<std::int64_t> different(runs.begin(), runs.end());
   if (different.size() < runs.size())
     return bad_input(
@@ -92,8 +92,8 @@ Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& ru
     points += of_run;
   }
   if (points <= kMostPoints) return {};
-  return bad_input("these runs have " + std::to_string(points) +
-                   " points together (limit of a table: " + std::to_string(kMostPoints) +
+  return bad_input("these runs have a total of " + std::to_string(points) +
+                   " points (limit of a table: " + std::to_string(kMostPoints) +
                    "); leave some runs out");
 }
 
@@ -148,10 +148,10 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
     MDOF_TRY(const StatedAt at, request.reference ? stated_at(rig, *request.reference)
                                                   : Result<StatedAt>(stated_at_by_default(rig)));
     if (!runs.empty() && (rig.machine != options.machine || at != options.stated))
-      return bad_input("the rigs of runs " + std::to_string(request.runs.front()) + " and " +
-                       std::to_string(id) +
-                       " differ in [machine] or in tool_point_mm; build one table from runs of one "
-                       "set-up");
+      return bad_input(
+          "the rigs of runs " + std::to_string(request.runs.front()) + " and " +
+          std::to_string(id) +
+          " differ in [machine] or in tool_point_mm; build a table from runs of one set-up");
     options.machine = rig.machine;
     options.stated = at;
     runs.push_back(std::move(run));
@@ -191,18 +191,19 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   if (volumetric) return check_volumetric_activation(store, request.table, request.consent);
   MDOF_TRY(const CompensationTable table, store.table(request.table));
   if (table.has_positioning())
-    return fail(ErrorCode::conflict,
-                "table " + std::to_string(table.id) + " contains " + positioning_name(table.axis) +
-                    "; an axis has one active table, and this table would replace the one with "
-                    "its straightness and angles. mdofd serves positioning errors in a table of a "
-                    "plane or a volume that is built from both tables; otherwise the controller "
-                    "must read them from a file",
-                Remedy::export_table);
+    return fail(
+        ErrorCode::conflict,
+        "table " + std::to_string(table.id) + " contains " + positioning_name(table.axis) +
+            ". An axis can have only one active table, so this table would replace the table with "
+            "the straightness and the angles. mdofd can serve positioning errors in a table of a "
+            "plane or a volume that is built from both tables; without such a table, the "
+            "controller must read the positioning errors from a file",
+        Remedy::export_table);
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);
   const bool is_active = now && now->table.id == request.table;
   if (!is_active) MDOF_CHECK(check_no_volumetric(store));
-  if (!is_active) MDOF_CHECK(check_gate(judged, request.consent, "it is not activated"));
+  if (!is_active) MDOF_CHECK(check_gate(judged, request.consent, "the table is not activated"));
   return store::Marks{judged.simulated, !judged.doubtful.empty()};
 }
 

@@ -19,9 +19,8 @@ Status check_log(ReplayLog& log, Axis axis, const Rig& rig) {
   Rig moved = rig;
   moved.axis = axis;
   if (!check_axis(log.path(), log.comments(), moved))
-    return bad_input(log.path() + ": the log states another axis than " +
-                     std::string(1, letter(axis)) + "; give a log of axis " +
-                     std::string(1, letter(axis)));
+    return bad_input(log.path() + ": the log is not for axis " + std::string(1, letter(axis)) +
+                     "; give a log of axis " + std::string(1, letter(axis)));
   return check_channels(log.path(), log.driver().info().channels, rig);
 }
 
@@ -69,7 +68,7 @@ Result<LogStops> read_stops(const std::string& path, Axis axis, const Rig& rig) 
     return bad_input(path + ": no stop found: the axis was at rest for at most " +
                      plain_number(dwell.summary().longest_still_s) + " s, but a stop must last " +
                      plain_number(algo::DwellOptions().shortest_s()) +
-                     " s; stop longer at each place");
+                     " s; let the axis stop longer at each position");
   for (Point& stop : found.stops) leave_out(stop, rig);
   found.sha256 = log.sha256();
   found.started_utc = log.started_utc();

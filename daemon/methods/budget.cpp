@@ -19,7 +19,7 @@ Status check_size(store::Store& store, std::int64_t run) {
   MDOF_TRY(const std::int64_t points, store.count_points(run));
   if (points <= kMostPoints) return {};
   return bad_input("run " + std::to_string(run) + " has " + std::to_string(points) +
-                       " points (limit of a budget in one call: " + std::to_string(kMostPoints) +
+                       " points (limit for a budget in one call: " + std::to_string(kMostPoints) +
                        ")",
                    Remedy::budget_run);
 }
@@ -87,7 +87,7 @@ Result<QueryThread::Work> trend(Methods&, const Params& params) {
 
 void add_budget_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param reference{"reference", ParamType::string,
-                             "point at which errors are stated: fixture, carriage or tool", false,
+                             "reference point of the errors: fixture, carriage or tool", false,
                              "\"fixture\""};
   const std::string result =
       "figures: for each result its value, u, u_random, nu_eff (null: infinite), k, U (95 %), "
@@ -99,52 +99,51 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
        .params = {{"run", ParamType::integer, "id of the run", true},
                   {"figure", ParamType::string,
                    "name of the result, such as EYX_straightness_um, EYX_slope_urad or "
-                   "EAX_range_urad; with at_mm the name of an error, such as EYX_um",
+                   "EAX_range_urad; with at_mm: name of an error, such as EYX_um",
                    true},
                   {"at_mm", ParamType::number,
-                   "position at which the error is asked for; the nearest target is used", false},
+                   "position of the error; mdofd uses the nearest target", false},
                   reference},
        .result = result,
        .example = R"({"run": 1, "figure": "EYX_straightness_um"})",
        .handler = on_query(m, run_budget)});
   table.add(
       {.name = "run.compare",
-       .summary =
-           "Compares the results of two runs of one axis: one before, one after a compensation.",
+       .summary = "Compares the results of two runs of one axis: a run before and a run after a "
+                  "compensation.",
        .params = {{"before", ParamType::integer, "id of the run before the compensation", true},
                   {"after", ParamType::integer, "id of the run after the compensation", true},
                   reference},
-       .result =
-           "figures: for each result before, after and change (|after| - |before|), each "
-           "with value, u, u_random, nu_eff, k, U (95 %); effect: reduced, increased, or not "
-           "shown (the change is within its U), or unknown (U is unknown); points: at each target "
-           "that both runs have position_mm and, of forward, reverse and reversal, before, "
-           "after, U_before and U_after of each error; notices: other differences "
-           "between the runs, and the notices of both. Of two imported runs of positioning the "
-           "figures are E, E_forward, "
-           "E_reverse and B (ISO 230-2)",
+       .result = "figures: for each result before, after and change (|after| - |before|), each "
+                 "with value, u, u_random, nu_eff, k, U (95 %); effect: reduced, increased, not "
+                 "shown (the change is smaller than its U) or unknown (U is unknown); points "
+                 "(targets of both runs): position_mm, and before, after, U_before and U_after of "
+                 "each error (forward, reverse and reversal); notices: other differences between "
+                 "the runs, and the notices of both runs. For two imported runs of positioning "
+                 "errors, the figures are E, E_forward, E_reverse and B (ISO 230-2)",
        .example = R"({"before": 1, "after": 2})",
        .handler = on_query(m, compare)});
   table.add(
       {.name = "run.trend",
-       .summary = "Charts figures of the stored runs over time, with control limits (Shewhart).",
+       .summary =
+           "Calculates control charts (Shewhart) of the results of the stored runs over time.",
        .params = {{"axis", ParamType::string,
-                   "X, Y or Z: figures of its runs; absent: all, and "
-                   "those of squareness"},
+                   "X, Y or Z: only results of this axis [all axes, and squareness]"},
                   {"figure", ParamType::string,
-                   "only this one, such as EYX_straightness_um or EC0Y_urad"},
+                   "only this result, such as EYX_straightness_um or EC0Y_urad [all results]"},
                   {"baseline",
                    ParamType::integer,
-                   "number of first values that the limits are calculated from; absent: all but "
-                   "the last",
+                   "number of oldest values from which the limits are calculated [all values "
+                   "except the newest]",
                    false,
                    {},
                    {.least = algo::kFewestOfBaseline, .most = 100'000}},
-                  {"mixed", ParamType::boolean, "also use runs with other rigs and models", false,
-                   "false"}},
-       .result = "figures: for each figure values in time (runs, started_utc, value, u, u_random, "
-                 "low, high, signal), centre, sigma, baseline (all null or 0: too few values for "
-                 "limits), moved (since_runs, by, u_by) or null, what u covers, left_out, notices",
+                  {"mixed", ParamType::boolean,
+                   "also use runs with other rigs, models or evaluation options", false, "false"}},
+       .result = "figures: for each result the values in the order of time (runs, started_utc, "
+                 "value, u, u_random, low, high, signal), centre, sigma and baseline (null, null "
+                 "and 0 if there are too few values for limits), moved (since_runs, by, u_by) or "
+                 "null, u_covers, u_not_declared, left_out, notices",
        .example = R"({"figure": "EYX_straightness_um"})",
        .handler = on_query(m, trend)});
   table.add({.name = "squareness.budget",
@@ -160,9 +159,10 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
        .summary =
            "Calculates the parallelism of two motions along one axis (ISO 230-1): the angle "
            "between the reference lines of their straightness, with budgets. Nothing is stored.",
-       .params = {{"run_a", ParamType::integer, "id of the run that is the datum", true},
+       .params = {{"run_a", ParamType::integer, "id of the reference run (datum)", true},
                   {"run_b", ParamType::integer,
-                   "id of the run along the same axis that is compared with run_a", true},
+                   "id of the run that is compared with run_a; both runs are along the same axis",
+                   true},
                   {"partial", ParamType::boolean, "also accept partial runs", false, "false"}},
        .result = "parallelism: for both straightness errors and each reference line, angle_urad = "
                  "slope of run_b - slope of run_a; from_mm, to_mm: the common travel; " +

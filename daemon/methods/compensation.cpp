@@ -206,7 +206,9 @@ Result<std::string> at(const Methods& m, const Params& params) {
   write_correction(json, table, value.error);
   write_values(json, "u", table.axis, value.u);
   write_values(json, "u_interpolation", table.axis, value.u_interpolation);
-  write_covers(json, covers_text(table) + "; between targets u also includes the interpolation",
+  write_covers(json,
+               covers_text(table) +
+                   "; between targets, u also includes the uncertainty of the interpolation",
                table.not_declared);
   json.field("inside", value.inside)
       .field("simulated", table.simulated)
@@ -231,8 +233,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        "false"},
       {"partial", ParamType::boolean, "also accept partial runs", false, "false"},
       {"reference", ParamType::string,
-       "point at which straightness is stated: fixture, carriage or tool [the rig's tool point, "
-       "else the fixture]",
+       "reference point of the straightness: fixture, carriage or tool [tool if the rig has a tool "
+       "point, otherwise fixture]",
        false}};
   for (rpc::Param& limit : limit_params()) build_params.push_back(std::move(limit));
   table.add({.name = "compensation.build",
@@ -248,8 +250,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "compensation.activate",
        .summary = "Activates a stored table (of an axis or of the volume) at once for all clients.",
        .params = {{"table", ParamType::integer, "id of the table", true},
-                  {"simulated", ParamType::boolean, "also accept a table of simulated data", false,
-                   "false"},
+                  {"simulated", ParamType::boolean, "also accept a table with simulated data",
+                   false, "false"},
                   {"despite_warnings", ParamType::boolean,
                    "also accept a table that is doubtful because of notices of its runs", false,
                    "false"},
@@ -297,27 +299,29 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
            "three u in um; with u_parts also three u_common and three u_independent",
        .example = R"({"axis": "X", "offset": 0, "count": 20})",
        .handler = [&m](const Params& p) { return grid(m, p); }});
-  table.add(
-      {.name = "compensation.at",
-       .summary = "Returns the correction at a position: interpolated linearly between grid "
-                  "points; outside the grid the end value, with \"inside\" = false.",
-       .params = {axis,
-                  {"position_mm", ParamType::number, "position on the axis; required for an axis",
-                   false},
-                  {"X_mm", ParamType::number,
-                   "for the volume: command of X; required if X is an axis of the grid; if it is "
-                   "not, the default is the position of X in the table",
-                   false},
-                  {"Y_mm", ParamType::number, "for the volume: command of Y, as for X", false},
-                  {"Z_mm", ParamType::number, "for the volume: command of Z, as for X", false},
-                  {"direction", ParamType::integer, "1: forward, -1: reverse, 0: mean of both",
-                   false, "0"}},
-       .result = "Axis: error (um, urad), correction (to be added to the command; null with "
-                 "correction_reason if its sign is unknown), u, inside (true: this approach was "
-                 "measured at this position), simulated, doubtful, generation. Volume: correction, "
-                 "u, u_common and u_independent by axis",
-       .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
-       .handler = [&m](const Params& p) { return at(m, p); }});
+  table.add({.name = "compensation.at",
+             .summary = "Returns the correction at a position. Between grid points, the correction "
+                        "is interpolated linearly. Outside the grid, it is the value at the end of "
+                        "the grid, and \"inside\" is false.",
+             .params = {axis,
+                        {"position_mm", ParamType::number,
+                         "position on the axis; required for an axis", false},
+                        {"X_mm", ParamType::number,
+                         "for the volume: command of X; required if X is an axis of the grid; "
+                         "otherwise the default is the position of X in the table",
+                         false},
+                        {"Y_mm", ParamType::number,
+                         "for the volume: command of Y; the rule of X_mm applies", false},
+                        {"Z_mm", ParamType::number,
+                         "for the volume: command of Z; the rule of X_mm applies", false},
+                        {"direction", ParamType::integer,
+                         "1: forward, -1: reverse, 0: mean of both", false, "0"}},
+             .result = "For an axis: error (um, urad), correction (to be added to the command; "
+                       "null with correction_reason if the sign is unknown), u, inside (true: this "
+                       "approach was measured at this position), simulated, doubtful, generation. "
+                       "For the volume: correction, u, u_common and u_independent by axis",
+             .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
+             .handler = [&m](const Params& p) { return at(m, p); }});
 }
 
 }  // namespace mdof::daemon

@@ -36,8 +36,10 @@ void set_encoder(Methods& m, const Params& params, Reply reply) {
   auto shared = std::make_shared<Reply>(std::move(reply));
   (*station)->set_encoder(from_mm(position_mm), action, [=](const Result<EncoderDatum>& set) {
     if (!set) return (*shared)(tl::unexpected(set.error()));
-    std::fprintf(stderr, "axis %c: its encoder is set to %.4f mm by %s (offset now %.4f mm)\n",
-                 letter(*axis), position_mm, set->by.c_str(), to_mm(set->offset_m));
+    std::fprintf(
+        stderr,
+        "axis %c: the encoder position was set to %.4f mm by %s (the offset is now %.4f mm)\n",
+        letter(*axis), position_mm, set->by.c_str(), to_mm(set->offset_m));
     (*shared)(datum_reply(*axis, position_mm, *set));
   });
 }

@@ -21,8 +21,8 @@ constexpr const char* kComponents[] = {"x_um", "y_um", "z_um", "a_urad", "b_urad
 Status check_no_files(const Machine& machine) {
   if (!names_files(machine)) return {};
   return bad_input(
-      "the machine file names other files, but machine.at reads no files; give the tables in the "
-      "text, as EXX_um = [[…]], or name runs and tables of the database");
+      "the machine file refers to other files, but machine.at does not read files; write the "
+      "tables into the machine file (EXX_um = [[…]]), or refer to runs and tables of the database");
 }
 
 void write_error(JsonWriter& json, const char* key, const algo::Vector6& error) {
@@ -84,8 +84,9 @@ std::vector<rpc::Param> machine_params() {
            {},
            {.bytes = 60'000}},
           {"machine_source", ParamType::string,
-           "file name of the machine file, for messages. If the machine file names other files: "
-           "its absolute path (the other files are read from the same folder)",
+           "file name of the machine file, used in messages. If the machine file refers to other "
+           "files, give the absolute path of the machine file: mdofd reads the other files from "
+           "the same folder",
            false}};
 }
 

@@ -37,10 +37,10 @@ void QueryThread::answer(rpc::Reply reply, Work work) {
   Client& client = clients_.at(key);
   if (client.calls.size() >= kMostOfClient) {
     ++refused_;
-    return reply(
-        fail(ErrorCode::conflict, std::to_string(kMostOfClient) +
-                                      " calls of this connection already wait for the database; "
-                                      "call again when some of them are answered"));
+    return reply(fail(ErrorCode::conflict,
+                      std::to_string(kMostOfClient) +
+                          " calls of this connection are already waiting for the database; call "
+                          "again after mdofd has answered some of these calls"));
   }
   client.calls.push_back({std::move(reply), std::move(work)});
   if (client.calls.size() == 1) order_.add(std::move(key), client.share);

@@ -82,7 +82,7 @@ void add_rig_methods(rpc::MethodTable& table, Methods& m) {
              .result =
                  "axis, rig, moves, travel, chain; probes: position_mm and direction in the "
                  "fixture's frame, reads, range_um, low_um and high_um (displacements at the ends "
-                 "of its range), certificate, laboratory, calibrated, due; records: the "
+                 "of the range), certificate, laboratory, calibrated, due; records: the "
                  "calibration records of the rig; u_not_declared; notices of overdue calibrations",
              .example = R"({"axis": "X"})",
              .handler = [&m](const Params& p) { return get_rig(m, p); }});

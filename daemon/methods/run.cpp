@@ -285,7 +285,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param run{"run", ParamType::integer, "id of the run", true};
   const rpc::Param offset = offset_param();
   const rpc::Param reference{"reference", ParamType::string,
-                             "point at which errors are stated: fixture, carriage or tool", false,
+                             "reference point of the errors: fixture, carriage or tool", false,
                              "\"fixture\""};
   table.add(
       {.name = "run.start",
@@ -321,8 +321,8 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              "0",
              {.least = 0, .most = 10'000}},
             {"note", ParamType::string, "free text, stored with the run", false, "\"\""}},
-       .result = "run, axis, targets_mm, notices. The reply is sent after the run is on the "
-                 "disk and has begun to measure",
+       .result = "run, axis, targets_mm, notices. The reply is sent after the run is stored on the "
+                 "disk and the measurement has begun",
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});
@@ -336,7 +336,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .handler = [&m](const Params& p, Reply r) { resume_run(m, p, std::move(r)); }});
   table.add(
       {.name = "run.stop",
-       .summary = "Ends a run that is under way and evaluates it.",
+       .summary = "Ends a run that is under way, and evaluates the run.",
        .params = {run, {"abort", ParamType::boolean, "mark the run as aborted", false, "false"}},
        .result = "run: id of the evaluated run. If mdofd renumbered the targets at the end, this "
                  "is a new run that supersedes the stopped run",
@@ -351,31 +351,28 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .result = "total, runs: header and provenance of each",
              .example = R"({"offset": 0, "count": 10})",
              .handler = on_query(m, list_runs)});
-  table.add(
-      {.name = "run.get",
-       .summary = "Returns a run without its points: header, provenance, straightness, "
-                  "angles, plausibility, who started and stopped it.",
-       .params = {run, reference},
-       .result =
-           "the run; straightness in um, slopes and angles in urad; uncertainty of each figure "
-           "(of imported positioning: E and B of ISO 230-2, or the range where "
-           "readings do not say their approach); "
-           "straightness_lines; result_sha256; n_ij (numbers of visits) is null if the "
-           "list is too long for a reply",
-       .example = R"({"run": 1})",
-       .handler = on_query(m, get_run)});
-  table.add(
-      {.name = "run.points",
-       .summary = "Returns the points of a run in the order measured, in pages.",
-       .params = {run, offset, count_param(kMaxPointsPage), reference},
-       .result = "total, u_covers, points: position_mm, five errors in um and urad, u, u_random, "
-                 "U, k, nu_eff (null: infinite), flags; of an imported run: position_mm, its one "
-                 "error, u",
-       .example = R"({"run": 1, "offset": 0, "count": 20})",
-       .handler =
-           on_query(m, [pages = std::make_shared<RunPages>()](Methods&, const Params& params) {
-             return run_points(pages, params);
-           })});
+  table.add({.name = "run.get",
+             .summary = "Returns a run without its points: header, provenance, straightness, "
+                        "angles, plausibility, who started and stopped it.",
+             .params = {run, reference},
+             .result =
+                 "the run; straightness in um, slopes and angles in urad; uncertainty of each "
+                 "result (for imported positioning errors: E and B of ISO 230-2, or the range if "
+                 "the approach of a reading is unknown); straightness_lines; result_sha256; n_ij "
+                 "(numbers of visits) is null if the list is too long for a reply",
+             .example = R"({"run": 1})",
+             .handler = on_query(m, get_run)});
+  table.add({.name = "run.points",
+             .summary = "Returns the points of a run in the order of measurement, in pages.",
+             .params = {run, offset, count_param(kMaxPointsPage), reference},
+             .result = "total, u_covers, points: position_mm, five errors in um and urad, u, "
+                       "u_random, U, k, nu_eff (null: infinite), flags; for an imported run: "
+                       "position_mm, the imported error, u",
+             .example = R"({"run": 1, "offset": 0, "count": 20})",
+             .handler = on_query(
+                 m, [pages = std::make_shared<RunPages>()](Methods&, const Params& params) {
+                   return run_points(pages, params);
+                 })});
 }
 
 }  // namespace mdof::daemon

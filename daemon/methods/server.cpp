@@ -230,38 +230,38 @@ Change change_active(Methods& m, std::string reply_members,
 }
 
 void add_server_methods(rpc::MethodTable& table, Methods& m) {
-  table.add(
-      {.name = "server.info",
-       .summary =
-           "Returns the version, the uptime, the axes and the generation (a number that grows "
-           "with each change of the active compensation).",
-       .result = "identity of the daemon; http: url of the web page and path of its token file, or "
+  table.add({.name = "server.info",
+             .summary = "Returns the version, the uptime, the axes and the generation (a number "
+                        "that increases with each change of an active table).",
+             .result =
+                 "identity of the daemon; http: url of the web page and path of its token file, or "
                  "null; chain: link and sha256 of the newest entry in the chain of hashes, for a "
                  "later check of the database; axes: devices, run under way, datum of the encoder "
                  "(absolute, none, configured, set or index), offset_mm, note",
-       .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
+             .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add(
       {.name = "device.list",
        .summary = "Lists the devices with axis, state, last error, channels and numbers of scans.",
        .result = "devices",
        .handler = [&m](const Params&) -> Result<std::string> { return device_list(m); }});
-  table.add({.name = "live.subscribe",
-             .summary =
-                 "Subscribes to two notifications. live.update: the newest values, and of each "
-                 "probe low_um and high_um over the last second. run.event: "
-                 "each step of a run, after the step is on the disk, and each change of an active "
-                 "compensation table (type \"compensation\", with the generation).",
-             .params = {{"interval_ms",
-                         ParamType::integer,
-                         "shortest time between two updates",
-                         false,
-                         "100",
-                         {.least = 20, .most = 3'600'000}},
-                        {"events", ParamType::boolean, "also send run.event", false, "true"}},
-             .result = "the settings of the subscription",
-             .example = R"({"interval_ms": 200})",
-             .subscribes = true,
-             .handler = [](const Params& params) { return subscribe(params); }});
+  table.add(
+      {.name = "live.subscribe",
+       .summary =
+           "Subscribes to two notifications. live.update: the newest values, and for each probe "
+           "the lowest and the highest reading of the last second (low_um, high_um). run.event: "
+           "each step of a run, after the step is stored on the disk, and each change of an active "
+           "compensation table (type \"compensation\", with the generation).",
+       .params = {{"interval_ms",
+                   ParamType::integer,
+                   "shortest time between two updates",
+                   false,
+                   "100",
+                   {.least = 20, .most = 3'600'000}},
+                  {"events", ParamType::boolean, "also send run.event", false, "true"}},
+       .result = "the settings of the subscription",
+       .example = R"({"interval_ms": 200})",
+       .subscribes = true,
+       .handler = [](const Params& params) { return subscribe(params); }});
   table.add({.name = "live.unsubscribe",
              .summary = "Ends both subscriptions of this connection.",
              .result = "an empty object",

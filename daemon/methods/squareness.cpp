@@ -63,11 +63,11 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
   std::vector<rpc::Param> fit =
       squareness_params({{"artefact_angle_error_urad", ParamType::number,
                           "angle error of the square: the angle between its two faces, inside the "
-                          "material, is 90 deg + this value [as stated in the rigs]",
+                          "material, is 90 deg + this value [value in the rigs]",
                           false},
                          {"u_artefact_urad",
                           ParamType::number,
-                          "standard uncertainty of the square's angle [as stated in the rigs]",
+                          "standard uncertainty of the angle of the square [value in the rigs]",
                           false,
                           {},
                           {.least = 0}}});

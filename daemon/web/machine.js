@@ -46,7 +46,7 @@ export function warnings() {
   const found = [];
   const all = axes();
   if (!live.isConnected() && performance.now() > kFirst_ms)
-    found.push({kind: "invalid", text: "No connection to mdofd: everything shown is stale.",
+    found.push({kind: "invalid", text: "No connection to mdofd: all values shown are stale.",
       age: all.length ? Math.min(...all.map(ageOf)) : Infinity});
   else
     for (const axis of all.filter(isStale))

@@ -29,7 +29,7 @@ export function squarenessPicture(first, second, error_urad) {
   const line = (kind, x1, y1, x2, y2) => s("line", {class: kind, x1, y1, x2, y2});
   const text = (x, y, content) => s("text", {x, y}, content);
   return s("svg", {class: "picture", viewBox: "0 0 260 190", role: "img", "aria-label":
-    `The angle from +${first} to +${second} is ${beyond_urad > 0 ? "larger" : "smaller"} than 90 degrees, by ${fixed(Math.abs(error_urad), 2)} µrad; drawn much enlarged`},
+    `The angle from +${first} to +${second} is ${fixed(Math.abs(error_urad), 2)} µrad ${beyond_urad > 0 ? "larger" : "smaller"} than 90 degrees. The picture exaggerates the deviation.`},
   line("rule dash", 60, 160, 60, 20), line("blue", 60, 160, 230, 160), line("orange", 60, 160, ...end),
   text(235, 165, `+${first}`), text(end[0] - 8, end[1] - 6, `+${second}`), text(22, 95, "90°"));
 }

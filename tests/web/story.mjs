@@ -84,7 +84,7 @@ async function runs(page) {
 async function controlCharts(page, run) {
   await page.getByRole("link", {name: "Runs"}).click();
   await page.getByRole("link", {name: "Control charts"}).click();
-  await page.getByText("No stored run gives a value for a control chart").waitFor();
+  await page.getByText("No stored run has a value for a control chart").waitFor();
   await page.getByText(new RegExp(`left out: run ${run}: `)).first().waitFor();
   const replayed = await daemon.call("run.replay", {path: `${kData}/log_X.csv.gz`, rig: fs.readFileSync(`${kData}/rig_X.toml`, "utf8")});
   await page.getByRole("combobox", {name: /^Axis/}).selectOption("Y");

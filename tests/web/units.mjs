@@ -67,7 +67,7 @@ export async function units(page) {
       numbers: [fixed(-0.0001, 2), fixed(-1.5, 1), fixed(null, 2), measured({value: 1.83045, U: 0.0886, k: 2}, "µm"), measured({value: 1}, "µm"), short(0.000123456)],
     };
   });
-  assert.deepEqual(found.no_reading, ["Shim: not known without a reading", "Shim: not known without a reading",
+  assert.deepEqual(found.no_reading, ["Shim: not known, because the probe has no usable reading", "Shim: not known, because the probe has no usable reading",
     "Shim at least 100.0 µm: move the probe towards +Z, or the target towards −Z", "no reading"]);
   assert.deepEqual(found.lines, [[[0, 1], [50, 1.1]], [[0, 1], [50, 0.9]], []]);
   assert.deepEqual(found.of_runs, [[0, 0], [5, 0]]);
@@ -85,7 +85,7 @@ export async function units(page) {
   assert.equal(found.shim_back, "Shim 40.0 µm: move the probe towards −Z, or the target towards +Z");
   assert.match(found.centred, /no shim/);
   assert.deepEqual(found.noise, [null, [Math.sqrt((2 + 8 + 0) / 21), 21]]);
-  assert.deepEqual(found.states, ["in range", "off centre", "near the end of its range", "over range"]);
+  assert.deepEqual(found.states, ["in range", "off centre", "near the end of the range", "over range"]);
   assert.deepEqual(found.ranges, ["Last second: −1.23 to 37.00 µm", "Last second: no reading"]);
   assert.deepEqual(found.difference, [[0, 2]]);
   assert.deepEqual(found.between, [2, 3, null, null]);

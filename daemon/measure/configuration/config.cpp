@@ -34,7 +34,8 @@ Status read_store(TomlTable& root, Config& config) {
     if (durability == "normal") {
       config.durability = store::Durability::normal;
     } else if (durability != "full") {
-      table->reject("durability", "must be \"full\" (survives a power cut) or \"normal\"");
+      table->reject("durability",
+                    "must be \"full\" (stored data survive a power cut) or \"normal\"");
     }
     const auto interval_ms = table->integer("commit_interval_ms", 50);
     if (interval_ms < 1 || interval_ms > 10000) {
@@ -238,8 +239,8 @@ Status check_names(TomlTable& table, const AxisConfig& axis, const Config& confi
   for (const auto& device : axis.devices) {
     if (device.of_other_axis) continue;
     if (!names.insert(device.name).second)
-      table.reject("device",
-                   "two devices are called \"" + device.name + "\"; give each its own name");
+      table.reject("device", "two devices have the name \"" + device.name +
+                                 "\"; give each device a different name");
   }
   return {};
 }
@@ -261,7 +262,7 @@ void take_machine(TomlTable& table, const Chain& machine, Rig& rig) {
   } else if (in_chain->against_command != rig.sides.against_encoder) {
     table.reject("rig", "the rig has travel = \"" + std::string(rig.sides.travel()) +
                             "\", but [machine] travel." + axis +
-                            " states the opposite; correct the wrong one");
+                            " states the opposite; correct the wrong value");
   } else {
     rig.machine = machine;
   }

@@ -39,8 +39,8 @@ Result<Source> source_of(TomlTable& table, const std::vector<AxisConfig>& above)
 Status check_source(const TomlTable& table, const drivers::DriverSpec& device) {
   if (device.live && device.recorded && !device.simulated && !device.part.empty()) return {};
   return bad_input(table.where("same_as") + ": \"" + device.name + "\" (" + device.driver +
-                   ") cannot serve two axes (only a hardware device with [[axis.device.channel]] "
-                   "entries can); give this axis its own device");
+                   ") cannot serve two axes, because this needs a hardware device with "
+                   "[[axis.device.channel]] entries; give this axis its own device");
 }
 
 }  // namespace
@@ -66,9 +66,9 @@ Status leave_part(drivers::DriverSpec& device, std::vector<drivers::FurtherAxis>
     for (const std::string& id : given(axis.table)) {
       others.push_back(drivers::further_id(id, axis.rig.axis));
       if (has(device.channels, others.back())) continue;
-      return bad_input(axis.table.where("channel") + ": a " + device.driver +
-                       " shares only its probes with a second axis; take \"" + id +
-                       "\" from another device ([[axis.device]])");
+      return bad_input(axis.table.where("channel") + ": a device with driver " + device.driver +
+                       " can share only its probes with a second axis; provide channel \"" + id +
+                       "\" with another device ([[axis.device]])");
     }
   }
   std::erase_if(device.channels, [&](const std::string& id) { return has(others, id); });
@@ -95,7 +95,7 @@ Result<drivers::DriverSpec> read_same_as(TomlTable& table, const std::vector<Axi
     if (delay != source.axis->delays.end()) axis.delays[probe.id] = delay->second;
   }
   if (device.channels.empty())
-    return bad_input(table.where("same_as") + ": \"" + device.name + "\" has no probe of " +
+    return bad_input(table.where("same_as") + ": \"" + device.name + "\" provides no probe of " +
                      axis.rig.source +
                      ", and this entry lists no channel; correct same_as or add channels");
   const auto encoder =

@@ -23,18 +23,17 @@ Status check_rate(const drivers::DeviceInfo& device, const algo::AlignOptions& a
   const double interval_s = 1 / device.rate_hz;
   const std::string who = "device \"" + device.name + "\": ";
   if (gap_given && align.max_gap_s < interval_s)
-    return bad_input(who + "max_gap_s = " + plain_number(align.max_gap_s) +
-                     " s is shorter than the interval between samples (" +
-                     plain_number(interval_s) +
-                     " s), so all values of the device would be missing; remove max_gap_s from "
-                     "[measure] (mdofd then derives it from the rate), or sample faster");
+    return bad_input(
+        who + "max_gap_s = " + plain_number(align.max_gap_s) +
+        " s is shorter than the interval between samples (" + plain_number(interval_s) +
+        " s), so all values of the device would be missing; remove max_gap_s from [measure] (mdofd "
+        "then calculates the gap from the sampling rate), or sample faster");
   if (align.lag_bound_s < 2 * interval_s)
-    return bad_input(who + "lag_bound_s = " + plain_number(align.lag_bound_s) +
-                     " s is shorter than two intervals between samples (" +
-                     plain_number(2 * interval_s) +
-                     " s), so probes would be left out as silent; set lag_bound_s of [measure] "
-                     "to " +
-                     plain_number(2 * interval_s) + " or more, or sample faster");
+    return bad_input(
+        who + "lag_bound_s = " + plain_number(align.lag_bound_s) +
+        " s is shorter than two intervals between samples (" + plain_number(2 * interval_s) +
+        " s), so the probes of the device would count as silent; set lag_bound_s of [measure] to " +
+        plain_number(2 * interval_s) + " or more, or sample faster");
   return {};
 }
 

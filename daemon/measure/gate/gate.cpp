@@ -100,7 +100,7 @@ std::string against_decision(store::Store& store, const Run& run) {
   if (*by) return "run " + std::to_string(**by) + " supersedes " + of;
   const std::string approach = only_approach(run);
   if (!approach.empty() && !is_imported(run.header))
-    return of + " has the " + approach + " approach alone, so the reversal is unknown";
+    return of + " has the " + approach + " approach only, so the reversal is unknown";
   return "";
 }
 

@@ -115,7 +115,7 @@ Result<std::optional<double>> standard_uncertainty(const ImportRequest& request,
   const std::optional<double>& u = error.angle ? request.u_urad : request.u_um;
   if (!u) return std::nullopt;
   if (!(*u >= 0 && std::isfinite(*u)))
-    return fail(ErrorCode::usage, "the standard uncertainty must be a finite number of 0 or more");
+    return fail(ErrorCode::usage, "the standard uncertainty must be a finite number, 0 or more");
   return error.angle ? from_urad(*u) : from_um(*u);
 }
 
@@ -154,9 +154,10 @@ Result<Run> imported_run(const ImportRequest& request) {
   append(header.notices, series.notices);
   for (const ImportedReading& r : series.readings)
     run.points.push_back(point_of(r, targets, u_si, error));
-  MDOF_CHECK(check_gate(
-      {JudgedKind::file, request.file, false, without_information(header.notices)},
-      {.simulated = false, .despite_warnings = request.despite_warnings}, "it is not stored"));
+  MDOF_CHECK(
+      check_gate({JudgedKind::file, request.file, false, without_information(header.notices)},
+                 {.simulated = false, .despite_warnings = request.despite_warnings},
+                 "the file is not stored as a run"));
   return run;
 }
 

@@ -117,7 +117,7 @@ void add_figures(const Run& run, StatedFigures& stated) {
     stated.budgets.push_back(range_of(name + "_E_um", both, u));
     stated.budgets.push_back(reversal_of(name + "_B_um", forward, reverse));
   } else {
-    stated.why = "E and B of ISO 230-2 need both approaches at each target";
+    stated.why = "E and B of ISO 230-2 need readings from both approaches at each target";
   }
   if (forward.size() == approaches.size())
     stated.budgets.push_back(range_of(name + "_E_forward_um", forward, u));
@@ -145,14 +145,15 @@ StatedFigures positioning_range(const Run& run) {
   Run all = run;
   for (MeasuredPoint& p : all.points) p.point.direction = 0;
   const std::string figure = positioning_name(run.header.axis) + "_range_um";
-  return complete({{range_of(figure, means_of(all, 0), declared_u(run))},
-                   "E and B of ISO 230-2 need the approach of each reading"},
-                  run);
+  return complete(
+      {{range_of(figure, means_of(all, 0), declared_u(run))},
+       "E and B of ISO 230-2 can be calculated only if the approach of each reading is known"},
+      run);
 }
 
 StatedFigures positioning_figures(const Run& run) {
   if (run.header.provenance.model != positioning_name(run.header.axis))
-    return {{}, "of an imported run, only positioning has figures"};
+    return {{}, "an imported run has figures (ISO 230-2) only if it contains positioning errors"};
   if (has_unknown_approach(run)) return positioning_range(run);
   StatedFigures stated;
   add_figures(run, stated);

@@ -73,7 +73,7 @@ Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
   for (const double s : sense)
     if (s != sense.front())
       return bad_input(name + "column " + std::string(kSenseColumn) +
-                       " has both \"command\" and \"body\"; convert the values to one sense");
+                       " has both \"command\" and \"body\"; convert all values to one sense");
   if (!sense.empty()) {
     const StatedSense stated =
         sense.front() == kCommandSense ? StatedSense::command : StatedSense::body;
@@ -81,14 +81,16 @@ Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
       return bad_input(name + "column " + std::string(kSenseColumn) + " says \"" +
                        (stated == StatedSense::command ? "command" : "body") +
                        "\", but positioning_sense of axis " + frame.id +
-                       " in MACHINE.toml says the opposite; remove the wrong one");
+                       " in MACHINE.toml says the opposite; remove the wrong value");
     frame.positioning_sense = stated;
   }
   if (frame.positioning_sense != StatedSense::none || !frame.against_command) return {};
-  return bad_input(name + "the file does not state the sense, and with travel \"-\" of axis " +
-                   frame.id + " the sign depends on it; add a column " + std::string(kSenseColumn) +
-                   " with \"command\" (actual - commanded position) or \"body\" (along + of the "
-                   "machine), or give positioning_sense for the axis in MACHINE.toml");
+  return bad_input(
+      name + "the file does not state the sense of the errors, but axis " + frame.id +
+      " has travel \"-\", so the sign of the errors depends on the sense; add a column " +
+      std::string(kSenseColumn) +
+      " with \"command\" (actual - commanded position) or \"body\" (positive along + of the "
+      "machine), or give positioning_sense for the axis in MACHINE.toml");
 }
 
 Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,

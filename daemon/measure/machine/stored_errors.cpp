@@ -37,19 +37,19 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
   const std::string of = axis_of(frame);
   if (table.without_stated_point || table.stated.reference == Reference::carriage)
     return bad_input(of +
-                     "the errors of its table are stated at the carriage or at an unknown point; "
-                     "build a table that is stated at the fixture");
+                     "the reference point of the table is the carriage, or is unknown; build a "
+                     "table whose reference point is the fixture");
   if (table.sides.fixture_moves != frame.point_moves)
     return bad_input(of + "point must be \"" + (frame.point_moves ? "standing" : "moving") +
                      "\", because the rig states that the " + table.sides.moves() + " moves");
   if (table.sides.against_encoder != frame.against_command)
     return bad_input(of + "the rig states travel \"" + table.sides.travel() +
-                     "\", but the machine file states the opposite; correct the wrong one");
+                     "\", but the machine file states the opposite; correct the wrong file");
   if (table.machine.known() && table.machine != machine.chain)
     return bad_input(of + "the rig states the chain " + table.machine.text + " (" +
                      travels_of(table.machine) + "), but the machine file states " +
                      machine.chain.text + " (" + travels_of(machine.chain) +
-                     "); correct the wrong one");
+                     "); correct the wrong file");
   return {};
 }
 
@@ -68,9 +68,9 @@ Result<StatedAt> point_of_slope(const MachineFrame& frame, const StatedAxes& sta
     if (s.axis != frame.id) continue;
     if (!s.slope_removed)
       return bad_input(axis_of(frame) +
-                       "its table contains the straightness slope, which the squareness contains "
-                       "too, so the slope would count twice; build the table without the slope, or "
-                       "remove the squareness from the machine file");
+                       "the table of this axis contains the straightness slope, and the squareness "
+                       "contains the same slope, so the slope would count twice; build the table "
+                       "without the slope, or remove the squareness from the machine file");
     at = s.at;
   }
   return at;
@@ -214,7 +214,7 @@ Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, Sto
     MDOF_TRY(const RunHeader header, store.run_header(id));
     if (letter(header.axis) != frame.id[0] || frame.kind != FrameKind::linear)
       return bad_input(axis_of(frame) + "run " + std::to_string(id) + " measures axis " +
-                       letter(header.axis) + "; name runs of axis " + frame.id);
+                       letter(header.axis) + "; give runs of axis " + frame.id);
     (is_imported(header) ? imported : measured).runs.push_back(id);
   }
   for (const TableRequest* request : {&measured, &imported}) {
@@ -234,7 +234,7 @@ Status take_tables(store::Store& store, Machine& machine, MachineFrame& frame, S
     MDOF_TRY(const CompensationTable table, store.table(id));
     if (letter(table.axis) != frame.id[0] || frame.kind != FrameKind::linear)
       return bad_input(axis_of(frame) + "table " + std::to_string(id) + " is for axis " +
-                       letter(table.axis) + "; name tables for axis " + frame.id);
+                       letter(table.axis) + "; give tables for axis " + frame.id);
     MDOF_TRY(Notices doubtful, doubtful_notices(store, table));
     append(all.doubtful, std::move(doubtful));
     MDOF_CHECK(take_table(store, machine, frame, table, taken));
@@ -259,7 +259,7 @@ Result<std::optional<Squareness>> newest_squareness(store::Store& store, Predica
 }
 
 std::string no_axes(AxisPair axes) {
-  return std::string("; calculate one from a run of axis ") + letter(axes.a) +
+  return std::string("; calculate the squareness from a run of axis ") + letter(axes.a) +
          " and a run of axis " + letter(axes.b);
 }
 
@@ -281,8 +281,8 @@ Result<std::vector<Squareness>> latest_squareness(store::Store& store, const Mac
   return fail(ErrorCode::not_found,
               store.file().string() + ": no squareness is stored" +
                   (runs.empty() ? no_axes({})
-                                : " for the runs that the machine file names; calculate one from "
-                                  "two of these runs, which must measure different axes"));
+                                : " for the runs that the machine file names; calculate the "
+                                  "squareness from two of these runs that measure different axes"));
 }
 
 Result<std::vector<Squareness>> squareness_of(store::Store& store, const Machine& machine,
@@ -299,7 +299,7 @@ Result<std::vector<Squareness>> squareness_of(store::Store& store, const Machine
 Result<MachineFrame*> frame_of(Machine& machine, AxisPair axes, Axis axis) {
   for (MachineFrame& frame : machine.frames)
     if (frame.id == std::string(1, letter(axis))) return &frame;
-  return bad_input(std::string("squareness of the machine: the stored squareness is of axes ") +
+  return bad_input(std::string("squareness of the machine: the stored squareness is for axes ") +
                    letter(axes.a) + " and " + letter(axes.b) + ", but the chain " +
                    machine.chain.text + " has no axis " + letter(axis) +
                    "; give another squareness");
@@ -355,11 +355,12 @@ Status check_slopes(const Machine& machine, const StatedAxes& stated) {
     for (const MachineFrame& frame : machine.frames)
       for (std::size_t about = 3; about < kBodyErrors; ++about)
         if (frame.location[about].value && "XYZ"[about - 3] != s.axis.front())
-          return bad_input("axis " + s.axis +
-                           " of the machine: its table contains the straightness slope, which " +
-                           location_name(frame, about) +
-                           " contains too, so the slope would count twice; build the table without "
-                           "the slope, or remove the angle from the machine file");
+          return bad_input(
+              "axis " + s.axis +
+              " of the machine: the table of this axis contains the straightness slope, and " +
+              location_name(frame, about) +
+              " contains the same slope, so the slope would count twice; build the table without "
+              "the slope, or remove the angle from the machine file");
   }
   return {};
 }

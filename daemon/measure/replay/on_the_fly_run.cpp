@@ -68,7 +68,7 @@ Status OnTheFlyRun::solve(algo::Sequence& sequence, const algo::Residuals& resid
   }
   if (any) return {};
   return bad_input("none of the " + std::to_string(sequence.points.size()) +
-                   " points on the fly could be solved: " + sequence.points.front().errors.reason);
+                   " points on the fly has error values: " + sequence.points.front().errors.reason);
 }
 
 Result<Run> OnTheFlyRun::finish() {

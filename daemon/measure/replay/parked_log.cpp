@@ -62,7 +62,7 @@ class ParkedReader {
       MDOF_TRY(const auto state, log.driver().read(block, kParkedTimeout));
       if (block.scans() > 0) MDOF_CHECK(push(block));
       if (progress && !progress(log.progress()))
-        return io_error(log.path() + ": cancelled before the end of the log");
+        return io_error(log.path() + ": the analysis was cancelled before the end of the log");
       if (state != drivers::ReadState::end) continue;
       aligner_.flush(frames_);
       take_frames();
@@ -186,7 +186,7 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   const std::size_t steps = reader.encoder.size() / together;
   if (steps < algo::kStepsOfWindow)
     return bad_input(log.path() + ": the log lasts " + plain_number(parked.length_s) +
-                         " s, but a time window needs " +
+                         " s, but a time window needs at least " +
                          plain_number(std::max(per_step, kShortStep_s) *
                                       static_cast<double>(algo::kStepsOfWindow)) +
                          " s",

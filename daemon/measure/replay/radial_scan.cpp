@@ -98,7 +98,7 @@ Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan
       if (columns.height_m.value.size() > kMostScanPoints)
         return bad_input(from.recording_path + ": the scan has more than " +
                          std::to_string(kMostScanPoints) +
-                         " heights (limit of a log); divide the scan into several runs");
+                         " height values (limit of a log); divide the scan into several runs");
     }
     if (state == drivers::ReadState::end) break;
   }
@@ -224,8 +224,8 @@ Status add_run(store::Store& store, std::int64_t id, algo::ScanPoints& points, R
   MDOF_TRY(const auto scan, scan_of_rig(run.header.provenance.rig_text, rig.axis, name));
   if (!scan)
     return bad_input(name +
-                     ": this run is not a scan, because its rig has no [scan] that names the probe "
-                     "over the part; give a run whose rig has [scan]");
+                     ": this run is not a scan, because its rig has no table [scan]; give a run "
+                     "whose rig has [scan]");
   out.simulated = out.simulated || run.header.simulated;
   MDOF_TRY(const Motion motion, motion_of(run, rig, *scan));
   const auto [least, most] = std::minmax_element(motion.reading_m.begin(), motion.reading_m.end());

@@ -32,12 +32,12 @@ Status check_unit(const std::string& source, const std::vector<Channel>& channel
                   const std::string& probe) {
   for (const Channel& c : channels) {
     if (c.id != probe || (c.unit != Unit::other && c.unit != Unit::deg_c)) continue;
-    return bad_input(
-        source + ": column \"" + column_name(c) + "\" contains the readings of the probe \"" +
-        probe + "\", but " +
-        (c.unit == Unit::other ? "its name states no unit" : "its name states the unit °C") +
-        "; rename the column to " + probe + "_um, " + probe + "_mm or " + probe +
-        "_V, according to the unit of its values");
+    return bad_input(source + ": column \"" + column_name(c) +
+                     "\" contains the readings of the probe \"" + probe + "\", but " +
+                     (c.unit == Unit::other ? "the name of the column states no unit"
+                                            : "the name of the column states the unit °C") +
+                     "; rename the column to " + probe + "_um, " + probe + "_mm or " + probe +
+                     "_V, according to the unit of its values");
   }
   return {};
 }
@@ -49,8 +49,8 @@ Status check_encoder(const std::string& source, const std::vector<Channel>& chan
     if (c.id != kEncoderChannel || c.unit != Unit::volt || rig.encoder_um_per_V) continue;
     return bad_input(source + ": column \"" + column_name(c) +
                      "\" is the axis position in volts, and " + rig.source +
-                     " does not state the scale; add [encoder] um_per_V to that rig, or convert "
-                     "the column and name it encoder_mm");
+                     " does not state the scale; add [encoder] um_per_V to this rig, or convert "
+                     "the values to mm and rename the column to encoder_mm");
   }
   return {};
 }
@@ -66,7 +66,8 @@ Status check_air(const std::string& source, const std::vector<Channel>& channels
       continue;
     return bad_input(source + ": the column " + key +
                      " is missing, but [corrections] dielectric = true of " + rig.source +
-                     " needs this quantity; log it, or set " + key + " in [air] of the rig");
+                     " needs this quantity; add the column to the log, or set " + key +
+                     " in [air] of the rig");
   }
   return {};
 }
@@ -93,7 +94,8 @@ Status read_through(ReplayLog& log, Measuring& pipeline, const ProgressCallback&
         return in_context(log.path(), taken.error());
     }
     if (progress && !progress(log.progress()))
-      return io_error(log.path() + ": cancelled before the end of the log; replay it again");
+      return io_error(log.path() +
+                      ": the replay was cancelled before the end of the log; replay the log again");
     if (state == ReadState::end) return {};
   }
 }
@@ -185,7 +187,7 @@ Status check_axis(const std::string& source, const std::vector<std::string>& com
                   const Rig& rig) {
   const std::string stated = stated_axis(comments), of_rig(1, letter(rig.axis));
   if (stated.empty() || stated == of_rig) return {};
-  return bad_input(source + ": the log is of axis " + stated + ", but the rig " + rig.source +
+  return bad_input(source + ": the log is for axis " + stated + ", but the rig " + rig.source +
                    " is for axis " + of_rig + "; give the rig of axis " + stated);
 }
 
@@ -198,13 +200,14 @@ Status check_channels(const std::string& source, const std::vector<Channel>& cha
     if (has_channel(channels, probe.id)) continue;
     return bad_input(source + ": the column of the probe \"" + probe.id + "\" of " + rig.source +
                      " is missing (" + probe.id + "_um, " + probe.id + "_mm or " + probe.id +
-                     "_V); the columns are " + columns + "; correct the rig or the header");
+                     "_V); the columns of the log are " + columns +
+                     "; correct the rig or the header");
   }
   MDOF_CHECK(check_air(source, channels, rig));
   if (has_channel(channels, kEncoderChannel)) return check_encoder(source, channels, rig);
   return bad_input(source +
-                   ": the axis position (column encoder_mm) is missing; add it or rename its "
-                   "column; the columns are " +
+                   ": the column encoder_mm (axis position) is missing; add this column, or rename "
+                   "the column that contains the axis position; the columns of the log are " +
                    columns);
 }
 

@@ -35,7 +35,7 @@ std::string ReplayOption::command_line_name() const {
 const std::vector<ReplayOption>& replay_options() {
   static const std::vector<ReplayOption> options{
       {"tolerance_um", &Request::tolerance_um, Range::not_negative, Of::dwells,
-       "Largest change of the encoder position while the axis counts as at rest [0: automatic]"},
+       "Largest change of the encoder position that still counts as rest [0: automatic]"},
       {"settle_s", &Request::settle_s, Range::not_negative, Of::dwells,
        "Time left out at the start of each stop [0.1]"},
       {"min_length_s", &Request::min_length_s, Range::positive, Of::dwells,
@@ -43,20 +43,20 @@ const std::vector<ReplayOption>& replay_options() {
       {"max_gap_s", &Request::max_gap_s, Range::positive, Of::each_run,
        "Longest gap between samples that is interpolated [0.05]"},
       {"lag_bound_s", &Request::lag_bound_s, Range::positive, Of::each_run,
-       "Silence of a probe after which its readings count as missing [3]"},
+       "Time without samples after which the readings of a probe count as missing [3]"},
       {"remove_drift", &Request::remove_drift, Range::any, Of::each_run,
-       "Subtract a significant drift from the errors and add the uncertainty of the drift"},
+       "Subtract a significant drift from the errors and add the uncertainty of this drift to u"},
       {"on_the_fly", &Request::on_the_fly, Range::any, Of::each_run,
        "For an axis that never stops: fit each point to the readings around its target"},
       {"interval_mm", &Request::interval_mm, Range::positive, Of::motion,
        "On the fly: distance between targets [1]"},
       {"bin_mm", &Request::bin_mm, Range::not_negative, Of::motion,
-       "On the fly: width of the range of readings around each target [0: the interval, at most "
-       "1]"},
+       "On the fly: width of the range of readings around each target [0: same as the interval, at "
+       "most 1]"},
       {"from_mm", &Request::from_mm, Range::any, Of::motion,
        "On the fly: the first target [start of the travel]"},
       {"to_mm", &Request::to_mm, Range::any, Of::motion,
-       "On the fly: position beyond which there is no target [end of the travel]"}};
+       "On the fly: end of the range of targets [end of the travel]"}};
   return options;
 }
 
@@ -68,9 +68,10 @@ Status check_replay_options(const ReplayRequest& request) {
       return fail(ErrorCode::usage, std::string(option.name) +
                                         " applies only to a run on the fly; give on_the_fly too");
     if (option.of == Of::dwells && request.on_the_fly)
-      return fail(ErrorCode::usage,
-                  std::string(option.name) +
-                      " applies to stops, and a run on the fly has none; leave this option out");
+      return fail(
+          ErrorCode::usage,
+          std::string(option.name) +
+              " applies only to stops, and a run on the fly has no stops; leave this option out");
   }
   return {};
 }

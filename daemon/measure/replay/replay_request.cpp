@@ -22,7 +22,7 @@ Status check_request(const ReplayRequest& request) {
   if (!request.targets_mm.empty() && of_grid)
     return fail(ErrorCode::usage,
                 "targets_mm and the interval (interval_mm, from_mm, to_mm) both define the "
-                "targets; give one of the two");
+                "targets; give only one of the two");
   return {};
 }
 

@@ -68,7 +68,7 @@ void check_file(const Source& source, const std::string& of, SourceCheck& check)
     check.findings.push_back(
         of + ": the file " + path + " is missing" +
         (expected.empty() ? std::string() : " (its sha256 was " + expected + ")") +
-        "; put back the file or a link to it, so that the run can be replayed");
+        "; restore the file, or create a link with this name, so that the run can be replayed");
     return;
   }
   const bool recording = drivers::is_recording(path);

@@ -117,12 +117,12 @@ Status check_positioning(const Run& before, const Run& after) {
     const std::string name = "run " + std::to_string(run->header.id);
     if (!is_imported(run->header))
       return bad_input(name +
-                       " was measured with probes and the other run is imported; compare two "
-                       "measured runs, or two imported runs of positioning");
+                       " was measured with probes, but the other run is imported; compare two "
+                       "measured runs, or two imported runs of positioning errors");
     if (run->header.provenance.model != positioning_name(run->header.axis))
       return bad_input(name + " was imported as " + run->header.provenance.model +
-                       "; imported runs can be compared only if they contain the positioning (" +
-                       positioning_name(run->header.axis) + ")");
+                       "; only imported runs of positioning errors (" +
+                       positioning_name(run->header.axis) + ") can be compared");
   }
   return {};
 }
@@ -189,13 +189,14 @@ const char* to_string(Effect effect) {
 Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& request) {
   if (request.before == request.after)
     return fail(ErrorCode::usage, "run " + std::to_string(request.before) +
-                                      " is given twice; give two different runs of one axis");
+                                      " is given twice; give two different runs of the same axis");
   MDOF_TRY(const Run before, store.run(request.before));
   MDOF_TRY(const Run after, store.run(request.after));
   if (before.header.axis != after.header.axis)
     return bad_input("run " + std::to_string(request.before) + " measures axis " +
-                     letter(before.header.axis) + " and run " + std::to_string(request.after) +
-                     " axis " + letter(after.header.axis) + "; compare two runs of one axis");
+                     letter(before.header.axis) + ", but run " + std::to_string(request.after) +
+                     " measures axis " + letter(after.header.axis) +
+                     "; compare two runs of the same axis");
   if (is_imported(before.header) || is_imported(after.header))
     return compare_positioning(store, before, after);
   MDOF_TRY(auto first, run_budgets(store, {request.before, request.reference, "", {}, {}}));

@@ -81,9 +81,10 @@ void choose_kind(Chosen& chosen, bool mixed) {
                                       {{"runs", others.size()}, {"run", newest_of_kind.id}}));
     return;
   }
-  leave_out(chosen.left_out, others,
-            "the rig, the model, the drift removal or the measurement on the fly differs from " +
-                newest + " (" + words::remedy(Remedy::mix_runs) + ")");
+  leave_out(
+      chosen.left_out, others,
+      "the rig, the model, the drift removal or the measurement on the fly differs from that of " +
+          newest + " (" + words::remedy(Remedy::mix_runs) + ")");
   std::erase_if(chosen.runs, [&](const RunHeader& run) { return kind_of(run) != kind; });
 }
 
@@ -114,10 +115,10 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
     }
     if (static_cast<std::int64_t>(page.size()) < kRunsPage) break;
   }
-  leave_out(chosen.left_out, imported, "imported; trends do not include imported runs");
+  leave_out(chosen.left_out, imported, "trends do not include imported runs");
   leave_out(chosen.left_out, simulated, "simulated");
   leave_out(chosen.left_out, partial, "not complete");
-  leave_out(chosen.left_out, invalid, "invalid by a notice");
+  leave_out(chosen.left_out, invalid, "marked as invalid by a notice");
   leave_out(chosen.left_out, superseded, "superseded");
   leave_out(chosen.left_out, again, "a newer run of the same recording exists");
   std::sort(chosen.runs.begin(), chosen.runs.end(), earlier);
@@ -211,10 +212,11 @@ Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& re
     if (static_cast<std::int64_t>(page.size()) < kRunsPage) break;
   }
   if (!others.empty())
-    trend.left_out.push_back(std::to_string(others.size()) +
-                             (others.size() == 1 ? " squareness fit" : " squareness fits") +
-                             ": artefact angle or corner differs from that of the newest fit (" +
-                             words::remedy(Remedy::mix_runs) + ")");
+    trend.left_out.push_back(
+        std::to_string(others.size()) +
+        (others.size() == 1 ? " squareness fit" : " squareness fits") +
+        ": the artefact angle or the corner differs from that of the newest fit (" +
+        words::remedy(Remedy::mix_runs) + ")");
   const auto started = [&](const Squareness& s) {
     return std::max(allowed[s.run_a]->started_utc, allowed[s.run_b]->started_utc);
   };
@@ -245,7 +247,7 @@ Status check_figure(const TrendRequest& request) {
   }
   if (request.figure.empty()) return {};
   return fail(ErrorCode::usage,
-              "\"" + request.figure + "\" is not a figure of these trends; give one of: " + names);
+              "figure \"" + request.figure + "\" is unknown; give one of: " + names);
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ void store_run(Methods& m, const Params& params, Result<Request> request, MakeRu
   if (!request) return reply(tl::unexpected(request.error()));
   if (!m.replayer)
     return reply(io_error(std::string(method) +
-                          " is not available: this mdofd replays and imports no files"));
+                          " is not available, because this mdofd cannot replay or import files"));
   auto shared = std::make_shared<Reply>(std::move(reply));
   const FileUser user{who->uid, who->gid, params.caller().further_groups()};
   m.replayer->start([request = std::move(*request), user, make](
@@ -129,8 +129,9 @@ std::vector<rpc::Param> replay_params() {
        false,
        "\"\"",
        {.bytes = 60'000}},
-      {"rig_source", ParamType::string, "file name of the rig, for messages", false},
-      {"model", ParamType::string, "simplified, exact or rigid", false, "\"\""},
+      {"rig_source", ParamType::string, "file name of the rig, used in messages", false},
+      {"model", ParamType::string, "model for the evaluation: simplified, exact or rigid", false,
+       "\"\""},
       {"targets_mm",
        ParamType::array,
        "nominal positions of the targets",
@@ -157,18 +158,18 @@ std::vector<rpc::Param> import_params() {
        "(positive along + of the machine) [\"command\"]",
        false},
       {"travel", ParamType::string,
-       "\"+\": the body moves along + when the command increases; \"-\": the body moves along - "
-       "[unknown]",
+       "\"+\": the body moves in the + direction when the command increases; \"-\": in the - "
+       "direction [unknown]",
        false},
       {"u_um",
        ParamType::number,
-       "standard uncertainty of each deviation, for lengths",
+       "standard uncertainty of each deviation if the error is a length",
        false,
        {},
        not_negative},
       {"u_urad",
        ParamType::number,
-       "standard uncertainty of each deviation, for angles",
+       "standard uncertainty of each deviation if the error is an angle",
        false,
        {},
        not_negative},
@@ -194,8 +195,8 @@ void add_files_methods(rpc::MethodTable& table, Methods& m) {
                store_run(m, p, read_replay_request(p), replayed, "run.replay", std::move(r));
              }});
   table.add({.name = "run.import",
-             .summary =
-                 "Imports a file with the readings of another instrument and stores them as a run.",
+             .summary = "Imports a file with the readings of another instrument and stores the "
+                        "readings as a run.",
              .params = import_params(),
              .result = "run: id of the run. The reply is sent after the run is stored",
              .example = R"({"path": "/var/lib/mdof/laser_X.rtl", "axis": "X", "u_um": 0.3})",

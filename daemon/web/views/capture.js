@@ -27,7 +27,7 @@ export function expected({from_mm, to_mm, interval_mm, targets_mm, repeats}) {
   return targets === null ? null : {targets, points: repeats > 0 ? 2 * targets * repeats : null};
 }
 
-const kKinds = [["even", "at even intervals"], ["list", "listed"], ["free", "recognised where the axis stops"]];
+const kKinds = [["even", "at even intervals"], ["list", "listed"], ["free", "found from the stops of the axis"]];
 
 class Wizard {
   constructor(started) {
@@ -36,7 +36,7 @@ class Wizard {
     const input = (name, value, extra = {}) => h("input", {name, type: "number", step: "any", value, ...extra});
     this.even = h("div", {class: "fields"},
       field("From/mm", input("from_mm", 0)), field("To/mm", input("to_mm", 30)), field("Interval/mm", input("interval_mm", 10)),
-      field("Jitter/mm", input("jitter_mm", 0, {min: 0}), "largest random shift of a target, so that no periodic error stays hidden"),
+      field("Jitter/mm", input("jitter_mm", 0, {min: 0}), "largest random shift of a target; random shifts reveal periodic errors"),
       field("Seed of the jitter", input("seed", 1, {min: 0, step: 1})));
     this.list = field("Targets/mm", h("textarea", {name: "targets_mm", rows: 2}), "in ascending order, separated by spaces");
     this.repeats = field("Repeats", input("repeats", 5, {min: 0, max: 10000, step: 1}),
@@ -50,7 +50,7 @@ class Wizard {
       h("fieldset", {}, h("legend", {}, "2 Targets"), field("Targets are", this.kind), this.even, this.list),
       h("fieldset", {}, h("legend", {}, "3 Repeats"), h("div", {class: "fields"}, this.repeats,
         field("Signal period of the scale/µm", input("scale_period_um", "", {min: 0}),
-          "if given, mdofd warns of intervals that hide the periodic error of the scale"))),
+          "optional: mdofd warns of intervals that hide the periodic error of the scale"))),
       this.preview, this.wrong, h("p", {class: "buttons"}, h("button", {class: "main"}, "Start the run")));
     this.show();
   }
@@ -61,7 +61,7 @@ class Wizard {
     this.repeats.hidden = kind === "free";
     const count = expected(request(new FormData(this.element)));
     setText(this.preview, kind === "free" ? "mdofd finds the targets from the stops; the run ends when you stop it."
-      : count === null ? "Give From, To and an Interval above 0."
+      : count === null ? "Enter values for From, To and Interval; Interval must be above 0."
       : `${count.targets} targets` + (count.points ? `, ${count.points} points expected: each target forward and in reverse.` : "; the run ends when you stop it."));
   }
   async start(started) {
@@ -159,7 +159,7 @@ class Progress {
     this.buttons.hidden = this.bar.hidden = this.now.hidden = true;
     setText(this.where, `Run ${run} has ended: ${state}`);
     this.end.replaceChildren(h("p", {}, h("a", {class: "button", href: `#runs/${run}`}, `Show run ${run}`),
-      kResumable.includes(state) ? " It can be resumed there." : null));
+      kResumable.includes(state) ? " On that page you can resume the run." : null));
   }
   async stop(abort) {
     if (abort && !await ask(`Abort run ${this.run}?`, h("p", {},

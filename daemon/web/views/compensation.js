@@ -51,7 +51,7 @@ export function statedDifferently(t, other) {
       found.push(`correction of ${nameOf(key)}: ${correctionText(key, t.correction[key])} (table ${other.table}: ${other.correction?.[key] ? correctionText(key, other.correction[key]) : "none"})`);
   return found;
 }
-const differences = (t, other) => other && other.table !== t.table ? notices(statedDifferently(t, other), `Table ${t.table} states differently from table ${other.table}`) ?? "" : "";
+const differences = (t, other) => other && other.table !== t.table ? notices(statedDifferently(t, other), `Differences between table ${t.table} and table ${other.table}`) ?? "" : "";
 
 class TablePicture {
   constructor(shown, active) {
@@ -68,11 +68,11 @@ class TablePicture {
     const parts = [chart.element];
     const changes = other ? kSides.map(([side]) => changeOfCorrection(shown, other, side, key)) : [];
     if (changes.some((change) => change?.length)) {
-      const gap = new Chart(`Correction of the command of ${shown.correction[key].command} from ${nameOf(key)} in ${unit}: table ${shown.table} − active table ${other.table}`, unit, {height_px: 140});
+      const gap = new Chart(`Correction of the command of ${shown.correction[key].command} for ${nameOf(key)} in ${unit}: table ${shown.table} − active table ${other.table}`, unit, {height_px: 140});
       draws.push([gap, kSides.map(([side, dash], i) => ({label: side, colour: "text", dash, points: changes[i].map(([x, v]) => [x, v, v, v])}))]);
       parts.push(gap.element);
     } else if (other) {
-      parts.push(h("p", {class: "quiet"}, "No change of a correction is drawn: one of the tables does not correct this error, or has no value here."));
+      parts.push(h("p", {class: "quiet"}, "The change of the correction is not drawn, because one of the tables does not correct this error or has no values for it."));
     }
     this.draws = [...this.draws ?? [], ...draws];
     this.charts.push(...draws.map(([c]) => c));
@@ -99,7 +99,7 @@ function card(t) {
   return facts([["Axis", t.axis], ["Data", t.simulated ? "SIMULATED: no machine was measured" : "measured"], ["Runs", t.runs.join(", ")],
     ["Range", `${fixed(t.first_mm, 3)} … ${fixed(t.last_mm, 3)} mm, ${t.points_total} points`], ["Reference point", t.reference],
     ["Straightness relative to", t.straightness_reference], ["Values", t.sense], ["Correction", signs(t)], ["Built", time(t.created_utc)],
-    ["Warnings", t.doubtful ? "▲ notices of its runs make this table doubtful" : null], ["Active since", t.activated_utc && `${time(t.activated_utc)}, by ${t.activated_by}`]]);
+    ["Warnings", t.doubtful ? "▲ this table is doubtful because of notices of its runs" : null], ["Active since", t.activated_utc && `${time(t.activated_utc)}, by ${t.activated_by}`]]);
 }
 
 class AxisPanel {

@@ -16,7 +16,7 @@ export function reasons(info, devices, compensation) {
     if (d.error) found.push([`device ${d.device}`, `${d.state}: ${d.error}`]);
     else if (d.state !== "open") found.push([`device ${d.device}`, d.state]);
     for (const line of d.trouble) found.push([`device ${d.device}`, line]);
-    if (d.clock && !d.clock.settled) found.push([`device ${d.device}`, "the drift of its clock is not known yet"]);
+    if (d.clock && !d.clock.settled) found.push([`device ${d.device}`, "the drift of the device clock is not known yet"]);
   }
   for (const a of info.axes) {
     if (a.encoder.note) found.push([`encoder of ${a.axis}`, a.encoder.note]);
@@ -54,11 +54,11 @@ export function open(place) {
   const t = {
     why: table("Reasons", [["place", "w"], ["reason"]], []),
     devices: table("Devices", [["device", "w"], ["axis"], ["driver"], ["state", "w"], ["rate/Hz", "n"], ["scans", "n"], ["lost", "n"], ["dropped blocks", "n"], ["reopened", "n"], ["last error"]], []),
-    clocks: table("Clocks of the devices, compared with the clock of this computer", [["device", "w"], ["drift/ppm", "n"], ["jitter/ms", "n"], ["settled"], ["steps", "n"]], []),
-    calibrations: table("Calibrations", [["calibrated part", "w"], ["certificate"], ["laboratory"], ["calibrated", "w"], ["due", "w"], ["state", "w"]], []),
+    clocks: table("Clocks of the devices, compared with the clock of the mdofd computer", [["device", "w"], ["drift/ppm", "n"], ["jitter/ms", "n"], ["settled"], ["steps", "n"]], []),
+    calibrations: table("Calibrations", [["calibrated item", "w"], ["certificate"], ["laboratory"], ["calibrated", "w"], ["due", "w"], ["state", "w"]], []),
   };
   const fine = h("p", {}), server = h("div", {}), storage = h("div", {}), clients = h("div", {}), wrong = h("div", {role: "alert"});
-  place.append(wrong, h("section", {class: "panel"}, h("h2", {}, "What does not work, and why"), fine, t.why),
+  place.append(wrong, h("section", {class: "panel"}, h("h2", {}, "Problems and reasons"), fine, t.why),
     h("div", {class: "columns"}, h("section", {class: "panel"}, h("h2", {}, "mdofd"), server), h("section", {class: "panel"}, h("h2", {}, "Storage"), storage),
       h("section", {class: "panel"}, h("h2", {}, "Connected clients"), clients)),
     h("section", {}, h("h2", {}, "Devices"), t.devices), h("section", {}, h("h2", {}, "Clocks"), t.clocks), h("section", {}, h("h2", {}, "Calibrations"), t.calibrations));
@@ -73,17 +73,17 @@ export function open(place) {
       setRows(t.why, why);
       t.why.hidden = why.length === 0;
       fine.textContent = why.length === 0 ? "● Everything works." : `▲ ${why.length} ${why.length === 1 ? "entry needs" : "entries need"} attention.`;
-      server.replaceChildren(facts([["Version", info.version], ["Started", time(info.started_utc)], ["Running for", age(info.uptime_s)], ["Generation of the tables", String(info.generation)],
+      server.replaceChildren(facts([["Version", info.version], ["Started", time(info.started_utc)], ["Running for", age(info.uptime_s)], ["Generation of the active tables", String(info.generation)],
         ["Blocks dropped (disk too slow)", String(info.store_jobs_dropped)], ["Points dropped (disk too slow)", String(info.store_points_dropped)], ["Calls refused", String(info.calls_refused)],
         ["Chain of hashes", info.chain.link ? `link ${info.chain.link}, ${info.chain.sha256.slice(0, 16)} …` : "empty"]]));
       storage.replaceChildren(facts([["State", info.storage === "ok" ? "● ok" : `■ ${info.storage}: ${info.storage_reason}`], ["Free disk space", GB(health.free_bytes)],
-        ["Free space lasts for", hours === null ? "not known, because no run was recorded yet" : `${fixed(hours, 0)} h at the rate of run ${newest}`],
+        ["Time until the disk is full", hours === null ? "not known, because no run was recorded yet" : `${fixed(hours, 0)} h at the rate of run ${newest}`],
         ["Database", `${info.database}, ${isNumber(health.database_bytes) ? fixed(health.database_bytes / 1e6, 1) : "–"} MB`]]));
       clients.replaceChildren(h("ul", {}, health.clients.map((c) => h("li", {}, c))));
       setRows(t.devices, devices.map((d) => [d.device, d.axis, d.driver, (d.state === "open" ? "● " : "■ ") + d.state, fixed(d.rate_hz, 0), String(d.scans), String(d.scans_lost), String(d.blocks_dropped),
         String(d.reopened), d.error ?? d.last_error ?? "none"]));
       setRows(t.clocks, devices.map((d) => d.clock ? [d.device, fixed(d.clock.drift_ppm, 2), fixed(d.clock.jitter_ms, 3), d.clock.settled ? "● yes" : "▲ not yet", String(d.clock.steps)]
-        : [d.device, "–", "–", "uses the clock of this computer", "–"]));
+        : [d.device, "–", "–", "uses the clock of the mdofd computer", "–"]));
       setRows(t.calibrations, calibrations());
       wrong.replaceChildren();
     } catch (error) {

@@ -13,8 +13,8 @@ function headOfImported(run) {
   const {about, u_um, u_urad} = run.options?.imported ?? {}, u = isNumber(u_um) ? `${u_um} µm` : isNumber(u_urad) ? `${u_urad} µrad` : "not declared";
   return facts([["State", run.state], ["Data", run.simulated ? "SIMULATED: no machine was measured" : "imported: measured by another instrument"],
     ["Imported", time(run.started_utc)], ["Note", run.note], ["Error", run.error], ["Declared standard uncertainty", u],
-    ["Stated in the file", about?.join("; ")], ["Positive deviation", run.positioning_sense === "body" ? "moving body too far along + of the machine axis"
-      : run.positioning_sense === "command" ? "along + of the coordinates of the controller" : null],
+    ["Stated in the file", about?.join("; ")], ["Positive deviation", run.positioning_sense === "body" ? "the moving body is too far in the + direction of the machine axis"
+      : run.positioning_sense === "command" ? "the axis is too far in the + direction of the controller coordinates" : null],
     ["Readings", String(run.points_total)], ["File", run.recording.path], ["SHA-256 of the file", run.recording.sha256]]);
 }
 
@@ -24,7 +24,7 @@ function head(run) {
     ["Started", time(run.started_utc)], ["Note", run.note], ["Supersedes", run.supersedes && `run ${run.supersedes}`],
     ["Points", String(run.points_total)], ["Reference point", run.reference + (run.reference_mm ? ` (${run.reference_mm.map((x) => fixed(x, 3)).join(", ")}) mm` : "")],
     ["Temperature", isNumber(t?.mean) ? `${fixed(t.mean, 2)} °C` : null],
-    ["Moving body, its direction when the encoder counts up", `${run.moves}, ${run.travel}`],
+    ["Moving body, and direction of its motion when the encoder counts up", `${run.moves}, ${run.travel}`],
     ["Lost scans", isNumber(run.scans_lost) ? `${run.scans_lost} of ${run.scans}` : `not known, of ${run.scans}`], ["Model", run.model],
     ["Recording", run.recording.path], ["SHA-256 of the recording", run.recording.sha256]]);
 }
@@ -36,7 +36,7 @@ export function lineAt(line, travel, places_mm) {
   return places_mm.map((x) => [x, line.intercept_um + line.slope_um_per_m * (travel === "-" ? -x : x) / 1000]);
 }
 
-const kLines = [["least_squares", "least squares line"], ["end_point", "line through both ends"], ["minimum_zone", "minimum zone line"]];
+const kLines = [["least_squares", "least squares line"], ["end_point", "line through both end points"], ["minimum_zone", "minimum zone line"]];
 
 class Straightness {
   constructor(run, points) {
@@ -54,7 +54,7 @@ class Straightness {
       const stated = (figure, value) => measured(kind === "least_squares" && run.uncertainty?.[`${name}_${figure}`] || {value}, figure.endsWith("_um") ? "µm" : "µrad");
       const sides = [1, -1].filter((d) => this.points.some((p) => p.direction === d && isNumber(p[key])));
       text.textContent = `Straightness ${stated("straightness_um", line?.zone_um)}; slope ${stated("slope_urad", line?.slope_um_per_m)} over the travel of the moving body` +
-        (run.travel === "-" ? ", which goes against the encoder: over the positions shown the slope has the opposite sign" : "") +
+        (run.travel === "-" ? ". The moving body moves against the encoder, so the slope over the positions shown has the opposite sign" : "") +
         (sides.length === 2 ? ". Mean of both approaches." : ". Only one approach was measured.");
       chart.set([
         ...[1, -1].map((d) => ({label: approach(d).name, ...approach(d), points: plain(means(this.points, key, d))})),
@@ -95,7 +95,7 @@ class Budget {
 // All numbers of the charts, for those who do not see them or want them.
 export function pointsTable(points) {
   const keys = errorKeys(points.find((p) => errorKeys(p).length));
-  return h("details", {}, h("summary", {}, `All ${points.length} points with U`), table("Points in the order measured",
+  return h("details", {}, h("summary", {}, `All ${points.length} points with U`), table("Points in the order of measurement",
     [["target/mm", "n"], ["pass", "n"], ["approach"], ["position/mm", "n"], ...keys.flatMap((key) => [[`${nameOf(key)}/${unitOf(key)}`, "n"], [`U/${unitOf(key)}`, "n"]]), ["flags"]],
     points.map((p) => [fixed(p.target_mm, 3), String(p.run), approach(p.direction).name, fixed(p.position_mm, 4),
       ...keys.flatMap((key) => [fixed(p[key], decimals(p.U?.[key])), fixed(p.U?.[key], decimals(p.U?.[key]))]), [p.reason, ...p.flags ?? []].filter(Boolean).join(", ")])));
@@ -143,7 +143,7 @@ function showImported(body, run, points, runs, opened) {
     h("div", {class: "columns"}, headOfImported(run), h("div", {}, partners(run, runs), covers(run))), notices(run.notices) ?? "",
     h("h2", {}, "Readings"), charts.element,
     h("p", {class: "quiet"}, "Deviations are actual − nominal, as in the file. Blue solid line: forward; orange dashed line: reverse; marks without a line: approach unknown."), readings(points),
-    h("h2", {}, "Figures by ISO 230-2"), run.uncertainty_reason ? h("p", {}, `Not calculated: ${run.uncertainty_reason}.`) : "", figures.length === 0 ? ""
+    h("h2", {}, "Results according to ISO 230-2"), run.uncertainty_reason ? h("p", {}, `Not calculated: ${run.uncertainty_reason}.`) : "", figures.length === 0 ? ""
       : facts(figures.map(([key, figure]) => [titleOf(key), measured(figure, unitOf(key))])), deeds(run.history) ?? "");
   charts.set(points);
 }

@@ -37,7 +37,7 @@ function pairCharts(key, a, b) {
     apart.set([{label: "difference", colour: "text", points: plain(gap)}], `Largest difference ${short(largest)} ${unit}`);
   };
   return {charts: [over, apart], draw, element: h("div", {}, over.element, apart.element,
-    h("p", {}, gap.size === 0 ? "The runs have no target in common." : `Largest difference of the means, of each approach that both runs have: ${short(largest)} ${unit}`))};
+    h("p", {}, gap.size === 0 ? "The runs have no target in common." : `Largest difference between the means of the runs (only approaches that both runs have): ${short(largest)} ${unit}`))};
 }
 
 const effects = {reduced: "▼ reduced", increased: "▲ increased", "not shown": "● not shown"};
@@ -71,7 +71,7 @@ export function openPair(place, first, second) {
     const table = h("div", {});
     opened.push(...pairs.flatMap((pair) => pair.charts));
     body.replaceChildren(h("h2", {}, `Run ${after} compared with run ${before}`),
-      h("p", {}, `Run ${before} is taken as the run before, run ${after} as the run after. `, h("a", {href: `#runs/${before}/with/${after}`}, "Exchange them")),
+      h("p", {}, `Run ${before} counts as the run before the compensation, and run ${after} as the run after the compensation. `, h("a", {href: `#runs/${before}/with/${after}`}, "Exchange the two runs")),
       h("p", {class: "quiet"}, `Means over all passes. Blue: run ${after}, orange: run ${before}; solid: forward, dashed: reverse. U is calculated for the results below, not for single differences.`),
       h("div", {class: "charts"}, pairs.map((pair) => pair.element)), h("h2", {}, "Results"), table);
     pairs.forEach((pair) => pair.draw());

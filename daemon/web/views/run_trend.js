@@ -3,7 +3,7 @@ import {Chart} from "../charts.js";
 import {covers, fixed, h, isNumber, field, notices, problem, select, short, table, time, titleOf, unitOf} from "../dom.js";
 import {call} from "../rpc.js";
 
-const kAxes = [["", "all, with squareness"], ["X", "X"], ["Y", "Y"], ["Z", "Z"]];
+const kAxes = [["", "all, and squareness"], ["X", "X"], ["Y", "Y"], ["Z", "Z"]];
 const named = (runs) => `run${runs.length > 1 ? "s" : ""} ${runs.join(" and ")}`;
 
 // The series of a control chart: place i + 1 is value i. Limits are null where there are too few values for them.
@@ -12,14 +12,14 @@ export function controlSeries({values, centre}) {
     points: values.map((v, i) => [i + 1, of(v), of(v), of(v)]).filter((p) => isNumber(p[2]))});
   const value = (v, i) => [i + 1, v.value - (v.u ?? 0), v.value, v.value + (v.u ?? 0)];
   return [{label: "value", name: "value ± u", colour: "blue", dash: false, points: values.map(value)},
-    {label: "beyond", name: "beyond the limits, or the eighth on one side", colour: "orange", dash: false, marks: true,
+    {label: "beyond", name: "beyond the limits, or the eighth value on one side of the centre", colour: "orange", dash: false, marks: true,
       points: values.map((v, i) => v.signal ? value(v, i) : null).filter(Boolean)},
     line("centre", "text", false, () => centre), line("lower limit", "orange", true, (v) => v.low), line("upper limit", "orange", true, (v) => v.high)];
 }
 
 // What the chart says, in words.
 export function verdict(key, {moved, baseline, values}) {
-  if (values.length === 0) return "No stored run gives this figure.";
+  if (values.length === 0) return "No stored run has this result.";
   if (baseline === 0) return `● ${values.length} values are too few for control limits.`;
   if (!moved) return `● ${titleOf(key)} has not moved.`;
   return `▲ ${titleOf(key)} has moved by ${short(moved.by)} ${unitOf(key)} (u = ${short(moved.u_by)} ${unitOf(key)}) since ${named(moved.since_runs)}.`;
@@ -45,7 +45,7 @@ class Trend {
       const keys = Object.keys(this.figures);
       this.figure.replaceChildren(keys.length ? field("Figure", select(keys.map((key) => [key, titleOf(key)]), keys[0], (key) => this.show(key))) : "");
       if (keys.length) this.show(keys[0]);
-      else this.body.replaceChildren(h("p", {role: "status"}, "No stored run gives a value for a control chart."),
+      else this.body.replaceChildren(h("p", {role: "status"}, "No stored run has a value for a control chart."),
         notices([...new Set(Object.values(figures).flatMap((of) => of.left_out))].map((text) => `left out: ${text}`)) ?? "");
     } catch (error) {
       this.figure.replaceChildren();
@@ -56,7 +56,7 @@ class Trend {
     this.close();
     const of = this.figures[key], unit = unitOf(key);
     this.chart = new Chart(`${titleOf(key)} in ${unit} over the stored runs`, unit,
-      {xlabel: "run in the order of time", place: (x) => of.values[x - 1] ? named(of.values[x - 1].runs) : ""});
+      {xlabel: "runs in the order of time", place: (x) => of.values[x - 1] ? named(of.values[x - 1].runs) : ""});
     this.body.replaceChildren(h("p", {class: of.moved ? "notice doubtful" : "result", role: "status"}, verdict(key, of)), this.chart.element,
       table(`Values in ${unit}, in the order of time`, [["runs"], ["started", "w"], ["value", "n"], ["u", "n"], ["lower limit", "n"], ["upper limit", "n"], ["signal", "w"]],
         of.values.map(rowOf)),

@@ -51,13 +51,13 @@ export function stateOf(um, quality, low, high, stale) {
   if (!kUsable.includes(quality)) return ["invalid", "■", quality.replaceAll("_", " ")];
   if (!isNumber(um)) return ["invalid", "✕", "no reading"];
   const share = Math.abs(um - (low + high) / 2) / ((high - low) / 2);
-  if (share > kNearEnd) return ["doubtful", "▲", "near the end of its range"];
+  if (share > kNearEnd) return ["doubtful", "▲", "near the end of the range"];
   return share > kOffCentre ? ["doubtful", "◆", "off centre"] : ["good", "●", "in range"];
 }
 
 // Beyond the end of the range the reading is the end: the way back is longer by what is not seen.
 export function shimText(um, probe, quality = "good") {
-  if (!isNumber(um) || !(kUsable.includes(quality) || quality === "over_range")) return "Shim: not known without a reading";
+  if (!isNumber(um) || !(kUsable.includes(quality) || quality === "over_range")) return "Shim: not known, because the probe has no usable reading";
   const off = um - (probe.low_um + probe.high_um) / 2, least = quality === "over_range" ? "at least " : "";
   if (Math.abs(off) < kCentred * (probe.high_um - probe.low_um) / 2) return "Centred: no shim needed";
   const probeTowards = off > 0 ? along(probe.direction) : opposite(probe.direction);
@@ -121,8 +121,8 @@ class SignCheck {
     this.rows = cards.map((card) => [h("td", {class: "n"}, "–"), h("td", {}, "–")]);
     this.start = h("button", {type: "button", onclick: () => this.begin()}, "Start: use these readings as zero");
     this.element = h("section", {class: "panel"}, h("h2", {}, "Sign check"),
-      h("p", {}, "Stop the axis and press Start. Then push the target lightly along one direction of the machine. Each probe that " +
-        "measures along this direction must rise or fall as the rig states. With a reversed sign, a compensation would double the error."),
+      h("p", {}, "Stop the axis and press Start. Then push the target lightly along one direction of the machine. The reading " +
+        "of each probe along this direction must rise or fall as the rig states. If a sign is reversed, a compensation doubles the error."),
       h("div", {class: "buttons"}, field("I push the target towards", this.push), this.start),
       table("Change since the start", [["probe"], ["measures"], ["change/µm", "n"], ["verdict"]],
         cards.map((card, i) => h("tr", {}, h("th", {scope: "row"}, card.probe.id), h("td", {}, along(card.probe.direction)), ...this.rows[i]))));
@@ -149,7 +149,7 @@ export function verdict(change, card, push) {
   if (Math.abs(change) < least) return "no change yet";
   if (!push) return change > 0 ? "rises" : "falls";
   const expected = push.reduce((a, x, k) => a + x * card.probe.direction[k], 0);
-  if (Math.abs(expected) < 0.2) return "◆ changes, although it measures across the push";
+  if (Math.abs(expected) < 0.2) return "◆ changes, although the probe measures across the push";
   return expected * change > 0 ? "● as the rig states"
     : `■ REVERSED: check "measures" and "reads" of probe ${card.probe.id} in the rig`;
 }
@@ -205,7 +205,7 @@ export function open(place, [asked]) {
     where, stale, h("div", {class: "probes"}, cards.map((card) => card.element)),
     h("div", {class: "columns"},
       h("section", {class: "panel"}, h("h2", {}, "Errors now"), h("p", {class: "quiet"},
-        "Errors of this instant at the fixture, actual − nominal. U is calculated for the points of a run, not for an instant."), errors),
+        "Present errors at the fixture (actual − nominal). U is calculated only for the points of a run."), errors),
       devices.element),
     check.element);
 

@@ -7,7 +7,7 @@ import {facts} from "./run_detail.js";
 
 const kAxes = "XYZ";
 // To the right, up, and from where one looks.
-const kPlanes = {XY: [0, 1, "from above: X to the right, Y away"], XZ: [0, 2, "from the front: X to the right, Z up"],
+const kPlanes = {XY: [0, 1, "from above: X to the right, Y to the back"], XZ: [0, 2, "from the front: X to the right, Z up"],
   YZ: [1, 2, "from the right side: Y to the right, Z up"]};
 const kWidth = 760, kEdge = 60;
 const kMostRows = 1000;  // of the table of nodes
@@ -98,7 +98,7 @@ function activeOf(volume, nodes) {
     facts([["Rotary axes at", rotaryText(volume)], ["Tool point", placeText(volume.tool_point_mm)], ["Approach", volume.approach], ["Errors whose table does not cover the grid", volume.beyond_tables.join(", ")],
       ["Interpolation error", Object.entries(volume.interpolation).map(([k, x]) => `${k[0]} ${isNumber(x) ? fixed(x, 4) : "–"} µm`).join(", ")],
       ["Active since", `${time(volume.activated_utc)}, by ${volume.activated_by}`], ["Sense", volume.sense]]),
-    h("details", {}, h("summary", {}, "All nodes with u"), table("Corrections of the nodes; u: standard uncertainty",
+    h("details", {}, h("summary", {}, "All nodes with u"), table("Corrections at the nodes; u: standard uncertainty",
       [...["X/mm", "Y/mm", "Z/mm", "correction X/µm", "correction Y/µm", "correction Z/µm", "u X/µm", "u Y/µm", "u Z/µm"].map((c) => [c, "n"])],
       nodes.slice(0, kMostRows).map((n) => n.slice(0, 9).map((x, i) => fixed(x, i < 3 ? 3 : 4)))))];
 }
@@ -130,7 +130,7 @@ export function openVolume(place) {
     const mine = ++turn;
     const [{volume}, {tables}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis: "volume"})]);
     const now = volume ? activeOf(volume, await grid(volume.generation))
-      : [h("p", {class: "notice"}, "No table of the volume is active. Build a table with mdof compensation build --machine, then activate it here.")];
+      : [h("p", {class: "notice"}, "No table of the volume is active. Build a table with mdof compensation build --machine, then activate it on this page.")];
     if (mine !== turn) return;  // a newer reading is under way
     body.replaceChildren(...now, tables.length ? stored(tables, volume, again) : "");
   }

@@ -26,12 +26,13 @@ Result<ControllerFile> ssfk_of(const CompensationTable& table, const Series& s,
   const auto far = [](double m) { return !(std::abs(m) < kMostOfPosition_m); };
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {
     if (far(s.position_m[i]) || far(s.forward[i]) || far(s.reverse[i]))
-      return bad_input(s.error + ": a position or error is " + plain_number(kMostOfPosition_m) +
-                       " m or more, too large for a lead screw table (32 bits, in 0.1 um)");
+      return bad_input(
+          s.error + ": a position or error is " + plain_number(kMostOfPosition_m) +
+          " m or more, which is too large for a lead screw table (32-bit numbers in 0.1 um)");
     if (i > 0 && tenths_text(s.position_m[i]) == tenths_text(s.position_m[i - 1]))
       return bad_input(s.error +
-                       ": two neighbouring positions are equal when rounded to 0.1 um, the step "
-                       "of a lead screw table");
+                       ": two neighbouring positions are equal when rounded to 0.1 um, the "
+                       "resolution of a lead screw table");
   }
   std::string text =
       commented(head_lines(table, options,

@@ -16,9 +16,10 @@ const std::vector<Format>& formats() {
       {.name = "linuxcnc",
        .of = "LinuxCNC 2.9, COMP_FILE",
        .holds = "positioning (EXX, EYY, EZZ), forward and reverse; one table per axis",
-       .limits = "256 points per joint; linear between points, end values beyond them",
+       .limits = "256 points per joint; linear interpolation between points; end values outside "
+                 "the range of the points",
        .sense = "trim = -E in mm or inches, added to the motor command (COMP_FILE_TYPE 1)",
-       .source = "source of LinuxCNC; run in LinuxCNC",
+       .source = "source code of LinuxCNC; tested in LinuxCNC",
        .sign_confirmed = true,
        .quantum_m = 1e-12,
        .takes_home = true,
@@ -41,11 +42,10 @@ const std::vector<Format>& formats() {
       {.name = "siemens-lec",
        .of = "Siemens SINUMERIK, encoder error compensation (ENC_COMP)",
        .holds = "positioning, one value for both approaches; one file per axis",
-       .limits =
-           "200 points at equal steps (option siemens-points: other controls, MD38000); linear "
-           "between points, end values beyond them",
+       .limits = "200 points at equal steps (other controls: option siemens-points, MD38000); "
+                 "linear interpolation between points; end values outside the range of the points",
        .sense = "value = +E in mm: a positive value moves the axis in the negative direction",
-       .source = "manual of the 808D, 01/2017; not run on a control",
+       .source = "manual of the 808D, 01/2017; not tested on a control",
        .sign_confirmed = true,
        .quantum_m = 2e-9,
        .takes_home = false,
@@ -56,12 +56,12 @@ const std::vector<Format>& formats() {
        .of = "Siemens SINUMERIK, cross error compensation (sag, CEC)",
        .holds = "positioning and straightness, both approaches; or a volumetric table as sums and "
                 "products of one-axis tables; one file",
-       .limits = "200 points at equal steps and 8 tables in an 828D (options siemens-points and "
-                 "siemens-tables: other controls, MD18342); linear between points, end "
-                 "values beyond them",
+       .limits = "200 points at equal steps and 8 tables in an 828D (other controls: options "
+                 "siemens-points and siemens-tables, MD18342); linear interpolation between "
+                 "points; end values outside the range of the points",
        .sense = "value = correction in mm, added to the command of the output axis",
-       .source = "format: manual of the 828D and 840D sl, 03/2013, which does not state the sign; "
-                 "another program writes nominal - measured; not run on a control",
+       .source = "format: manual of the 828D and 840D sl, 03/2013; this manual does not state the "
+                 "sign; another program writes nominal - measured; not tested on a control",
        .sign_confirmed = false,
        .quantum_m = 2e-9,
        .takes_home = false,
@@ -73,7 +73,7 @@ const std::vector<Format>& formats() {
        .holds = "positioning, positive and negative travel; one file per axis",
        .limits = "1500 rows, each with its position (interval 0); whole numbers of 0.1 um (unit 1)",
        .sense = "value = actual - set = +E in 0.1 um",
-       .source = "worked example of the manual; not run on a control",
+       .source = "worked example in the manual; not tested on a control",
        .sign_confirmed = true,
        .quantum_m = 1e-7,
        .takes_home = false,
@@ -94,11 +94,11 @@ const std::vector<Format>& formats() {
        .square = {}},
       {.name = "isg-csv",
        .of = "Beckhoff TwinCAT CNC (TF5280) and ISG kernel, volumetric compensation",
-       .holds = "a volumetric table: its corrections of X, Y, Z over a plane or a volume",
-       .limits = "all nodes of the table (max_records); linear between nodes",
+       .holds = "volumetric table: corrections of X, Y and Z over a plane or a volume",
+       .limits = "all nodes of the table (max_records); linear interpolation between nodes",
        .sense = "EXX, EYX, EZX in mm = actual - nominal of the tool = -correction",
-       .source = "format: manual of the TF5280, which uses the errors of ISO 230-1 and has the key "
-                 "\"negate\" for the opposite sense; not run on a control",
+       .source = "format: manual of the TF5280; this manual uses the errors of ISO 230-1 and has "
+                 "the key \"negate\" for the opposite sign; not tested on a control",
        .sign_confirmed = false,
        .quantum_m = 2e-12,
        .takes_home = false,
@@ -107,11 +107,11 @@ const std::vector<Format>& formats() {
        .square = {}},
       {.name = "dynomotion",
        .of = "DynoMotion KFLOP and Kogna, geometric correction table",
-       .holds = "a volumetric table of the plane XY: its corrections of X, Y and Z",
-       .limits = "4000 rows and columns at equal steps; bilinear; beyond the grid the last cell is "
-                 "extrapolated",
+       .holds = "volumetric table: corrections of X, Y and Z over the plane XY",
+       .limits = "4000 rows and columns at equal steps; bilinear interpolation; beyond the grid, "
+                 "the last cell is extrapolated",
        .sense = "X, Y: corrected command; Z: correction, added to the command; inch",
-       .source = "manual and published source of KMotion; not run on a control",
+       .source = "manual and published source code of KMotion; not tested on a control",
        .sign_confirmed = true,
        .quantum_m = 1e-12,
        .takes_home = false,
@@ -123,7 +123,7 @@ const std::vector<Format>& formats() {
        .holds = "the squareness of X and Y",
        .limits = "stores one angle only; assumes that both axes are straight",
        .sense = "diagonals AC, BD and side AD (mm) of a square that the uncorrected machine draws",
-       .source = "published source of Klipper; not run on a machine",
+       .source = "published source code of Klipper; not tested on a machine",
        .sign_confirmed = true,
        .quantum_m = 1e-10,
        .takes_home = false,
@@ -134,8 +134,8 @@ const std::vector<Format>& formats() {
        .of = "Marlin, M852",
        .holds = "the squareness of X and Y",
        .limits = "stores one angle only; assumes that both axes are straight",
-       .sense = "I: X moves to x - I y",
-       .source = "published source of Marlin; not run on a machine",
+       .sense = "parameter I: for the command x, y, axis X moves to x - I y",
+       .source = "published source code of Marlin; not tested on a machine",
        .sign_confirmed = true,
        .quantum_m = 1e-9,
        .takes_home = false,
@@ -148,7 +148,7 @@ const std::vector<Format>& formats() {
        .limits = "stores one angle only; assumes that both axes are straight",
        .sense = "X / S is the tangent of the squareness error; positive if the angle from +X to +Y "
                 "is above 90 deg",
-       .source = "manual of M556; not run on a machine",
+       .source = "manual of M556; not tested on a machine",
        .sign_confirmed = true,
        .quantum_m = 1e-9,
        .takes_home = false,
@@ -160,7 +160,7 @@ const std::vector<Format>& formats() {
        .holds = "the squareness of X and Y",
        .limits = "stores one angle only; assumes that both axes are straight",
        .sense = "C_xy: joint X = x + C_xy y",
-       .source = "manual and test of the component in LinuxCNC; not run in LinuxCNC",
+       .source = "manual and test code of the component matrixkins; not tested in LinuxCNC",
        .sign_confirmed = true,
        .quantum_m = 1e-10,
        .takes_home = false,
@@ -177,15 +177,16 @@ const std::vector<NotWritten>& not_written() {
        .of = "Heidenhain TNC, compensation value tables (.COM and .CMA)",
        .reason = "the public technical manuals show the columns of the tables, but they do not "
                  "state the sign of the values",
-       .instead = "export in the format json (E = actual - nominal), and convert the values "
-                  "by the manual of the machine's manufacturer"},
+       .instead = "export in the format json (E = actual - nominal), and convert the values as the "
+                  "manual of the machine manufacturer describes"},
       {.name = "fanuc",
        .of = "Fanuc, pitch error and straightness compensation parameters",
-       .reason = "the values are increments of each interval in detection units times a "
-                 "magnification; both are parameters of the machine, and no public manual "
-                 "that mdof knows states the sign and the format of the parameter file completely",
-       .instead = "export in the format json (E = actual - nominal), and enter the increments by "
-                  "the manual of the machine's manufacturer"},
+       .reason =
+           "each value is the increment over one interval, in detection units times a "
+           "magnification; the detection unit and the magnification are parameters of the machine, "
+           "and no known public manual fully states the sign and the format of the parameter file",
+       .instead = "export in the format json (E = actual - nominal), and enter the increments as "
+                  "the manual of the machine manufacturer describes"},
   };
   return rows;
 }
@@ -193,8 +194,9 @@ const std::vector<NotWritten>& not_written() {
 Result<const Format*> format_named(const std::string& name) {
   for (const NotWritten& one : not_written())
     if (name == one.name)
-      return fail(ErrorCode::usage, std::string(one.of) + ": mdof writes no such file, because " +
-                                        one.reason + "; instead: " + one.instead);
+      return fail(ErrorCode::usage, std::string(one.of) +
+                                        ": mdof does not write this format, because " + one.reason +
+                                        "; instead: " + one.instead);
   std::string known;
   for (const Format& format : formats()) {
     if (name == format.name) return &format;

@@ -74,9 +74,9 @@ Result<Series> without_holes(const Series& s, std::int64_t table, bool cut, Expo
                               (std::isfinite(s.forward[hole]) ? "reverse" : "forward") +
                               " value at " + place_text(s.position_m[hole]);
   if (end - first < 2)
-    return bad_input(
-        missing +
-        ", and no two neighbouring positions have both values, so there is nothing to export");
+    return bad_input(missing +
+                     ", and no two neighbouring positions have both values (forward and reverse), "
+                     "so nothing can be exported");
   const std::string range =
       place_text(s.position_m[first]) + " to " + place_text(s.position_m[end - 1]);
   if (!cut) return bad_input(missing, Remedy::cut_range, range);
@@ -138,7 +138,7 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables) {
       if (tables[i].axis == tables[j].axis)
         return fail(ErrorCode::usage, "tables " + std::to_string(tables[j].id) + " and " +
                                           std::to_string(tables[i].id) + " are both for axis " +
-                                          letter(tables[i].axis) + "; name one table per axis");
+                                          letter(tables[i].axis) + "; give one table per axis");
   return {};
 }
 

@@ -69,9 +69,9 @@ Result<double> number_of(const std::vector<ControllerFile>& files, const char* n
 Result<double> shear_of(const SquareAxes& axes) {
   if (!axes.machine.known())
     return bad_input(
-        "the chain of the machine is unknown, so the sign of the correction is unknown; set chain "
-        "in [machine] of the rig file of both runs, such as \"w-Y-X-b-Z-t\", and measure or replay "
-        "both runs again");
+        "the chain of the machine is unknown, so the sign of the correction is unknown; set the "
+        "key \"chain\" in [machine] of the rig files of both runs, such as \"w-Y-X-b-Z-t\", and "
+        "measure or replay both runs again");
   const ChainAxis* x = axes.machine.find('X');
   const ChainAxis* y = axes.machine.find('Y');
   if (!x || !y)
@@ -86,10 +86,10 @@ Result<Export> write_klipper(const SquareAxes& axes, const ExportOptions& option
   const double cosine = k / std::hypot(1, k);  // of the angle at B, between BA and BC
   const double AC = kSide_mm * std::sqrt(2 - 2 * cosine);
   const double BD = kSide_mm * std::sqrt(2 + 2 * cosine);
-  return exported(
-      axes, options, kGcode, ";",
-      {"needs [skew_correction] in printer.cfg; save the values with SKEW_PROFILE SAVE=mdof"},
-      "SET_SKEW XY=" + fixed(AC, 10) + "," + fixed(BD, 10) + "," + fixed(kSide_mm, 10));
+  return exported(axes, options, kGcode, ";",
+                  {"this command needs [skew_correction] in printer.cfg; save the values with "
+                   "SKEW_PROFILE SAVE=mdof"},
+                  "SET_SKEW XY=" + fixed(AC, 10) + "," + fixed(BD, 10) + "," + fixed(kSide_mm, 10));
 }
 
 Result<double> read_klipper(const std::vector<ControllerFile>& files) {
@@ -111,9 +111,10 @@ Result<double> read_klipper(const std::vector<ControllerFile>& files) {
 
 Result<Export> write_marlin(const SquareAxes& axes, const ExportOptions& options) {
   MDOF_TRY(const double k, shear_of(axes));
-  return exported(axes, options, kGcode, ";",
-                  {"needs SKEW_CORRECTION and SKEW_CORRECTION_GCODE; save the value with M500"},
-                  "M852 I" + fixed(-k, 10));
+  return exported(
+      axes, options, kGcode, ";",
+      {"this command needs SKEW_CORRECTION and SKEW_CORRECTION_GCODE; save the value with M500"},
+      "M852 I" + fixed(-k, 10));
 }
 
 Result<double> read_marlin(const std::vector<ControllerFile>& files) {
@@ -123,7 +124,7 @@ Result<double> read_marlin(const std::vector<ControllerFile>& files) {
 
 Result<Export> write_reprapfirmware(const SquareAxes& axes, const ExportOptions& options) {
   MDOF_TRY(const double k, shear_of(axes));
-  return exported(axes, options, kGcode, ";", {"put this line into config.g"},
+  return exported(axes, options, kGcode, ";", {"copy this command to config.g"},
                   "M556 S100 X" + fixed(k * kSide_mm, 8));
 }
 
@@ -134,10 +135,10 @@ Result<double> read_reprapfirmware(const std::vector<ControllerFile>& files) {
 
 Result<Export> write_matrixkins(const SquareAxes& axes, const ExportOptions& options) {
   MDOF_TRY(const double k, shear_of(axes));
-  return exported(
-      axes, options, kHal, "#",
-      {"needs [KINS] KINEMATICS = matrixkins; put this line into the HAL file after loadrt"},
-      "setp matrixkins.C_xy " + fixed(k, 12));
+  return exported(axes, options, kHal, "#",
+                  {"this command needs [KINS] KINEMATICS = matrixkins; copy this command to the "
+                   "HAL file, after loadrt"},
+                  "setp matrixkins.C_xy " + fixed(k, 12));
 }
 
 Result<double> read_matrixkins(const std::vector<ControllerFile>& files) {

@@ -60,7 +60,7 @@ Status read_document(const ControllerFile& file, std::vector<AppliedCorrection>&
   if (json["format"].get(format) != simdjson::SUCCESS || format != "mdof compensation table" ||
       json["table"].get(table) != simdjson::SUCCESS ||
       table["correction"].get(rules) != simdjson::SUCCESS)
-    return bad_input(file.name + ": the file is not the JSON of a compensation table");
+    return bad_input(file.name + ": the file is not a compensation table in JSON");
   for (const auto& rule : rules) {
     if (!std::isfinite(number_of(rule.value, "factor"))) continue;
     MDOF_TRY(AppliedCorrection read,

@@ -58,7 +58,8 @@ std::vector<double> places_of(std::vector<double> all) {
 
 std::string isg_list(const VolumetricTable& t, const std::vector<std::string>& head) {
   return commented(head, "#") +
-         "# in the start-up list: vol_comp[0].file_name, vol_comp[0].max_records at least " +
+         "# set in the start-up list: vol_comp[0].file_name, and vol_comp[0].max_records to at "
+         "least " +
          std::to_string(t.nodes()) +
          "\n# 1, 2, 3 are assumed to be the logical numbers of the axes X, Y, Z\n"
          "X 1\nY 2\nZ 3\nworkpiece_axes 0\ninterpolation GRID\nfile[0] " +
@@ -235,7 +236,7 @@ Result<Export> write_dynomotion(const VolumetricTable& t, const ExportOptions& o
                     "//");
   out.files.push_back({kGeoTable, std::move(text)});
   out.notes.emplace_back(
-      "beyond the grid KMotion extrapolates the last cell; keep the work inside the grid");
+      "beyond the grid KMotion extrapolates the last cell; keep the workpiece inside the grid");
   count_nodes(t, out);
   return out;
 }

@@ -107,7 +107,7 @@ void write_software(Xml& xml, const Report& report) {
       "mdof_position, mdof_target, mdof_pass, mdof_direction: position, target, pass and "
       "direction of approach of each point; mdof_EYX and others: error with its name of "
       "ISO 230-1, actual minus nominal; mdof_figure: result of a run such as a straightness, "
-      "calculated from the mean of both approaches");
+      "calculated from the mean of the measured approaches");
   xml.leaf("dcc:namespace", "mdof");
   xml.leaf("dcc:link", "urn:mdof:refTypes");
   xml.close();

@@ -134,11 +134,10 @@ void write_points(Xml& xml, const ReportRun& run) {
 void write_figures(Xml& xml, const ReportRun& run) {
   const auto& budgets = run.results.figures.budgets;
   if (budgets.empty()) return;
-  open_result(
-      xml, "figures",
-      "calculated from the mean of both approaches; straightness refers to the least-squares "
-      "line. U covers: " +
-          covers_text(budgets));
+  open_result(xml, "figures",
+              "calculated from the mean of the measured approaches; straightness refers to the "
+              "least-squares line. U covers: " +
+                  covers_text(budgets));
   for (const Budget& b : budgets) write_figure(xml, b, charts::split_key(b.figure).name);
   close_result(xml);
 }
@@ -150,8 +149,8 @@ void write_conditions(Xml& xml, const RunHeader& header) {
   xml.open("dcc:data");
   if (header.temperature) {
     const std::pair<const char*, double> all[] = {{"mean", header.temperature->mean_C},
-                                                  {"least", header.temperature->min_C},
-                                                  {"greatest", header.temperature->max_C}};
+                                                  {"lowest", header.temperature->min_C},
+                                                  {"highest", header.temperature->max_C}};
     xml.open("dcc:list");
     for (const auto& [name, value] : all) {
       xml.open("dcc:quantity", {{"refType", "mdof_temperature"}});
@@ -223,7 +222,7 @@ void write_notices(Xml& xml, const ReportRun& run) {
     write_declaration(xml, kMetaData,
                       "uncertainties that the rig does not declare, so that U is too small", keys);
   if (run.results.figures.budgets.empty())
-    write_declaration(xml, kMetaData, "reason why no figures are stated", run.results.figures.why);
+    write_declaration(xml, kMetaData, "reason for missing figures", run.results.figures.why);
 }
 
 void write_meta_data(Xml& xml, const ReportRun& run) {
@@ -232,13 +231,14 @@ void write_meta_data(Xml& xml, const ReportRun& run) {
   xml.open("dcc:measurementMetaData");
   write_declaration(xml, kMetaData, "state", to_string(header.state));
   write_declaration(xml, kMetaData, "model", header.provenance.model);
-  write_declaration(xml, kMetaData, "straightness stated at", to_string(header.stated.reference));
+  write_declaration(xml, kMetaData, "straightness refers to", to_string(header.stated.reference));
   write_declaration(xml, kMetaData, "moving body, travel",
                     std::string(header.sides.moves()) + ", " + header.sides.travel());
   if (run.superseded_by)
     write_declaration(xml, kMetaData, "superseded by run", std::to_string(*run.superseded_by));
   if (const std::string approach = daemon::only_approach(run.results.run); !approach.empty())
-    write_declaration(xml, kMetaData, "only approach", approach + "; the reversal is unknown");
+    write_declaration(xml, kMetaData, "only measured approach",
+                      approach + "; the reversal is unknown");
   write_decisions(xml, run);
   write_notices(xml, run);
   write_declaration(xml, kMetaData, "SHA-256 of the recording", header.provenance.recording_sha256);

@@ -251,16 +251,17 @@ std::vector<Attribute> facts_of(const ReportRun& run) {
       {"SHA-256 of the recording", header.provenance.recording_sha256},
       {"SHA-256 of the result", run.result_sha256},
       {"measured with", header.provenance.software_version},
-      {"straightness stated at", to_string(header.stated.reference)},
+      {"straightness refers to", to_string(header.stated.reference)},
       {"moving body, travel", std::string(header.sides.moves()) + ", " + header.sides.travel()}};
   std::string keys;
   for (const std::string& key : run.results.uncertainty.not_declared)
     keys += (keys.empty() ? "" : ", ") + key;
-  if (!keys.empty()) facts.emplace_back("not declared, so that U is too small", keys);
+  if (!keys.empty())
+    facts.emplace_back("uncertainties that the rig does not declare, so that U is too small", keys);
   if (run.superseded_by)
     facts.emplace_back("superseded by run", std::to_string(*run.superseded_by));
   if (const std::string approach = daemon::only_approach(run.results.run); !approach.empty())
-    facts.emplace_back("only approach", approach);
+    facts.emplace_back("only measured approach", approach);
   for (const std::string& mark :
        charts::head_marks(run.results.uncertainty.noise_only, daemon::marks_of(run.results.run),
                           output::Language::english))
@@ -268,7 +269,7 @@ std::vector<Attribute> facts_of(const ReportRun& run) {
   for (const Notice& notice : header.notices)
     facts.emplace_back(to_string(notice.severity), words::text(notice, output::Language::english));
   if (header.temperature)
-    facts.emplace_back("temperature mean, least, greatest / degree Celsius",
+    facts.emplace_back("temperature: mean, lowest, highest / degree Celsius",
                        charts::exact_text(header.temperature->mean_C) + ", " +
                            charts::exact_text(header.temperature->min_C) + ", " +
                            charts::exact_text(header.temperature->max_C));
@@ -339,8 +340,8 @@ void write_head(Xml& xml, const Report& report, const std::string& id) {
   xml.leaf("Description",
            "Test report of " + stated(report.facts.machine) + ", serial number " +
                stated(report.facts.serial_number) +
-               ". Not a calibration certificate of an accredited laboratory. Errors of machine "
-               "axes, actual - nominal, in um and urad.");
+               ". This document is not a calibration certificate of an accredited laboratory. "
+               "Errors of machine axes are actual - nominal, in um and urad.");
   xml.close();
   xml.open("StandardsDefinitions", {{"n", "1"}});
   xml.open("Standard", {{"id", std::to_string(kStandard)}});

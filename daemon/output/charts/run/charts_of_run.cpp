@@ -26,7 +26,7 @@ void add_budgets(const StatedResults& results, RunCharts& all, Language language
       all.charts.push_back({"run-" + number + "-budget-" + file_name(budget.figure) + ".svg",
                             budget_svg(budget, title, marks, language)});
     else
-      all.left_out.push_back(run + ": the budget of " + budget.figure +
+      all.left_out.push_back(run + ": the chart of the budget of " + budget.figure +
                              " needs u, but u is unknown");
   if (results.figures.budgets.empty())
     all.left_out.push_back(

@@ -93,7 +93,7 @@ Status add_joint(const CompensationTable& table, const ExportOptions& options, E
     return fail(ErrorCode::usage,
                 std::string("table ") + std::to_string(table.id) + " is for axis " +
                     letter(table.axis) +
-                    ", but the list of joints has no joint of this axis; add one, such as " +
+                    ", but the list of joints has no joint of this axis; add a joint, such as " +
                     letter(table.axis) + "=1");
   MDOF_TRY(const Series s, fitted(*along, table.id, kMostRows, options, out));
   note_held_reversals(s, options, out);
@@ -121,7 +121,7 @@ Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int t
     if (!three)
       return wrong_at(file.name, n + 1,
                       "three numbers in at most " + std::to_string(kLongestLine) +
-                          " characters are expected; LinuxCNC would stop reading here");
+                          " characters are expected; LinuxCNC would stop reading at this line");
     if (n > 0 && !(row[0] > read.position_m.back()))
       return wrong_at(
           file.name, n + 1,
@@ -170,12 +170,11 @@ Result<Export> write_linuxcnc(const std::vector<CompensationTable>& tables,
   MDOF_CHECK(check_one_table_an_axis(tables));
   Export out;
   std::string ini = std::string(
-                        "# Copy these lines to the ini file of LinuxCNC, and the .comp files to "
-                        "the same folder.\n") +
+                        "# Copy these lines to the ini file of LinuxCNC, and copy the .comp files "
+                        "to the folder of the ini file.\n") +
                     "# Restart LinuxCNC to change a table. Joints " + joints_text(options) +
-                    ".\n"
-                    "# A joint with a table ignores BACKLASH.\n"
-                    "# Do not add comments to a .comp file: LinuxCNC stops reading there.\n";
+                    ".\n# A joint with a table ignores BACKLASH.\n# Do not add comments to a .comp "
+                    "file: LinuxCNC stops reading at a comment.\n";
   if (options.inch) ini += std::string(kUnits) + "inch\n";
   for (const CompensationTable& table : tables) MDOF_CHECK(add_joint(table, options, out, ini));
   out.files.push_back({kIni, ini});
@@ -200,10 +199,10 @@ Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<Controlle
     } else if (joint < joints.size() && words.size() == 3 && words[0] == "COMP_FILE_TYPE") {
       joints[joint].type = words[2] == "0" ? 0 : 1;
     } else {
-      return wrong_at(kIni, n,
-                      "allowed are [JOINT_0] to [JOINT_" + std::to_string(kMostJoints - 1) +
-                          "] and, below such a line, \"COMP_FILE = NAME\" and "
-                          "\"COMP_FILE_TYPE = 0\" (or 1)");
+      return wrong_at(
+          kIni, n,
+          "only these lines are allowed: [JOINT_0] to [JOINT_" + std::to_string(kMostJoints - 1) +
+              "], and below such a line \"COMP_FILE = NAME\" and \"COMP_FILE_TYPE = 0\" (or 1)");
     }
   }
   std::vector<AppliedCorrection> all;

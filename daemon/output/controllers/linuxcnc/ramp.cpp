@@ -56,8 +56,10 @@ void note_unknown_ramp(const Series& s, Export& out) {
   if (!(most > 0)) return;
   const double up_to_m = held_steps({s.along, 1.0, kLinuxCncPeriod_s}).up_to_m;  // at 1 m/s²
   out.notes.push_back(
-      s.error + ": MAX_ACCELERATION of the joint is not known. A part of the reversal (" +
-      um_text(least) + " to " + um_text(most) + ") is not applied if MAX_ACCELERATION is from " +
+      s.error +
+      ": MAX_ACCELERATION of the joint is unknown. At some positions, LinuxCNC does not apply the "
+      "reversal (" +
+      um_text(least) + " to " + um_text(most) + ") if MAX_ACCELERATION is from " +
       mm_s2(least / up_to_m) + " to " + mm_s2(2 * most / up_to_m) +
       " (servo period 1 ms), because the ramp of LinuxCNC does not start for such a step; give "
       "MAX_ACCELERATION (option max-acceleration-mm-s2) or the ini file (option ini)");

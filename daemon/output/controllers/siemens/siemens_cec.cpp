@@ -173,7 +173,7 @@ Result<std::vector<CecTable>> read_tables(const std::vector<ControllerFile>& fil
   if (!lines.at_end()) return lines.expected("the end of the file after M17");
   for (const CecTable& table : tables)
     if (table.multiply_by > tables.size())
-      return bad_input(std::string(kFile) + ": $AN_CEC_MULT_BY_TABLE names table " +
+      return bad_input(std::string(kFile) + ": $AN_CEC_MULT_BY_TABLE refers to table " +
                        std::to_string(table.multiply_by) + ", but the file has " +
                        std::to_string(tables.size()) + " tables");
   return tables;
@@ -190,7 +190,7 @@ std::string file_text(const std::string& head, const std::string& tables) {
 
 // Unless the limit of the control is stated, that of an 828D is a note.
 Status check_count(std::size_t tables, const ExportOptions& options, Export& out) {
-  const std::string count = std::to_string(tables) + " CEC tables, but ";
+  const std::string count = std::to_string(tables) + " CEC tables are needed, but ";
   if (options.siemens_tables > 0 && tables > options.siemens_tables)
     return bad_input(count + "the control has " + std::to_string(options.siemens_tables) +
                      " (option siemens-tables); export fewer tables of axes");
@@ -238,7 +238,8 @@ Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile
     if (tables[t].multiply_by != 0)
       return bad_input(place + "$AN_CEC_MULT_BY_TABLE must be 0 in a correction of single axes");
     if (!add_to(all, applied_by(tables[t])))
-      return bad_input(place + "the positions differ from the earlier table of the same axes");
+      return bad_input(place +
+                       "the positions differ from those in the earlier table of the same axes");
   }
   return all;
 }
@@ -327,8 +328,8 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
                        std::to_string(t.command_m[axis].size()) + " positions of " +
                        kLinearAxes[axis] + ", but a CEC table has at most " +
                        std::to_string(most_points(options)) +
-                       " points; build a table with larger steps, or state the limit of the "
-                       "control (option siemens-points)");
+                       " points; build a table with larger steps, or give the limit of the control "
+                       "(option siemens-points)");
   }
   std::vector<CecTable> tables;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -350,7 +351,7 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
       head_of(t, options, "mm; value = correction, added to the command of the output axis");
   out.files.push_back({kFile, file_text(commented(head, ";"), text)});
   out.notes.push_back(
-      "largest residual that sums and products of one-axis tables cannot represent: " +
+      "the correction is written as sums and products of one-axis tables; largest residual: " +
       plain_number(to_um(out.left_m), 2) + " um");
   if (std::any_of(tables.begin(), tables.end(),
                   [](const CecTable& one) { return one.multiply_by > 0; }))

@@ -38,7 +38,7 @@ Status check_reversal(const CompensationTable& table, const Series& s, const Exp
   return bad_input("table " + std::to_string(table.id) + ": " + s.error +
                    " has a reversal of up to " + plain_number(to_um(reversal)) +
                    " um, but ENC_COMP stores one value for both approaches; " +
-                   plain_number(to_um(reversal / 2)) + " um would stay in each approach (limit " +
+                   plain_number(to_um(reversal / 2)) + " um would remain in each approach (limit " +
                    plain_number(to_um(limit)) +
                    " um). Use a format with both approaches, or export the mean (option "
                    "one-approach) and set the "

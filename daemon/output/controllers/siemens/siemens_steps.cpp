@@ -54,11 +54,11 @@ Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Ex
   e.forward = resampled(s, s.forward, steps, e);
   e.reverse = resampled(s, s.reverse, steps, e);
   if (e.loss_m > kSameStep_m)
-    out.notes.push_back(s.error + ": " + std::to_string(x.size()) +
-                        " points were interpolated to " + std::to_string(e.forward.size()) +
-                        " at equal steps of " + plain_number(to_mm(e.step_m), 7) +
-                        " mm, which changes values by up to " + plain_number(to_um(e.loss_m)) +
-                        " um");
+    out.notes.push_back(
+        s.error + ": " + std::to_string(x.size()) + " points were interpolated to a table of " +
+        std::to_string(e.forward.size()) + " points at equal steps of " +
+        plain_number(to_mm(e.step_m), 7) + " mm; this changes the values by up to " +
+        plain_number(to_um(e.loss_m)) + " um");
   out.written.back().points = e.forward.size();
   out.written.back().largest_deviation = e.loss_m;
   return e;

@@ -29,7 +29,7 @@ constexpr const char* kExamples =
     "  mdof record --axis X --repeats 5 --from-mm 0 --to-mm 60 --interval-mm 5   measure\n"
     "  mdof device probe --config mdofd.toml         check the devices and their wiring\n"
     "  mdof live                                     show the present readings of the probes\n"
-    "Exit codes: 0 ok, 1 a result fails its check, 2 usage, 3 bad input, 4 device or I/O.";
+    "Exit codes: 0 ok, 1 a check failed, 2 wrong usage, 3 bad input, 4 device or I/O error.";
 
 void declare(CLI::App& app, Action& chosen) {
   app.set_version_flag("--version", daemon::kVersion);
@@ -40,7 +40,10 @@ void declare(CLI::App& app, Action& chosen) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app{"Straightness, angles and squareness of machine axes from five-probe logs.", "mdof"};
+  CLI::App app{
+      "Calculate straightness, angles and squareness of machine axes from the readings of five "
+      "probes.",
+      "mdof"};
   Action chosen;
   declare(app, chosen);
   try {

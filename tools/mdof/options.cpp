@@ -33,12 +33,14 @@ void add_json_flag(CLI::App& command, bool& json) {
 }
 
 void add_csv_and_json_flags(CLI::App& command, bool& csv, bool& json) {
-  auto* first = command.add_flag("--csv", csv, "Print CSV: units in the header, 17 digits");
+  auto* first = command.add_flag("--csv", csv,
+                                 "Print CSV with units in the header and numbers with 17 digits");
   command.add_flag("--json", json, "Print one JSON document")->excludes(first);
 }
 
 void add_all_warnings_flag(CLI::App& command, bool& all) {
-  command.add_flag("--all-warnings", all, "Print every warning; do not summarise repeated ones");
+  command.add_flag("--all-warnings", all,
+                   "Print every warning; do not summarise repeated warnings");
 }
 
 Result<algo::TableLimits> LimitOptions::limits() const {
@@ -63,7 +65,7 @@ void add_limit_options(CLI::App& command, LimitOptions& limits) {
 void add_consent_flags(CLI::App& command, daemon::Consent& consent, const std::string& what) {
   command.add_flag("--simulated", consent.simulated, "Accept simulated data in " + what);
   command.add_flag("--despite-warnings", consent.despite_warnings,
-                   "Accept doubtful notices about the source runs of " + what);
+                   "Accept warnings about the source runs of " + what);
 }
 
 void add_database_option(CLI::App& command, std::string& database) {
@@ -117,7 +119,7 @@ void add_language_option(CLI::App& command, std::string& language) {
 CLI::Option* add_reference_option(CLI::App& command, std::string& reference) {
   return command
       .add_option("--reference", reference,
-                  "Point at which straightness is stated: fixture, carriage or tool")
+                  "Point to which straightness refers: fixture, carriage or tool")
       ->check(CLI::IsMember({"fixture", "carriage", "tool"}))
       ->type_name("POINT");
 }

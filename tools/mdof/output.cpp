@@ -20,7 +20,7 @@ Status write_commands(std::string_view text) {
     if (n < 0 && errno == EPIPE) std::_Exit(kOk);
     if (n < 0) {
       return io_error(std::string("standard output: cannot be written: ") + std::strerror(errno) +
-                      "; free disk space, or write to another file");
+                      "; delete files to free disk space, or write to another file");
     }
     text.remove_prefix(static_cast<std::size_t>(n));
   }

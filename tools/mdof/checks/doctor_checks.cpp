@@ -91,7 +91,7 @@ Diagnosis check_usb_device(const Machine& machine, const fs::path& device,
                 (usb.node == drivers::UsbNode::tty ? "serial port" : "/dev/hidraw") +
                 " for the device",
             "unplug the device and plug it in again; sudo dmesg prints the messages of the kernel "
-            "about it"};
+            "about the device"};
   if (::access(node.c_str(), R_OK | W_OK) == 0) return {Level::good, what, ""};
   return {Level::bad, what + ": no permission for " + node.string(),
           "install the udev rules (above) and plug the device in again, or add yourself to the "
@@ -152,7 +152,7 @@ Diagnosis check_clock(const Machine& machine) {
   if (source.empty()) return {Level::doubtful, "clock source: unknown", ""};
   for (const char* slow : {"hpet", "acpi_pm", "jiffies", "pit"}) {
     if (source == slow)
-      return {Level::doubtful, "clock source: " + source + ", slow to read and coarse",
+      return {Level::doubtful, "clock source: " + source + " (slow, with a coarse resolution)",
               "if the processor has a constant TSC, add \"tsc=reliable clocksource=tsc\" to the "
               "kernel command line"};
   }
@@ -176,13 +176,13 @@ Diagnosis check_storage(const daemon::Config& config) {
   while (!folder.empty() && !fs::exists(folder, ec)) folder = folder.parent_path();
   const std::string what = "storage: " + config.database.string();
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    return {
-        Level::doubtful, what + ": this user has no permission to write in " + folder.string(),
-        "only the user of mdofd needs this permission; run mdof doctor as that user to check it"};
+    return {Level::doubtful, what + ": this user has no permission to write in " + folder.string(),
+            "only the user of mdofd needs this permission; to check this permission, run mdof "
+            "doctor as that user"};
   const auto room = fs::space(folder, ec);
   if (!ec && static_cast<double>(room.available) < kLittleRoom)
     return {Level::bad, what + ": less than 1 GB is free",
-            "free space on the disk, or move the database"};
+            "delete files on this disk, or move the database to another disk"};
   return {Level::good, what, ""};
 }
 
@@ -237,11 +237,11 @@ std::vector<Diagnosis> check_sysfs_files(const Machine& machine, std::optional<g
 Diagnosis check_set_up(const Rig& rig) {
   const std::string what = "set-up of axis " + std::string(1, letter(rig.axis)) + ": ";
   const char* const remedy =
-      "check the set-up once by hand. Push the target towards each probe in turn: only this probe "
-      "may change, by the length of the push and with the sign of its direction. Tilt the target "
-      "by a known angle about each axis. Move the axis by a known length: the encoder must show "
-      "this length and direction. To find a drift that follows the axis position, measure again "
-      "with other dwell times, or with another order of targets";
+      "check the set-up once by hand. Push the target towards each probe in turn: only the reading "
+      "of this probe may change, by the length of the push and with the sign of the direction of "
+      "the probe. Tilt the target by a known angle about each axis. Move the axis by a known "
+      "length: the encoder must show this length and direction. To find a drift that follows the "
+      "axis position, measure again with other dwell times, or with another order of targets";
   const std::string locked =
       "A drift that follows the position of the axis (heat of drive or scale, pull of cables) "
       "repeats in each run. The errors contain this drift, but u does not. One run cannot separate "
@@ -250,17 +250,17 @@ Diagnosis check_set_up(const Rig& rig) {
     return {Level::good,
             what + std::to_string(rig.probes.size()) +
                 " probes give redundant readings. If one probe is exchanged or turned, or has a "
-                "wrong gain or position, the readings contradict each other and the run warns. A "
-                "run does not detect a reversed encoder, a wrong sign or gain of all probes, or a "
+                "wrong gain or position, the readings contradict each other and mdof warns. A run "
+                "does not detect a reversed encoder, a wrong sign or gain of all probes, or a "
                 "common factor of all lengths. " +
                 locked,
             remedy};
   return {Level::good,
           what +
-              "five probes give no redundant reading, so they cannot contradict each other. The "
-              "following faults give wrong errors without a warning: exchanged or turned probes, a "
-              "wrong sign or gain (of one probe or of all), wrong positions, the rig of another "
-              "axis, a reversed encoder. " +
+              "five probes give no redundant reading, so the readings cannot contradict each "
+              "other. The following faults give wrong errors without a warning: exchanged or "
+              "turned probes, a wrong sign or gain (of one probe or of all), wrong positions, the "
+              "rig of another axis, a reversed encoder. " +
               locked,
           remedy};
 }

@@ -102,15 +102,14 @@ std::string address_of(const drivers::DriverSpec& device) {
 Result<std::string> network_address(const std::string& text) {
   const auto block = parsed(text);
   if (!block)
-    return fail(
-        ErrorCode::usage,
-        "\"" + text +
-            "\" is not an IP address; give the address of the device, such as 192.168.0.7, or of "
-            "its network, such as 192.168.0.0/24 (systemd does not accept host names here)");
+    return fail(ErrorCode::usage, "\"" + text +
+                                      "\" is not an IP address; give the address of the device, "
+                                      "such as 192.168.0.7, or of the network of the device, such "
+                                      "as 192.168.0.0/24 (systemd does not accept host names)");
   if (block->bits == 0)
     return fail(ErrorCode::usage, "\"" + text +
                                       "\" contains every address; give the address of the device, "
-                                      "or of its network, such as 192.168.0.0/24");
+                                      "or of the network of the device, such as 192.168.0.0/24");
   return text;
 }
 
@@ -131,8 +130,10 @@ Result<fs::path> allow_address(const fs::path& units, const std::string& address
                              address + "\n",
                          Existing::replace);
   if (written) return file;
-  return io_error(written.error().message +
-                  "; if root alone may write there, run: sudo mdof setup network " + address);
+  return io_error(
+      written.error().message +
+      "; if only root has permission to write in this folder, run: sudo mdof setup network " +
+      address);
 }
 
 std::vector<Diagnosis> check_network(const Machine& machine, const daemon::Config& config) {

@@ -24,17 +24,16 @@ constexpr Group kGroups[] = {
     {"calibrate", "Calibrate the fixture on the machine; write calibration records for the rig",
      ""},
     {"compensation", "Build, show and activate compensation tables", ""},
-    {"machine", "Calculate errors at the tool from a machine's kinematic chain; maps and tests",
-     ""},
-    {"form", "Height maps of a surface: clamping, cutting, path of a fast tool servo", ""},
+    {"machine", "Calculate errors of a machine at the tool: maps, diagonals, circles, budgets", ""},
+    {"form", "Calculate height maps, clamping, cuts and paths of a fast tool servo", ""},
     {"separate", "Separate the machine's error from the shape of the target", ""},
-    {"encoder", "Set the position of an axis with an incremental encoder", ""},
+    {"encoder", "Set the position of an axis that has an incremental encoder", ""},
     {"device", "List, probe and monitor the devices",
      "Examples:\n"
      "  mdof device list\n"
      "  mdof device probe capa-1 --config mdofd.toml\n"
      "The commands \"probe\" and \"monitor\" open the device themselves; stop mdofd first."},
-    {"setup", "Set up the service on this machine", ""},
+    {"setup", "Set up the service on this computer", ""},
 };
 
 CLI::App* made_before(CLI::App& app, std::string_view name) {

@@ -95,7 +95,7 @@ class Judge {
       if (joints.size() == 2) check_pair(section_of(joints[0]), section_of(joints[1]), axis);
       live_.joints.insert(live_.joints.end(), joints.begin(), joints.end());
     }
-    if (live_.joints.empty()) refuse("[KINS]KINEMATICS: there is no axis X, Y or Z");
+    if (live_.joints.empty()) refuse("[KINS]KINEMATICS: the machine has no axis X, Y or Z");
   }
 
   // Both joints have the same offset at the same position, in machine units. A motor that is
@@ -132,8 +132,9 @@ class Judge {
     const std::string type = ini_.value(section, "TYPE");
     if (type != "LINEAR") refuse("[" + section + "]TYPE = \"" + type + "\" must be LINEAR");
     if (ini_.find(section, "COMP_FILE"))
-      refuse("[" + section +
-             "]COMP_FILE: LinuxCNC would apply this file and the live table; remove COMP_FILE");
+      refuse(
+          "[" + section +
+          "]COMP_FILE: LinuxCNC would apply both this file and the live table; remove COMP_FILE");
     if (number(section, "BACKLASH").value_or(0) != 0)
       refuse("[" + section +
              "]BACKLASH: the errors in the table must be measured without BACKLASH; remove "
@@ -188,7 +189,7 @@ class Judge {
       const double most = number(section, drive).value_or(0), least = needed(section, axis) + more;
       if (most != 0 && most < least)
         refuse("[" + section + "]" + drive + " = " + plain_number(most) + " must be at least " +
-               plain_number(least) + " (" + axis + " plus the share of the correction)");
+               plain_number(least) + " (" + axis + " plus the maximum of the correction)");
     }
   }
 

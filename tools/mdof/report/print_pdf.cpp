@@ -48,7 +48,8 @@ Result<int> run_program(const std::vector<std::string>& words) {
     const pid_t ended = ::waitpid(child, &status, WNOHANG);
     if (ended == child) return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
     if (ended < 0 && errno != EINTR)
-      return io_error(words.front() + ": cannot wait for its end: " + std::strerror(errno));
+      return io_error(words.front() +
+                      ": cannot wait for the end of the program: " + std::strerror(errno));
     if (std::chrono::steady_clock::now() > last) {
       ::kill(child, SIGKILL);
       ::waitpid(child, &status, 0);
@@ -92,9 +93,9 @@ Result<std::vector<std::string>> command_for(const fs::path& html, const fs::pat
     return std::vector<std::string>{weasyprint->string(), file_url(html),
                                     fs::absolute(pdf).string()};
   return io_error(
-      "no program that prints PDF is installed; install one (sudo apt install chromium, or sudo "
-      "apt install weasyprint), or open " +
-      html.string() + " in a browser and print the report there");
+      "no program that writes PDF is installed; install chromium or weasyprint (sudo apt install "
+      "chromium, or sudo apt install weasyprint), or open " +
+      html.string() + " in a browser and print the report");
 }
 
 }  // namespace
@@ -107,7 +108,7 @@ Status print_pdf(const fs::path& html, const fs::path& pdf) {
   if (status == 0 && fs::file_size(pdf, ec) > 0 && !ec) return {};
   return io_error(pdf.string() + ": " + words.front() + " did not write this file (exit status " +
                   std::to_string(status) + "); open " + html.string() +
-                  " in a browser and print the report there");
+                  " in a browser and print the report");
 }
 
 Status attach_to_pdf(const fs::path& pdf, const std::string& name, const std::string& media_type,
@@ -115,7 +116,7 @@ Status attach_to_pdf(const fs::path& pdf, const std::string& name, const std::st
   const auto qpdf = find_program("qpdf");
   if (!qpdf) {
     say(pdf.string() + " does not contain " + name +
-        ", because qpdf is not installed; install it (sudo apt install qpdf), or send the HTML "
+        ", because qpdf is not installed; install qpdf (sudo apt install qpdf), or send the HTML "
         "file, which contains " +
         name);
     return {};
@@ -127,7 +128,7 @@ Status attach_to_pdf(const fs::path& pdf, const std::string& name, const std::st
     return io_error(folder + ": cannot be created: " + std::strerror(errno));
   const fs::path file = fs::path(folder) / name, both = fs::path(folder) / "both.pdf";
   const std::string without =
-      "; the file is the report without it. Send the HTML file, which contains " + name;
+      "; the PDF file contains only the report. Send the HTML file, which contains " + name;
   Status done = write_file(file.string(), bytes, Existing::replace);
   if (done) {
     const auto status =

@@ -113,8 +113,8 @@ Status decide(report::Report& all, const std::vector<std::pair<std::string, doub
     if (!found)
       return fail(ErrorCode::usage,
                   "--tolerance " + figure +
-                      ": no run of the report has this figure with its "
-                      "uncertainty; a report without --tolerance lists the figures");
+                      ": no run of the report has this figure with an uncertainty; a report "
+                      "without --tolerance lists the figures");
   }
   return {};
 }
@@ -134,7 +134,7 @@ void add_report_options(CLI::App& command, ReportRequest& request) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--tolerance", request.tolerances,
-                  "Tolerance (largest permitted value) of a figure, in its unit (ISO "
+                  "Tolerance (largest permitted value) of a figure, in the unit of the figure (ISO "
                   "14253-1:2017), such as EYX_straightness_um=0.5")
       ->type_name("NAME=VALUE")
       ->expected(1)

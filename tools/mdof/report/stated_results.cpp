@@ -75,7 +75,7 @@ std::vector<charts::SquarenessOfPair> squareness_of_runs(
     if (a.empty() || b.empty()) continue;
     charts::SquarenessOfPair pair{axes, {}, ""};
     if (a.size() > 1 || b.size() > 1)
-      pair.reason = std::string("there are several runs of axis ") +
+      pair.reason = std::string("the selection has several runs of axis ") +
                     letter(a.size() > 1 ? axes.a : axes.b) + "; choose one run of each axis";
     else if (auto results = squareness_of_two(store, *a.front(), *b.front()))
       pair.results = std::move(*results);

@@ -32,8 +32,8 @@ Status refuse_beside_daemon(const std::string& command, const std::string& socke
     return in_context(command + ": cannot find out whether mdofd uses the devices", runs.error());
   if (!*runs) return {};
   return io_error(command + ": mdofd runs (" + socket +
-                  ") and uses the devices, but this command must open the devices itself; stop "
-                  "mdofd first, or use mdof device list or mdof live");
+                  ") and uses the devices, but this command must open the devices; stop mdofd "
+                  "first, or use mdof device list or mdof live");
 }
 
 }  // namespace mdof::tools

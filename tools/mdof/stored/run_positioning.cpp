@@ -60,7 +60,7 @@ Status add_error(const Run& run, std::size_t k, double scale_period_m, RunPositi
   if (!name.angle && !found.keep_slope && figures->targets.size() < kFewestOfALine)
     return bad_input("run " + std::to_string(run.header.id) + ": the straightness " + name.name +
                      " needs at least three targets with error values; give --keep-slope to keep "
-                     "the slope, or --error with an angle");
+                     "the slope, or --error with an angular error");
   found.columns.push_back({name.name, name.angle, std::move(*figures)});
   return {};
 }
@@ -79,8 +79,8 @@ Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
 }
 
 const char* const kNotInR =
-    "R is calculated from these visits only. U does not include the uncertainty that comes from "
-    "the small number of visits";
+    "R is calculated only from the visits of this run. U does not include the uncertainty that "
+    "comes from the small number of visits";
 
 }  // namespace
 

@@ -39,8 +39,8 @@ std::string overall(const StudyResult& result) {
   return table.text(width) +
          wrapped(
              "sd: standard deviation; se: standard error. The coverage intervals (JCGM 101 7.7, "
-             "5.3.4) and the quantiles differ from those of all sorted trials by at most the "
-             "resolution.",
+             "5.3.4) and the quantiles differ by at most the resolution from the values that all "
+             "sorted trials would give.",
              width) +
          "\n";
 }
@@ -81,7 +81,7 @@ std::string allocation(const Allocation& a) {
                      percent(a.probability) +
                      "; probability with the planned values: " + percent(a.reached) + "\n";
   for (const AllocatedTolerance& t : a.alone) text += "  alone     " + tolerance(t) + "\n";
-  text += "  together  the planned values times " + fixed(a.common_factor, 4) + "\n";
+  text += "  together  all planned values multiplied by " + fixed(a.common_factor, 4) + "\n";
   for (const auto& pair : a.frontier) {
     std::vector<std::string> words;
     for (const AllocatedTolerance& t : pair) words.push_back(tolerance(t));

@@ -35,7 +35,9 @@ void declare_preset(CLI::App& command, SensitivityCommand& o) {
         ->group(group)
         ->type_name("X");
   }
-  command.add_option("--travel-mm", o.travel_mm, "Travel, uniform between FROM and TO")
+  command
+      .add_option("--travel-mm", o.travel_mm,
+                  "Range of the positions (uniform distribution between FROM and TO)")
       ->expected(2)
       ->group(group)
       ->type_name("FROM TO");
@@ -72,7 +74,7 @@ void declare_trials(CLI::App& command, SensitivityCommand& o) {
       ->needs(adaptive)
       ->type_name("KEY=VALUE");
   command
-      .add_option("--trial", o.trial, "Show only this trial: its random numbers and its results")
+      .add_option("--trial", o.trial, "Show only the random numbers and the results of this trial")
       ->check(number_in(0, kMostTrials))
       ->type_name("INDEX");
   o.threads = default_threads();
@@ -90,7 +92,7 @@ void declare_results(CLI::App& command, SensitivityCommand& o) {
   command.add_option("--plot", o.plots, "Draw histograms and other charts as SVG in this folder")
       ->type_name("DIR");
   add_json_flag(command, o.json);
-  command.add_flag("--csv", o.csv, "Print CSV with one row for each output and bin");
+  command.add_flag("--csv", o.csv, "Print CSV with one row for each output and bin of the travel");
 }
 
 // The unit is what the option's name ends with.
@@ -103,8 +105,9 @@ struct Limit {
 constexpr std::array kLimits = {
     Limit{"-um", " µm", kLongest_m * 1e6, "the length exceeds 10 m"},
     Limit{"-mm", " mm", kLongest_m * 1e3, "the length exceeds 10 m"},
-    Limit{"-mrad", " mrad", kWidest_mrad, "the angle exceeds 0.25 rad and is not small"},
-    Limit{"-urad", " µrad", kWidest_mrad * 1e3, "the angle exceeds 0.25 rad and is not small"},
+    Limit{"-mrad", " mrad", kWidest_mrad, "the angle exceeds 0.25 rad, the limit for small angles"},
+    Limit{"-urad", " µrad", kWidest_mrad * 1e3,
+          "the angle exceeds 0.25 rad, the limit for small angles"},
 };
 
 Status check_number(const std::string& option, double x) {
@@ -176,11 +179,12 @@ void declare_options(CLI::App& command, SensitivityCommand& o) {
       .add_option("--preset", o.preset,
                   "Simulation published by Kweon, Liu and Yang: simulation-1 or simulation-2")
       ->type_name("NAME");
-  command.add_option("--plan", o.plan, "Plan of your own study; see algo/sensitivity/PLAN.md")
+  command
+      .add_option("--plan", o.plan, "Plan file of your own study (see algo/sensitivity/PLAN.md)")
       ->type_name("PLAN.toml");
   command
       .add_option("--continue", o.continued,
-                  "Number of the stored study to continue; see mdof studies")
+                  "Number of the stored study to continue (see mdof studies)")
       ->type_name("STUDY");
   declare_trials(command, o);
   declare_results(command, o);
@@ -199,8 +203,8 @@ Status check_usage(SensitivityCommand& command) {
                 "because a plan or a stored study has its own parameters");
   if (command.continued && any_setting(command))
     return fail(ErrorCode::usage,
-                "sensitivity: a continued study keeps its trials, seed, coverage and adaptive "
-                "rule; leave out the options for these settings");
+                "sensitivity: a continued study keeps the original trials, seed, coverage and "
+                "adaptive rule; leave out the options for these settings");
   if (command.json && command.csv)
     return fail(ErrorCode::usage, "sensitivity: give --json or --csv, not both");
   command.form = command.json ? StudyForm::json : command.csv ? StudyForm::csv : StudyForm::text;
@@ -224,11 +228,11 @@ Status check_plot_folder(const std::string& folder) {
   const std::string why = ec ? ec.message() : "it is not a folder";
   if (ec || !fs::is_directory(folder, ec))
     return io_error(folder + ": the folder for plots cannot be created: " + why +
-                    "; name another folder");
+                    "; give another folder");
   if (::access(folder.c_str(), W_OK | X_OK) == 0) return {};
   return io_error(
       folder +
-      ": plots cannot be written to this folder; make it writable, or name another folder");
+      ": plots cannot be written to this folder; make the folder writable, or give another folder");
 }
 
 }  // namespace mdof::tools

@@ -58,7 +58,7 @@ std::string runs_of(const std::vector<std::int64_t>& runs) {
 std::string corrections_text(const CompensationTable& t, std::size_t width) {
   if (t.has_positioning())
     return std::string(1, letter(t.axis)) + " command: add -" + positioning_name(t.axis) +
-           ", whichever body moves\n";
+           ", independent of which body moves\n";
   const CorrectionSigns signs = correction_signs(t.machine, t.axis);
   if (!t.machine.known()) return wrapped("correction: unknown; " + signs.gap[0], width, 2) + "\n";
   std::string text = "machine " + t.machine.text + " (" + travels_of(t.machine) + ")\n";
@@ -95,7 +95,8 @@ std::string table_of_positioning_text(const CompensationTable& t) {
   const PositioningErrors& along = t.positioning;
   return simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) +
-                     ", positioning of the imported runs " + runs_of(t.runs) + ", " + t.created_utc,
+                     ", positioning errors from the imported runs " + runs_of(t.runs) + ", " +
+                     t.created_utc,
                  terminal_columns()) +
          "\n" +
          wrapped(positioning_name(t.axis) +
@@ -118,8 +119,10 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
                      state_of(generation) + ", created " + t.created_utc + ", from the runs " +
                      runs_of(t.runs),
                  terminal_columns()) +
-         "\nerrors: actual - nominal, of the moving " + t.sides.moves() + "\nstraightness " +
-         (t.slope_removed ? "about its least-squares line" : "as measured") +
+         "\n"
+         "errors: actual - nominal position of the moving " +
+         t.sides.moves() + "\nstraightness " +
+         (t.slope_removed ? "about the least-squares line" : "as measured") +
          ", angles relative to the first target\n" + stated_text(t.stated) +
          corrections_text(t, terminal_columns()) + "\nforward\n" +
          side_text(t, t.forward, t.u_forward) + "\nreverse\n" +

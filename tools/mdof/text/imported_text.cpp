@@ -51,8 +51,9 @@ std::string imported_text(const Run& run, const StatedFigures& figures,
                error.angle ? in_urad(p.point.probe_m.at(0)) : in_um(p.point.probe_m.at(0))});
   const double u =
       run.points.empty() ? std::nan("") : to_key_unit(u_of_deviation(run.points.front()));
-  return "IMPORTED: measured by another instrument, " + run.header.provenance.model + " only.\n" +
-         head_text(run.header, result_sha256, width, all_warnings) + "\n" + table.text(width) +
+  return "IMPORTED: measured by another instrument; contains " + run.header.provenance.model +
+         " only.\n" + head_text(run.header, result_sha256, width, all_warnings) + "\n" +
+         table.text(width) +
          wrapped("deviation = actual - nominal, as in the file" + sense_text(run) +
                      ". Declared standard uncertainty: " +
                      (std::isnan(u) ? std::string("none")

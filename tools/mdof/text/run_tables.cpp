@@ -178,7 +178,8 @@ std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::
   }
   return table.text(width) +
          wrapped("± is the standard uncertainty u. It contains " + covers_text(uncertainty) +
-                     ". error = actual - nominal, of the moving " + run.header.sides.moves(),
+                     ". error = actual - nominal position of the moving " +
+                     run.header.sides.moves(),
                  width) +
          "\n" + stated_text(run.header.stated);
 }
@@ -198,7 +199,8 @@ std::string straightness_text(const std::vector<StraightnessFigure>& figures,
   }
   return "straightness, peak to valley about each reference line\n" + table.text(width) +
          wrapped(
-             "± is the standard uncertainty u of the mean of both approaches. form: standard "
+             "± is the standard uncertainty u of the mean of the measured approaches. form: "
+             "standard "
              "deviation of the slope, from the residuals about the line",
              width) +
          "\n";

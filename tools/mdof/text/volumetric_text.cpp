@@ -108,7 +108,7 @@ std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
          names_text("u does not include these errors: ", t.u_not_declared) +
          wrapped("u is the standard uncertainty. It contains " + covers_text(t),
                  terminal_columns()) +
-         "\n" + "For all nodes, give --csv or --json\n";
+         "\n" + "--csv and --json print all nodes\n";
 }
 
 std::string volumetric_csv(const VolumetricTable& t) {

@@ -68,12 +68,14 @@ std::string text_of(const Certified& certified) {
   std::string text = "certificate " + facts.certificate + " of " + facts.laboratory + ", " +
                      facts.calibrated + "\ncalibrated item: " + or_not_stated(certificate.item) +
                      ", serial number " + or_not_stated(facts.serial_number) +
-                     "\ntaken for probe " + probe.id + ":\n";
+                     "\n"
+                     "values taken from the certificate for probe " +
+                     probe.id + ":\n";
   for (const Notice& each : found.taken) text += "- " + words::text(each) + "\n";
-  text +=
-      "- valid until " + record.valid_until +
-      (facts.due.empty() ? ", by --valid-days: the certificate states no date of recalibration\n"
-                         : ", the date of recalibration in the certificate\n");
+  text += "- valid until " + record.valid_until +
+          (facts.due.empty()
+               ? " (from --valid-days, because the certificate has no date of recalibration)\n"
+               : " (date of recalibration in the certificate)\n");
   for (const Notice& each : found.not_taken) text += "not taken: " + words::text(each) + "\n";
   return text + (certificate.is_signed ? "The signature of the certificate is not verified.\n"
                                        : "The certificate is not signed.\n");
@@ -83,8 +85,8 @@ Result<Certified> read_certificate(const CertificateCommand& command) {
   MDOF_TRY(const Rig rig, load_rig(command.rig));
   const auto at = rig.probe_index(command.probe);
   if (!at)
-    return fail(ErrorCode::usage, command.rig + ": has no probe \"" + command.probe +
-                                      "\"; its probes are " + probe_ids(rig));
+    return fail(ErrorCode::usage, command.rig + ": the rig has no probe \"" + command.probe +
+                                      "\"; the probes of the rig are " + probe_ids(rig));
   MDOF_TRY(const std::string text, read_text_file(command.file, kMostDccBytes));
   Certified certified;
   MDOF_TRY(certified.certificate, read_dcc(text, command.file));
@@ -114,10 +116,12 @@ Action declare_certificate(CLI::App& command) {
       ->required()
       ->type_name("");
   command.add_option("--rig", o->rig, "Rig file of the fixture")->required()->type_name("RIG.toml");
-  command.add_option("--probe", o->probe, "Probe that was calibrated")->required()->type_name("ID");
+  command.add_option("--probe", o->probe, "Probe to which the certificate applies")
+      ->required()
+      ->type_name("ID");
   command
       .add_option("--result", o->result,
-                  "Name or refType of the result to read [default: all of the certificate]")
+                  "Name or refType of the result to read [default: all results in the certificate]")
       ->type_name("NAME");
   add_record_file_options(command, o->record);
   add_json_flag(command, o->json);
@@ -129,12 +133,12 @@ Action declare_certificate(CLI::App& command) {
 Command calibrate_certificate_command() {
   return {
       .name = "calibrate certificate",
-      .summary = "Take a probe's sensitivity and linearity from its calibration certificate",
+      .summary = "Read the sensitivity and linearity of a probe from a calibration certificate",
       .footer =
           "Reads a DCC, PTB's Digital Calibration Certificate: a sensitivity in volts per length,\n"
           "a table of errors (refTypes basic_measuredValue, basic_measurementError or\n"
-          "basic_referenceValue), or both; U is divided by its coverage factor. What was taken\n"
-          "is printed. Signatures are not verified.\n"
+          "basic_referenceValue), or both; mdof divides each U by the coverage factor\n"
+          "and prints the values that it takes. It does not verify signatures.\n"
           "Example:\n"
           "  mdof calibrate certificate K-4711.xml --rig rig_X.toml --probe A --out A.toml",
       .declare = declare_certificate};

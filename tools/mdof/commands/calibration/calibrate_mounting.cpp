@@ -75,7 +75,7 @@ Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& 
   for (const Point& stop : found.stops)
     traverse.stops.push_back({sign * stop.position_m, stop.probe_m, stop.probe_u_m});
   if (traverse.stops.size() < 2)
-    return bad_input(log.file + ": the log has only one stop, but a slope needs two. " +
+    return bad_input(log.file + ": the log has only one stop, but a slope needs two stops. " +
                      hazard_of(rig, log.axis) +
                      "Stop at two or more positions, as far apart as the clearance allows");
   return traverse;
@@ -146,9 +146,9 @@ Status calibrate(const MountingCommand& command) {
   const MountingCalibration& found = fit.found;
   if (!found.explained)
     warn(
-        "chi-square is larger than the noise of the readings explains (possible causes: target not "
-        "flat, target moved in its clamp, axis not straight); the uncertainties are increased "
-        "accordingly");
+        "chi-square is larger than expected from the noise of the readings (possible causes: "
+        "target not flat, target moved in its clamp, axis not straight); the uncertainties are "
+        "increased accordingly");
   fill(record, found, rig, sources.files);
   if (!command.record.out.empty())
     MDOF_CHECK(write_record(command.record.out, record_text(record)));
@@ -173,9 +173,9 @@ Action declare_mounting(CLI::App& command) {
       ->required()
       ->type_name("RIG.toml");
   command
-      .add_option(
-          "--reversed", o->reversed,
-          "Axes on which the target moves against the direction given by the rig and the encoder")
+      .add_option("--reversed", o->reversed,
+                  "Axes for which mdof reverses the direction of target motion calculated from the "
+                  "rig and the encoder")
       ->delimiter(',')
       ->type_name("X,Y,Z")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
@@ -189,12 +189,12 @@ Action declare_mounting(CLI::App& command) {
 Command calibrate_mounting_command() {
   return {
       .name = "calibrate mounting",
-      .summary = "Find positions and directions of the probes with a target at several tilts",
+      .summary = "Find the positions and directions of the probes from a target at several tilts",
       .footer =
           "HAZARD: a traverse along the measuring direction of a probe drives the target into\n"
-          "the probe. On a rig for X, a traverse of Y drives the target into D and E; their\n"
-          "range may end after 100 um. A tilt of 1 mrad reduces a gap by 1 um for each mm of\n"
-          "distance.\n"
+          "the probe. On a rig for X, a traverse of Y drives the target into the probes D\n"
+          "and E; the range of these probes may end after 100 um. A tilt of 1 mrad reduces a\n"
+          "gap by 1 um for each mm of distance.\n"
           "First run mdof clearance RIG.toml for each rig. Retract the probes that\n"
           "this command lists, or leave out the traverse.\n"
           "Clamp the target at three or more tilts of some mrad about different axes, each\n"

@@ -44,7 +44,8 @@ std::string json_of(const SensitivityCalibration& found, const CalibrationRecord
   for (const auto& [reading_um, correction_um] : found.linearity)
     json.begin_array().value(reading_um).value(correction_um).end_array();
   json.end_array()
-      .field("u_covers", rig_declares ? "noise, and what the rig declares" : "noise only")
+      .field("u_covers",
+             rig_declares ? "noise and the uncertainties that the rig declares" : "noise only")
       .field("noise_only", !rig_declares)
       .end_object();
   return json.take();
@@ -95,7 +96,7 @@ Status calibrate(const SensitivityCommand& command) {
   const auto at = rig.probe_index(command.probe);
   if (!at)
     return fail(ErrorCode::usage, command.rig + ": the rig has no probe \"" + command.probe +
-                                      "\"; its probes are " + probe_ids(rig));
+                                      "\"; the probes of the rig are " + probe_ids(rig));
   Calibration& calibration = rig.probes[*at].calibration;
   calibration.linearity.clear();  // found anew
   calibration.polynomial_um.clear();
@@ -129,8 +130,9 @@ Action declare_sensitivity(CLI::App& command) {
       ->type_name("");
   command.add_option("--rig", o->rig, "Rig file of the fixture")->required()->type_name("RIG.toml");
   command.add_option("--probe", o->probe, "Probe to calibrate")->required()->type_name("ID");
-  command.add_flag("--reversed", o->reversed,
-                   "The target moves against the direction given by the rig and the encoder");
+  command.add_flag(
+      "--reversed", o->reversed,
+      "Reverse the direction of target motion that mdof calculates from the rig and the encoder");
   add_record_options(command, o->record);
   add_json_flag(command, o->json);
   return [o] { return calibrate(*o); };
@@ -142,9 +144,9 @@ Command calibrate_sensitivity_command() {
   return {.name = "calibrate sensitivity",
           .summary = "Calibrate the sensitivity of a probe against the encoder of an axis",
           .footer =
-              "HAZARD: the target moves towards the probe. First see with mdof clearance RIG.toml\n"
-              "and mdof live where the range of the probe ends. Use small steps and stay within\n"
-              "the range.\n"
+              "HAZARD: the target moves towards the probe. First use mdof clearance RIG.toml\n"
+              "and mdof live to see where the range of the probe ends. Use small steps and stay\n"
+              "within the range.\n"
               "Move the target towards the probe in steps over its range, and stop at each step.\n"
               "The result contains the scale error of the encoder.\n"
               "Example:\n"

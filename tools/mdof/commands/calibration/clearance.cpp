@@ -42,12 +42,13 @@ Status clearance(const ClearanceCommand& command) {
   MDOF_TRY(const auto motions, algo::motion_clearances(rig));
   if (command.json) return write_line(clearance_json(motions));
   std::string text =
-      "Motions of the target relative to the fixture, from its nominal position without tilt:\n";
+      "Motions of the target relative to the fixture. The target starts at the nominal\n"
+      "position without tilt.\n";
   for (const auto& motion : motions)
     text += wrapped(algo::clearance_text(motion), terminal_columns(), 2) + "\n";
   return write_out(text +
-                   wrapped("Only the probes and the surfaces that they measure are considered, not "
-                           "clamps, cables or corners of the target.",
+                   wrapped("mdof considers only the probes and the surfaces that the probes "
+                           "measure. It does not consider clamps, cables or corners of the target.",
                            terminal_columns()) +
                    "\n");
 }

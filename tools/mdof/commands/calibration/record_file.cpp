@@ -39,9 +39,7 @@ std::string text_of(std::chrono::sys_days day) {
 }  // namespace
 
 void add_record_file_options(CLI::App& command, RecordOptions& options) {
-  command
-      .add_option("--out", options.out,
-                  "Write the calibration record to this file, for use by a rig")
+  command.add_option("--out", options.out, "Write the calibration record for the rig to this file")
       ->type_name("FILE.toml");
   command
       .add_option("--valid-days", options.valid_days,

@@ -32,17 +32,17 @@ std::string causes_text(const CheckedError& e) {
         ": nothing to correct, because all errors are smaller than the last digit of the format\n";
   if (e.by_reversal > kShown)
     text += e.error + ": " + fixed(e.by_reversal * 1e6, 4) + unit +
-            " stay in each approach, because the errors differ between the approaches and the file "
-            "has one value for both" +
-            (e.one_way ? " (not in \"after\")\n" : "\n");
+            " remain in each approach, because the errors differ between the approaches and the "
+            "file has one value for both" +
+            (e.one_way ? " (not included in \"after\")\n" : "\n");
   if (e.by_ramp > kShown)
-    text += e.error + ": " + fixed(e.by_ramp * 1e6, 4) + unit +
-            " stay after a reversal, because the ramp of the controller does not start; "
-            "change MAX_ACCELERATION, use the live compensation, or permit it with "
-            "--residual-um\n";
+    text +=
+        e.error + ": " + fixed(e.by_ramp * 1e6, 4) + unit +
+        " remain after a reversal, because the ramp of the controller does not start; change "
+        "MAX_ACCELERATION, use the live compensation, or permit this residual with --residual-um\n";
   if (e.between_nodes > kShown)
     text += e.error + ": " + fixed(e.between_nodes * 1e6, 4) + unit +
-            " stay between the nodes of the table\n";
+            " remain between the nodes of the table\n";
   return text;
 }
 
@@ -94,14 +94,14 @@ std::string check_text(const controllers::Check& check) {
   std::string text = table.text() + "allowed: at most " +
                      plain_number(check.most_residual_m * 1e6) + " µm (µrad) and " +
                      plain_number(check.share * 100) +
-                     " % of the error before;\n"
+                     " % of \"before\";\n"
                      "see --residual-um and --residual-percent\n";
   for (const CheckedError& e : check.errors) text += causes_text(e);
   if (check.nothing_to_correct())
     text +=
         "nothing to correct, because all errors are smaller than the last digit of the format\n";
   for (const std::string& error : check.not_judged)
-    text += error + ": not checked, because the sign of its correction is unknown\n";
+    text += error + ": not checked, because the correction sign is unknown\n";
   return text;
 }
 

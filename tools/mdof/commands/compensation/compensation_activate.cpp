@@ -61,7 +61,7 @@ Action declare_activate(CLI::App& command) {
 
 Command compensation_activate_command() {
   return {.name = "compensation activate",
-          .summary = "Activate a table on its axis, or on the volume",
+          .summary = "Activate a table of an axis or of the volume",
           .footer = "Example:\n  mdof compensation activate 1",
           .declare = declare_activate};
 }

@@ -80,7 +80,7 @@ Status check_kind(const BuildCommand& command) {
     if (command.words.empty())
       return fail(
           ErrorCode::usage,
-          "missing runs; give their numbers, or --machine for a table of a plane or volume");
+          "missing run; give the numbers of runs, or --machine for a table of a plane or volume");
     return command.volume.check_unused();
   }
   if (!command.words.empty() || !command.axis.empty() || command.keep_slope || command.partial ||
@@ -109,7 +109,7 @@ Status build(const BuildCommand& asked) {
                             (doubtful.empty() ? "" : " --despite-warnings");
   say(table.has_positioning()
           ? "stored; write the files for a controller with: mdof compensation export " + named
-          : "stored; activate it with: mdof compensation activate " + named);
+          : "stored; activate the table with: mdof compensation activate " + named);
   return {};
 }
 
@@ -125,8 +125,8 @@ Action declare_build(CLI::App& command) {
   command.add_flag("--partial", o->partial, "Also accept partial runs");
   add_reference_option(command, o->reference)
       ->description(
-          "Point at which straightness is stated: fixture, carriage or tool [default: tool point "
-          "of the rig, else fixture]");
+          "Point to which straightness refers: fixture, carriage or tool [default: tool point of "
+          "the rig, else fixture]");
   add_limit_options(command, o->limits);
   add_volume_options(command, o->volume);
   add_socket_option(command, o->socket);
@@ -139,7 +139,7 @@ Action declare_build(CLI::App& command) {
 
 Command compensation_build_command() {
   return {.name = "compensation build",
-          .summary = "Build a table of the mean errors of an axis, or of a plane or volume",
+          .summary = "Build a compensation table of an axis, a plane or a volume from mean errors",
           .footer =
               "Examples:\n"
               "  mdof compensation build 1 3 5\n"

@@ -79,10 +79,9 @@ Status check_free(const std::vector<fs::path>& files) {
   std::error_code ec;
   for (const fs::path& file : files)
     if (fs::exists(fs::symlink_status(file, ec)))
-      return fail(
-          ErrorCode::usage,
-          file.string() +
-              ": the file exists already; give another folder with --out, or give --overwrite");
+      return fail(ErrorCode::usage, file.string() +
+                                        ": the file exists already; give another folder with "
+                                        "--out, or replace the file with --overwrite");
   return {};
 }
 
@@ -186,8 +185,9 @@ Action declare_export_tables(CLI::App& command) {
   command.add_option("--out", o->folder, "Folder for the files (created if missing)")
       ->type_name("FOLDER");
   command.add_flag("--overwrite", o->overwrite, "Replace existing files");
-  command.add_flag("--list", o->list,
-                   "List the formats: contents, limits, sign convention and its source");
+  command.add_flag(
+      "--list", o->list,
+      "List the formats: contents, limits, sign convention, and source of the sign convention");
   add_json_flag(command, o->json);
   return [o] { return export_tables(*o); };
 }

@@ -87,8 +87,9 @@ Action declare_linuxcnc(CLI::App& command) {
                   "standard output]")
       ->type_name("FOLDER");
   command
-      .add_option("--margin-mm", o->request.margin_mm,
-                  "Distance from the soft limits to the hard stops; no correction may be larger")
+      .add_option(
+          "--margin-mm", o->request.margin_mm,
+          "Distance from the soft limits to the hard stops; mdof refuses larger corrections")
       ->check(number_in(0.001, kMostMargin_mm))
       ->capture_default_str();
   add_consent_flags(command, o->consent, "a table");

@@ -51,7 +51,7 @@ Result<std::int64_t> choose_table(store::Store& store, const ShowTableCommand& c
   return fail(ErrorCode::not_found, store.file().string() +
                                         ": the database has no compensation table" +
                                         (command.axis.empty() ? "" : " of axis " + command.axis) +
-                                        "; build one with mdof compensation build RUN");
+                                        "; build a table with mdof compensation build RUN");
 }
 
 Status show_volume(store::Store& store, const ShowTableCommand& command, std::int64_t id) {
@@ -103,7 +103,7 @@ Action declare_show(CLI::App& command) {
 
 Command compensation_show_command() {
   return {.name = "compensation show",
-          .summary = "Show a table [default: the active one, else the newest]",
+          .summary = "Show a table [default: the active table, else the newest table]",
           .footer = "Example:\n  mdof compensation show --axis X --csv > table_X.csv",
           .declare = declare_show};
 }

@@ -16,7 +16,7 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
       ->type_name("NUMBER");
   command
       .add_option("--format", request.format,
-                  "Name of the format, see mdof compensation export --list")
+                  "Name of the format (mdof compensation export --list shows all formats)")
       ->type_name("NAME");
   command
       .add_option("--tolerance-um", request.tolerance_um,
@@ -34,18 +34,19 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
       ->check(finite_number())
       ->capture_default_str();
   add_limit_options(command, request.limits);
-  auto* home = command.add_option(
-      "--home-mm", request.home_mm,
-      "Home position of the axis; mdof shifts the table so that the correction is 0 there");
+  auto* home = command.add_option("--home-mm", request.home_mm,
+                                  "Home position of the axis; mdof shifts the table so that the "
+                                  "correction is 0 at this position");
   home->each([&request](const std::string&) { request.home_given = true; });
   command.add_flag("--cut-range", request.cut_range,
                    "If values are missing, export the longest range without a gap");
-  command.add_flag("--one-approach", request.one_approach,
-                   "If values exist for one approach only, use them for both approaches; in a "
-                   "format with one value for both, accept that a reversal error stays");
+  command.add_flag(
+      "--one-approach", request.one_approach,
+      "If values exist for one approach only, use them for both approaches; in a format with one "
+      "value for both approaches, accept that a reversal error remains");
   command
       .add_option("--joint", request.joints,
-                  "linuxcnc: joints of the axes, such as X=0,Z=1; two for a gantry, such as "
+                  "linuxcnc: joints of the axes, such as X=0,Z=1; a gantry has two joints, such as "
                   "Y=1,Y=3 [default: X=0,Y=1,Z=2]")
       ->type_name("AXIS=N,…");
   command
@@ -56,27 +57,28 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
   auto* acceleration =
       command
           .add_option("--max-acceleration-mm-s2", request.max_acceleration_mm_s2,
-                      "linuxcnc: MAX_ACCELERATION of the joints; LinuxCNC does not correct small "
-                      "reversals, depending on it")
+                      "linuxcnc: MAX_ACCELERATION of the joints; from this value mdof calculates "
+                      "which small reversal errors LinuxCNC does not correct")
           ->check(positive_number());
   command
       .add_option("--ini", request.ini,
-                  "linuxcnc: ini file of LinuxCNC, from which mdof reads MAX_ACCELERATION, "
+                  "linuxcnc: INI file of LinuxCNC, from which mdof reads MAX_ACCELERATION, "
                   "SERVO_PERIOD and LINEAR_UNITS")
       ->type_name("FILE")
       ->excludes(acceleration);
   command
       .add_option("--siemens-points", request.siemens_points,
-                  "siemens-lec, siemens-cec: points of a table of the control (MD38000, MD18342) "
-                  "[default: 200]")
+                  "siemens-lec, siemens-cec: number of points that a table of the control can "
+                  "contain (MD38000, MD18342) [default: 200]")
       ->check(CLI::Range(2, 20'000));
   command
-      .add_option("--siemens-tables", request.siemens_tables,
-                  "siemens-cec: CEC tables of the control; more are refused")
+      .add_option(
+          "--siemens-tables", request.siemens_tables,
+          "siemens-cec: number of CEC tables in the control; an export with more tables is refused")
       ->check(CLI::Range(1, 1000));
   add_consent_flags(command, request.consent, "a table; the files are marked");
   command.add_flag("--not-in-force", request.not_in_force,
-                   "Export even a table that is not active; the files are marked");
+                   "Also export a table that is not active; the files are marked");
   command.add_flag("--unverified-sign", request.unverified_sign,
                    "Export although the sign convention of the controller is not confirmed");
   add_database_option(command, request.database);

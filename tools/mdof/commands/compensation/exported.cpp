@@ -87,8 +87,8 @@ Status judge_active(std::int64_t table, std::int64_t generation, const ExportReq
   if (generation > 0) return {};
   const std::string name = "table " + std::to_string(table);
   if (!request.not_in_force)
-    return bad_input(name + " is not active; activate it (mdof compensation activate " +
-                     std::to_string(table) + "), or export it with --not-in-force");
+    return bad_input(name + " is not active; activate the table (mdof compensation activate " +
+                     std::to_string(table) + "), or export the table with --not-in-force");
   marks.push_back("NOT ACTIVE: " + name + " was not active when it was exported");
   return {};
 }
@@ -96,9 +96,9 @@ Status judge_active(std::int64_t table, std::int64_t generation, const ExportReq
 Status judge_table(store::Store& store, const CompensationTable& table,
                    const ExportRequest& request, ExportedTables& out) {
   if (table.without_stated_point)
-    return bad_input(
-        "table " + std::to_string(table.id) +
-        " does not state the point to which its errors refer; build the table again from its runs");
+    return bad_input("table " + std::to_string(table.id) +
+                     " does not name the point to which the errors refer; build the table again "
+                     "from the same runs");
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
   MDOF_CHECK(judge(judged, request, out));
   // Positioning is never active: mdofd does not serve it.
@@ -218,8 +218,8 @@ Status export_axes(store::Store& store, const ExportRequest& request,
     MDOF_TRY(const bool volume, store.is_volumetric(id));
     if (volume)
       return fail(ErrorCode::usage, "table " + std::to_string(id) +
-                                        " is a table of a volume, but the format " +
-                                        out.format->name + " holds " + out.format->holds);
+                                        " is a volumetric table, but the format " +
+                                        out.format->name + " contains " + out.format->holds);
     MDOF_TRY(CompensationTable table, store.table(id));
     MDOF_CHECK(judge_table(store, table, request, out));
     MDOF_CHECK(algo::check_limits(table, limits));
@@ -282,7 +282,7 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
   MDOF_TRY(const Chain x, chain_of_run(store, stored.run_a));
   MDOF_TRY(const Chain y, chain_of_run(store, stored.run_b));
   if (!(x == y))
-    return bad_input(name + ": the rigs of its runs " + std::to_string(stored.run_a) + " and " +
+    return bad_input(name + ": the rigs of the runs " + std::to_string(stored.run_a) + " and " +
                      std::to_string(stored.run_b) +
                      " describe different machines; measure both runs on one machine");
   const controllers::SquareAxes axes{stored.id, fitted.squareness.error_rad, fitted.budgets.front(),
@@ -307,7 +307,8 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
                     " contains only the squareness; give --squareness with the "
                     "number of a stored squareness or \"latest\", and give no table");
   if (!square && !request.squareness.empty())
-    return fail(ErrorCode::usage, request.format + " takes tables; leave out --squareness");
+    return fail(ErrorCode::usage,
+                request.format + " exports tables, not squareness; leave out --squareness");
   if (!square && request.tables.empty())
     return fail(ErrorCode::usage,
                 "missing table; give its number (mdof compensation list shows the numbers)");

@@ -155,7 +155,7 @@ Status build_volume(const VolumeBuild& command) {
                  ? write_line(with_notices(volumetric_document(table, 0, !built.doubtful.empty()),
                                            built.notices, words::text))
                  : write_out(volumetric_text(table, 0)));
-  say("stored; activate it with: mdof compensation activate " + std::to_string(table.id) +
+  say("stored; activate the table with: mdof compensation activate " + std::to_string(table.id) +
       (table.simulated ? " --simulated" : "") +
       (built.doubtful.empty() ? "" : " --despite-warnings"));
   return {};

@@ -44,8 +44,9 @@ Status check_plate(const FormClampCommand& o) {
         std::string((is_given ? given : missing).empty() ? "" : ", ") + name;
   if (o.yield_MPa) given += given.empty() ? "--yield-MPa" : ", --yield-MPa";
   if (!given.empty() && !missing.empty())
-    return fail(ErrorCode::usage, "missing option " + missing + " (needed with " + given + ")" +
-                                      ": the stress needs thickness, modulus and Poisson's ratio");
+    return fail(ErrorCode::usage,
+                "missing option " + missing + " (needed with " + given + ")" +
+                    ": mdof calculates the stress from thickness, modulus and Poisson's ratio");
   return {};
 }
 
@@ -60,7 +61,7 @@ Result<Clamped> clamped(const FormClampCommand& o) {
     MDOF_TRY(found.clamping, algo::clamping_by_K(before, after, o.K.value_or(0)));
   }
   warn_of_few(before, algo::figures_of(found.clamping.clamping).pixels,
-              "the clamping error of the others is unknown");
+              "the clamping error of the other pixels is unknown");
   if (!o.thickness_mm) return found;
   const algo::Plate plate{from_mm(*o.thickness_mm), *o.young_GPa * 1e9, *o.poisson};
   auto stress = algo::plate_stress(found.clamping.clamping, plate, from_mm(o.smooth_mm));
@@ -102,7 +103,8 @@ std::string clamp_json(const Clamped& found, const FormClampCommand& o) {
   } else {
     json.key("stress_max_MPa").null();
     json.field("stress_reason",
-               "the plate is unknown; give --thickness-mm, --young-GPa and --poisson");
+               "thickness and material of the part are unknown; give --thickness-mm, --young-GPa "
+               "and --poisson");
   }
   json.key("is_elastic");
   if (found.is_elastic)
@@ -128,7 +130,7 @@ std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
                             : ", assumed: the whole clamping deformation is elastic") +
                      "; piston and tilt are removed\n";
   if (found.clamping.K_unexplained_rms_m)
-    text += "plastic part that K does not explain: RMS " +
+    text += "plastic deformation that K does not explain: RMS " +
             in_um(*found.clamping.K_unexplained_rms_m) + " µm\n";
   if (!found.stress) return text;
   text += "largest stress " + fixed(found.stress->max_Pa / kPaPerMPa, 3) +
@@ -145,7 +147,8 @@ std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
 Status form_clamp(const FormClampCommand& o) {
   MDOF_CHECK(check_plate(o));
   if (o.K && !o.released.empty())
-    return fail(ErrorCode::usage, "K is calculated from RELEASED; leave out RELEASED or --K");
+    return fail(ErrorCode::usage,
+                "mdof calculates K from the map RELEASED; leave out RELEASED or --K");
   MDOF_TRY(const Clamped found, clamped(o));
   if (o.released.empty() && !o.K)
     warn(
@@ -166,12 +169,15 @@ Status form_clamp(const FormClampCommand& o) {
 
 Action declare_form_clamp(CLI::App& command) {
   const auto o = std::make_shared<FormClampCommand>();
-  command.add_option("BEFORE", o->before, "Height map before clamping")->required()->type_name("");
+  command.add_option("BEFORE", o->before, "Height map of the part before clamping")
+      ->required()
+      ->type_name("");
   command.add_option("AFTER", o->after, "Height map of the clamped part")
       ->required()
       ->type_name("");
   command
-      .add_option("RELEASED", o->released, "Height map after release, from which mdof calculates K")
+      .add_option("RELEASED", o->released,
+                  "Height map of the part after release; mdof calculates K from this map")
       ->type_name("");
   command.add_option("--K", o->K, "Ratio of plastic to elastic deformation [default: 0]")
       ->check(finite_number());
@@ -183,15 +189,18 @@ Action declare_form_clamp(CLI::App& command) {
       ->check(number_in(0, 0.5));
   command
       .add_option("--yield-MPa", o->yield_MPa,
-                  "Yield limit of the part; exit code 1 if the stress reaches it")
+                  "Yield limit of the part; exit code 1 if the stress reaches this limit")
       ->check(positive_number());
   command
       .add_option("--smooth-mm", o->smooth_mm,
-                  "Side of the squares over which the curvature is fitted; in small squares, pixel "
-                  "noise increases the stress")
+                  "Side length of the squares over which mdof fits the curvature; in small "
+                  "squares, pixel noise increases the stress")
       ->check(positive_number())
       ->capture_default_str();
-  command.add_option("--out", o->out, "Write the elastic part as a map (CSV)")->type_name("FILE");
+  command
+      .add_option("--out", o->out,
+                  "Write the elastic deformation to this file as a height map (CSV)")
+      ->type_name("FILE");
   add_map_options(command, o->maps);
   add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
@@ -201,13 +210,14 @@ Action declare_form_clamp(CLI::App& command) {
 }  // namespace
 
 Command form_clamp_command() {
-  return {.name = "form clamp",
-          .summary = "Elastic and plastic deformation by clamping, and the stress in the part",
-          .footer =
-              "Example:\n"
-              "  mdof form clamp before.csv clamped.csv --thickness-mm 2.5 --young-GPa 70 "
-              "--poisson 0.33 --yield-MPa 275 --out elastic.csv",
-          .declare = declare_form_clamp};
+  return {
+      .name = "form clamp",
+      .summary = "Calculate elastic and plastic deformation by clamping, and stress in the part",
+      .footer =
+          "Example:\n"
+          "  mdof form clamp before.csv clamped.csv --thickness-mm 2.5 --young-GPa 70 "
+          "--poisson 0.33 --yield-MPa 275 --out elastic.csv",
+      .declare = declare_form_clamp};
 }
 
 }  // namespace mdof::tools

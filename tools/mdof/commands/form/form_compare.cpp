@@ -64,8 +64,8 @@ Status form_compare(const FormCompareCommand& o) {
   if (found.undetermined > 0)
     warn(o.a + ": the shape of the surface does not determine " +
          std::to_string(found.undetermined) +
-         " of the 3 movements in the plane (shifts, turn or a combination of them); mdof makes "
-         "none of these movements");
+         " of the 3 movements in the plane (2 shifts, 1 turn, or combinations of these); mdof does "
+         "not make the undetermined movements");
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
   MDOF_CHECK(plot_maps({{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
   return o.json ? write_line(compare_json(found, o)) : write_out(compare_text(found, o));
@@ -73,17 +73,22 @@ Status form_compare(const FormCompareCommand& o) {
 
 Action declare_form_compare(CLI::App& command) {
   const auto o = std::make_shared<FormCompareCommand>();
-  command.add_option("A", o->a, "Height map: CSV x_mm,y_mm,z_um, XYZ, .sdf, Zygo .dat")
+  command
+      .add_option("A", o->a,
+                  "Height map A: CSV with the columns x_mm,y_mm,z_um, or XYZ, .sdf or Zygo .dat")
       ->required()
       ->type_name("");
-  command.add_option("B", o->b, "Height map that is compared with A")->required()->type_name("");
+  command.add_option("B", o->b, "Height map B, which mdof compares with A")
+      ->required()
+      ->type_name("");
   command
       .add_option("--register", o->register_how,
-                  "Removed from B before the comparison: rigid (shift, turn, piston, tilt), plane "
-                  "(piston, tilt) or none")
+                  "Movements that mdof removes from B before the comparison: rigid (shift, turn, "
+                  "piston, tilt), plane (piston, tilt) or none")
       ->check(CLI::IsMember({"rigid", "plane", "none"}))
       ->capture_default_str();
-  command.add_option("--out", o->out, "Write the difference as a map (CSV)")->type_name("FILE");
+  command.add_option("--out", o->out, "Write the difference to this file as a height map (CSV)")
+      ->type_name("FILE");
   add_map_options(command, o->maps);
   add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
@@ -94,7 +99,7 @@ Action declare_form_compare(CLI::App& command) {
 
 Command form_compare_command() {
   return {.name = "form compare",
-          .summary = "Difference of two height maps of a surface",
+          .summary = "Calculate the difference of two height maps of a surface",
           .footer =
               "The shift is the position of B relative to A.\n"
               "Examples:\n"

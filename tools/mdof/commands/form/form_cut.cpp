@@ -73,7 +73,7 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
   TextTable table({"pass", "PV/µm", "RMS/µm"});
   for (std::size_t k = 0; k < found.error.size(); ++k)
     table.add({std::to_string(k + 1), in_um(found.error[k].pv_m), in_um(found.error[k].rms_m)});
-  std::string text = "error = cut - wanted\n" + table.text();
+  std::string text = "error = CUT - WANTED (measured - nominal)\n" + table.text();
   if (found.factor)
     text += "optimal gain: " + fixed(*found.factor, 4) + " times the mean error of the passes\n";
   if (found.left_by_smoothing_rms_m)
@@ -112,8 +112,9 @@ Status form_cut(const FormCutCommand& o) {
   if (o.random_um) passes.random_rms_m = from_um(*o.random_um);
   passes.smooth_m = from_mm(o.smooth_mm);
   MDOF_TRY(const algo::CuttingResult found, algo::next_cut(passes));
-  warn_of_few(passes.wanted, found.pixels,
-              "the next path has no height at the others, where form path bridges it");
+  warn_of_few(
+      passes.wanted, found.pixels,
+      "the next path has no height at the other pixels, and mdof form path bridges these gaps");
   MDOF_CHECK(save_map(found.next, o.out));
   MDOF_CHECK(plot_maps({{"next-path", "Path of the next pass", found.next}}, o.plots));
   return o.json ? write_line(cut_json(found, o)) : write_out(cut_text(found, o));
@@ -136,8 +137,8 @@ Action declare_form_cut(CLI::App& command) {
                    "corrected path]");
   command
       .add_option("--gain", o->gain,
-                  "Correct by the error of the last pass (\"1\"), by the mean error of all passes "
-                  "(\"mean\"), or by the repeatable share of this mean (\"optimal\")")
+                  "Correction: error of the last pass (\"1\"), mean error of all passes "
+                  "(\"mean\"), or repeatable share of the mean error (\"optimal\")")
       ->check(CLI::IsMember({"1", "mean", "optimal"}))
       ->capture_default_str();
   command
@@ -147,11 +148,13 @@ Action declare_form_cut(CLI::App& command) {
       ->check(not_negative_number());
   command
       .add_option("--smooth-mm", o->smooth_mm,
-                  "Smooth the correction over squares of this side, so that pixel noise is not cut "
-                  "into the part; 0: no smoothing")
+                  "Side length of the squares over which mdof smooths the correction, so that "
+                  "pixel noise is not cut into the part; 0: no smoothing")
       ->check(not_negative_number())
       ->capture_default_str();
-  command.add_option("--out", o->out, "Write the path of the next pass as a map (CSV)")
+  command
+      .add_option("--out", o->out,
+                  "Write the path of the next pass to this file as a height map (CSV)")
       ->required()
       ->type_name("FILE");
   add_map_options(command, o->maps);
@@ -164,7 +167,7 @@ Action declare_form_cut(CLI::App& command) {
 
 Command form_cut_command() {
   return {.name = "form cut",
-          .summary = "Path of the next pass from the errors of the previous passes",
+          .summary = "Calculate the path of the next pass from the errors of the previous passes",
           .footer =
               "Without --repeated, mdof assumes that this command wrote the path of each pass, "
               "with the same --gain, --random-um and --smooth-mm.\n"

@@ -78,14 +78,13 @@ Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, doubl
   const auto mm = [](double x_m) { return plain_number(to_mm(x_m), 7); };
   const double angle_deg =
       std::atan2(pixel.y_m - y_centre_m, pixel.x_m - x_centre_m) * 180 / std::numbers::pi;
-  return bad_input(
-      map.name +
-      ": the outermost rows and columns of the map are empty, so the outer radius of the part is "
-      "unknown (measured to radius " +
-      mm(pixel.radius_m) + " mm, at " + plain_number(angle_deg) +
-      " degrees). Measure the part up to its edge, or give the start radius of the path: "
-      "--outer-radius-mm " +
-      mm(pixel.radius_m));
+  return bad_input(map.name +
+                   ": the outermost rows and columns of the map are empty, so the outer radius of "
+                   "the part is unknown (the farthest measured pixel is at radius " +
+                   mm(pixel.radius_m) + " mm and angle " + plain_number(angle_deg) +
+                   " degrees). Measure the part up to the edge, or give the start radius of the "
+                   "path: --outer-radius-mm " +
+                   mm(pixel.radius_m));
 }
 
 Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMap& map) {
@@ -150,7 +149,8 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
     warn(o.out + ": the path has less than one turn, so the undulations are unknown");
   if (found.counts.too_sharp > 0)
     warn(o.map + ": at " + std::to_string(found.counts.too_sharp) +
-         " points the tool is too round to reach the surface; it leaves material there");
+         " points the tool radius is too large to reach the surface; the tool leaves material at "
+         "these points");
   return found;
 }
 
@@ -244,15 +244,15 @@ Action declare_form_path(CLI::App& command) {
       ->check(positive_number());
   command
       .add_option("--out", o->out,
-                  "Write the path as CSV: t_s,rho_mm,theta_deg,z_um,on_part (1 measured, 2 "
-                  "extended, 0 bridged); as G-code if the name ends in .ngc, .nc, .gcode or .tap")
+                  "Write the path to this file: CSV with the columns "
+                  "t_s,rho_mm,theta_deg,z_um,on_part (1: measured, 2: extended, 0: bridged), or "
+                  "G-code if the file name ends in .ngc, .nc, .gcode or .tap")
       ->required()
       ->type_name("FILE");
   command
-      .add_option(
-          "--centre-mm", o->centre,
-          "Position of the spindle axis [default: middle of the measured part; of a run: 0,0, "
-          "where the spindle axis of a scan is]")
+      .add_option("--centre-mm", o->centre,
+                  "Position of the spindle axis [default: middle of the measured part; for the "
+                  "scan of a run: 0,0]")
       ->type_name("X,Y");
   command
       .add_option("--outer-radius-mm", o->outer_radius_mm,
@@ -267,7 +267,7 @@ Action declare_form_path(CLI::App& command) {
       ->capture_default_str();
   command
       .add_option("--extend-pixels", o->extend_pixels,
-                  "Number of pixels by which the surface is extended beyond its edge")
+                  "Number of pixels by which mdof extends the surface beyond the edge")
       ->check(whole_number_in(0, 100))
       ->capture_default_str();
   command
@@ -278,11 +278,11 @@ Action declare_form_path(CLI::App& command) {
       ->capture_default_str();
   command
       .add_option("--bandwidth-hz", o->bandwidth_hz,
-                  "Bandwidth of the servo; exit code 1 if the path needs more")
+                  "Bandwidth of the servo; exit code 1 if the path needs a larger bandwidth")
       ->check(positive_number());
   command
       .add_option("--stroke-limit-um", o->stroke_limit_um,
-                  "Largest stroke of the servo; exit code 1 if the path needs more")
+                  "Largest stroke of the servo; exit code 1 if the path needs a larger stroke")
       ->check(positive_number());
   add_map_options(command, o->maps);
   add_json_flag(command, o->json);
@@ -293,7 +293,7 @@ Action declare_form_path(CLI::App& command) {
 
 Command form_path_command() {
   return {.name = "form path",
-          .summary = "Path of a fast tool servo over a height map",
+          .summary = "Calculate the path of a fast tool servo over a height map",
           .footer =
               "Example:\n"
               "  mdof form path elastic.csv --speed-rpm 300 --feed-mm-min 1.2 --tool-radius-mm 0.2 "

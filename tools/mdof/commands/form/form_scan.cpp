@@ -86,7 +86,7 @@ Action declare_form_scan(CLI::App& command) {
       .add_option("--pixel-mm", o->pixel_mm,
                   "Pixel size of the map [default: a hundredth of the diameter]")
       ->check(positive_number());
-  command.add_option("--out", o->out, "Write the map (CSV)")->type_name("FILE");
+  command.add_option("--out", o->out, "Write the height map to this file (CSV)")->type_name("FILE");
   add_database_option(command, o->database);
   add_plot_option(command, o->plots);
   add_json_flag(command, o->json);
@@ -97,7 +97,7 @@ Action declare_form_scan(CLI::App& command) {
 
 Command form_scan_command() {
   return {.name = "form scan",
-          .summary = "Height map of a part on a spindle, from a probe beside the fixture",
+          .summary = "Build a height map of a part on a spindle from a probe beside the fixture",
           .footer =
               "The table [scan] in the rig of the run gives the probe, the probe position, and the "
               "column of the spindle angle.\n"

@@ -72,15 +72,16 @@ std::optional<std::int64_t> run_of_map(const std::string& name) {
 void warn_of_few(const SurfaceMap& map, std::size_t common, const std::string& rest) {
   const std::size_t measured = map.measured();
   if (10 * common >= 9 * measured) return;
-  warn(map.name + ": the other maps have only " + std::to_string(common) + " of its " +
-       std::to_string(measured) + " pixels; " + rest);
+  warn(map.name + ": the map has " + std::to_string(measured) +
+       " measured pixels, but the other maps have only " + std::to_string(common) +
+       " of these pixels; " + rest);
 }
 
 void add_map_options(CLI::App& command, MapOptions& options) {
   command
       .add_option("--unit", options.unit,
-                  "Unit of maps without header (XYZ): m, mm, um or nm; or two units, for x and y, "
-                  "and for z [default: mm,um]")
+                  "Unit of maps without header (XYZ): m, mm, um or nm; or two units, the first for "
+                  "x and y, the second for z [default: mm,um]")
       ->type_name("NAME");
   add_database_option(command, options.database);
 }
@@ -92,10 +93,10 @@ Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
   if (scan.simulated) warn(scan.map.name + ": simulated data: no machine was measured");
   if (scan.beyond_targets > 0)
     warn(scan.map.name + ": " + std::to_string(scan.beyond_targets) +
-         " heights are left out, because they are beyond the targets of their run");
+         " heights beyond the targets of the run are left out");
   if (scan.without_height > 0)
     warn(scan.map.name + ": " + std::to_string(scan.without_height) +
-         " heights are left out, because they have no encoder or angle value");
+         " heights without encoder or angle value are left out");
   return scan;
 }
 

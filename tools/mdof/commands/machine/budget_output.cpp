@@ -170,8 +170,8 @@ std::string measured_text(const FoundMachineBudget& found) {
                e.has_design ? fixed(e.measured_effect_m / e.designed_effect_m, 2) : "-"});
   std::string text = "\n" + table.text(terminal_columns()) +
                      wrapped(
-                         "Each value is the RMS effect of the error at the tool, over the "
-                         "positions of its error table. First rework the error in the first row.",
+                         "Each value is the effect of the error at the tool (RMS over all "
+                         "positions of the error table). First rework the error in the first row.",
                          terminal_columns()) +
                      "\n";
   if (!found.now.model.replaced.empty())
@@ -226,14 +226,15 @@ std::string machine_budget_text(const Machine& machine, const BudgetRequest& req
                      at_text(machine, request.at) + "\n" + stage_text(found.now);
   if (!found.now.outputs.empty()) text += contributions_text(found);
   if (found.allocation)
-    text +=
-        wrapped(
-            "allowed u: with all of these u together, 95 % of the error vectors are shorter than " +
-                plain_number(*request.target_um, 6) + " µm (" + kFactorRule + ", " +
-                fixed(found.allocation->common_factor, 4) +
-                "); alone: allowed u if only this u changes and the others stay as declared",
-            terminal_columns()) +
-        "\n";
+    text += wrapped(
+                "\"allowed u\": if all sources have these u, 95 % of the error vectors are shorter "
+                "than " +
+                    plain_number(*request.target_um, 6) + " µm (" + kFactorRule + ", " +
+                    fixed(found.allocation->common_factor, 4) +
+                    "); \"alone\": the allowed u if only this u changes and the other sources keep "
+                    "the declared u",
+                terminal_columns()) +
+            "\n";
   if (const auto& names = found.now.model.not_declared; !names.empty())
     text += wrapped("no cause is declared for " + std::to_string(names.size()) +
                         " errors that act on the tool" +

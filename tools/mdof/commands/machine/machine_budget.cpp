@@ -81,18 +81,19 @@ Action declare_machine_budget(CLI::App& command) {
   command
       .add_option("MACHINE", o->file, "MACHINE.toml with [[source]] tables or with measured errors")
       ->type_name("");
-  command.add_option("--preset", o->preset, "Machine of Wang, Ye and Gunawan (2021)")
+  command
+      .add_option("--preset", o->preset, "Machine from the paper of Wang, Ye and Gunawan (2021)")
       ->check(CLI::IsMember({"co-planar"}));
   command
-      .add_option(
-          "--at", o->at,
-          "Commanded positions in mm, such as X=10,Y=20 (rotary axes: degrees); the others are 0")
+      .add_option("--at", o->at,
+                  "Commanded positions in mm, such as X=10,Y=20 (rotary axes: degrees); the other "
+                  "axes are at 0")
       ->type_name("X=…,Y=…");
   add_approach_option(command, o->approach);
   command
       .add_option("--run", o->runs,
-                  "Stored run (number, or \"latest\"); its errors replace the declared sources of "
-                  "these errors")
+                  "Stored run (number, or \"latest\"); the errors of the run replace the declared "
+                  "sources of the same errors")
       ->check(run_word_error)
       ->type_name("RUN");
   add_database_option(command, o->database);
@@ -118,11 +119,11 @@ Action declare_machine_budget(CLI::App& command) {
 Command machine_budget_command() {
   return {
       .name = "machine budget",
-      .summary = "Error budget of a machine: causes, tolerances, what to rework first",
+      .summary = "Calculate the error budget of a machine and show which error to rework first",
       .footer =
-          "u is calculated by linear propagation (GUM), intervals and lengths of error vectors by\n"
-          "Monte Carlo with the exact product of rotations. Measured errors replace their "
-          "sources.\n"
+          "mdof calculates u by linear propagation (GUM). It calculates intervals and lengths of\n"
+          "error vectors by Monte Carlo with the exact product of rotations. Measured errors\n"
+          "replace the declared sources of the same errors.\n"
           "Examples:\n"
           "  mdof machine budget --preset co-planar --at X=60,Y=40\n"
           "  mdof machine budget machine.toml --target-um 0.8\n"

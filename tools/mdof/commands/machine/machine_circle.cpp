@@ -84,8 +84,8 @@ void warn_small(const drivers::CsvTable& csv) {
     for (const double x : csv.columns[column]) largest_um = std::max(largest_um, std::abs(x));
   if (largest_um > 0 && largest_um < kBallBarResolution_um)
     warn(csv.source + ": the largest deviation is " + plain_number(largest_um) +
-         " um, less than a ball bar resolves (" + plain_number(kBallBarResolution_um) +
-         " um); check that the values are in um, not in mm");
+         " um, which is less than the resolution of a ball bar (" +
+         plain_number(kBallBarResolution_um) + " um); check that the values are in um, not in mm");
 }
 
 Result<algo::CircularPath> read_path(const drivers::CsvTable& csv) {
@@ -249,13 +249,13 @@ std::string circle_text(const MachineCircleCommand& o, const FoundCircles& found
                      (o.radius_mm ? ", radius " + in_mm(from_mm(*o.radius_mm)) + " mm" : "") +
                      "\n" + table.text(terminal_columns()) +
                      wrapped(
-                         "G refers to the least-squares circle of each path, the other values to "
-                         "the circle of all paths. No uncertainty is stated",
+                         "G refers to the least-squares circle of each path. The other values "
+                         "refer to the circle of all paths. No uncertainty is calculated",
                          terminal_columns()) +
                      "\n";
   if (found.largest) text += largest_text(*found.largest);
   return text + missing_text(found.not_measured, {}, terminal_columns()) +
-         "For the values at each angle, give --csv or --json\n";
+         "--csv and --json print the values at each angle\n";
 }
 
 Status predict(const MachineCircleCommand& o, Machine& machine, algo::CircleRequest& request,
@@ -327,10 +327,10 @@ Status machine_circle(const MachineCircleCommand& o) {
 Action declare_machine_circle(CLI::App& command) {
   const auto o = std::make_shared<MachineCircleCommand>();
   command
-      .add_option(
-          "FILE", o->file,
-          "MACHINE.toml, to predict the test from its errors; or CSV of a measured path: angle_deg "
-          "from the first axis towards the second, ccw_um and cw_um (radial deviations)")
+      .add_option("FILE", o->file,
+                  "MACHINE.toml to predict the test from the errors of the machine, or CSV of a "
+                  "measured path with the columns angle_deg (from the first axis towards the "
+                  "second axis), ccw_um and cw_um (radial deviations)")
       ->required()
       ->type_name("");
   command.add_option("--plane", o->plane, "The two axes of the circle")
@@ -343,7 +343,7 @@ Action declare_machine_circle(CLI::App& command) {
       .add_option("--centre", o->centre,
                   "Commanded positions of all axes at the centre, such as X=20,Y=30 [default: 0]")
       ->type_name("AXIS=MM");
-  command.add_option("--angles", o->angles, "Number of predicted angles")
+  command.add_option("--angles", o->angles, "Number of angles in the prediction")
       ->check(CLI::Range(8, 100'000))
       ->capture_default_str();
   command
@@ -360,7 +360,7 @@ Action declare_machine_circle(CLI::App& command) {
 
 Command machine_circle_command() {
   return {.name = "machine circle",
-          .summary = "Circular test (ISO 230-4), predicted from the errors and measured",
+          .summary = "Predict a circular test (ISO 230-4) from errors, or evaluate a measured test",
           .footer =
               "Examples:\n"
               "  mdof machine circle machine.toml --radius-mm 20 --centre X=30,Y=30\n"

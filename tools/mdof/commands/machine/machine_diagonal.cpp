@@ -110,10 +110,10 @@ std::string diagonals_text(const Machine& machine, const std::vector<algo::Diago
                there ? in_um(measured[i].largest_difference_m) : ""});
   }
   return simulated_notice(machine.simulated) + machine.name +
-         ": diagonals predicted from its errors; deviation of the tool along the diagonal\n" +
-         table.text(terminal_columns()) +
-         "predicted, measured: range, that is largest minus smallest deviation (ISO 230-6)\n"
-         "difference: the largest difference of a deviation, measured - predicted\n" +
+         ": diagonals predicted from the errors of the machine\n" + table.text(terminal_columns()) +
+         "predicted, measured: range (largest minus smallest) of the deviation of the\n"
+         "tool along the diagonal (ISO 230-6)\n"
+         "difference: largest value of measured - predicted deviation\n" +
          missing_text(diagonals.front().not_measured, {}, terminal_columns());
 }
 
@@ -210,30 +210,30 @@ Status machine_diagonal(const MachineDiagonalCommand& o) {
   const bool machine = o.file.size() > 5 && o.file.substr(o.file.size() - 5) == ".toml";
   if (!machine && !o.measured.empty())
     return fail(ErrorCode::usage,
-                "--measured needs MACHINE.toml as FILE, because the readings are compared with its "
-                "prediction");
+                "--measured needs MACHINE.toml as FILE, because mdof compares the readings with "
+                "the prediction");
   return machine ? predict(o) : squareness(o);
 }
 
 Action declare_machine_diagonal(CLI::App& command) {
   const auto o = std::make_shared<MachineDiagonalCommand>();
   command
-      .add_option(
-          "FILE", o->file,
-          "MACHINE.toml, or a CSV of measured lines: line (1 first axis, 2 second, 3 diagonal, 4 "
-          "other diagonal), length_mm, deviation_um; repeated measurements are further rows")
+      .add_option("FILE", o->file,
+                  "MACHINE.toml, or CSV of measured lines with the columns line (1: first axis, 2: "
+                  "second axis, 3: diagonal, 4: other diagonal), length_mm and deviation_um; each "
+                  "repeated measurement is another row")
       ->required()
       ->type_name("");
-  command.add_option("--plane", o->plane, "The first and the second axis")
+  command.add_option("--plane", o->plane, "Plane of the first and the second axis")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}))
       ->capture_default_str();
   command.add_option("--steps", o->steps, "Number of steps along each predicted diagonal")
       ->check(CLI::Range(std::size_t{1}, std::size_t{10'000}))
       ->capture_default_str();
   command
-      .add_option(
-          "--measured", o->measured,
-          "CSV of measured diagonals to compare: diagonal (1, 2), position_mm, deviation_um")
+      .add_option("--measured", o->measured,
+                  "CSV of measured diagonals to compare with the prediction; columns: diagonal (1 "
+                  "or 2), position_mm, deviation_um")
       ->type_name("FILE.csv");
   command.add_option("--u-um", o->u_um, "Standard uncertainty of each measured line")
       ->check(not_negative_number());

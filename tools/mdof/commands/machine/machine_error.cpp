@@ -131,9 +131,9 @@ Action declare_machine_error(CLI::App& command) {
   const auto o = std::make_shared<MachineErrorCommand>();
   add_machine_argument(command, o->file);
   command
-      .add_option(
-          "--at", o->at,
-          "Commanded positions of X, Y and Z in mm, or such as X=10,C=90 (rotary axes: degrees)")
+      .add_option("--at", o->at,
+                  "Commanded positions of X, Y and Z in mm, such as 10,20,30, or of named axes, "
+                  "such as X=10,C=90 (rotary axes: degrees)")
       ->required()
       ->type_name("X,Y,Z");
   add_approach_option(command, o->approach);
@@ -146,7 +146,7 @@ Action declare_machine_error(CLI::App& command) {
 
 Command machine_error_command() {
   return {.name = "machine error",
-          .summary = "Error of the tool relative to the workpiece, and the compensating command",
+          .summary = "Calculate the error of the tool at a position, and the compensating command",
           .footer = "Example:\n  mdof machine error machine.toml --at 10,20,30",
           .declare = declare_machine_error};
 }

@@ -60,7 +60,9 @@ Result<Machine> load_machine(const std::string& file, const std::string& databas
 }
 
 void add_machine_argument(CLI::App& command, std::string& file) {
-  command.add_option("MACHINE", file, "MACHINE.toml: the chain and the errors of its axes")
+  command
+      .add_option("MACHINE", file,
+                  "MACHINE.toml: kinematic chain of the machine and errors of the axes")
       ->required()
       ->type_name("");
 }
@@ -95,7 +97,7 @@ Result<algo::Command> command_from(const Machine& machine, const std::string& te
                        "; give only axes of the chain, such as X=10,Y=20");
     if (given.find(letter) != std::string::npos)
       return fail(ErrorCode::usage,
-                  "\"" + text + "\" gives axis " + letter + " twice; give it once");
+                  "\"" + text + "\" gives axis " + letter + " twice; give each axis once");
     given += letter;
     command[kAxisLetters.find(letter)] = position_from_written(*frame, x);
   }

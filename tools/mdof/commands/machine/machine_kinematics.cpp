@@ -60,7 +60,8 @@ Result<Four> values(const Side& side, const std::string& option, const std::stri
                                         side.letters[0] + "=1,…," + side.letters[3] + "=2" +
                                         (side.last_turns ? " (mm, B in degrees)" : " (mm)"));
     if (seen.find(word[0]) != std::string::npos)
-      return fail(ErrorCode::usage, option + ": " + word[0] + " is given twice; give it once");
+      return fail(ErrorCode::usage,
+                  option + ": " + word[0] + " is given twice; give only one value");
     seen += word[0];
     values[i] = x * side.unit(i);
   }
@@ -244,11 +245,11 @@ Action declare_machine_kinematics(CLI::App& command) {
   command.add_option("--preset", o->preset, "Machine with the tilt drive")
       ->check(CLI::IsMember({"co-planar"}))
       ->capture_default_str();
-  number("--tilt-deg", o->tilt_deg, "Angle between a screw and its sliding rod");
+  number("--tilt-deg", o->tilt_deg, "Angle between a screw and the sliding rod of this screw");
   number("--arm-mm", o->arm_mm,
          "Distance from the centre of the platform to the rods that turn the platform");
   number("--screw-resolution-nm", o->screw_resolution_nm, "Length of one step of a screw");
-  number("--screw-error-um", o->screw_error_um, "Error of a screw along its axis");
+  number("--screw-error-um", o->screw_error_um, "Axial error of a screw");
   number("--tilt-error-deg", o->tilt_error_deg, "Error of the tilt angle");
   const auto values = [&](const char* name, std::string& value, const char* help) {
     command.add_option(name, value, help)->type_name("");

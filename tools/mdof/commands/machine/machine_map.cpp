@@ -199,11 +199,11 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
          std::to_string(first.first_m.size() * first.second_m.size()) + " points of the plane " +
          o.plane + ", error of the tool relative to the workpiece\n" +
          table.text(terminal_columns()) +
-         (o.without_angles
-              ? "the values contain positioning, straightness and squareness, no angular errors\n"
-              : "") +
+         (o.without_angles ? "the values contain positioning, straightness and squareness, but no "
+                             "angular errors\n"
+                           : "") +
          missing_text(first.not_measured, first.no_u, terminal_columns()) +
-         "For all points, give --csv or --json\n";
+         "--csv and --json print all points\n";
 }
 
 Status draw_maps(const Machine& machine, const MachineMapCommand& o,
@@ -269,10 +269,12 @@ Action declare_machine_map(CLI::App& command) {
   command.add_option("--at", o->at, "Positions of the other axes, such as Z=30 [default: 0]")
       ->type_name("AXIS=MM");
   add_approach_option(command, o->approach);
-  command.add_flag("--bidirectional", o->bidirectional, "One map for each of the two approaches")
+  command
+      .add_flag("--bidirectional", o->bidirectional,
+                "Calculate one map for each of the two approaches")
       ->excludes("--approach");
   command.add_flag("--without-angles", o->without_angles,
-                   "Only positioning, straightness and squareness, no angular errors");
+                   "Use only positioning, straightness and squareness; leave out angular errors");
   add_database_option(command, o->database);
   add_plot_option(command, o->plots);
   add_csv_and_json_flags(command, o->csv, o->json);
@@ -283,7 +285,7 @@ Action declare_machine_map(CLI::App& command) {
 
 Command machine_map_command() {
   return {.name = "machine map",
-          .summary = "Errors of the tool over a plane of two axes, and their largest values",
+          .summary = "Calculate the errors of the tool over a plane, and the largest errors",
           .footer = "Example:\n  mdof machine map machine.toml --plane XY --step-mm 20 --csv",
           .declare = declare_machine_map};
 }

@@ -94,17 +94,18 @@ std::string perpendicularity_text(const algo::Perpendicularity& p, bool simulate
   for (const algo::Harmonic& h : p.harmonics)
     table.add({std::to_string(h.order), um_to_place(h.cosine_m, h.u_m),
                um_to_place(h.sine_m, h.u_m), um_to_place(h.u_m, h.u_m)});
-  const std::string drift = p.drift_fitted ? "drift from the first reading to the last " +
-                                                 with_u(um_to_place(p.drift_m, p.u_drift_m),
-                                                        um_to_place(p.u_drift_m, p.u_drift_m)) +
-                                                 " µm, subtracted\n"
-                                           : "";
+  const std::string drift =
+      p.drift_fitted
+          ? "drift from the first to the last reading (subtracted): " +
+                with_u(um_to_place(p.drift_m, p.u_drift_m), um_to_place(p.u_drift_m, p.u_drift_m)) +
+                " µm\n"
+          : "";
   const auto tilt = [&p](double tilt_rad) {
     return with_u(urad_to_place(tilt_rad, p.U_rad), urad_to_place(p.u_rad, p.u_rad));
   };
   return noise_only_notice(true) + simulated_notice(simulated) + "EA0C = " + tilt(p.EA0C_rad) +
          " µrad, EB0C = " + tilt(p.EB0C_rad) +
-         " µrad, expanded U of each = " + urad_to_place(p.U_rad, p.U_rad) +
+         " µrad, expanded U of each angle = " + urad_to_place(p.U_rad, p.U_rad) +
          " (k = " + fixed(p.k, 2) + ", 95 %)\n" +
          "angle between the table axis and the normal of the XY plane: " +
          urad_to_place(p.size_rad, p.U_rad) + " µrad\n" + table.text(terminal_columns()) +
@@ -138,12 +139,12 @@ Status machine_perpendicularity(const PerpendicularityCommand& o) {
 Action declare_machine_perpendicularity(CLI::App& command) {
   const auto o = std::make_shared<PerpendicularityCommand>();
   command
-      .add_option(
-          "FILE", o->file,
-          "CSV with angle_deg (of the spot about the table axis, from +X to +Y) and height_um (of "
-          "the table, positive towards +Z). Optional: EAC_urad, EBC_urad (tilt error motion of the "
-          "table), axes_um (height error of X and Y), time_s. Rows in the order of time; with two "
-          "or more turns, mdof subtracts a linear drift")
+      .add_option("FILE", o->file,
+                  "CSV with the columns angle_deg (angle of the spot about the table axis, from +X "
+                  "to +Y) and height_um (height of the table, positive towards +Z). Optional "
+                  "columns: EAC_urad, EBC_urad (tilt error motion of the table), axes_um (height "
+                  "error of X and Y), time_s. The rows must be in the order of time; with two or "
+                  "more turns, mdof subtracts a linear drift")
       ->required()
       ->type_name("");
   command.add_option("--radius-mm", o->radius_mm, "Radius of the circle")
@@ -160,7 +161,7 @@ Action declare_machine_perpendicularity(CLI::App& command) {
 
 Command machine_perpendicularity_command() {
   return {.name = "machine perpendicularity",
-          .summary = "Squareness of a rotary table's axis to the XY plane, from a circle",
+          .summary = "Find the squareness of a rotary table's axis to the XY plane from a circle",
           .footer = "Example:\n  mdof machine perpendicularity circle.csv --radius-mm 100",
           .declare = declare_machine_perpendicularity};
 }

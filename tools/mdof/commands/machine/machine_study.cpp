@@ -178,23 +178,24 @@ std::string grooving_rotary_text(const algo::GroovingTable& t) {
   const auto add = [&](const char* name, const algo::Perpendicularity& p) {
     table.add({name, angle_urad(p.EA0C_rad), angle_urad(p.EB0C_rad), angle_urad(p.u_rad)});
   };
-  add("readings as they are", t.raw);
-  add("tilt of the table removed", t.without_tilt);
-  add("tilt of the table, errors of X and Y removed", t.without_both);
+  add("readings without correction", t.raw);
+  add("tilt of the table subtracted", t.without_tilt);
+  add("tilt of the table, errors of X and Y subtracted", t.without_both);
   table.add({"true value (simulated machine)", angle_urad(t.EA0C_rad), angle_urad(t.EB0C_rad), ""});
   return table.text(terminal_columns()) +
          wrapped("height over one turn at radius " + in_mm(t.radius_m) + " mm: range " +
-                     range_um(t.range_m) + " µm; after removal of the table tilt " +
+                     range_um(t.range_m) + " µm; range without the table tilt " +
                      range_um(t.range_without_tilt_m) +
-                     " µm; after removal of the perpendicularity as well " +
-                     range_um(t.range_left_m) + " µm (what remains are errors of X and Y)",
+                     " µm; range without the table tilt and the perpendicularity " +
+                     range_um(t.range_left_m) + " µm (errors of X and Y)",
                  terminal_columns()) +
          "\n";
 }
 
 std::string grooving_text(const algo::GroovingStudy& s) {
   const algo::GroovingInstruments& by = s.instruments;
-  return simulated_notice(true) + "Hwang, Song and Park, 400 mm x 400 mm; seed " +
+  return simulated_notice(true) +
+         "Study of Hwang, Song and Park (Eq.: equation in the paper), 400 mm x 400 mm; seed " +
          std::to_string(s.seed) + "\n" +
          wrapped("noise of one reading: laser " + fixed(to_um(by.position_m), 3) +
                      " µm along an axis, optical square " + fixed(to_urad(by.square_rad), 2) +
@@ -204,17 +205,18 @@ std::string grooving_text(const algo::GroovingStudy& s) {
                  terminal_columns()) +
          "\n\n" + grooving_plane_text(s) + "\n" + grooving_square_text(s) +
          wrapped(
-             "± is the standard uncertainty u. The diagonals go through the corners, the "
-             "straightness lines through the middle. The results differ because of the yaw of Y.",
+             "± is the standard uncertainty u. The diagonals go through the corners of the area. "
+             "The straightness lines go through the middle of the area. The results differ because "
+             "of the yaw of Y.",
              terminal_columns()) +
          "\n\n" + grooving_rotary_text(s.table) +
          wrapped(
              "A range is the largest minus the smallest value. The errors of the simulated "
              "machine, including the yaw of Y, are chosen so that the ranges before the correction "
              "are near those of the paper. The study shows the method, not the machine of the "
-             "paper. Corrections: " +
+             "paper. The corrections have " +
                  std::to_string(s.corrections.nodes()) +
-                 " nodes; --out writes the corrections and the measured errors.",
+                 " nodes; the option --out writes the corrections and the measured errors.",
              terminal_columns()) +
          "\n";
 }
@@ -280,9 +282,9 @@ Status write_grooving_files(const algo::GroovingStudy& study, const std::string&
   MDOF_CHECK(out.write(corrections, corrections_csv(study.corrections)));
   MDOF_CHECK(out.publish());
   say((to / "machine.toml").string() +
-      ": file of the measured errors; build a table for a controller with: " +
-      "mdof compensation build --machine " + (to / "machine.toml").string() +
-      " --plane XY --step-mm 20 --incomplete");
+      ": file of the measured errors; build a table for a controller with: "
+      "mdof compensation build --machine " +
+      (to / "machine.toml").string() + " --plane XY --step-mm 20 --incomplete");
   return {};
 }
 
@@ -317,17 +319,17 @@ Action declare_machine_study(CLI::App& command) {
 }  // namespace
 
 Command machine_study_command() {
-  return {.name = "machine study",
-          .summary = "A published study of a machine, measured and compensated in simulation",
-          .footer =
-              "The 2-D errors (Eq. 1) follow from positioning, straightness and squareness. "
-              "Diagonals give the squareness (Eq. 2) and a check (ISO 230-6). Then the commands "
-              "are corrected and everything is measured again. A circle gives the perpendicularity "
-              "of the rotary table.\n"
-              "Examples:\n"
-              "  mdof machine study grooving\n"
-              "  mdof machine study grooving --seed 7 --out study --json",
-          .declare = declare_machine_study};
+  return {
+      .name = "machine study",
+      .summary = "Repeat a published study of a machine: measure and compensate in simulation",
+      .footer =
+          "The 2-D errors (Eq. 1) follow from positioning, straightness and squareness. Diagonals "
+          "give the squareness (Eq. 2) and a check (ISO 230-6). Then mdof corrects the commands "
+          "and measures again. A circle gives the perpendicularity of the rotary table.\n"
+          "Examples:\n"
+          "  mdof machine study grooving\n"
+          "  mdof machine study grooving --seed 7 --out study --json",
+      .declare = declare_machine_study};
 }
 
 }  // namespace mdof::tools

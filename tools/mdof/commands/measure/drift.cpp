@@ -70,8 +70,9 @@ Action declare_drift(CLI::App& command) {
       ->required()
       ->type_name("");
   command
-      .add_option("--rig", o->rig,
-                  "Rig file of the fixture [default for a recording: the rig stored in it]")
+      .add_option(
+          "--rig", o->rig,
+          "Rig file of the fixture [default for a recording: the rig stored in the recording]")
       ->type_name("RIG.toml");
   command
       .add_option(
@@ -98,7 +99,7 @@ Action declare_drift(CLI::App& command) {
 Command drift_command() {
   return {
       .name = "drift",
-      .summary = "Find in a log of a parked axis when the system has warmed up",
+      .summary = "Find when the system has warmed up, from a log of a parked axis",
       .footer =
           "Exit code 1: the system has not warmed up yet. mdof analyse shows the drift of a run.\n"
           "Example:\n  mdof drift parked.csv --rig rig_X.toml --limit-nm-per-h 100",

@@ -35,7 +35,7 @@ Status set(const EncoderCommand& command) {
 
 Action declare_encoder_set(CLI::App& command) {
   const auto o = std::make_shared<EncoderCommand>();
-  command.add_option("AXIS", o->axis, "Axis of the machine; it must be at rest")
+  command.add_option("AXIS", o->axis, "Axis of the machine; the axis must be at rest")
       ->required()
       ->check(CLI::IsMember({"X", "Y", "Z"}));
   command

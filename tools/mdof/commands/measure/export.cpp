@@ -106,7 +106,8 @@ class Export {
            " values are over range, suspect or stale; the CSV file does not mark them");
     if (lost_ > 0)
       warn(std::to_string(lost_) +
-           " scans were lost during the recording; the times in the CSV file have gaps there");
+           " scans were lost during the recording; the times in the CSV file have gaps at these "
+           "scans");
     if (file_of_.size() > 1)
       say("mdof wrote one file for each device, with times of a common clock; for mdof replay, use "
           "the recording, not these files");
@@ -151,7 +152,8 @@ Status export_run(const ExportCommand& command) {
   if (const std::string why = run_word_error(source); !why.empty())
     return fail(ErrorCode::usage, "--format " + command.format + " takes a run: " + why);
   if (!command.request.set.empty() || !command.request.tolerances.empty())
-    return fail(ErrorCode::usage, "--set and --tolerance are for --format dcc and qif");
+    return fail(ErrorCode::usage,
+                "--set and --tolerance apply only to --format dcc and --format qif");
   ChosenRun choice;
   choice.axis = command.request.axis;
   choice.reference = command.request.reference;
@@ -165,15 +167,15 @@ Status export_run(const ExportCommand& command) {
 
 Status export_samples_or_run(ExportCommand& command) {
   if (command.sources.size() != 1)
-    return fail(ErrorCode::usage,
-                "--format csv and json take exactly one recording (FILE.mdofrec, csv) or one run; "
-                "to export several runs, give --format dcc or --format qif");
+    return fail(
+        ErrorCode::usage,
+        "--format csv takes exactly one recording (FILE.mdofrec) or one run, and --format json "
+        "takes exactly one run; to export several runs, give --format dcc or --format qif");
   if (command.format == "json" || run_word_error(command.sources.front()).empty())
     return export_run(command);
   if (!command.out.empty())
     return fail(ErrorCode::usage,
-                "--out is for runs; give --csv OUT.csv for the samples of a "
-                "recording");
+                "--out applies only to runs; give --csv OUT.csv for the samples of a recording");
   command.recording = command.sources.front();
   return export_recording(command);
 }
@@ -186,23 +188,21 @@ Status export_as_asked(ExportCommand& command) {
 Action declare_export(CLI::App& command) {
   const auto o = std::make_shared<ExportCommand>();
   command
-      .add_option(
-          "SOURCE", o->sources,
-          "Recording FILE.mdofrec, or number of a run; with --format dcc or qif: of one or more "
-          "runs; \"latest\"")
+      .add_option("SOURCE", o->sources,
+                  "Recording FILE.mdofrec, number of a run, or \"latest\"; --format dcc and "
+                  "--format qif take one or more runs")
       ->required()
       ->type_name("");
   command
-      .add_option(
-          "--format", o->format,
-          "csv: samples of a recording, or points of a run; json: a run, whole; dcc (Digital "
-          "Calibration Certificate 3.3.0) or qif (QIF 3.0): results of runs [csv]")
+      .add_option("--format", o->format,
+                  "csv: samples of a recording, or points of a run; json: all data of a run; dcc "
+                  "(Digital Calibration Certificate 3.3.0) or qif (QIF 3.0): results of runs [csv]")
       ->check(CLI::IsMember({"csv", "json", "dcc", "qif"}))
       ->type_name("TEXT:{csv,json,dcc,qif}");
   auto* out = command
                   .add_option("--out", o->out,
-                              "File to write for runs (csv, json: default standard output); an "
-                              "existing file is replaced")
+                              "Output file for runs [default for csv and json: standard output]; "
+                              "mdof replaces an existing file")
                   ->type_name("FILE");
   add_report_options(command, o->request);
   command
@@ -224,10 +224,11 @@ Command export_command() {
       .name = "export",
       .summary = "Write samples of a recording as CSV, or runs as CSV, JSON, DCC or QIF",
       .footer =
-          "A document is a test report; it states that it is not a calibration certificate of an\n"
-          "accredited laboratory. Missing entries read \"not stated\". A DCC needs the country "
-          "and,\n"
-          "for a run from a CSV log, the date; give them with --set or in [report] of the rig.\n\n"
+          "A DCC or QIF document is a test report. The document states that it is not a\n"
+          "calibration certificate of an accredited laboratory. Missing entries read \"not "
+          "stated\". A DCC needs the country and,\n"
+          "for a run from a CSV log, the date; give them with --set or in [report] of the rig.\n"
+          "\n"
           "Examples:\n"
           "  mdof export run-12.mdofrec --csv log_X.csv --rig rig_X.toml\n"
           "  mdof replay log_X.csv --rig rig_X.toml --no-store\n"

@@ -79,7 +79,8 @@ Status import(ImportCommand command) {
   if (run.header.provenance.model == positioning_name(run.header.axis) && command.sense.empty())
     say(run.header.provenance.model +
         " is read as actual - commanded position in the coordinates of the controller (the default "
-        "of the format). If the file states errors along + of the machine axis, give --sense body");
+        "of the format). If the errors in the file are positive along + of the machine axis, give "
+        "--sense body");
   say("stored; build a compensation table with: mdof compensation build " +
       std::to_string(run.header.id));
   if (command.json) return write_line(stored_json(run));
@@ -89,7 +90,9 @@ Status import(ImportCommand command) {
 
 Action declare_import(CLI::App& command) {
   const auto o = std::make_shared<ImportCommand>();
-  command.add_option("FILE", o->request.file, "CSV, ISO 230-2 series as CSV, or Renishaw .rtl")
+  command
+      .add_option("FILE", o->request.file,
+                  "File to import: CSV, ISO 230-2 series as CSV, or Renishaw .rtl")
       ->required()
       ->type_name("");
   command.add_option("--axis", o->axis, "Axis of the machine")
@@ -128,7 +131,7 @@ Action declare_import(CLI::App& command) {
       });
   add_limit_options(command, o->limits);
   command.add_flag("--despite-warnings", o->request.despite_warnings,
-                   "Import the file although it has doubtful notices");
+                   "Import the file although it has warnings");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);

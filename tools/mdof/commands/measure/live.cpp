@@ -74,7 +74,7 @@ Result<LiveUpdate> next_update(rpc::Client& client, const LiveCommand& command) 
   }
   return io_error("mdofd sends no readings" +
                   (command.axis.empty() ? std::string() : " of axis " + command.axis) +
-                  "; see mdof device list for the state of its devices");
+                  "; mdof device list shows the state of the devices");
 }
 
 // A document has an end: one update unless a count is given.
@@ -121,8 +121,7 @@ Action declare_live(CLI::App& command) {
   command
       .add_flag("--ndjson", o->ndjson,
                 "Print one JSON object per line: updates, device faults (type \"trouble\"), stops "
-                "near no "
-                "target (type \"left_out\")")
+                "that are not near a target (type \"left_out\")")
       ->excludes("--json");
   return [o] { return live(*o); };
 }

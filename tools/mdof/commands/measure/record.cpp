@@ -124,8 +124,9 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
       return io_error("mdofd has not reported the end of run " + std::to_string(run) +
                       "; see mdof status");
     if (!client.connected())
-      return in_context("run " + std::to_string(run) + " is no longer watched by this command",
-                        notification.error());
+      return in_context(
+          "this command no longer receives the progress of run " + std::to_string(run),
+          notification.error());
   }
 }
 
@@ -140,10 +141,10 @@ Status print_result(rpc::Client& client, std::int64_t run, const std::string& re
   const std::string id = std::to_string(run);
   return fail(ErrorCode::check,
               "run " + id + " is " + state +
-                  (state == "partial" ? ": its notices list what is missing; continue the run "
-                                        "with: mdof record --resume " +
+                  (state == "partial" ? ": the notices of the run list the missing points; "
+                                        "continue the run with: mdof record --resume " +
                                             id
-                                      : "; its notices give the reason"));
+                                      : "; the notices of the run give the reason"));
 }
 
 Status record(RecordCommand command) {
@@ -167,9 +168,9 @@ Status record(RecordCommand command) {
   MDOF_TRY(const std::int64_t id, follow(client, run, command));
   if (id != run)
     say("run " + std::to_string(id) +
-        " is the result. The targets were numbered again after all stops were " +
-        "known, so this run replaces run " + std::to_string(run) +
-        ", which is no longer in the list of \"mdof runs\"");
+        " contains the result. The targets were numbered again after all stops were "
+        "known, so this run replaces run " +
+        std::to_string(run) + ", which is no longer in the list of \"mdof runs\"");
   JsonWriter params;
   params.begin_object().field("run", id).end_object();
   MDOF_TRY(const std::string result, client.call("run.get", params.text()));

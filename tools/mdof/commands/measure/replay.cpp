@@ -63,8 +63,8 @@ Result<Run> replay_there(rpc::Client& mdofd, const ReplayCommand& command) {
   const daemon::ReplayRequest& request = command.request;
   if (request.log == "-")
     return fail(ErrorCode::conflict,
-                "mdofd holds the database and cannot read the standard input of this program; "
-                "write the log to a file, or name another database with --db");
+                "mdofd uses the database and cannot read the standard input of this program; write "
+                "the log to a file, or give another database with --db");
   return stored_by(mdofd, command.database, "run.replay", params_of(request));
 }
 
@@ -132,8 +132,9 @@ Action declare_replay(CLI::App& command) {
       ->required()
       ->type_name("");
   command
-      .add_option("--rig", o->rig,
-                  "Rig file of the fixture [default for a recording: the rig stored in it]")
+      .add_option(
+          "--rig", o->rig,
+          "Rig file of the fixture [default for a recording: the rig stored in the recording]")
       ->type_name("RIG.toml");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);
@@ -146,9 +147,9 @@ Action declare_replay(CLI::App& command) {
       });
   command.add_flag("--no-store", o->keep_out, "Show the result without storing it");
   command
-      .add_option(
-          "--targets-mm", o->request.targets_mm,
-          "Target positions [default: those of the recording, else recognised from the dwells]")
+      .add_option("--targets-mm", o->request.targets_mm,
+                  "Target positions [default: targets of the recording, else targets recognised "
+                  "from the dwells]")
       ->delimiter(',');
   for (const ReplayOption& option : daemon::replay_options())
     add_option(command, option, o->request);
@@ -161,11 +162,12 @@ Action declare_replay(CLI::App& command) {
 
 Command replay_command() {
   return {.name = "replay",
-          .summary = "Turn a recorded log into a stored run",
+          .summary = "Evaluate a recorded log and store the result as a run",
           .footer =
-              "A recording is evaluated with the options of its original run; options given here "
-              "replace them.\n"
-              "Example:\n  mdof replay log_X.csv.gz --rig rig_X.toml --json > run.json",
+              "mdof evaluates a recording with the options of the original run. Options of this "
+              "command replace the original options.\n"
+              "Example:\n"
+              "  mdof replay log_X.csv.gz --rig rig_X.toml --json > run.json",
           .declare = declare_replay};
 }
 

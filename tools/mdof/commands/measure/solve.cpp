@@ -45,18 +45,19 @@ void warn_of_missing(const drivers::CsvRows& frames, const FrameSolver& solver) 
   show_notices(frames.notices(), true);
   if (solver.without_reading() == 0) return;
   warn(std::to_string(solver.without_reading()) + " of " + std::to_string(solver.rows()) +
-       " rows lack a probe reading; the errors that need this reading are empty");
+       " rows have a missing probe reading; the errors that need this reading are empty");
 }
 
 Status judge(const FrameSolver& solver) {
   if (solver.over_range() > 0) {
     warn(std::to_string(solver.over_range()) + " of " + std::to_string(solver.rows()) +
-         " rows have a probe at the end of its range; the errors of these rows may be wrong");
+         " rows have a probe reading at the end of the range; the errors of these rows may be "
+         "wrong");
   }
   if (solver.unsolved() == 0) return {};
-  return fail(ErrorCode::check, std::to_string(solver.unsolved()) + " of " +
-                                    std::to_string(solver.rows()) +
-                                    " rows have no result; first: " + solver.why_unsolved());
+  return fail(ErrorCode::check,
+              std::to_string(solver.unsolved()) + " of " + std::to_string(solver.rows()) +
+                  " rows have no result; first row without result: " + solver.why_unsolved());
 }
 
 Status solve(const SolveCommand& command) {
@@ -97,7 +98,7 @@ Action declare_solve(CLI::App& command) {
 Command solve_command() {
   return {
       .name = "solve",
-      .summary = "Calculate five errors from each row of a file",
+      .summary = "Calculate the five errors of an axis from each row of a file",
       .footer = "Example:\n  mdof solve frames_X.csv --rig rig_X.toml --model exact > errors.csv",
       .declare = declare_solve};
 }

@@ -72,7 +72,7 @@ Status stop(const StopCommand& command) {
   if (command.json) return write_line(stopped_json(runs));
   for (const auto& run : runs)
     MDOF_CHECK(write_line("run " + std::to_string(run.run) + " of axis " + run.axis +
-                          " has ended; see it with: mdof show " + std::to_string(run.run)));
+                          " has ended; show the run with: mdof show " + std::to_string(run.run)));
   return {};
 }
 
@@ -89,7 +89,7 @@ Action declare_stop(CLI::App& command) {
 
 Command stop_command() {
   return {.name = "stop",
-          .summary = "End the runs in progress; mdofd evaluates them",
+          .summary = "End the runs in progress; mdofd evaluates the measured points",
           .footer = "Example:\n  mdof stop --axis X",
           .declare = declare_stop};
 }

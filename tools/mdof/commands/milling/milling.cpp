@@ -79,7 +79,7 @@ void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
       .field("wear_offset_line", line_to_type(offset))
       .field("wear_offset_line_of",
              "Fanuc, mm; P: number of the offset; with G90, R replaces the radius wear, with G91, "
-             "R is added; double R if the control uses diameters");
+             "the control adds R to the radius wear; double R if the control uses diameters");
 }
 
 void write_members(JsonWriter& json, const Milled& milled, const MillingCommand& o) {
@@ -144,10 +144,10 @@ std::string offset_text(const Milled& milled) {
       "radius wear offset (" + std::string(to_string(milled.plan.deflection)) + "): " +
       (std::isnan(offset.u_m) ? in_um(offset.offset_m) : um_with_u(offset.offset_m, offset.u_m)) +
       " µm, with the same sign for G41 and G42\n"
-      "  to type (Fanuc, mm): " +
+      "  line for the control (Fanuc, mm): " +
       line_to_type(offset) +
       "\n"
-      "  With G90, R replaces the radius wear; with G91, R is added.\n"
+      "  With G90, R replaces the radius wear; with G91, the control adds R to the radius wear.\n"
       "  Double R if the control uses diameters.\n";
   if (offset.parts.empty())
     text += "  u is unknown: the plan declares no uncertainty, such as u_Kt_N_per_mm2\n";
@@ -182,13 +182,14 @@ std::string milling_text(const std::vector<Milled>& all) {
   row("waviness at the tip/µm", [](R r) { return in_um(r.wall.waviness_tip_m); });
   row("  at the root/µm", [](R r) { return in_um(r.wall.waviness_root_m); });
   std::string text = all.front().plan.name;
-  text += (text.empty() ? "" : "\n") + table.text(terminal_columns()) +
-          wrapped(
-              "Force on the tool: x points against the feed, y towards the wall of an up cut. Wall "
-              "offset: + is an overcut. The deflection contains bending only; shear would add " +
-                  fixed(100 * algo::shear_share(all.front().plan.sections), 1) + " %",
-              terminal_columns()) +
-          "\n";
+  text +=
+      (text.empty() ? "" : "\n") + table.text(terminal_columns()) +
+      wrapped(
+          "Force on the tool: x points against the feed, y points towards the wall of an up cut. "
+          "Wall offset: + is an overcut. The deflection contains bending only; shear would add " +
+              fixed(100 * algo::shear_share(all.front().plan.sections), 1) + " %",
+          terminal_columns()) +
+      "\n";
   if (!all.front().plan.force_source.empty())
     text +=
         wrapped("force coefficients: " + all.front().plan.force_source, terminal_columns()) + "\n";
@@ -243,17 +244,19 @@ Action declare_milling(CLI::App& command) {
   command.add_option("PLAN", o->plan, "PLAN.toml: tool, run-out, cut, force, model")->type_name("");
   command
       .add_option("--preset", o->preset,
-                  "Tool and cut of Huo et al. (2017), with their model and with a steady cut")
+                  "Tool and cut from the paper of Huo et al. (2017), with the model of the paper "
+                  "and with a steady cut")
       ->check(CLI::IsMember({kPreset}));
   command.add_flag("--offset", o->offset,
                    "Also print the radius wear offset, with u if the plan declares uncertainties");
-  auto* sensitivity = command.add_flag("--sensitivity", o->sensitivity,
-                                       "Also print the effect of each input on force and wall when "
-                                       "the input changes by its u (1 % if no u is declared)");
+  auto* sensitivity =
+      command.add_flag("--sensitivity", o->sensitivity,
+                       "Also print the effect of each input on force and wall when the input "
+                       "changes by the declared u (by 1 % if no u is declared)");
   command
       .add_option("--trials", o->trials,
-                  "Number of trials for the sensitivity; each calculates the cut twice, and once "
-                  "more for each input")
+                  "Number of trials for the sensitivity; each trial calculates the cut twice, and "
+                  "once more for each input")
       ->needs(sensitivity)
       ->check(number_in(16, 1e6))
       ->capture_default_str();
@@ -273,7 +276,7 @@ Action declare_milling(CLI::App& command) {
 
 Command milling_command() {
   return {.name = "milling",
-          .summary = "Force, deflection and wall of a micro end mill",
+          .summary = "Calculate force, deflection and wall error of a micro end mill",
           .footer =
               "Examples:\n"
               "  mdof milling --preset micro-end-mill\n"

@@ -114,7 +114,7 @@ std::string part_text(const FoundPart& found) {
       "); the largest error is " + in_um(found.error.max_m) +
       " µm (U = " + in_um(found.error.U_max_m) + ") at x " + in_mm(worst(0)) + ", y " +
       in_mm(worst(1)) + ", z " + in_mm(worst(2)) + " mm\n";
-  TextTable layers({"layer", "share/%", "U/%", "RMS/µm", "U/µm", "left/µm", "corrected by"});
+  TextTable layers({"layer", "share/%", "U/%", "RMS/µm", "U/µm", "residual/µm", "corrected by"});
   for (const std::size_t k : found.layers) {
     const algo::PartShare& share = found.error.layers[k];
     layers.add({part.layers[k].plan.name, fixed(100 * share.share, 1),
@@ -127,8 +127,8 @@ std::string part_text(const FoundPart& found) {
                 fixed(100 * found.error.causes[k].share, 1),
                 fixed(100 * found.error.causes[k].U_share, 1), in_um(found.error.causes[k].rms_m)});
   return text + "\n" + layers.text(terminal_columns()) + "\n" + causes.text(terminal_columns()) +
-         "share: part of the sum of the mean squares\n"
-         "left: RMS after compensation of the layer\n" +
+         "share: contribution to the sum of the mean squares\n"
+         "residual: RMS after compensation of the layer\n" +
          missing_text(part.not_measured, part.no_u, terminal_columns());
 }
 
@@ -160,10 +160,11 @@ Action declare_part(CLI::App& command) {
 }  // namespace
 
 Command part_command() {
-  return {.name = "part",
-          .summary = "Error of a part along its path, with its causes and their compensation",
-          .footer = "Example:\n  mdof part part.toml",
-          .declare = declare_part};
+  return {
+      .name = "part",
+      .summary = "Calculate the error of a part along the path, the causes, and the compensation",
+      .footer = "Example:\n  mdof part part.toml",
+      .declare = declare_part};
 }
 
 }  // namespace mdof::tools

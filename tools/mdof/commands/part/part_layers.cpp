@@ -34,7 +34,8 @@ Result<algo::PartPath> load_path(const std::string& file) {
   for (std::size_t k = 4; k < 6; ++k)
     if (csv.columns[k].empty() == has_normals)
       return bad_input(csv.source +
-                       ": only some of the columns nx, ny, nz exist; give all three or none");
+                       ": only some of the columns nx, ny, nz exist; give all three columns or "
+                       "none of these columns");
   if (csv.rows() < 2)
     return bad_input(csv.source + ": the path has fewer than two points; give two or more points");
   for (std::size_t k = 0; k < csv.rows(); ++k) {
@@ -44,7 +45,7 @@ Result<algo::PartPath> load_path(const std::string& file) {
     const Eigen::Vector3d n(csv.columns[3][k], csv.columns[4][k], csv.columns[5][k]);
     if (!(n.norm() > 0.5 && n.norm() < 2))
       return bad_input(csv.where(k) + "the normal nx, ny, nz has the length " +
-                       plain_number(n.norm()) + "; it must be near 1 (0.5 to 2)");
+                       plain_number(n.norm()) + "; the length must be near 1 (0.5 to 2)");
     path.normal.push_back(n / n.norm());
   }
   return path;
@@ -99,8 +100,9 @@ Result<algo::PartCause> form_cause(const LoadedPart& part, const PartLayer& laye
     return bad_input(file + ": the map covers no point of the path " + part.plan.path +
                      "; map and path must both use the coordinates of the part");
   if (off > 0)
-    warn(file + ": " + std::to_string(off) +
-         " points of the path are outside the map; their spring-back is taken as 0");
+    warn(
+        file + ": " + std::to_string(off) +
+        " points of the path are outside the map; mdof takes the spring-back at these points as 0");
   return cause;
 }
 
@@ -179,10 +181,10 @@ Status add_machine_layers(LoadedPart& part) {
   const algo::MachineCauses found =
       algo::machine_causes(part.machine, part.path.at_m, axes != nullptr);
   if (axes && found.axes.empty())
-    return bad_input(
-        part.plan.machine +
-        ": the machine file has no measured errors, which the layer \"axes\" needs; "
-        "add measured errors, or tables of its axes: axes = \"table:N\" in the part file");
+    return bad_input(part.plan.machine +
+                     ": the layer \"axes\" needs measured errors, but the machine file has no "
+                     "measured errors; add measured errors to the machine file, or give tables of "
+                     "the axes in the part file: axes = \"table:N\"");
   if (budget && found.budget.empty())
     return bad_input(
         part.plan.machine +
@@ -196,9 +198,10 @@ Status add_machine_layers(LoadedPart& part) {
   }
   if (budget) {
     if (budget->compensated)
-      return bad_input(part.plan.machine +
-                       ": the layer \"budget\" cannot be compensated, because its sources were not "
-                       "measured; remove \"compensated\" from this layer in the part file");
+      return bad_input(
+          part.plan.machine +
+          ": the layer \"budget\" cannot be compensated, because the sources of this layer were "
+          "not measured; remove \"compensated\" from this layer in the part file");
     add_layer(part, *budget, "", found.budget);
   }
   return {};

@@ -44,11 +44,11 @@ Status check_options(const BudgetCommand& command) {
                 "with two runs, mdof budget shows only the squareness of these runs; leave out "
                 "--figure and --at, or leave out RUN_B");
   if (!command.run_b.empty() && command.reference != "fixture")
-    return fail(ErrorCode::usage, "squareness is stated at the fixture; leave out --reference");
+    return fail(ErrorCode::usage, "squareness always refers to the fixture; leave out --reference");
   if (!command.figure.empty() && command.at_mm)
     return fail(ErrorCode::usage,
-                "--at shows the five errors at a target, --figure one figure of the whole run; "
-                "leave out --at or --figure");
+                "--at shows the five errors at a target, and --figure shows one figure of the "
+                "whole run; leave out --at or --figure");
   return {};
 }
 
@@ -109,7 +109,7 @@ Status draw_budgets(const Marked& of, const BudgetCommand& command,
           {"budget-" + charts::file_name(b.figure) + ".svg",
            charts::budget_svg(b, "run " + of.runs, of.marks, words::Language::english)});
     else
-      warn("the budget of " + b.figure + " is not drawn: its u is 0 or unknown");
+      warn("the budget of " + b.figure + " is not drawn, because u is 0 or unknown");
   return write_plots(drawn, command.plots);
 }
 
@@ -117,11 +117,11 @@ std::string text_of(const daemon::FoundBudgets& found, const std::optional<Decis
   std::string head =
       noise_only_notice(are_noise_only(found.budgets)) + simulated_notice(found.simulated);
   if (found.at_m) head += "errors at " + in_mm(*found.at_m) + " mm\n";
-  return head +
-         (found.budgets.size() == 1
-              ? budget_text(found.budgets.front(), decided, terminal_columns())
-              : budgets_text(found.budgets, terminal_columns()) +
-                    "Full budget of one figure: --figure " + found.budgets.front().figure + "\n");
+  return head + (found.budgets.size() == 1
+                     ? budget_text(found.budgets.front(), decided, terminal_columns())
+                     : budgets_text(found.budgets, terminal_columns()) +
+                           "To show the full budget of one figure, give --figure " +
+                           found.budgets.front().figure + "\n");
 }
 
 Status budget(const BudgetCommand& command) {
@@ -136,8 +136,8 @@ Status budget(const BudgetCommand& command) {
   for (const std::int64_t id : runs) {
     MDOF_TRY(const Run run, store.run(id));
     if (const std::string approach = daemon::only_approach(run); !approach.empty())
-      warn("run " + std::to_string(id) + " has the " + approach +
-           " approach alone: its figures are of this approach, and the reversal is unknown");
+      warn("run " + std::to_string(id) + " has only the " + approach +
+           " approach: the figures are valid for this approach, and the reversal error is unknown");
     MDOF_TRY(const auto by, store.superseded_by(id));
     if (by)
       warn("run " + std::to_string(*by) + " supersedes run " + std::to_string(id) +
@@ -185,9 +185,9 @@ Action declare_budget(CLI::App& command) {
       ->type_name("MM");
   command
       .add_option("--tolerance", o->tolerance,
-                  "Largest permitted value of the figure, in its unit. mdof prints \"conform\", "
-                  "\"not conform\" or \"undecided\" (ISO 14253-1:2017); \"undecided\" if the rig "
-                  "does not declare every uncertainty")
+                  "Largest permitted value of the figure, in the unit of the figure. mdof prints "
+                  "\"conform\", \"not conform\" or \"undecided\" (ISO 14253-1:2017). The result is "
+                  "\"undecided\" if the rig does not declare every uncertainty")
       ->check(not_negative_number());
   command
       .add_option("--trials", o->trials.trials,
@@ -215,7 +215,7 @@ Action declare_budget(CLI::App& command) {
 
 Command budget_command() {
   return {.name = "budget",
-          .summary = "Show where the uncertainty of a run's figures comes from",
+          .summary = "Show the contributors to the uncertainty of a run's figures",
           .footer =
               "Examples:\n"
               "  mdof budget 3\n"

@@ -39,7 +39,7 @@ std::string effect_text(const daemon::ComparedFigure& figure) {
   if (figure.effect != daemon::Effect::reduced) return text;
   const double left = std::abs(figure.after.value), before = std::abs(figure.before.value);
   return left > figure.after.U ? text + " to 1/" + fixed(before / left, 1)
-                               : text + " to a value within its U";
+                               : text + " to a value within U";
 }
 
 std::string um_cell(double value, double U) {
@@ -57,7 +57,7 @@ std::string positioning_points_text(const daemon::Comparison& c) {
       table.add({side == 0 ? in_mm(point.position_m) : "", daemon::kComparedSides[side],
                  um_cell(value.before, value.U_before), um_cell(value.after, value.U_after)});
     }
-  return "E: range of the means of both approaches (ISO 230-2); B: largest reversal\n" +
+  return "E: range of the means of both approaches (ISO 230-2); B: largest reversal error\n" +
          table.text(terminal_columns()) + "\n";
 }
 

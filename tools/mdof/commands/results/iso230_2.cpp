@@ -152,21 +152,22 @@ Action declare_iso230_2(CLI::App& command) {
                   ->excludes(file);
   command
       .add_option("--error", o->of_run.errors,
-                  "Evaluate this error of the run, such as EYX [default: all five]")
+                  "Evaluate this error of the run, such as EYX [default: all five errors]")
       ->type_name("NAME")
       ->needs(run);
   add_axis_of_latest(command, o->axis);
   command.get_option("--axis")->needs(run);
   add_reference_option(command, o->reference)->capture_default_str()->needs(run);
   command
-      .add_flag(
-          "--keep-slope", o->of_run.keep_slope,
-          "Keep the slope of straightness errors, which depends on the alignment of the target")
+      .add_flag("--keep-slope", o->of_run.keep_slope,
+                "Keep the slope of straightness errors; this slope depends on the alignment of the "
+                "target")
       ->needs(run);
   command.add_flag("--partial", o->of_run.partial, "Also accept a partial run")->needs(run);
   command
       .add_option("--scale-period-mm", o->scale_period_mm,
-                  "Signal period of the scale; mdof warns if all intervals are whole periods")
+                  "Signal period of the scale; mdof warns if all target intervals are whole "
+                  "multiples of this period")
       ->check(positive_number());
   command
       .add_option("--device-limit-um", o->device_limit_um,

@@ -61,7 +61,7 @@ std::string parallelism_text(const Parallelism& found) {
              "the machine between the runs. ± is the standard uncertainty u. It contains " +
                  covers_text(found.planes.front().budget) +
                  ". The declared uncertainties of the two runs are taken as independent. The "
-                 "result uses the least-squares slopes. All slopes are stated at the fixture.",
+                 "result uses the least-squares slopes. All slopes are given at the fixture.",
              terminal_columns()) +
          "\n";
 }
@@ -84,7 +84,7 @@ Status parallelism(const ParallelismCommand& command) {
 Action declare_parallelism(CLI::App& command) {
   const auto o = std::make_shared<ParallelismCommand>();
   add_run_argument(command, "RUN_A", o->word_a,
-                   "Number of the run that is the datum, or \"latest\"");
+                   "Number of the reference run (datum), or \"latest\"");
   add_run_argument(command, "RUN_B", o->word_b,
                    "Number of the run that is compared with RUN_A (same axis), or \"latest\"");
   command.add_flag("--partial", o->partial, "Also accept partial runs");
@@ -98,7 +98,7 @@ Action declare_parallelism(CLI::App& command) {
 
 Command parallelism_command() {
   return {.name = "parallelism",
-          .summary = "Angle between two motions along one axis (two guides, two heights)",
+          .summary = "Find the angle between two motions along one axis (two guides, two heights)",
           .footer = "Example:\n  mdof parallelism 1 3",
           .declare = declare_parallelism};
 }

@@ -108,7 +108,7 @@ Status plot(const PlotCommand& command) {
   if (plotted.charts.empty() && plotted.left_out.empty())
     return fail(ErrorCode::usage, "missing run or table; give RUN or --table NUMBER");
   if (plotted.charts.empty())
-    return fail(ErrorCode::bad_input, plotted.left_out.front() + "; no file is written");
+    return fail(ErrorCode::bad_input, plotted.left_out.front() + "; mdof writes no file");
   MDOF_TRY(const auto files, charts::write_charts(plotted.charts, command.out));
   for (const std::string& text : plotted.left_out) warn(text);
   std::string lines;
@@ -129,14 +129,14 @@ Action declare_plot(CLI::App& command) {
   runs->required(false);
   command
       .add_option("--table", o->tables,
-                  "Number of a compensation table, see mdof compensation list")
+                  "Number of a compensation table (see mdof compensation list)")
       ->type_name("NUMBER")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--point", o->points,
                   "Also draw the raw readings of this point. Points are numbered in the order of "
-                  "measurement; the first is 0")
+                  "measurement; the first point has number 0")
       ->check(CLI::Range(0, 999'999'999).description(""))
       ->type_name("NUMBER")
       ->expected(1)
@@ -163,15 +163,15 @@ Command plot_command() {
           "-budget-FIGURE.svg for each figure. --point adds run-N-point-K.svg with the raw "
           "readings\n"
           "of a stop. If two axes have one run each, mdof adds squareness-A-B.svg (A and B:\n"
-          "numbers of the runs). --table adds table-N.svg. Of a table over a plane or volume, it "
-          "adds\n"
-          "table-N-XY.svg, -XZ.svg, -YZ.svg: the planes through the middle node of the third "
+          "numbers of the runs). --table adds table-N.svg. For a table over a plane or volume, "
+          "--table adds\n"
+          "table-N-XY.svg, -XZ.svg and -YZ.svg: the planes through the middle node of the third "
           "axis,\n"
-          "with the corrections as arrows. An imported run gives run-N-ERROR.svg with its "
+          "with the corrections as arrows. An imported run gives run-N-ERROR.svg with the "
           "readings\n"
-          "and the means of both approaches. If one file cannot be written, mdof writes no file. "
-          "Each drawing contains its values as data- attributes, in the units\n"
-          "of mdof show --json. The same results give the same bytes.\n"
+          "and the means of both approaches. If one file cannot be written, mdof writes no file.\n"
+          "Each drawing contains the drawn values as data- attributes, in the units of\n"
+          "mdof show --json. The same results give the same bytes.\n"
           "\n"
           "Examples:\n"
           "  mdof plot 12 --out plots\n"

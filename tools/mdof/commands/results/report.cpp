@@ -54,9 +54,10 @@ void attach_certificate(report::Report& report) {
 Status write_report(const ReportCommand& command) {
   const std::filesystem::path out = command.out;
   if (command.pdf && out.extension() == ".pdf")
-    return fail(ErrorCode::usage, "--out " + command.out +
-                                      ": the HTML file and the PDF file would have this name; "
-                                      "give --out FILE.html, and FILE.pdf is written beside it");
+    return fail(ErrorCode::usage,
+                "--out " + command.out +
+                    ": the HTML file and the PDF file would have this name; give --out FILE.html, "
+                    "and mdof writes FILE.pdf beside the HTML file");
   MDOF_TRY(report::Report report, report_of_runs(command.request));
   output::language_from(command.language, report.language);  // the option takes no other
   MDOF_TRY(report.head, company_head(command.head));
@@ -81,7 +82,7 @@ Status write_report(const ReportCommand& command) {
 Action declare_report(CLI::App& command) {
   const auto o = std::make_shared<ReportCommand>();
   add_run_arguments(command, o->request.runs, "Numbers of the runs (see mdof runs), or \"latest\"");
-  command.add_option("--out", o->out, "File of the report; an existing file is replaced")
+  command.add_option("--out", o->out, "Output file of the report; mdof replaces an existing file")
       ->required()
       ->type_name("FILE.html");
   add_report_options(command, o->request);
@@ -93,8 +94,8 @@ Action declare_report(CLI::App& command) {
       "--before-after", o->request.before_after,
       "Add the change between two runs of each axis, with U; give the run before the change first");
   command.add_flag("--pdf", o->pdf,
-                   "Also write the report as FILE.pdf (needs chromium or weasyprint; qpdf attaches "
-                   "the DCC to it)");
+                   "Also write the report as FILE.pdf (needs chromium or weasyprint, and qpdf to "
+                   "attach the DCC)");
   add_language_option(command, o->language);
   add_json_flag(command, o->json);
   return [o] { return write_report(*o); };
@@ -107,13 +108,12 @@ Command report_command() {
       .name = "report",
       .summary = "Write a report of stored runs as one HTML file that prints to A4",
       .footer =
-          "The file needs no other file and has no script. It contains title, results with u, U\n"
+          "The report needs no other file and has no script. It contains title, results with u, U\n"
           "and k, decisions, conditions, fixture, calibrations, notices, charts, points, and how\n"
-          "to replay the recording. If the country of the laboratory is stated, the file also\n"
-          "contains the DCC of mdof export. The same results give the same bytes. Of an imported "
-          "run it\n"
-          "contains the readings, the figures of ISO 230-2 with u, U and k, and how to import it "
-          "again.\n"
+          "to replay the recording. If the country of the laboratory is given, the report also\n"
+          "contains the DCC of mdof export. The same results give the same bytes. For an imported\n"
+          "run, the report contains the readings, the figures of ISO 230-2 with u, U and k, and\n"
+          "how to import the run again.\n"
           "\n"
           "Examples:\n"
           "  mdof report 12 --out report.html --set customer=\"Muster AG\" --set serial_number=17\n"

@@ -70,7 +70,7 @@ Action declare_runs(CLI::App& command) {
   add_database_option(command, o->database);
   add_only_axis_option(command, o->axis);
   command.add_flag("--all", o->all,
-                   "Also list superseded runs (their targets were renumbered in a new run)");
+                   "Also list superseded runs (runs whose targets were renumbered in a new run)");
   add_page_options(command, o->page);
   add_json_flag(command, o->json);
   return [o] { return list_runs(*o); };

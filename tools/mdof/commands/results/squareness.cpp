@@ -109,7 +109,7 @@ Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessC
   MDOF_TRY(const auto stored, store.squareness_of(command.run_a, command.run_b));
   for (const auto& s : stored)
     if (s.id == id) return daemon::stored_squareness(store, s);
-  return io_error("mdofd stored a squareness that its database does not have: " + reply);
+  return io_error("the database does not contain the squareness that mdofd stored: " + reply);
 }
 
 Status draw_both_axes(const SquarenessCommand& command, const Squareness& s, const Budget& budget) {

@@ -85,8 +85,8 @@ Status straightness(const StraightnessCommand& command) {
   MDOF_TRY(const ReferenceLines lines, lines_of(series));
   if (lines.positions < lines.readings)
     warn(
-        "several readings have the same position: all are used, and the end-point line goes "
-        "through the mean readings at the two ends");
+        "several readings have the same position: mdof uses all readings, and the end-point line "
+        "goes through the mean readings at the two ends");
   MDOF_CHECK(draw_lines(command, series, lines));
   if (command.json) return write_line(straightness_json(lines, series.simulated));
   return write_out(simulated_notice(series.simulated) + straightness_table(lines));

@@ -54,10 +54,10 @@ std::string sentence_of(const daemon::Trend& trend) {
   const auto& [figure, values, chart] = std::tie(trend.figure, trend.values, trend.chart);
   if (!chart)
     return figure + ": " + std::to_string(values.size()) +
-           " values, too few for control limits (they need a baseline of " +
+           " values are too few for control limits (the limits need a baseline of " +
            (trend.baseline > 0 ? std::to_string(trend.baseline) + " values)"
                                : "at least " + std::to_string(algo::kFewestOfBaseline) +
-                                     " values and one more value to judge)");
+                                     " values and one more value)");
   const std::string provisional = chart->baseline < kFirmBaseline
                                       ? "; the limits are provisional (baseline of " +
                                             std::to_string(chart->baseline) + " values)"
@@ -69,7 +69,8 @@ std::string sentence_of(const daemon::Trend& trend) {
            runs_of(values.back()) +
            (daemon::trend_signal(*chart, values.size() - 1) == "outside"
                 ? " is outside the limits (Shewhart, 3 sigma)"
-                : " is at least the eighth in a row on one side of the centre (Western Electric)") +
+                : " is at least the eighth value in a row on one side of the centre (Western "
+                  "Electric)") +
            provisional;
   }
   if (!chart->outside.empty())
@@ -182,8 +183,9 @@ Action declare_trend(CLI::App& command) {
                   "Show only this figure, such as EYX_straightness_um or EC0Y_urad")
       ->type_name("NAME");
   command
-      .add_option("--baseline", o->baseline,
-                  "Calculate the limits from the first N values [default: all but the last]")
+      .add_option(
+          "--baseline", o->baseline,
+          "Calculate the limits from the first N values [default: all values except the last]")
       ->check(CLI::Range(algo::kFewestOfBaseline, std::size_t{100'000}));
   command.add_flag("--mixed", o->mixed, "Also use runs with other rigs and models");
   add_database_option(command, o->database);
@@ -196,9 +198,9 @@ Action declare_trend(CLI::App& command) {
 
 Command trend_command() {
   return {.name = "trend",
-          .summary = "Chart squareness and other figures over the stored runs",
+          .summary = "Draw control charts of squareness and other figures over the stored runs",
           .footer =
-              "The squareness values are those of the stored fits (mdof squareness).\n"
+              "The squareness values are the results that mdof squareness has stored.\n"
               "Exit code 1: a figure has moved.\n"
               "Examples:\n"
               "  mdof trend --figure EC0Y_urad\n"

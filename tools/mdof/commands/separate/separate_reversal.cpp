@@ -42,7 +42,7 @@ Status reversal(const ReversalCommand& command) {
     return fail(
         ErrorCode::usage,
         "--turned-at-mm applies only to a target that was turned end for end; give --turned-about "
-        "with an axis other than the moving one, or leave out --turned-at-mm");
+        "with an axis other than the moving axis, or leave out --turned-at-mm");
   }
   SeparationSource& source = loaded.record.sources[1];
   source.height_sign = turned.turn.height_sign;
@@ -55,8 +55,8 @@ Action declare_separate_reversal(CLI::App& command) {
   const auto o = std::make_shared<ReversalCommand>();
   command
       .add_option("SET_UP", o->of.sources,
-                  "Two runs, or two CSV files (position_mm, deviation_um, and u_um if known): the "
-                  "first set-up, then the turned target")
+                  "Two runs or two CSV files (columns position_mm, deviation_um, and u_um if "
+                  "known): the first set-up, then the set-up with the turned target")
       ->required()
       ->expected(2)
       ->type_name("");
@@ -72,10 +72,10 @@ Action declare_separate_reversal(CLI::App& command) {
 
 Command separate_reversal_command() {
   return {.name = "separate reversal",
-          .summary = "Use two set-ups, between which the target was turned by 180°",
+          .summary = "Separate errors by two set-ups between which the target was turned by 180°",
           .footer =
-              "machine = (first + second)/2, target = (first - second)/2, each minus a fitted "
-              "line, for a target that was turned about the moving axis.\n"
+              "For a target that was turned about the moving axis: machine = (first + second)/2 "
+              "and target = (first - second)/2, each minus a fitted line.\n"
               "Examples:\n"
               "  mdof separate reversal 4 5 --surface side --probe D\n"
               "  mdof separate reversal a.csv b.csv --moves target --surface side --rig-toml \\\n"

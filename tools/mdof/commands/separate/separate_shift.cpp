@@ -25,7 +25,7 @@ Status check(const ShiftCommand& command) {
                                       " set-ups; give one number for each set-up, 0 for the first");
   for (const double mm : command.shift_mm)
     if (!std::isfinite(mm))
-      return fail(ErrorCode::usage, "--shift-mm must be finite lengths in mm");
+      return fail(ErrorCode::usage, "each --shift-mm must be a finite length in mm");
   if (command.shift_mm.front() != 0)
     return fail(ErrorCode::usage,
                 "the first --shift-mm must be 0, because shifts are relative to the first set-up");
@@ -59,7 +59,7 @@ Action declare_separate_shift(CLI::App& command) {
   const auto o = std::make_shared<ShiftCommand>();
   command
       .add_option("SET_UP", o->of.sources,
-                  "Runs, or CSV files (position_mm, deviation_um, and u_um if known)")
+                  "Runs or CSV files (columns position_mm, deviation_um, and u_um if known)")
       ->required()
       ->expected(2, 64)
       ->type_name("");
@@ -83,12 +83,12 @@ Action declare_separate_shift(CLI::App& command) {
 
 Command separate_shift_command() {
   return {.name = "separate shift",
-          .summary = "Use set-ups in which the target was shifted, or shifted and turned",
+          .summary = "Separate errors by set-ups in which the target was shifted, or also turned",
           .footer =
               "Positions must be equally spaced, and each shift must be a whole number of steps. "
               "Shifts alone cannot separate a parabola or a period that divides all shifts. If one "
-              "set-up is turned about the moving axis and not shifted, everything but offset and "
-              "slope can be separated.\n"
+              "set-up is turned about the moving axis and not shifted, all errors except offset "
+              "and slope can be separated.\n"
               "Examples:\n"
               "  mdof separate shift 4 5 6 --shift-mm 0 5 15 --surface top\n"
               "  mdof separate shift a.csv b.csv c.csv --shift-mm 0 5 0 --turned 3 --moves target "

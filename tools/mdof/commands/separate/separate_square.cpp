@@ -92,8 +92,8 @@ Status square(const SquareCommand& command) {
 
 Action declare_separate_square(CLI::App& command) {
   const auto o = std::make_shared<SquareCommand>();
-  add_run_argument(command, "RUN_X", o->word[0], "Number of the run along X, first set-up");
-  add_run_argument(command, "RUN_Y", o->word[1], "Number of the run along Y, first set-up");
+  add_run_argument(command, "RUN_X", o->word[0], "Number of the run along X in the first set-up");
+  add_run_argument(command, "RUN_Y", o->word[1], "Number of the run along Y in the first set-up");
   add_run_argument(command, "RUN_X2", o->word[2],
                    "Number of the run along X, after the square was turned over");
   add_run_argument(command, "RUN_Y2", o->word[3],
@@ -111,8 +111,8 @@ Command separate_square_command() {
   return {.name = "separate square",
           .summary = "Find squareness and the angle of a square that was turned over between runs",
           .footer =
-              "EC0Y = (first + second)/2. The angle error of the square is half of the difference; "
-              "the planes in the rigs determine its sign.\n"
+              "EC0Y = (first + second)/2. The angle error of the square is half of the difference "
+              "between first and second; the planes in the rigs determine its sign.\n"
               "Example:\n"
               "  mdof separate square 1 2 3 4",
           .declare = declare_separate_square};

@@ -29,7 +29,7 @@ Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
       ErrorCode::check,
       "these set-ups do not determine the complete height map of the target (not determined: " +
           unseen_text(record.result.target) +
-          "). The map would contain 0 for the missing part. Measure once more with the target "
+          "). The map would contain 0 for the undetermined part. Measure once more with the target "
           "turned about the moving axis, or give --despite-unseen");
 }
 
@@ -54,7 +54,7 @@ void add_output_options(CLI::App& command, OutputOptions& o) {
   add_consent_flags(command, o.consent, "a map");
   command
       .add_flag("--despite-unseen", o.despite_unseen,
-                "Print the height map although more than the offset and the slope is undetermined")
+                "Print the height map although the set-ups do not determine the complete map")
       ->needs(toml);
 }
 

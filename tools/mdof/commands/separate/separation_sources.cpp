@@ -96,8 +96,8 @@ Status check_alike(const Run& first, const Run& run) {
   if (first.header.axis == run.header.axis && first.header.sides == run.header.sides) return {};
   return bad_input("runs " + std::to_string(first.header.id) + " and " +
                    std::to_string(run.header.id) +
-                   " have different axes, or their rigs differ in the keys \"moves\" or "
-                   "\"travel\"; give runs of one axis of one machine");
+                   " have different axes, or the rigs of these runs differ in the keys \"moves\" "
+                   "or \"travel\"; give runs of one axis of one machine");
 }
 
 Status check_without_map(const Run& run, const Rig& rig) {
@@ -131,7 +131,7 @@ Status check_places(const std::vector<Vec3>& at, const SourceOptions& options,
       if (i == static_cast<std::size_t>(loaded.record.axis))
         return bad_input(differ + "; the position of this probe must be the same along " +
                          letter(loaded.record.axis) +
-                         ", otherwise the probe reads another place of the target");
+                         ", otherwise the probe measures another position on the target");
       loaded.notices.push_back(notice(NoticeCode::places_differ, "", {{"difference", differ}}));
     }
   return {};
@@ -176,7 +176,7 @@ Result<LoadedSources> load_runs(const SourceOptions& options) {
   if (options.sides_given)
     return fail(ErrorCode::usage,
                 "--moves, --travel, --at-mm and --u-um apply to files only; leave out these "
-                "options, because a run takes the values from its rig");
+                "options, because mdof takes these values from the rig of the run");
   MDOF_TRY(store::Store store, open_to_read(options.database));
   MDOF_TRY(const auto runs, runs_of(store, options));
   LoadedSources loaded = nothing_yet(options, runs.front().header.moving());
@@ -222,9 +222,9 @@ void add_source_options(CLI::App& command, SourceOptions& o) {
   of_files(command.add_option("--moves", o.moves,
                               "For files: the body that the axis moves, target or fixture"))
       ->check(CLI::IsMember({"target", "fixture"}));
-  of_files(
-      command.add_option("--travel", o.travel,
-                         "For files: direction of travel (+ or -), as the key \"travel\" of a rig"))
+  of_files(command.add_option(
+               "--travel", o.travel,
+               "For files: direction of travel (+ or -), like the key \"travel\" of a rig"))
       ->check(CLI::IsMember({"+", "-"}))
       ->capture_default_str();
   of_files(
@@ -247,8 +247,8 @@ Result<LoadedSources> load_sources(const SourceOptions& options) {
   if (runs == 0) return load_files(options);
   if (runs == static_cast<std::ptrdiff_t>(options.sources.size())) return load_runs(options);
   return fail(ErrorCode::usage,
-              "files and runs cannot be mixed; give runs only, or files only (write a file whose "
-              "name is a number as ./7)");
+              "files and runs cannot be mixed; give runs only, or files only (if the name of a "
+              "file is a number, write ./7)");
 }
 
 Axis turned_about(const SourceOptions& options, Axis motion) {

@@ -40,8 +40,8 @@ class DemoFolder {
     const fs::path place = fs::temp_directory_path();
     std::string made = (place / "mdof-demo-XXXXXX").string();
     if (!::mkdtemp(made.data()))
-      return io_error(place.string() + ": cannot create a folder there: " + std::strerror(errno) +
-                      "; set TMPDIR to a folder in which you can write");
+      return io_error(place.string() + ": cannot create a folder in this folder: " +
+                      std::strerror(errno) + "; set TMPDIR to a folder in which you can write");
     return DemoFolder(made, true);
   }
   ~DemoFolder() {
@@ -78,7 +78,7 @@ Result<std::string> welcome(rpc::Client& mdofd, const DemoFolder& folder) {
     return io_error("mdofd serves no web page");
   return "page    " + text(page, "url") + "\ntoken   " + token_in(text(page, "token_file")) +
          "\nfolder  " + folder.path().string() +
-         (folder.is_temporary() ? " (removed at the end)" : "") + "\n";
+         (folder.is_temporary() ? " (removed at the end of the demo)" : "") + "\n";
 }
 
 Status demo(const DemoCommand& command) {
@@ -91,11 +91,11 @@ Status demo(const DemoCommand& command) {
   MDOF_TRY(const std::string where, welcome(mdofd, folder));
   MDOF_CHECK(write_out(where));
   MDOF_CHECK(mdofd.call("run.start", kRun));
-  MDOF_CHECK(write_line(
-      "\n"
-      "mdofd measures a simulated axis X. Open the page in a browser and select\n"
-      "\"Capture\". The page asks for the token before it changes anything. Ctrl-C ends\n"
-      "the demo."));
+  MDOF_CHECK(
+      write_line("\n"
+                 "mdofd measures a simulated axis X. Open the page in a browser and select\n"
+                 "\"Capture\". The page asks for the token before the first change. Ctrl-C ends\n"
+                 "the demo."));
   while (!Interrupt::requested() && !daemon.has_ended()) std::this_thread::sleep_for(kLook);
   return Interrupt::requested() ? Status() : io_error("mdofd ended unexpectedly");
 }
@@ -111,7 +111,7 @@ Action declare_demo(CLI::App& command) {
       ->capture_default_str();
   command
       .add_option("--mdofd", o->mdofd,
-                  "Program mdofd to start [default: beside mdof, else on PATH]")
+                  "Program mdofd to start [default: in the folder of mdof, else on PATH]")
       ->type_name("FILE");
   return [o] { return demo(*o); };
 }

@@ -113,7 +113,8 @@ Result<fs::path> find_mdofd(const std::string& asked) {
   if (!ec && ::access(beside.c_str(), X_OK) == 0) return beside;
   if (const auto found = find_program("mdofd")) return *found;
   return io_error(
-      "mdofd is neither beside this program nor on PATH; give the path of mdofd with --mdofd FILE");
+      "mdofd is neither in the folder of this program nor on PATH; give the path of mdofd with "
+      "--mdofd FILE");
 }
 
 }  // namespace mdof::tools

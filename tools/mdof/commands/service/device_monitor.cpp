@@ -13,8 +13,8 @@ Status monitor(const DeviceChoice& choice) {
   MDOF_TRY(const auto devices, chosen_devices(choice, "device monitor"));
   if (choice.name.empty() && devices.size() > 1)
     return fail(ErrorCode::usage,
-                "device monitor: the configuration has several devices; give the NAME of one (mdof "
-                "device probe reads all)");
+                "device monitor: the configuration has several devices; give the NAME of one "
+                "device (mdof device probe reads all devices)");
   const Interrupt interrupt;
   return monitor_device(devices.front(), Interrupt::requested);
 }

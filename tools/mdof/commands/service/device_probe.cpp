@@ -50,7 +50,7 @@ Action declare_probe(CLI::App& command) {
 
 Command device_probe_command() {
   return {.name = "device probe",
-          .summary = "Open a device and show its identity, rate, noise and clock",
+          .summary = "Open the devices and show identity, rate, noise and clock of each device",
           .footer = "Example:\n  mdof device probe --config mdofd.toml",
           .declare = declare_probe};
 }

@@ -95,7 +95,7 @@ std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::strin
 
 std::vector<Diagnosis> try_devices(const daemon::Config& config) {
   std::vector<Diagnosis> all = {
-      {Level::good, "mdofd is not running: mdof opens the devices itself", ""}};
+      {Level::good, "mdofd is not running, so mdof opens the devices", ""}};
   const Interrupt interrupt;
   for (const auto& axis : config.axes)
     for (const auto& device : axis.devices)

@@ -7,7 +7,8 @@
 namespace mdof::tools {
 
 void add_device_choice(CLI::App& command, DeviceChoice& choice) {
-  command.add_option("NAME", choice.name, "Name of the device [default: all]")->type_name("");
+  command.add_option("NAME", choice.name, "Name of the device [default: all devices]")
+      ->type_name("");
   command.add_option("--config", choice.config, "Configuration of mdofd")
       ->capture_default_str()
       ->type_name("FILE");

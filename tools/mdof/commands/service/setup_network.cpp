@@ -36,7 +36,7 @@ Action declare_setup_network(CLI::App& command) {
   const auto o = std::make_shared<SetupCommand>();
   command
       .add_option("ADDRESS", o->address,
-                  "Address of the device, or of its network, such as 192.168.0.0/24")
+                  "Address of the device, or of the network of the device, such as 192.168.0.0/24")
       ->required();
   command.add_option("--units", o->units, "Folder of the systemd units")
       ->capture_default_str()

@@ -32,7 +32,8 @@ Status print_token(const TokenCommand& command) {
         "; run this command as the user of mdofd, for example: sudo -u mdof mdof token";
     return tl::unexpected(std::move(token.error()));
   }
-  std::fprintf(stderr, "Token for %s. Everybody who has this token can change everything there:\n",
+  std::fprintf(stderr,
+               "Token for %s. Everybody who has this token can change everything on this page:\n",
                text(http.value_unsafe(), "url").c_str());
   return write_line(*token);
 }
@@ -47,7 +48,7 @@ Action declare_token(CLI::App& command) {
 
 Command token_command() {
   return {.name = "token",
-          .summary = "Print the token that the web page of mdofd needs before it changes something",
+          .summary = "Print the token that allows changes on the web page of mdofd",
           .footer = "Example:\n  sudo -u mdof mdof token",
           .declare = declare_token};
 }

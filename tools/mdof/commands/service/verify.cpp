@@ -72,7 +72,7 @@ void write_texts(JsonWriter& json, const char* key, const std::vector<std::strin
 }
 
 std::string head_text(const store::ChainHead& head) {
-  return "link " + std::to_string(head.link) + ", " + head.sha256;
+  return "link " + std::to_string(head.link) + ", SHA-256 " + head.sha256;
 }
 
 std::string verify_json(const SourceCheck& check) {
@@ -101,7 +101,7 @@ Status verify(const VerifyCommand& command) {
     return fail(ErrorCode::check, "verify: " + std::to_string(check.findings.size()) +
                                       " finding(s); restore the items named above from a backup");
   if (command.json) return {};
-  if (head.link > 0) say("head of the chain of hashes: " + head_text(head));
+  if (head.link > 0) say("chain of hashes: newest " + head_text(head));
   return write_line("no fault found: every checksum and reference is correct");
 }
 
@@ -111,12 +111,12 @@ Action declare_verify(CLI::App& command) {
   auto* recording =
       command
           .add_option("--recording", o->recording,
-                      "Check this recording instead of the database; with --db check both")
+                      "Check this recording instead of the database; with --db, mdof checks both")
           ->type_name("FILE.mdofrec");
   command
       .add_option("--head", o->head,
-                  "Hash that mdofd reported (journal, server.info); checks that no data stored up "
-                  "to this hash was removed or changed")
+                  "Hash that mdofd reported (journal, server.info); mdof checks that no data "
+                  "stored up to this hash was removed or changed")
       ->type_name("HASH")
       ->excludes(recording);
   add_json_flag(command, o->json);
@@ -127,7 +127,7 @@ Action declare_verify(CLI::App& command) {
 
 Command verify_command() {
   return {.name = "verify",
-          .summary = "Check every hash of the database and of the recordings and logs of its runs",
+          .summary = "Check all hashes of the database, and of the recordings and logs of the runs",
           .footer =
               "Examples:\n"
               "  mdof verify\n"

@@ -105,10 +105,10 @@ std::string unsolved_output(const StudyResult& result) {
 // None of the trials gave this output: why, as far as the first of them shows.
 Status not_solved(const Study& study, const std::string& key, std::uint64_t trials) {
   const Status first = study.slow() ? check_run_trial(*study.plan, 0) : Status();
-  return fail(ErrorCode::check, key + ": none of the " + std::to_string(trials) +
-                                    " trials gave a result, so there is nothing to show; " +
-                                    (first ? "show a trial with --trial 0"
-                                           : "trial 0: " + words::text(first.error())));
+  return fail(
+      ErrorCode::check,
+      key + ": none of the " + std::to_string(trials) + " trials gave a result; " +
+          (first ? "show a trial with --trial 0" : "trial 0: " + words::text(first.error())));
 }
 
 // Exit code 1: there is a result, but not the one that was asked for.

@@ -43,11 +43,12 @@ Status show_study(const ShowStudyCommand& command) {
 
 Action declare_study(CLI::App& command) {
   const auto o = std::make_shared<ShowStudyCommand>();
-  command.add_option("STUDY", o->study, "Number of the study, see mdof studies")
+  command.add_option("STUDY", o->study, "Number of the study (see mdof studies)")
       ->required()
       ->type_name("");
   add_database_option(command, o->database);
-  auto* csv = command.add_flag("--csv", o->csv, "Print CSV, one row for each output and bin");
+  auto* csv = command.add_flag("--csv", o->csv,
+                               "Print CSV with one row for each output and bin of the travel");
   command.add_flag("--json", o->json, "Print one JSON document")->excludes(csv);
   command.add_option("--plot", o->plots, "Draw the charts again as SVG files in this folder")
       ->type_name("DIR");

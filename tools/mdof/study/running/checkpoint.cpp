@@ -116,7 +116,7 @@ Result<StudyWork> parse_checkpoint(std::string_view bytes, const algo::Experimen
   if (ours) get(in, head);
   const std::string_view statistics = in.string();
   if (!ours || !in.at_end() || head.scale.size() != experiment.outputs().size())
-    return bad_input("the checkpoint has another version or is cut short; run the study again");
+    return bad_input("the checkpoint has another version or is incomplete; run the study again");
   StudyWork state = empty_work(experiment, head.scale);
   MDOF_TRY(auto parsed, algo::StudyStatistics::parse(statistics, experiment));
   if (!parsed.matches(state.statistics))

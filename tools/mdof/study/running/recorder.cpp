@@ -46,7 +46,7 @@ Result<StoredStudy> study_to_continue(const std::string& database, std::int64_t 
         ErrorCode::conflict,
         "study " + std::to_string(id) +
             (outcome ? ": the study is complete; see mdof study " + std::to_string(id)
-                     : ": the study ended before its first checkpoint; run the study again"));
+                     : ": the study ended before the first checkpoint; run the study again"));
   }
   stored.checkpoint = std::move(*checkpoint);
   MDOF_TRY(const StudySettings settings, parse_settings(stored.record.settings_toml));

@@ -183,7 +183,7 @@ class RunExperiment final : public algo::PlanExperimentBase {
         return bad_input(
             plan.quantities[q.quantity].where +
             ": for output_of = \"run\", the noise of each sample is independent; remove " +
-            q.target.name + " from its [[correlation]], or use output_of = \"point\"");
+            q.target.name + " from the [[correlation]], or use output_of = \"point\"");
     }
     return std::unique_ptr<algo::ScalableExperiment>(std::move(e));
   }

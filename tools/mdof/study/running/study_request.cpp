@@ -149,8 +149,8 @@ Status add_tolerance(const std::string& key_value, algo::AdaptiveTolerance& tole
                 "--tolerance: \"" + key_value +
                     "\" must be OUTPUT=NUMBER with a finite number above 0, such as EBX_urad=0.01");
   if (!tolerance.absolute.emplace(key_value.substr(0, equals), x).second)
-    return fail(ErrorCode::usage,
-                "--tolerance: " + key_value.substr(0, equals) + " is given twice; give it once");
+    return fail(ErrorCode::usage, "--tolerance: " + key_value.substr(0, equals) +
+                                      " is given twice; give only one value");
   return {};
 }
 

@@ -120,10 +120,12 @@ std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_
                     width) +
             "\n";
   if (!steps.empty())
-    text += wrapped("changes from run to run: " + steps +
-                        ". They may be steps or a drift, so --remove-drift does not remove them",
-                    width) +
-            "\n";
+    text +=
+        wrapped(
+            "changes from run to run: " + steps +
+                ". These changes may be steps or a drift, so --remove-drift does not remove them",
+            width) +
+        "\n";
   return text;
 }
 

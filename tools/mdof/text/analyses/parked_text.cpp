@@ -59,7 +59,7 @@ std::string rates_text(const daemon::ParkedLog& log, const algo::WarmUp& found, 
 std::string temperature_text(const daemon::ParkedLog& log, const algo::WarmUp& found,
                              std::size_t width) {
   if (found.with_temperature.empty())
-    return "the log has no \"temperature_C\", so the drift with temperature is unknown\n";
+    return "the log has no column \"temperature_C\", so the drift with temperature is unknown\n";
   TextTable table({"drift with temperature", "per °C", "correlation"});
   for (std::size_t s = 0; s < found.with_temperature.size(); ++s) {
     const auto& with = found.with_temperature[s];
@@ -85,7 +85,7 @@ std::string limiting_cause(const daemon::ParkedLog& log, const algo::WarmUp& fou
       return log.readings.series[s].name + " has no readings in the last window";
     if (last.verdict == algo::DriftVerdict::unknown)
       return log.readings.series[s].name +
-             " never changes in the whole log; check the probe, its cable and its resolution";
+             " does not change in the whole log; check the probe, the cable and the resolution";
     const double by = (std::abs(last.rate_per_s) + 2 * last.u_rate_per_s) / limit;
     if (by <= most) continue;
     most = by;
@@ -104,16 +104,16 @@ std::string limiting_cause(const daemon::ParkedLog& log, const algo::WarmUp& fou
 
 std::string parked_verdict(const daemon::ParkedLog& log, const algo::WarmUp& found) {
   if (!found.limited)
-    return "no limit is given, so there is no verdict; give --limit-nm-per-h, or [drift] "
-           "limit_um_per_h in the rig";
+    return "no limit is given, so mdof cannot decide when the system is ready; give "
+           "--limit-nm-per-h, or [drift] limit_um_per_h in the rig";
   if (found.ready_after_s)
     return "ready after " + minutes(*found.ready_after_s) +
-           " min: from then on every window is below its limit";
+           " min: after this time, the drift is below the limit in every window";
   const std::string what = limiting_cause(log, found);
   return "not ready yet: " +
          (what.empty() ? "at the end of the log, at least " + std::to_string(algo::kFewestBelow) +
                              " windows (together at least " + minutes(algo::kShortestBelow_s) +
-                             " min) must be below the limit; record for longer"
+                             " min) must be below the limit; record a longer log"
                        : what);
 }
 
@@ -125,7 +125,8 @@ std::string parked_text(const daemon::ParkedLog& log, const algo::WarmUp& found,
   if (log.limit_m_per_s) out += ", limit " + fixed(*log.limit_m_per_s * kPerHour, 1) + " nm/h";
   out += "\n\n" + rates_text(log, found, 0, log.probes, width) + "\n" +
          rates_text(log, found, log.probes, log.readings.series.size(), width);
-  if (found.limited) out += "! above the limit, ? within two standard uncertainties of the limit\n";
+  if (found.limited)
+    out += "!: above the limit; ?: within two standard uncertainties of the limit\n";
   return out + "\n" + temperature_text(log, found, width) + "\n" +
          wrapped(parked_verdict(log, found), width) + "\n";
 }

@@ -21,8 +21,9 @@ std::string along(const SeparationRecord& record) {
 
 std::string turned_text(const SeparationSource& source) {
   if (source.end_for_end)
-    return source.height_sign < 0 ? "end for end, faces the other way" : "end for end";
-  return source.height_sign < 0 ? "faces the other way" : "as in set-up 1";
+    return source.height_sign < 0 ? "turned end for end, faces the opposite side"
+                                  : "turned end for end";
+  return source.height_sign < 0 ? "faces the opposite side" : "as in set-up 1";
 }
 
 std::string sources_text(const SeparationRecord& record, std::size_t width) {
@@ -91,7 +92,7 @@ std::string provenance_comment(const SeparationRecord& record) {
                      " surface of the target, separated from the machine's " + record.error +
                      " (mdof separate " + record.method + ", " + record.created_utc + ")\n";
   text += marks_text(record);
-  if (!record.probe.empty()) text += "# as read by probe " + record.probe + " only\n";
+  if (!record.probe.empty()) text += "# readings of probe " + record.probe + " only\n";
   for (const SeparationSource& s : record.sources) {
     std::string name = s.name;
     for (char& c : name)
@@ -118,7 +119,7 @@ std::string separation_text(const SeparationRecord& record, std::size_t width) {
          series_text("machine: " + record.error + of, "encoder/mm", record.error + "/µm", r.machine,
                      width) +
          "\n" +
-         series_text("target: height of its " + std::string(to_string(record.surface)) +
+         series_text("target: height of the " + std::string(to_string(record.surface)) +
                          " surface along " + along(record) + " in set-up 1",
                      "place/mm", "height/µm", r.target, width) +
          "\n" +
@@ -149,14 +150,14 @@ std::string separation_csv(const SeparationRecord& record) {
 std::string separation_plane_toml(const SeparationRecord& record) {
   const SeenSeries& target = record.result.target;
   const double u_m = mean_u(target);
-  std::string text =
-      noise_only_comment(record.result.noise_only) + provenance_comment(record) +
-      "# If a rig has a [[plane]], it needs a [[plane]] for each surface that its probes measure.\n"
-      "[[plane]]\n"
-      "id = \"" +
-      to_string(record.surface) + "\"\nnormal = \"" + along(record) +
-      "\"\nflatness_first_mm = " + list(target.place_m, to_mm) +
-      "\nflatness_second_mm = [0]\nflatness_um = " + heights(target.seen_m) + "\n";
+  std::string text = noise_only_comment(record.result.noise_only) + provenance_comment(record) +
+                     "# A rig with a [[plane]] table needs one [[plane]] table for each surface "
+                     "that the probes measure.\n"
+                     "[[plane]]\n"
+                     "id = \"" +
+                     to_string(record.surface) + "\"\nnormal = \"" + along(record) +
+                     "\"\nflatness_first_mm = " + list(target.place_m, to_mm) +
+                     "\nflatness_second_mm = [0]\nflatness_um = " + heights(target.seen_m) + "\n";
   return text + (std::isfinite(u_m) ? "u_flatness_um = " + plain_number(to_um(u_m), 3) + "\n"
                                     : "# u_flatness_um: " + record.result.u_reason + "\n");
 }

@@ -99,7 +99,7 @@ class Record(CommandLine):
                 break
         before = newest["supersedes"]
         self.assertIsNotNone(before, err)
-        self.assertIn(f"run {newest['run']} is the result", err)
+        self.assertIn(f"run {newest['run']} contains the result", err)
         self.assertIn(f"so this run replaces run {before}", err)
         # Of one measurement one run is listed.
         started = [r["started_utc"] for r in json.loads(self.done("runs", "--db", other.database, "--json"))["runs"]]
@@ -132,7 +132,7 @@ class Replay(CommandLine):
         self.assertIn("none.csv: No such file", err)
         code, _, err = mdof("replay", LOG["Y"], "--rig", RIG["X"], *self.at)
         self.assertEqual(code, 3)
-        self.assertIn("the log is of axis Y", err)
+        self.assertIn("the log is for axis Y", err)
         self.assertEqual(self.client.call("run.list")["total"], 0)
 
     def test_the_standard_input_cannot_be_handed_over(self):

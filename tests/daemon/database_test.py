@@ -231,7 +231,7 @@ class Database(unittest.TestCase):
                     self.acknowledged()
                     chain = self.head_told()
                     with open(self.daemon.log.name) as journal:
-                        self.assertIn(f"chain of hashes: link {chain['link']}, {chain['sha256']}", journal.read())
+                        self.assertIn(f"chain of hashes: newest link {chain['link']}, SHA-256 {chain['sha256']}", journal.read())
                     if not under_mdofd:
                         self.daemon.stop()
                     self.assertEqual(mdof("verify", "--db", self.daemon.database, "--head", chain["sha256"])[0], 0)
@@ -243,7 +243,7 @@ class Database(unittest.TestCase):
                     if not under_mdofd:
                         self.client = self.daemon.start()
                         self.assertEqual(self.client.call("compensation.status")["axes"], {})
-                    self.assertIn(f"no link {chain['link']} of hash {chain['sha256']}", self.lost())
+                    self.assertIn(f"no link {chain['link']} with hash {chain['sha256']}", self.lost())
                     self.refused("which mdofd reported last", "run.start", axis="X")
                     code, _, err = mdof("verify", "--db", self.daemon.database, "--head", chain["sha256"])
                     self.assertEqual(code, 1)

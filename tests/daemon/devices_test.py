@@ -285,7 +285,7 @@ class Devices(unittest.TestCase):
         before = self.client.points(cut)
         self.wait_until_all_flow()
         # Nobody knows whether it counted on: two places could come under one number.
-        with self.assertRaisesRegex(RpcError, "has lost its datum since then.*mdof encoder set"):
+        with self.assertRaisesRegex(RpcError, "has lost its datum since the run.*mdof encoder set"):
             self.client.call("run.resume", run=cut)
         self.say_where_it_stands()
         done = subprocess.run([MDOF, "record", "--socket", self.daemon.socket, "--resume", str(cut),

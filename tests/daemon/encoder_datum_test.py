@@ -365,7 +365,7 @@ class Simulated(unittest.TestCase):
             self.assertRegex(told["note"], "^set to 12.5 mm on ")
             told = encoder(simulator("X"))
             self.assertEqual(told["datum"], "absolute")
-            self.assertRegex(told["note"], "^the position was set to 12.5 mm on .*, but was lost by a restart of mdofd.*as the device shows")
+            self.assertRegex(told["note"], "^the position was set to 12.5 mm on .*, but was lost when mdofd restarted.*the positions of the device apply")
             log = os.path.join(folder, "log.csv")
             write_log(log)
             self.assertIsNone(encoder(replay("X", log))["note"])

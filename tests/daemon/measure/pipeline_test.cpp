@@ -170,7 +170,8 @@ TEST(Pipeline, AProbeThatIsDeadThroughoutIsTheReasonWhyNothingIsSolved) {
   const std::string saturated = refusal([](SampleBlock& b) {
     for (double& um : b.value[kC]) um += 150;
   });
-  EXPECT_SAYS(saturated, "probe \"C\" is at the end of its range (200 um) in every stop");
+  EXPECT_SAYS(saturated,
+              "the reading of probe \"C\" is at the end of the range (200 um) in every stop");
   EXPECT_SAYS(saturated, "range_um");
 }
 

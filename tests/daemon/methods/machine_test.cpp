@@ -30,7 +30,7 @@ TEST_F(MachineMethodTest, WhatIsNotDeclaredIsNullWithAReason) {
 TEST_F(MachineMethodTest, RefusesWhatItCannotRead) {
   for (const auto& [frame, more, says] : {std::tuple{"EXX_um = nan", "", "m.toml"},
                                           {"EXXX_um = 1", "", "EXX"},
-                                          {R"(EXX_file = \"/etc/passwd\")", "", "reads no files"},
+                                          {R"(EXX_file = \"/etc/passwd\")", "", "not read files"},
                                           {"", R"(,"C_deg":1)", "C_deg"}}) {
     const Answer answer = call("machine.at", at(frame, more));
     EXPECT_NE(answer.code(), 0) << frame;

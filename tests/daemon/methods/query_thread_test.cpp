@@ -121,7 +121,7 @@ TEST_F(Queries, TooManyOfOneClientAreRefusedAndCounted) {
   await(client, 2);
   for (const std::string& reply : client->replies) {
     EXPECT_EQ(Answer(reply).code(), rpc::kChanged) << reply;
-    EXPECT_NE(reply.find("256 calls of this connection already wait"), std::string::npos) << reply;
+    EXPECT_NE(reply.find("256 calls of this connection are already"), std::string::npos) << reply;
   }
   send(other, "note");
   EXPECT_EQ(call("server.info").number("/result/calls_refused"), 2);

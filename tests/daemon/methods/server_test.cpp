@@ -209,7 +209,7 @@ TEST_F(ServerMethods, ALogThatTheCallerMayNotReadIsNotReadForIt) {
 }
 
 TEST_F(ServerMethods, APathThatIsNoLogIsRefused) {
-  EXPECT_HAS(call("run.replay", replay_of(write_log())).message(), "replays and imports no files");
+  EXPECT_HAS(call("run.replay", replay_of(write_log())).message(), "cannot replay or import files");
   bench_->replayer = std::make_unique<Replayer>(*bench_->keeper);
   bench_->methods.replayer = bench_->replayer.get();
   EXPECT_HAS(call("run.replay", replay_of("log.csv")).message(), "must be absolute");

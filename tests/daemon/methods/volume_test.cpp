@@ -138,11 +138,11 @@ TEST_F(VolumeMethods, AnAxisAndTheVolumeAreNotActiveTogether) {
   ASSERT_EQ(call("compensation.activate", of_axis).at("/result/changed"), "true");
   const Answer refused = activate(2);
   EXPECT_EQ(refused.code(), rpc::kChanged);
-  EXPECT_SAYS(refused.message(), "would correct twice");
+  EXPECT_SAYS(refused.message(), "would correct the errors twice");
   EXPECT_SAYS(refused.message(), "--axis X");
   ASSERT_EQ(call("compensation.deactivate", R"({"axis":"X"})").code(), 0);
   ASSERT_EQ(activate(2).at("/result/changed"), "true");
-  EXPECT_SAYS(call("compensation.activate", of_axis).message(), "would correct twice");
+  EXPECT_SAYS(call("compensation.activate", of_axis).message(), "would correct the errors twice");
 }
 
 TEST_F(VolumeMethods, WhatCannotBeBuiltIsRefused) {

@@ -149,7 +149,7 @@ class BesideDaemon(unittest.TestCase):
         done = subprocess.run([MDOF, "sensitivity", "--preset", "simulation-1", "--trials", "100", "--db", self.held],
                               capture_output=True, text=True, timeout=60)
         self.assertEqual(done.returncode, IN_USE)
-        self.assertIn("name another database", done.stderr)
+        self.assertIn("give another database", done.stderr)
 
 
 def name_of(words):

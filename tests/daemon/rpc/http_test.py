@@ -188,7 +188,7 @@ class Http(unittest.TestCase):
                 text = reply.read().decode()
                 self.assertEqual(reply.status, code)
                 if code != 200:
-                    self.assertIn("hosts" if code == 421 else "the page that mdofd serves", text)
+                    self.assertIn("hosts" if code == 421 else "the web page of mdofd", text)
                 connection.close()
 
     @unittest.skipUnless(shutil.which("curl"), "curl is not there")

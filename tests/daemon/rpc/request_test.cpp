@@ -63,14 +63,14 @@ TEST_F(Requests, ParametersAreCheckedAgainstTheRow) {
   EXPECT_EQ(message(R"({"minuend":1,"subtrahent":2})"),
             R"("unknown parameter \"subtrahent\"; did you mean \"subtrahend\"?")");
   EXPECT_EQ(message(R"({"minuend":1,"q":2})"),
-            R"("unknown parameter \"q\"; subtract takes: minuend, subtrahend")");
+            R"("unknown parameter \"q\"; the parameters of subtract are: minuend, subtrahend")");
   EXPECT_EQ(message(R"({"minuend":1})"),
             R"x("parameter \"subtrahend\" is missing (integer: what)")x");
   EXPECT_EQ(message(R"({"minuend":"1","subtrahend":2})"),
             R"("parameter \"minuend\" must be of type integer, not a string")");
   EXPECT_EQ(
       message(R"({"minuend":1.5,"subtrahend":2})"),
-      R"("parameter \"minuend\" must be of type integer, not a number with a fraction or beyond 64 bits")");
+      R"("parameter \"minuend\" must be of type integer, not a number with a fraction or with more than 64 bits")");
   EXPECT_EQ(message(R"({"minuend":1,"minuend":2,"subtrahend":2})"),
             R"("parameter \"minuend\" is given twice")");
   EXPECT_EQ(message("[1,2,3]"),

@@ -28,7 +28,7 @@ TEST(RunEvents, ManyPointsComeInMessagesThatALineHolds) {
     EXPECT_EQ(std::uint64_t(json["offset"]), next);
     EXPECT_EQ(std::string_view(json["u_covers"]),
               "noise only (no uncertainties are declared); repeatability is not included (u of "
-              "each stop alone)");
+              "each single stop)");
     for (const auto point : json["points"]) EXPECT_EQ(std::uint64_t(point["target"]), ++next - 40);
   }
   EXPECT_EQ(next, 540u);

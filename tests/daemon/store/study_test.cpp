@@ -109,7 +109,7 @@ TEST_F(StoreTest, AChangedFigureOrCheckpointIsFound) {
   auto store = writer();
   const auto findings = store->verify().value();
   ASSERT_EQ(findings.size(), 2u);
-  EXPECT_TRUE(contains(findings[0], "study 1: its figures")) << findings[0];
+  EXPECT_TRUE(contains(findings[0], "the figures of study 1")) << findings[0];
   EXPECT_TRUE(contains(findings[1], "checkpoint of study 1")) << findings[1];
   EXPECT_FALSE(store->study_checkpoint(1));
 }

@@ -248,7 +248,7 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredWithTheEndOfTheirRun) {
   EXPECT_FALSE(kept[4].get());
   EXPECT_EQ(keeper_->dropped_points(), 2u);
   EXPECT_EQ(keeper_->storage().state, "held");
-  EXPECT_NE(keeper_->storage().reason.find("more than 3 points wait"), std::string::npos)
+  EXPECT_NE(keeper_->storage().reason.find("more than 3 points are pending"), std::string::npos)
       << keeper_->storage().reason;
   foreign.end();
   for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(kept[i].get()) << i;

@@ -150,7 +150,7 @@ TEST_F(ListenSockets, AreNoneWithoutSystemd) {
 }
 
 TEST_F(ListenSockets, ThatDoNotListenAreRefused) {
-  EXPECT_NE(taken_with({socket_}, "1").find("number 3 is not a listening stream socket"),
+  EXPECT_NE(taken_with({socket_}, "1").find("descriptor 3 is not a listening stream socket"),
             std::string::npos);
 }
 

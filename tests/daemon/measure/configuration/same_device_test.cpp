@@ -136,8 +136,8 @@ TEST_F(SameDevice, EachMistakeIsNamedWithLineAndRemedy) {
        "needs um_per_count"},
       {simulated + axis_y("same_as = \"sim\"\n"), "(simulator) cannot serve two axes"},
       {counter + axis_y("same_as = \"c\"\n" + encoder("count1")),
-       "a linux_counter shares only its probes with a second axis"},
-      {counter + axis_y("same_as = \"c\"\n"), "\"c\" has no probe of"},
+       "a device with driver linux_counter can share only its probes with a second axis"},
+      {counter + axis_y("same_as = \"c\"\n"), "\"c\" provides no probe of"},
   };
   for (const auto& c : cases)
     EXPECT_NE(refusal(c.text).find(c.says), std::string::npos) << c.says << "\n" << refusal(c.text);

@@ -119,7 +119,7 @@ TEST(Places, WhoIsNotOfTheGroupDoesNotGetIt) {
   TestServer server(options);
   server.start();
   const auto others = clients_of(server, 5);
-  EXPECT_NE(refusal(server).find("reserved for the group of cnc_group"), std::string::npos);
+  EXPECT_NE(refusal(server).find("reserved for the group in cnc_group"), std::string::npos);
 }
 
 TEST(Places, ASlowAnswerIsNoIdleTime) {

@@ -63,14 +63,14 @@ TEST(Unsolved, NamesTheProbesAndTheirDeviceAndNotTheConsequence) {
   EXPECT_EQ(
       trouble_line(*of_one),
       "device \"capa\": unsolved: the stop at 12.500 mm has no error values: no usable readings "
-      "of probe A, B");
+      "from probe A, B");
   const auto of_both =
       unsolved(stop({nan, 0, nan, 0, 0},
                     {{Flag::lost, "A"}, {Flag::saturated, "C"}, {Flag::lost, "C"}}, false),
                rig, two, "now");
   EXPECT_EQ(trouble_line(*of_both),
-            "unsolved: the stop at 12.500 mm has no error values: no usable readings of probe A; "
-            "at the end of its range: probe C");
+            "unsolved: the stop at 12.500 mm has no error values: no usable readings from probe A; "
+            "probe at the end of its range: C");
 }
 
 TEST(TroubleLog, NoTroubleIsNoLine) {

@@ -69,8 +69,10 @@ struct Squares {
   std::vector<double> layers, causes;
 };
 
+enum class UnknownCauses { expected, drawn };  // those of which only u is known
+
 Squares squares_of(const std::vector<PartCause>& causes, const Causes& all,
-                   const std::vector<double>& xi, std::size_t layers) {
+                   const std::vector<double>& xi, std::size_t layers, UnknownCauses unknown) {
   Squares squares{std::vector<double>(layers), std::vector<double>(causes.size())};
   for (std::size_t i = 0; i < causes.size(); ++i)
     for (std::size_t j = 0; j < causes.size(); ++j) {
@@ -78,8 +80,8 @@ Squares squares_of(const std::vector<PartCause>& causes, const Causes& all,
       const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
       double square = all.values(a, b) + xi[j] * all.mixed(a, b) + xi[i] * all.mixed(b, a) +
                       xi[i] * xi[j] * all.us(a, b);
-      // What is known in its u alone is expected, not drawn.
-      if (all.is_unknown[i] || all.is_unknown[j]) square = i == j ? all.us(a, a) : 0;
+      if (unknown == UnknownCauses::expected && (all.is_unknown[i] || all.is_unknown[j]))
+        square = i == j ? all.us(a, a) : 0;
       squares.layers[causes[i].layer] += square;
       if (i == j) squares.causes[i] = square;
     }
@@ -103,7 +105,7 @@ double quantile_95(std::vector<double> values) {
 void find_shares(const std::vector<PartCause>& causes, const Causes& all, std::size_t layers,
                  const PartTrials& trials, PartError& result) {
   std::vector<double> xi(causes.size());
-  const Squares found = squares_of(causes, all, xi, layers);
+  const Squares found = squares_of(causes, all, xi, layers, UnknownCauses::expected);
   const double whole = sum_of(found.layers), of_causes = sum_of(found.causes);
   const auto start = [](const std::vector<double>& squares, double sum,
                         std::vector<PartShare>& shares) {
@@ -115,7 +117,7 @@ void find_shares(const std::vector<PartCause>& causes, const Causes& all, std::s
   std::vector<std::vector<double>> off(2 * (layers + causes.size()));
   for (std::size_t trial = 0; trial < trials.shares; ++trial) {
     for (std::size_t c = 0; c < causes.size(); ++c) xi[c] = drawn(trials.seed, trial, c);
-    const Squares drawn_squares = squares_of(causes, all, xi, layers);
+    const Squares drawn_squares = squares_of(causes, all, xi, layers, UnknownCauses::drawn);
     std::size_t at = 0;
     const auto note = [&](const std::vector<double>& squares, std::vector<PartShare>& shares) {
       const double sum = sum_of(squares);

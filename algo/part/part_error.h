@@ -46,8 +46,8 @@ struct PartTrials {
   std::size_t shares = 2000, errors = 400;
 };
 
-// U for 95 %, by Monte Carlo over the xi: how far from the estimate 95 % of the trials are. A layer
-// that is not known at all but in its u (a budget) has its expected mean square.
+// U for 95 %, by Monte Carlo over the xi: how far from the estimate 95 % of the trials are. The
+// estimate of a cause of which only u is known (a budget) is its expected mean square.
 PartError part_error(const PartPath& path, const std::vector<PartCause>& causes, std::size_t layers,
                      const PartTrials& trials = {});
 

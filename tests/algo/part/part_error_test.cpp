@@ -92,19 +92,24 @@ TEST(PartError, WithinALayerAndUnknown) {
 }
 
 // 1,000 parts: each cause is measured with its u, and the true share compared with what is said.
-TEST(PartError, PlantedSharesAreWithinTheirU) {
+// With a budget the last cause is not measured: of it only u is known.
+void expect_planted_shares_within_U(bool with_budget) {
   const double size[] = {2e-6, 1.5e-6, 1e-6, 1.2e-6}, u[] = {0.1e-6, 0.08e-6, 0.1e-6, 0.05e-6};
   std::mt19937 engine(3);
   std::normal_distribution<double> normal;
-  double truth[4], sum = 0;
-  for (int k = 0; k < 4; ++k) sum += truth[k] = mean_square(times(shape(k), size[k]));
   constexpr int kParts = 1000;
   int within = 0, rms_within = 0;
   for (int part = 0; part < kParts; ++part) {
     std::vector<PartCause> causes;
-    for (int k = 0; k < 4; ++k)
+    double truth[4], sum = 0;
+    for (int k = 0; k < 4; ++k) {
+      const bool is_unknown = with_budget && k == 3;
+      const double draw = normal(engine);
       causes.push_back({static_cast<std::size_t>(k), "c",
-                        times(shape(k), size[k] + u[k] * normal(engine)), times(shape(k), u[k])});
+                        times(shape(k), is_unknown ? 0 : size[k] + u[k] * draw),
+                        times(shape(k), is_unknown ? size[k] : u[k])});
+      sum += truth[k] = mean_square(times(shape(k), is_unknown ? size[k] * draw : size[k]));
+    }
     PartTrials trials;
     trials.seed = static_cast<std::uint64_t>(part);
     trials.errors = 0;
@@ -122,6 +127,9 @@ TEST(PartError, PlantedSharesAreWithinTheirU) {
   EXPECT_GE(rms, 94);
   EXPECT_LE(rms, 96.5);
 }
+
+TEST(PartError, PlantedSharesAreWithinTheirU) { expect_planted_shares_within_U(false); }
+TEST(PartError, SharesOfABudgetAreWithinTheirU) { expect_planted_shares_within_U(true); }
 
 // By hand: X under Y of a table; the tool above the point at which the errors hold.
 TEST(MachineCauses, LeversAndSources) {
@@ -200,6 +208,16 @@ TEST(PartError, OfWhatIsKnownByItsUAloneIsNotNought) {
   EXPECT_NEAR(found.max_m / largest, 0.6745, 0.03);
   EXPECT_GT(found.p95_m, 0.5 * found.max_m);
   EXPECT_GT(found.U_max_m / largest, 1.0);
+}
+
+// The RMS of one cause of which only u is known is |xi| u: 95 % of all are within 0.995 u of u, as
+// 2 (Φ(1.995) − Φ(0.005)) = 0.950.
+TEST(PartError, TheRmsOfAnUnknownCauseIsUncertain) {
+  const std::vector<PartCause> causes = {{0, "screw", times(shape(2), 0), times(shape(2), 2e-6)}};
+  const PartError found =
+      part_error(path_of(true), causes, 1, {.seed = 3, .shares = 4000, .errors = 0});
+  EXPECT_NEAR(found.layers[0].U_rms_m / found.layers[0].rms_m, 0.995, 0.03);
+  EXPECT_NEAR(found.causes[0].U_rms_m / found.causes[0].rms_m, 0.995, 0.03);
 }
 
 // Of two causes of one mean square, the first known to a share r: its part is (1 + r xi)² /

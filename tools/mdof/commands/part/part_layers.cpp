@@ -54,8 +54,9 @@ Result<algo::PartPath> load_path(const std::string& file) {
 // ---- axes and budget ----
 
 // Tables of the plan count as those that the machine file names: with its checks and their senses.
-Status name_tables(Machine& machine, const PartLayer& layer, const std::string& database) {
+Status name_tables(LoadedPart& part, const PartLayer& layer, const std::string& database) {
   if (layer.from.empty()) return {};
+  Machine& machine = part.machine;
   MDOF_TRY(store::Store store, open_to_read(database));
   for (const std::string& from : layer.from) {
     const std::int64_t number = *table_number(from);
@@ -69,11 +70,13 @@ Status name_tables(Machine& machine, const PartLayer& layer, const std::string& 
                        ", but the chain " + machine.chain.text +
                        " does not contain this axis; give tables of axes of the chain");
     frame->tables.ids.push_back(number);
-    if (!table.has_positioning() && table.slope_removed && !machine.squareness.any())
+    if (!table.has_positioning() && table.slope_removed && !machine.squareness.any()) {
+      part.tables_without_slope.push_back(from);
       warn(from +
            ": the straightness in this table has no slope (a line was subtracted), so the error of "
            "the part does not contain squareness; to include squareness, build the table with "
            "--keep-slope");
+    }
   }
   return {};
 }
@@ -81,12 +84,12 @@ Status name_tables(Machine& machine, const PartLayer& layer, const std::string& 
 // ---- form and milling ----
 
 // The part springs back by the elastic deformation: what was cut to its place goes to -z.
-Result<algo::PartCause> form_cause(const LoadedPart& part, const PartLayer& layer,
+Result<algo::PartCause> form_cause(LoadedPart& part, const PartLayer& layer,
                                    const std::string& file, const std::string& database) {
   MDOF_TRY(const SurfaceMap map, load_map(file, {{}, database}));
   const algo::Surface surface(map, 1, algo::Extension::line);
   algo::PartCause cause = algo::new_cause("spring-back", part.path.at_m.size());
-  std::size_t off = 0;
+  std::size_t& off = part.points_off_form_map;
   for (std::size_t k = 0; k < part.path.at_m.size(); ++k) {
     algo::SurfacePoint at;
     if (!surface.at(part.path.at_m[k](0), part.path.at_m[k](1), 1, at)) {
@@ -190,6 +193,7 @@ Status add_machine_layers(LoadedPart& part) {
         part.plan.machine +
         ": the machine file has no [[source]]; the layer \"budget\" needs one or more");
   part.not_measured = found.not_measured;
+  part.beyond_tables = found.beyond;
   warn_beyond(found.beyond);
   if (axes) {
     add_layer(part, *axes, "compensating command (mdof machine error, mdof compensation export)",
@@ -217,7 +221,7 @@ Result<LoadedPart> load_part(const std::string& file, const std::string& databas
   const auto beside = [&folder](const std::string& name) { return (folder / name).string(); };
   MDOF_TRY(part.machine, described_machine(beside(part.plan.machine)));
   for (const PartLayer& layer : part.plan.layers)
-    if (layer.name == "axes") MDOF_CHECK(name_tables(part.machine, layer, database));
+    if (layer.name == "axes") MDOF_CHECK(name_tables(part, layer, database));
   MDOF_CHECK(add_stored_errors(part.machine, database));
   MDOF_TRY(part.path, load_path(beside(part.plan.path)));
   MDOF_CHECK(add_machine_layers(part));

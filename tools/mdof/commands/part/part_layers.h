@@ -25,10 +25,14 @@ struct LoadedPart {
   // The same causes when each layer's compensation is applied: what is left of them.
   std::vector<algo::PartCause> left;
   std::vector<std::string> not_measured, no_u;
+  // What was assumed: tables beyond whose ends the path goes, tables ("table:N") whose removed
+  // slope would be squareness, points of the path that the form map does not cover.
+  std::vector<std::string> beyond_tables, tables_without_slope;
+  std::size_t points_off_form_map = 0;
 };
 
-// Files stand relative to PART.toml; stored tables in the database. What was assumed is said as a
-// warning.
+// Files stand relative to PART.toml; stored tables in the database. What was assumed is also
+// printed as a warning.
 Result<LoadedPart> load_part(const std::string& file, const std::string& database);
 
 }  // namespace mdof::tools

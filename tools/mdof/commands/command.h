@@ -21,11 +21,12 @@ struct Command {
   const char* footer;   // at the end of its own help: notes, and "Example:\n  mdof replay ..."
   Action (*declare)(CLI::App& command);  // adds its options; the action runs once they are read
   const char* section = "";              // of the help; commands.inc says which
+  bool reads_all_options = false;        // of every command, as its help and completion do
 };
 
 std::vector<Command> all_commands();  // in the order of the help
 
-// When one of the commands is called, `chosen` becomes what it does.
+// When one of the commands is called, its options are declared and `chosen` becomes what it does.
 void declare_commands(CLI::App& app, Action& chosen);
 
 }  // namespace mdof::tools

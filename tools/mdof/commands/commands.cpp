@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cassert>
+#include <memory>
 
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -83,11 +84,21 @@ std::vector<Command> all_commands() {
 }
 
 void declare_commands(CLI::App& app, Action& chosen) {
+  // Options are declared when their command is called: those of all take most of a start.
+  const auto options = std::make_shared<std::vector<std::function<void()>>>();
   for (const Command& row : all_commands()) {
     auto* command = add_command(app, row)->footer(row.footer);
-    const Action action = row.declare(*command);
-    refuse_nan_and_inf(*command);
-    command->callback([action, &chosen] { chosen = action; });
+    const auto action = std::make_shared<Action>();
+    const std::size_t own = options->size();
+    options->push_back([row, command, action] {
+      *action = row.declare(*command);
+      refuse_nan_and_inf(*command);
+    });
+    command->preparse_callback([options, own, all = row.reads_all_options](std::size_t) {
+      for (std::size_t k = 0; k < options->size(); ++k)
+        if (all || k == own) (*options)[k]();
+    });
+    command->callback([action, &chosen] { chosen = *action; });
   }
 }
 

@@ -125,7 +125,8 @@ Command completion_command() {
               "  mdof completion bash > ~/.local/share/bash-completion/completions/mdof\n"
               "  mdof completion zsh > ~/.zfunc/_mdof\n"
               "  mdof completion fish > ~/.config/fish/completions/mdof.fish",
-          .declare = declare_completion};
+          .declare = declare_completion,
+          .reads_all_options = true};
 }
 
 }  // namespace mdof::tools

@@ -38,7 +38,8 @@ Command help_command() {
   return {.name = "help",
           .summary = "Print the help of mdof or of a command",
           .footer = "Example:\n  mdof help compensation export",
-          .declare = declare_help};
+          .declare = declare_help,
+          .reads_all_options = true};
 }
 
 }  // namespace mdof::tools

@@ -1,9 +1,10 @@
 # embed_sql(FOLDER OUTPUT): writes OUTPUT, a source file for schema/sql/sql.h with the texts of
-# FOLDER/NNN_*.sql (migrations, in order) and FOLDER/recording.sql as raw strings. Runs again when
-# one of them changes.
+# FOLDER/NNN_*.sql (migrations, in order) and of schema/recording/recording.sql as raw strings. Runs
+# again when one of them changes.
 function(embed_sql folder output)
+  set(recording_file ${PROJECT_SOURCE_DIR}/schema/recording/recording.sql)
   file(GLOB files CONFIGURE_DEPENDS ${folder}/*.sql)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files} ${recording_file})
   file(GLOB migrations ${folder}/[0-9][0-9][0-9]_*.sql)
   list(SORT migrations)
   foreach(file ${migrations})
@@ -17,7 +18,7 @@ function(embed_sql folder output)
     file(READ ${file} text)
     string(APPEND rows "    {${version}, \"${name}\", R\"sql(${text})sql\"},\n")
   endforeach()
-  file(READ ${folder}/recording.sql recording)
+  file(READ ${recording_file} recording)
   file(CONFIGURE OUTPUT ${output} @ONLY CONTENT [[
 // Generated from schema/sql/ by cmake/embed_sql.cmake.
 #include "schema/sql/sql.h"

@@ -3,6 +3,8 @@
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 #include "schema/base/json_writer.h"
+#include "schema/notice/notice_json.h"
+#include "schema/volumetric/volumetric_table.h"
 
 namespace mdof::store {
 
@@ -16,7 +18,7 @@ constexpr std::string_view kVolumetric =
     "v.approach, v.tool_m, v.rotary_rad, v.X_m, v.Y_m, v.Z_m, v.correction_m, v.u_m, "
     "v.interpolation_m, v.place_left_m, v.turn_left_rad, v.not_measured, v.u_not_declared, "
     "v.beyond_tables, v.created_utc, v.sha256, v.u_independent_m, v.noise, "
-    "v.reversal_m "
+    "v.reversal_m, v.doubtful "
     "FROM volumetric_table AS v JOIN document ON document.id = v.description ";
 
 std::vector<double> flat(const std::vector<Vec3>& values) {
@@ -47,9 +49,8 @@ Status check_shape(const VolumetricTable& t) {
     parts = parts && (t.noise[k].empty() || t.noise[k].size() == t.command_m[k].size());
   if (t.nodes() > 0 && t.correction_m.size() == t.nodes() && t.u_m.size() == t.nodes() && parts)
     return {};
-  return fail(ErrorCode::usage,
-              "volumetric table: must have one correction and one u for each of " +
-                  std::to_string(t.nodes()) + " nodes");
+  return fail(ErrorCode::usage, "volumetric table: each node must have one correction and one u (" +
+                                    std::to_string(t.nodes()) + " nodes)");
 }
 
 // The bytes are not copied: what is bound has to live until the statement has run.
@@ -96,7 +97,8 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
                "simulated, noise_only, approach, created_utc, sha256, tool_m, rotary_rad, X_m, "
                "Y_m, Z_m, correction_m, u_m, interpolation_m, place_left_m, turn_left_rad, "
                "not_measured, u_not_declared, beyond_tables, u_independent_m, noise, "
-               "reversal_m) VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
+               "reversal_m, doubtful) VALUES "
+               "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
   const std::string travels = travels_of(table.machine);
   insert.bind(id).bind(std::string_view(table.name)).bind(description);
   insert.bind(std::string_view(table.machine.text)).bind(std::string_view(travels));
@@ -105,6 +107,11 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
   insert.bind(std::string_view(table.sha256));
   const FlatNodes nodes(table);
   bind_values(insert, table, nodes);
+  const std::string doubtful = notices_json(table.doubtful);
+  if (table.doubtful.empty())
+    insert.bind_null();
+  else
+    insert.bind(std::string_view(doubtful));
   MDOF_CHECK(insert.run());
   MDOF_TRY(Statement source, connection_.prepare("INSERT INTO volumetric_source VALUES (?,?,?)"));
   for (std::size_t row = 0; row < table.runs.size(); ++row)
@@ -148,6 +155,14 @@ Result<VolumetricTable> Store::volumetric_of(Statement& row) {
   MDOF_TRY(t.runs, integers("SELECT run FROM volumetric_source WHERE volumetric_table = ? ORDER BY "
                             "row",
                             t.id));
+  if (!row.is_null(26)) {
+    MDOF_TRY(t.doubtful, read_notices(row.text(26)));
+  }
+  // The chain of hashes has the hash of the table, not each of its columns.
+  if (volumetric_sha256(t) != t.sha256)
+    return bad_input(file().string() + ": volumetric table " + std::to_string(t.id) +
+                         " was changed after it was stored (the hash differs)",
+                     Remedy::verify_database);
   return t;
 }
 

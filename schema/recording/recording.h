@@ -1,4 +1,4 @@
-// The recording file (*.mdofrec): a SQLite database with the tables of schema/sql/recording.sql.
+// The recording file (*.mdofrec): a SQLite database with the tables of recording.sql.
 // Its chunks form a chain, so that no bit of it can change, vanish or move unseen:
 //
 //   hash of header   = SHA-256 of each header entry as  key '\n' length-of-value '\n' value '\n'

@@ -13,6 +13,6 @@ struct Migration {
 };
 
 std::span<const Migration> migrations();  // ascending: versions 1, 2, 3, ...
-const char* recording();                  // recording.sql: the tables of a recording file
+const char* recording();                  // schema/recording/recording.sql
 
 }  // namespace mdof::sql

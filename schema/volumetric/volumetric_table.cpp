@@ -5,6 +5,7 @@
 
 #include "schema/base/canonical.h"
 #include "schema/base/sha256.h"
+#include "schema/notice/notice_json.h"
 #include "schema/sample.h"
 
 namespace mdof {
@@ -73,7 +74,7 @@ std::string volumetric_sha256(const VolumetricTable& t) {
   put_text(std::string(!noise.empty()              ? "mdof volumetric table 3"
                        : t.u_independent_m.empty() ? "mdof volumetric table 1"
                                                    : "mdof volumetric table 2") +
-           (reversal ? ", reversal" : ""));
+           (reversal ? ", reversal" : "") + (t.doubtful.empty() ? "" : ", doubtful"));
   put_text(t.name);
   put_text(t.machine.text);
   put_text(travels_of(t.machine));
@@ -97,12 +98,14 @@ std::string volumetric_sha256(const VolumetricTable& t) {
     for (const std::string& name : *names) put_text(name);
   }
   if (reversal) put_vector(t.reversal_m);
+  if (!t.doubtful.empty()) put_text(notices_json(t.doubtful));
   return sha256_hex(bytes);
 }
 
 std::string covers_text(const VolumetricTable& table) {
   std::string text =
-      table.noise_only ? "the u of the errors (for at least one error only noise and repeatability)"
+      table.noise_only ? "the u of the errors (the u of at least one error contains only noise and "
+                         "repeatability)"
                        : "the u of the errors; errors of different axes and errors from files are "
                          "treated as independent, except for the scales of common probes";
   if (!table.u_not_declared.empty()) text += "; errors without a u are not included";

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "schema/axis.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/chain.h"
 
 namespace mdof {
@@ -59,6 +60,8 @@ struct VolumetricTable {
   double place_left_m = 0, turn_left_rad = 0;
   // Names of errors: not measured, so not corrected; without u; whose table ends within the grid.
   std::vector<std::string> not_measured, u_not_declared, beyond_tables;
+  // Of the errors that it was built from; empty, too, of a table that is older than this.
+  Notices doubtful;
   std::string created_utc;
   std::string sha256;  // volumetric_sha256()
 
@@ -89,8 +92,9 @@ bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
 //   tool_m[3], d rotary_rad[3], then of X, Y, Z i n, d command_m[n], d correction_m[nodes][3], d
 //   u_m[nodes][3], d u_independent_m[nodes][3] (2, 3), d noise (3; noise_numbers()), d
 //   interpolation_m[3], d place_left_m, d turn_left_rad, then of not_measured, u_not_declared,
-//   beyond_tables i n, s each. Where reversal_m is not 0, ", reversal" ends the first s, and d
-//   reversal_m[3] ends all.
+//   beyond_tables i n, s each. Where reversal_m is not 0, the first s goes on with ", reversal",
+//   and d reversal_m[3] follows; where there are doubtful notices, with ", doubtful", and s
+//   notices_json() ends all.
 std::string volumetric_sha256(const VolumetricTable& table);
 
 // What its u covers: one sentence for people, without a full stop.

@@ -1,5 +1,6 @@
 #include "daemon/measure/machine/volumetric.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -7,6 +8,7 @@
 #include "algo/compensation/residual_limits.h"
 #include "daemon/measure/machine/stored_errors.h"
 #include "daemon/paths.h"
+#include "schema/imported/series.h"
 #include "schema/units.h"
 
 namespace mdof::daemon {
@@ -97,6 +99,7 @@ Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
   MDOF_TRY(StoredErrors stored, take_stored_errors(store, machine));
   BuiltVolumetric built;
   MDOF_TRY(built.table, algo::build_volumetric(machine, request.grid));
+  built.table.doubtful = stored.doubtful;
   built.table.description = request.description;
   built.table.runs = std::move(stored.runs);
   MDOF_TRY(const std::vector<Run> runs, runs_of(store, built.table));
@@ -121,6 +124,8 @@ Result<Notices> doubtful_notices(store::Store& store, const VolumetricTable& tab
   MDOF_TRY(const std::vector<Run> runs, runs_of(store, table));
   append(found, one_sided(table, runs));
   append(found, doubtful_notices(runs));
+  for (const Notice& each : table.doubtful)
+    if (std::find(found.begin(), found.end(), each) == found.end()) found.push_back(each);
   return found;
 }
 
@@ -137,15 +142,17 @@ Result<store::Marks> check_volumetric_activation(store::Store& store, std::int64
     const auto active = store.active(axis);
     if (!active && active.error().code == ErrorCode::not_found) continue;
     if (!active) return tl::unexpected(active.error());
-    return fail(
-        ErrorCode::conflict,
-        std::string("table ") + std::to_string(active->table.id) + " of axis " + letter(axis) +
-            " is active; if a volumetric table were active too, the controller would correct twice",
-        Remedy::deactivate_axis, std::string(1, letter(axis)));
+    return fail(ErrorCode::conflict,
+                std::string("table ") + std::to_string(active->table.id) + " of axis " +
+                    letter(axis) +
+                    " is active; if a volumetric table were active too, the controller would "
+                    "correct the errors twice",
+                Remedy::deactivate_axis, std::string(1, letter(axis)));
   }
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active_volumetric();
-  if (!(now && now->table.id == id)) MDOF_CHECK(check_gate(judged, consent, "it is not activated"));
+  if (!(now && now->table.id == id))
+    MDOF_CHECK(check_gate(judged, consent, "the table is not activated"));
   return store::Marks{judged.simulated, !judged.doubtful.empty()};
 }
 
@@ -153,11 +160,11 @@ Status check_no_volumetric(store::Store& store) {
   const auto active = store.active_volumetric();
   if (!active && active.error().code == ErrorCode::not_found) return {};
   if (!active) return tl::unexpected(active.error());
-  return fail(
-      ErrorCode::conflict,
-      "the volumetric table " + std::to_string(active->table.id) +
-          " is active; if the table of an axis were active too, the controller would correct twice",
-      Remedy::deactivate_volume);
+  return fail(ErrorCode::conflict,
+              "the volumetric table " + std::to_string(active->table.id) +
+                  " is active; if the table of an axis were active too, the controller would "
+                  "correct the errors twice",
+              Remedy::deactivate_volume);
 }
 
 }  // namespace mdof::daemon

@@ -163,6 +163,7 @@ inline VolumetricTable make_volume(const std::vector<std::int64_t>& runs = {}) {
   t.turn_left_rad = 5e-6;
   t.not_measured = {"EZZ", "EA0Z"};
   t.beyond_tables = {"EXX"};
+  t.doubtful = {notice(NoticeCode::run_partial)};
   t.created_utc = "utc";
   t.sha256 = volumetric_sha256(t);
   return t;

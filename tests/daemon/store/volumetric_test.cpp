@@ -38,6 +38,7 @@ TEST_F(StoreTest, GivesAVolumetricTableBackToTheLastBit) {
   EXPECT_EQ(back->not_measured, table.not_measured);
   EXPECT_EQ(back->u_not_declared, table.u_not_declared);
   EXPECT_EQ(back->beyond_tables, table.beyond_tables);
+  EXPECT_EQ(back->doubtful, table.doubtful);
   EXPECT_EQ(volumetric_sha256(*back), table.sha256);
   VolumetricTable short_of_one = make_volume();
   short_of_one.u_m.pop_back();
@@ -51,9 +52,32 @@ TEST_F(StoreTest, GivesAVolumetricTableBackToTheLastBit) {
   VolumetricTable without_parts = make_volume();
   without_parts.noise = {};
   without_parts.u_independent_m.clear();
+  without_parts.doubtful.clear();
+  without_parts.sha256 = volumetric_sha256(without_parts);
   EXPECT_TRUE(
       store->volumetric(store->add_volumetric(without_parts).value())->u_independent_m.empty());
   EXPECT_EQ(store->add_volumetric(make_volume({9})).error().code, ErrorCode::not_found);
+}
+
+// Columns that came later are in the hash of the table alone.
+TEST_F(StoreTest, AVolumetricTableThatWasChangedIsRefused) {
+  for (const char* change :
+       {"noise = zeroblob(length(noise))", "reversal_m = NULL",
+        "u_independent_m = zeroblob(length(u_independent_m))", "doubtful = NULL"}) {
+    const std::int64_t id = writer()->add_volumetric(make_volume()).value();
+    ASSERT_TRUE(reader()->volumetric(id));
+    EXPECT_TRUE(reader()->verify().value().empty());
+    tamper("DROP TRIGGER volumetric_table_no_update; UPDATE volumetric_table SET " +
+           std::string(change) + " WHERE id = " + std::to_string(id));
+    auto again = writer();
+    const auto back = again->volumetric(id);
+    ASSERT_FALSE(back) << change;
+    EXPECT_NE(back.error().message.find("volumetric table " + std::to_string(id)),
+              std::string::npos);
+    ASSERT_EQ(again->verify().value().size(), 1u) << change;
+    TearDown();
+    SetUp();
+  }
 }
 
 TEST_F(StoreTest, NumbersAndGenerationsAreOfOneCountWithTheTablesOfAxes) {

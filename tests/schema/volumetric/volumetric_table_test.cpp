@@ -71,6 +71,8 @@ TEST(VolumetricTable, EveryStatementIsInItsHash) {
       [](auto& t) { t.not_measured = {}; },
       [](auto& t) { std::swap(t.not_measured, t.u_not_declared); },
       [](auto& t) { t.beyond_tables = {"EXX"}; },
+      [](auto& t) { t.doubtful = {notice(NoticeCode::run_partial)}; },
+      [](auto& t) { t.doubtful = {notice(NoticeCode::probes_dead)}; },
   };
   std::set<std::string> hashes{volumetric_sha256(small_table())};
   for (const auto& change : changes) {

@@ -10,6 +10,7 @@
 #include "schema/compensation_table.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
+#include "schema/uncertainty/contributor_name.h"
 
 namespace mdof::algo {
 

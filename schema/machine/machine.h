@@ -89,6 +89,9 @@ struct MachineFrame {
   ErrorCorrelation correlation;                // of the errors of the body
   ErrorCorrelation noise_correlation;          // of the parts u_independent
   std::optional<std::array<double, 2>> range;  // of the command that is used, m or rad
+  // Where a linear axis stood while the others were measured: its angles of stored runs and tables
+  // are 0 there, as what they were there is in the squareness of the others. m; none: 0 is assumed.
+  std::optional<double> angles_zero_m;
 
   // Whether the error was measured; `of_line`: that of the location.
   bool is_known(std::size_t k, bool of_line) const {

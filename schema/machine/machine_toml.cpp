@@ -147,6 +147,8 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
       table.reject("positioning_sense",
                    "must be \"body\" (positive along + of the machine axis) or \"command\" (actual "
                    "- commanded position in coordinates of the controller)");
+    if (table.has("angles_zero_at_mm"))
+      frame.angles_zero_m = position_from_written(frame, table.number("angles_zero_at_mm"));
     frame.runs = read_stored_rows(table, "runs");
     frame.tables = read_stored_rows(table, "tables");
     if (frame.tables.latest)

@@ -125,12 +125,21 @@ std::vector<FrozenProbe> ProbeWatch::frozen() const {
   for (std::size_t k = 0; k < probes_.size(); ++k) {
     const Probe& p = probes_[k];
     all.insert(all.end(), p.frozen.begin(), p.frozen.end());
-    const bool never_changed = p.begun && !p.changed && p.frozen.empty() && p.rows >= kFewestRows &&
-                               axis_high_m_ - axis_low_m_ >= kLeastTravel_m;
-    if (never_changed && 2 * alive >= static_cast<std::ptrdiff_t>(probes_.size()) - 1)
+    if (never_changed(p) && 2 * alive >= static_cast<std::ptrdiff_t>(probes_.size()) - 1)
       all.push_back({k, p.since_ns, INT64_MAX, p.held_m});
   }
   return all;
+}
+
+bool ProbeWatch::never_changed(const Probe& p) const {
+  return p.begun && !p.changed && p.frozen.empty() && p.rows >= kFewestRows &&
+         axis_high_m_ - axis_low_m_ >= kLeastTravel_m;
+}
+
+bool ProbeWatch::is_dead() const {
+  const auto dead = std::count_if(probes_.begin(), probes_.end(),
+                                  [this](const Probe& p) { return never_changed(p); });
+  return probes_.size() > 1 && dead + 1 >= static_cast<std::ptrdiff_t>(probes_.size());
 }
 
 // Many small ones are how a probe is, not what happened to it.
@@ -176,6 +185,7 @@ Notices probe_notices(const ProbeWatch& watch, const std::vector<std::string>& i
     stepped.push_back(
         notice(NoticeCode::probe_stepped, ids[s.probe],
                {{"step_um", to_um(s.size_m)}, {"time_s", ns_to_s(s.time_ns - start_ns)}}));
+  if (watch.is_dead()) all.push_back(notice(NoticeCode::probes_dead));
   append_first(all, std::move(frozen));
   append_first(all, std::move(stepped));
   return all;

@@ -60,6 +60,10 @@ class ProbeWatch {
   // Readings of a frozen probe are lost: NaN, flag "frozen:C". Those after a step have "step:C".
   void mark(std::vector<Point>& points, const std::vector<std::string>& ids) const;
 
+  // No probe, or only one, ever changed its reading while the axis moved: a measuring chain without
+  // a signal, or a recording without noise of an axis without errors. The readings are kept.
+  bool is_dead() const;
+
  private:
   struct Probe {
     bool begun = false, changed = false, is_frozen = false;
@@ -74,6 +78,7 @@ class ProbeWatch {
     std::vector<SteppedProbe> steps;  // candidates
   };
 
+  bool never_changed(const Probe& probe) const;
   void hold(Probe& probe, std::size_t index, double low_m, double high_m);
   void release(Probe& probe, double reading_m, std::int64_t time_ns);
   bool noise_says_frozen(const Probe& probe) const;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "daemon/measure/machine/table_functions.h"
 #include "drivers/csv/csv_table.h"
 #include "schema/base/files.h"
 #include "schema/base/output/printable.h"
@@ -110,13 +111,13 @@ Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
   return complete(f, k, csv.source + ": " + error_name(frame, k));
 }
 
-// Up to five columns an error. The file may lack any error, but not all of them: a column without a
+// Up to six columns an error. The file may lack any error, but not all of them: a column without a
 // value is not there, and an error that was approached from one side is the same of both.
 Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string& path) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < kBodyErrors; ++k) {
     const std::string key = with_unit(error_name(frame, k), k);
-    for (const char* prefix : {"", "forward_", "reverse_", "u_", "u_forward_"})
+    for (const char* prefix : {"", "forward_", "reverse_", "u_", "u_forward_", "u_reverse_"})
       names.push_back(prefix + key);
   }
   const std::size_t sense = 1 + names.size();
@@ -124,7 +125,7 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
   MDOF_TRY(const auto csv, drivers::read_csv_table(path, {position_column(frame)}, names));
   bool any = false;
   for (std::size_t k = 0; k < kBodyErrors; ++k) {
-    const auto column = [&](std::size_t i) { return from_key_unit(csv.columns[1 + 5 * k + i]); };
+    const auto column = [&](std::size_t i) { return from_key_unit(csv.columns[1 + 6 * k + i]); };
     auto forward = column(0).empty() ? column(1) : column(0);
     if (forward.empty()) forward = column(2);
     if (forward.empty()) continue;
@@ -136,7 +137,10 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
     f.position = positions_of(frame, csv.columns[0]);
     f.forward = forward;
     f.reverse = column(2);
-    f.u = column(3).empty() ? column(4) : column(3);
+    f.u = column(3);
+    if (f.u.empty())
+      f.u = column(4).empty() || column(5).empty() ? column(4) : larger(column(4), column(5));
+    if (f.u.empty()) f.u = column(5);
     MDOF_CHECK(complete(f, k, where));
     any = true;
   }

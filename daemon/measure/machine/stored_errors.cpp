@@ -11,6 +11,7 @@
 #include "daemon/measure/gate/gate.h"
 #include "daemon/measure/machine/table_functions.h"
 #include "schema/imported/series.h"
+#include "schema/units.h"
 
 namespace mdof::daemon {
 namespace {
@@ -76,30 +77,13 @@ Result<StatedAt> point_of_slope(const MachineFrame& frame, const StatedAxes& sta
   return at;
 }
 
-std::size_t body_error_of(const CompensationTable& table, std::size_t named) {
-  return std::string_view("XYZABC").find(error_names(table.axis)[named].name[1]);
-}
-
 // The tables of five errors of a machine.
 struct TakenTables {
   std::vector<MachineFrame*> frames;
   std::vector<algo::BuiltFrom> built_from;
   StatedAxes stated;
+  Notices doubtful;
 };
-
-ErrorCorrelation correlation_of(const CompensationTable& table,
-                                const std::vector<Covariance5>& by_row) {
-  ErrorCorrelation correlation;
-  correlation.position = table.position_m;
-  for (const Covariance5& named : by_row) {
-    auto& at = correlation.at.emplace_back();
-    for (std::size_t k = 0; k < kBodyErrors; ++k) at[k][k] = 1;
-    for (std::size_t k = 0; k < kErrorCount; ++k)
-      for (std::size_t l = 0; l < kErrorCount; ++l)
-        at[body_error_of(table, k)][body_error_of(table, l)] = named[k * kErrorCount + l];
-  }
-  return correlation;
-}
 
 // The correlation of its errors, by the runs that it was built from.
 Status take_correlation(store::Store& store, MachineFrame& frame, const CompensationTable& table,
@@ -158,14 +142,21 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
   }
   MDOF_CHECK(check_set_up(machine, frame, table));
   taken.stated.push_back({frame.id, table.stated, table.slope_removed});
+  const double zero_m = frame.angles_zero_m.value_or(0);
+  if (!frame.angles_zero_m && is_beyond(table.position_m, zero_m))
+    append(taken.doubtful, {notice(NoticeCode::angles_zero_assumed, frame.id,
+                                   {{"first_mm", to_mm(table.position_m.front())},
+                                    {"last_mm", to_mm(table.position_m.back())}})});
   for (std::size_t named = 0; named < 5; ++named) {
     std::vector<double> u;
     for (std::size_t row = 0; row < table.position_m.size(); ++row)
       u.push_back(std::fmax(table.u_of(table.u_forward, named, row),
                             table.u_of(table.u_reverse, named, row)));
-    MDOF_CHECK(take(frame, body_error_of(table, named),
-                    function_of(table.position_m, table.forward[named], table.reverse[named], u,
-                                larger(table.u_forward[named], table.u_reverse[named]))));
+    ErrorFunction function =
+        function_of(table.position_m, table.forward[named], table.reverse[named], u,
+                    larger(table.u_forward[named], table.u_reverse[named]));
+    if (error_names(table.axis)[named].angle) refer_angle(function, zero_m);
+    MDOF_CHECK(take(frame, body_error_of(table, named), std::move(function)));
   }
   return take_correlation(store, frame, table, taken);
 }
@@ -385,6 +376,8 @@ Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine) {
     MDOF_CHECK(take_runs(store, machine, frame, all, taken));
     MDOF_CHECK(take_tables(store, machine, frame, all, taken));
   }
+  append(all.notices, taken.doubtful);
+  append(all.doubtful, taken.doubtful);
   take_shared(taken);
   MDOF_CHECK(check_slopes(machine, taken.stated));
   if (machine.squareness.any()) MDOF_CHECK(take_squareness(store, machine, taken.stated, all));

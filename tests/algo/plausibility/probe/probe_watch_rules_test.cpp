@@ -157,6 +157,23 @@ TEST(ProbeWatchRule, DeadFromTheStartWhereHalfOfTheOthersLive) {
   EXPECT_FALSE(dead_from_the_start(5, 4, 128, 0.99e-3));
 }
 
+// Five probes of which `alive` change, over a travel.
+bool chain_is_dead(std::size_t alive, double travel_m) {
+  Watched w(5);
+  for (int i = 0; i < 128; ++i) {
+    for (std::size_t k = 0; k < alive; ++k) w.reading_m[k] = 1e-9 * (i + 1);
+    w.scan(travel_m * i / 127);
+  }
+  return w.watch.is_dead();
+}
+
+TEST(ProbeWatchRule, AChainWithOneLivingProbeOrNoneIsDead) {
+  EXPECT_TRUE(chain_is_dead(0, 5e-3));
+  EXPECT_TRUE(chain_is_dead(1, 5e-3));
+  EXPECT_FALSE(chain_is_dead(2, 5e-3));
+  EXPECT_FALSE(chain_is_dead(0, 0.99e-3));
+}
+
 // How many steps of `size_m` are told when as many are seen and the stops have these sds.
 std::size_t steps_told(double size_m, std::size_t seen, const std::vector<double>& sd_m,
                        double resolution_m) {

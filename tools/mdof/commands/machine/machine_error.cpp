@@ -1,6 +1,7 @@
 // mdof machine error MACHINE.toml --at X,Y,Z: the error of the tool against the work.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <optional>
 
 #include "algo/machine/compensating.h"
 #include "schema/units.h"
@@ -23,7 +24,7 @@ struct MachineErrorCommand {
 struct FoundError {
   algo::Command at{};
   algo::ToolError error;
-  algo::CompensatingCommand compensating;
+  std::optional<algo::CompensatingCommand> compensating;  // none: no linear axis
 };
 
 void write_by_component(JsonWriter& json, const char* key,
@@ -72,13 +73,17 @@ std::string error_json(const Machine& machine, const FoundError& found,
   write_by_component(json, "not_measured", e.not_measured);
   write_by_component(json, "u_not_declared", e.no_u);
   write_strings(json, "beyond_tables", e.beyond);
-  write_compensating(json, machine, found.compensating);
+  if (found.compensating)
+    write_compensating(json, machine, *found.compensating);
+  else
+    json.key("compensation").null();
   json.end_object();
   return json.take();
 }
 
 std::string compensating_text(const Machine& machine, const FoundError& found) {
-  const auto& c = found.compensating;
+  if (!found.compensating) return "the machine has no linear axis that could correct the error\n";
+  const auto& c = *found.compensating;
   std::string text = "the tool reaches the nominal position with the commands";
   for (const MachineFrame& frame : machine.frames)
     if (frame.kind == FrameKind::linear) {
@@ -121,7 +126,10 @@ Status machine_error(const MachineErrorCommand& o) {
   MDOF_TRY(found.at, command_from(machine, o.at));
   const auto approach = approach_from(o.approach);
   found.error = algo::tool_error(machine, found.at, approach);
-  MDOF_TRY(found.compensating, algo::compensating_command(machine, found.at, approach));
+  if (std::any_of(machine.frames.begin(), machine.frames.end(),
+                  [](const MachineFrame& f) { return f.kind == FrameKind::linear; })) {
+    MDOF_TRY(found.compensating, algo::compensating_command(machine, found.at, approach));
+  }
   warn_beyond(found.error.beyond);
   return o.json ? write_line(error_json(machine, found, o.approach))
                 : write_out(error_text(machine, found));

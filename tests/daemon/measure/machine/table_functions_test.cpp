@@ -1,0 +1,46 @@
+// Columns of a table as functions of a machine: what is unknown, and where angles are 0.
+#include "daemon/measure/machine/table_functions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "schema/sample.h"
+
+namespace mdof::daemon {
+namespace {
+
+TEST(TableFunctions, AnUnknownUIsTheLargestOfTheOthers) {
+  const ErrorFunction f =
+      function_of({0, 1, 2}, {5, 6, 7}, {5, kNaN, 7}, {0.1, kNaN, 0.3}, {0.01, kNaN, 0.02});
+  EXPECT_EQ(f.reverse, (std::vector<double>{5, 6, 7}));
+  EXPECT_EQ(f.u, (std::vector<double>{0.1, 0.3, 0.3}));
+  const ErrorFunction none = function_of({0, 1}, {5, 6}, {5, 6}, {kNaN, kNaN}, {kNaN, kNaN});
+  EXPECT_TRUE(none.u.empty());
+  EXPECT_TRUE(none.u_independent.empty());
+}
+
+// Mean of both approaches: 0, 4, 6 at -2, 0, 4; at 1 it is 4.5.
+TEST(TableFunctions, AnAngleIsReferredToWhereTheAxisStood) {
+  const ErrorFunction table =
+      function_of({-2, 0, 4}, {-1, 3, 5}, {1, 5, 7}, {0.3, 0.4, 0.8}, {0.1, 0.1, 0.1});
+  ErrorFunction f = table;
+  refer_angle(f, 1);
+  EXPECT_EQ(f.forward, (std::vector<double>{-5.5, -1.5, 0.5}));
+  EXPECT_EQ(f.reverse, (std::vector<double>{-3.5, 0.5, 2.5}));
+  EXPECT_NEAR(f.u[0], std::hypot(0.3, 0.5), 1e-15);
+  EXPECT_NEAR(f.u[2], std::hypot(0.8, 0.5), 1e-15);
+  EXPECT_EQ(f.u_independent, table.u_independent);
+  ErrorFunction held = table;
+  refer_angle(held, 9);  // the end is held
+  EXPECT_EQ(held.forward, (std::vector<double>{-7, -3, -1}));
+  for (const double first : {-2.0, -9.0}) {
+    ErrorFunction same = table;
+    refer_angle(same, first);
+    EXPECT_EQ(same.forward, table.forward);
+    EXPECT_EQ(same.u, table.u);
+  }
+}
+
+}  // namespace
+}  // namespace mdof::daemon

@@ -123,12 +123,16 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   return place.share == 1.0 ? high : low + (high - low) * place.share;
 }
 
-// Between the first and the last position at which a column has values.
+// Between the first and the last position at which a column has values, or at one of them, as far
+// as a stop is at its target.
 bool spans(const std::vector<double>& x, const std::vector<double>& y, double at) {
   std::size_t first = 0, last = x.size();
   while (first < x.size() && !std::isfinite(y[first])) ++first;
   while (last > 0 && !std::isfinite(y[last - 1])) --last;
-  return first < last && at >= x[first] && at <= x[last - 1];
+  if (first >= last) return false;
+  if (first + 1 == last) return at == x[first];
+  return at >= x[first] - kSameTargetShare * (x[first + 1] - x[first]) &&
+         at <= x[last - 1] + kSameTargetShare * (x[last - 1] - x[last - 2]);
 }
 
 bool measured_there(const CompensationTable& table, double position_m, TableSide side) {

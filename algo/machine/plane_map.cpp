@@ -60,6 +60,7 @@ std::vector<double> steps_over(const std::array<double, 2>& range, double step_m
   const double count = std::max(1.0, std::round((range[1] - range[0]) / step_m));
   std::vector<double> at;
   for (double i = 0; i <= count; ++i) at.push_back(range[0] + (range[1] - range[0]) * i / count);
+  at.back() = range[1];  // not beyond it by rounding
   return at;
 }
 

@@ -206,6 +206,8 @@ void DwellDetector::remember_path(double position_m) {
 void DwellDetector::remember_way(const Slot& slot) {
   way_.min_m = std::min(way_.min_m, slot.min_m);
   way_.max_m = std::max(way_.max_m, slot.max_m);
+  since_left_.min_m = std::min(since_left_.min_m, slot.min_m);
+  since_left_.max_m = std::max(since_left_.max_m, slot.max_m);
 }
 
 int DwellDetector::direction_to(double position_m) const {
@@ -244,9 +246,15 @@ void DwellDetector::begin_dwell() {
   truncated_ = false;
   still_since_ns_ = slots_.front().begin_ns;
   unplaced_before_ = slots_.front().unplaced;
-  // A knock or a glitch of the encoder in the midst of a stop is no approach.
+  // A knock or a glitch of the encoder in the midst of a stop is no approach. The slots of a slow
+  // log are so long that the axis can go beyond an end target and come back meanwhile.
+  const bool is_slow = slot_ns_ > static_cast<std::int64_t>(options_.window_s * 1e9) /
+                                      static_cast<std::int64_t>(kSlotsPerWindow);
+  const bool went_off = is_slow && (left_m_ - since_left_.min_m > options_.approach_m ||
+                                    since_left_.max_m - left_m_ > options_.approach_m);
   const bool same_stop = left_ns_ != 0 && slots_.front().begin_ns - left_ns_ <= 2 * slot_ns_ &&
-                         std::abs(slots_.back().middle() - left_m_) < options_.approach_m;
+                         std::abs(slots_.back().middle() - left_m_) < options_.approach_m &&
+                         !went_off;
   if (!same_stop) direction_ = direction_to(slots_.back().middle());
   if (same_stop) way_ = gave_point_ ? Way{left_m_, left_m_} : way_in_;
   way_in_ = way_;
@@ -260,6 +268,7 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
   gave_point_ = false;
   left_ns_ = slots_.back().begin_ns;
   left_m_ = slots_[slots_.size() - 3].middle();
+  since_left_ = {left_m_, left_m_};
   const std::size_t end_row = std::min(end_of_rest(slots_[slots_.size() - 2]), cut_row_);
   const double still_s = ns_to_s(slots_[slots_.size() - 2].begin_ns - still_since_ns_);
   summary_.longest_still_s = std::max(summary_.longest_still_s, still_s);

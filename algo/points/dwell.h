@@ -166,6 +166,7 @@ class DwellDetector {
   };
   bool way_seen_ = true;     // from the point before, or the beginning, to now
   Way way_, way_in_;         // since then; until the last stop began
+  Way since_left_;           // since the axis left the last stop
   bool gave_point_ = false;  // the last stop
   int direction_ = 0;        // of approach, taken before the axis leaves again
   std::vector<double> scratch_, finite_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "schema/rig/rig.h"
@@ -23,6 +24,16 @@ TEST(Targets, AreEvenWithoutJitterAndNearWithIt) {
   }
   EXPECT_TRUE(moved);
   EXPECT_EQ(targets, spaced_targets_mm(jittered));
+}
+
+TEST(Targets, JitterStaysWithinTheEnds) {
+  for (int seed = 1; seed < 20; ++seed) {
+    const auto targets = spaced_targets_mm(
+        {.from_mm = 0, .to_mm = 40, .interval_mm = 10, .jitter_mm = 4.9, .seed = seed});
+    EXPECT_GE(targets.front(), 0);
+    EXPECT_LE(targets.back(), 40);
+    EXPECT_TRUE(std::is_sorted(targets.begin(), targets.end()));
+  }
 }
 
 TEST(Targets, WhatIsNoneNamesTheKey) {

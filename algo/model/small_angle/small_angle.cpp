@@ -86,6 +86,10 @@ BatchKernels batch_kernels(InstructionSet set) {
 
 }  // namespace
 
+// Distance of the side probes along z by that along the motion, up to which the steps of `exact`
+// converge (small_angle_kernel.h).
+constexpr double kSteepest = 3;
+
 Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture) {
   MDOF_TRY(Roles roles, find_roles(fixture));
   const auto x_of = [&](std::size_t i) { return fixture.probes[i].p_MP.x(); };
@@ -112,6 +116,9 @@ Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture) {
     return not_of_this_kind("the two probes along ±y have the same position along the motion");
   f.side_per_m = 1.0 / span;
   f.side_rise = (f.across[4] - f.across[3]) / span;
+  if (std::abs(f.side_rise) > kSteepest)
+    return not_of_this_kind(
+        "the two probes along ±y are too close along the motion for their distance along z");
   f.x_D = f.x[3];
   f.z_D = f.across[3];
   return f;

@@ -56,7 +56,8 @@ inline void simplified(const SmallAngleFixture& f, const V& travel, const V (&m)
 //   F(εz) = r (1 + εy²) + εx εy + (εx + εy εz) rise - εz = 0,
 // by Newton's method with the slope at the start kept. The start has all terms of first and second
 // order, and the series of 2 p rise, which is the largest of the others: off by third order, so
-// that two steps come within 1e-11 rad for angles up to 50 mrad.
+// that two steps come within 1e-11 rad for angles up to 50 mrad where the side probes lie along the
+// motion, and within 1e-9 rad for any fixture that make_small_angle_fixture() takes.
 template <class V>
 inline void exact(const SmallAngleFixture& f, const V& travel, const V (&m)[5], V (&out)[5]) {
   const FirstOrder<V> o = first_order(f, m);

@@ -87,7 +87,7 @@ TEST(ImportedTable, RefusesRunsThatDoNotGoTogether) {
   EXPECT_NE(refusal({first, other}).find("run 2 measures axis Y"), std::string::npos);
   other = second;
   other.header.provenance.model = "EYX";
-  EXPECT_NE(refusal({first, other}).find("imported EYX"), std::string::npos);
+  EXPECT_NE(refusal({first, other}).find("imported error EYX"), std::string::npos);
   other = second;
   other.header.provenance.recording_kind = "csv";
   EXPECT_NE(refusal({first, other}).find("measured by mdof"), std::string::npos);

@@ -322,5 +322,13 @@ TEST(MachineEdges, AnErrorOfOnePlaceHoldsThere) {
   }
 }
 
+// -0.04 + 0.09 · 6/6 is one step of rounding above 0.05, which would be beyond its table.
+TEST(PlaneMap, TheLastStepIsTheEndOfTheRange) {
+  const auto at = steps_over({-0.04, 0.05}, 0.015);
+  ASSERT_EQ(at.size(), 7u);
+  EXPECT_EQ(at.front(), -0.04);
+  EXPECT_EQ(at.back(), 0.05);
+}
+
 }  // namespace
 }  // namespace mdof::algo

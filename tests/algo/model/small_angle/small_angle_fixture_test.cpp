@@ -33,15 +33,25 @@ TEST(SmallAngleFixture, HasThreeTopProbesAndTwoSideProbes) {
   for (const std::size_t more : {0u, 3u}) {
     Fixture fixture = fixture_of_five();
     fixture.probes.push_back(fixture.probes[more]);
-    EXPECT_TRUE(says(refused(fixture), more == 0 ? "has 4 along ±z and 2 along ±y"
-                                                 : "has 3 along ±z and 3 along ±y"));
+    EXPECT_TRUE(says(refused(fixture), more == 0 ? "has 4 probes along ±z and 2 along ±y"
+                                                 : "has 3 probes along ±z and 3 along ±y"));
   }
   Fixture fixture = fixture_of_five();
   fixture.probes.pop_back();
-  EXPECT_TRUE(says(refused(fixture), "has 3 along ±z and 1 along ±y"));
+  EXPECT_TRUE(says(refused(fixture), "has 3 probes along ±z and 1 along ±y"));
   fixture = fixture_of_five();
   fixture.probes.erase(fixture.probes.begin());
-  EXPECT_TRUE(says(refused(fixture), "has 2 along ±z and 2 along ±y"));
+  EXPECT_TRUE(says(refused(fixture), "has 2 probes along ±z and 2 along ±y"));
+}
+
+// D and E 1 mm apart along the motion: `exact` was 76 µm off at 30 mrad with 20 mm along z.
+TEST(SmallAngleFixture, RefusesSideProbesThatAreToOneAnotherAcross) {
+  Fixture fixture = fixture_of_five();
+  fixture.probes[4].p_MP.x() = fixture.probes[3].p_MP.x() + 1e-3;
+  fixture.probes[4].p_MP.z() = fixture.probes[3].p_MP.z() + 3e-3;
+  EXPECT_EQ(refused(fixture), "");
+  fixture.probes[4].p_MP.z() = fixture.probes[3].p_MP.z() - 3.1e-3;
+  EXPECT_TRUE(says(refused(fixture), "too close along the motion"));
 }
 
 TEST(SmallAngleFixture, LooksAlongTheAxes) {

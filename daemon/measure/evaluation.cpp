@@ -186,6 +186,27 @@ Result<store::Activation> activate_checked(store::Store& store, const Activation
   return done;
 }
 
+// A run that was measured while a table was active shows what this table left, if the controller
+// applied it: a table of this run in its place would bring the corrected errors back.
+Status check_measured_without(store::Store& store, const CompensationTable& table,
+                              const store::ActiveTable& active, const Consent& consent) {
+  if (consent.despite_warnings) return {};
+  for (const std::int64_t id : table.runs) {
+    MDOF_TRY(const RunHeader run, store.run_header(id));
+    if (run.provenance.recording_kind != "recording" || run.started_utc < active.activated_utc)
+      continue;
+    return fail(ErrorCode::conflict,
+                "run " + std::to_string(id) + " was measured while table " +
+                    std::to_string(active.table.id) +
+                    " was active. If the controller applied that table, table " +
+                    std::to_string(table.id) +
+                    " contains only the remaining errors and must not replace it; measure without "
+                    "compensation (deactivate the table first) and build the table again",
+                Remedy::allow_doubtful);
+  }
+  return {};
+}
+
 Result<store::Marks> check_activation(store::Store& store, const ActivationRequest& request) {
   MDOF_TRY(const bool volumetric, store.is_volumetric(request.table));
   if (volumetric) return check_volumetric_activation(store, request.table, request.consent);
@@ -203,6 +224,7 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   const auto now = store.active(table.axis);
   const bool is_active = now && now->table.id == request.table;
   if (!is_active) MDOF_CHECK(check_no_volumetric(store));
+  if (now && !is_active) MDOF_CHECK(check_measured_without(store, table, *now, request.consent));
   if (!is_active) MDOF_CHECK(check_gate(judged, request.consent, "the table is not activated"));
   return store::Marks{judged.simulated, !judged.doubtful.empty()};
 }

@@ -1,6 +1,7 @@
 // compensation.build, activate, deactivate, status, grid, at.
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numeric>
 
 #include "algo/compensation/compensation.h"
@@ -122,8 +123,16 @@ std::string status(const Methods& m) {
   return json.take();
 }
 
+// A parameter of the other kind of table would be ignored, and its sender misled.
+Status refuse(const Params& params, std::initializer_list<const char*> keys, const char* why) {
+  for (const char* key : keys)
+    if (params.has(key)) return fail(ErrorCode::usage, std::string(key) + why);
+  return {};
+}
+
 Result<std::string> grid(const Methods& m, const Params& params) {
   if (is_volume(params)) return volume_grid(m, params);
+  MDOF_CHECK(refuse(params, {"u_parts"}, " applies only to a volumetric table; remove it"));
   MDOF_TRY(const auto* active, active_table(m, params));
   const auto [offset, count] = list_page_of(params, kMaxGridPage);
   if (params.has("generation") && params.integer("generation") != active->generation) {
@@ -162,9 +171,11 @@ void write_values(JsonWriter& json, const char* key, Axis axis, const Errors5& v
 // null without a chain; a component that no axis of the chain can correct is null. Why, is said
 // once for each reason.
 void write_correction(JsonWriter& json, const CompensationTable& table, const Errors5& error) {
-  const CorrectionSigns signs = correction_signs(table.machine, table.axis);
+  const CorrectionSigns signs = correction_signs(table.machine, table.axis, table.stated.reference);
   Errors5 correction{};
   std::string why;
+  if (std::any_of(error.begin(), error.end(), [](double x) { return std::isnan(x); }))
+    why = "the table has no error values for this approach";
   for (std::size_t k = 0; k < 5; ++k) {
     correction[k] = signs.factor[k] == 0 ? kNaN : signs.factor[k] * error[k];
     if (!signs.gap[k].empty() && why.find(signs.gap[k]) == std::string::npos)
@@ -180,7 +191,15 @@ void write_correction(JsonWriter& json, const CompensationTable& table, const Er
 }
 
 Result<std::string> at(const Methods& m, const Params& params) {
-  if (is_volume(params)) return volume_at(m, params);
+  if (is_volume(params)) {
+    MDOF_CHECK(
+        refuse(params, {"direction", "position_mm"},
+               " does not apply to a volumetric table, which has one approach; remove it, and "
+               "give X_mm, Y_mm and Z_mm"));
+    return volume_at(m, params);
+  }
+  MDOF_CHECK(refuse(params, {"X_mm", "Y_mm", "Z_mm"},
+                    " applies only to a volumetric table; give position_mm"));
   if (!params.has("position_mm"))
     return fail(ErrorCode::usage, "position_mm is missing; give the position on the axis");
   MDOF_TRY(const auto* active, active_table(m, params));

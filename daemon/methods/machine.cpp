@@ -40,15 +40,19 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
   json.begin_object().field("machine", machine.name).field("simulated", machine.simulated);
   write_error(json, "error", error.exact);
   json.key("u").begin_object();
-  for (int k = 0; k < 3; ++k) json.field(kComponents[k], model.causes.empty() ? kNaN : to_um(u[k]));
+  // 0: nothing of which u is known acts on the component.
+  for (int k = 0; k < 3; ++k) json.field(kComponents[k], u[k] > 0 ? to_um(u[k]) : kNaN);
   json.end_object();
-  if (model.causes.empty())
+  if (!(u.minCoeff() > 0))
     json.field("u_reason",
-               "u is unknown, because the machine file declares neither sources of uncertainty nor "
-               "the u of an error");
-  std::vector<std::string> missing;
+               "u is unknown where neither a source of uncertainty nor an error with known u acts "
+               "on the component");
+  std::vector<std::string> missing, no_u;
   for (const auto& names : error.not_measured) algo::add_new(names, missing);
+  for (const auto& names : error.no_u) algo::add_new(names, no_u);
   write_strings(json, "not_measured", missing);
+  write_strings(json, "u_not_declared", no_u);
+  json.field("noise_only", machine.noise_only);
   write_strings(json, "beyond_tables", error.beyond);
   json.end_object();
   return json.take();

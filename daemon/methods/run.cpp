@@ -58,8 +58,14 @@ RunDone answer_with_run(Reply reply, Axis axis, const RunRequest& request = {}) 
 
 // A list, or even intervals.
 Result<std::vector<double>> read_targets(const Params& params) {
-  if (!params.has("from_mm") && !params.has("to_mm") && !params.has("interval_mm"))
+  if (!params.has("from_mm") && !params.has("to_mm") && !params.has("interval_mm")) {
+    for (const char* key : {"jitter_mm", "seed"})
+      if (params.has(key))
+        return fail(ErrorCode::usage, std::string(key) +
+                                          " applies only to an interval (from_mm, to_mm, "
+                                          "interval_mm); remove it, or give an interval");
     return params.numbers("targets_mm");
+  }
   if (params.has("targets_mm"))
     return fail(ErrorCode::usage,
                 "targets_mm and an interval (from_mm, to_mm, interval_mm) are both given; give "

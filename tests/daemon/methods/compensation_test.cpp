@@ -22,6 +22,25 @@ class CompensationMethods : public MethodsTest {
   }
 };
 
+TEST_F(CompensationMethods, ATableOfARunThatWasMeasuredUnderAnotherAsksFirst) {
+  const char* const says = "was measured while table 2 was active";
+  activate();
+  for (const auto& [utc, asks] :
+       {std::pair{"2020-01-01T00:00:00.000Z", false}, {"2099-01-01T00:00:00.000Z", true}}) {
+    recorded_utc_ = utc;
+    const std::string run = std::to_string(add_run());
+    const Answer built = call("compensation.build", R"({"runs":[)" + run + "]}");
+    ASSERT_EQ(built.code(), 0) << built.text();
+    const std::string table = R"({"table":)" + built.at("/result/table");
+    const Answer refused = call("compensation.activate", table + "}");
+    EXPECT_EQ(refused.code() != 0, asks);
+    EXPECT_EQ(refused.message().find(says) != std::string::npos, asks) << refused.text();
+    if (asks) {
+      EXPECT_EQ(call("compensation.activate", table + R"(,"despite_warnings":true})").code(), 0);
+    }
+  }
+}
+
 TEST_F(CompensationMethods, ATableThatIsBuiltIsNotYetInForce) {
   add_run();
   const Answer built = call("compensation.build", R"({"runs":[1]})");
@@ -141,6 +160,13 @@ TEST_F(CompensationMethods, ADirectionIsOneOfThree) {
   }
   EXPECT_EQ(call("compensation.at", R"({"axis":"X"})").code(), rpc::kInvalidParams);
   EXPECT_EQ(call("compensation.at", R"({"axis":"Q","position_mm":1})").code(), rpc::kInvalidParams);
+  // Of the other kind of table: not ignored.
+  for (const char* params :
+       {R"({"axis":"volume","direction":1})", R"({"axis":"volume","position_mm":1})",
+        R"({"axis":"X","position_mm":1,"Y_mm":7})"})
+    EXPECT_EQ(call("compensation.at", params).code(), rpc::kInvalidParams) << params;
+  EXPECT_EQ(call("compensation.grid", R"({"axis":"X","u_parts":true})").code(),
+            rpc::kInvalidParams);
   EXPECT_EQ(call("compensation.at", R"({"axis":"Y","position_mm":1})").code(), rpc::kNotFound);
 }
 

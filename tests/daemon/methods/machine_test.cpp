@@ -27,6 +27,15 @@ TEST_F(MachineMethodTest, WhatIsNotDeclaredIsNullWithAReason) {
   EXPECT_NE(answer.text().find(R"("EBX")"), std::string::npos);  // not measured
 }
 
+// EYX has a value without u: 0 would be read as exactly known.
+TEST_F(MachineMethodTest, UOfAComponentWithoutKnownUIsNull) {
+  const Answer answer = call("machine.at", at(R"(EXX_um = 3\nu_EXX_um = 0.1\nEYX_um = 1)", ""));
+  ASSERT_EQ(answer.code(), 0) << answer.text();
+  EXPECT_NEAR(answer.number("/result/u/x_um"), 0.1, 1e-12);
+  EXPECT_NE(answer.text().find(R"("y_um":null,"z_um":null})"), std::string::npos) << answer.text();
+  EXPECT_NE(answer.text().find(R"("u_not_declared":["EYX"])"), std::string::npos) << answer.text();
+}
+
 TEST_F(MachineMethodTest, RefusesWhatItCannotRead) {
   for (const auto& [frame, more, says] : {std::tuple{"EXX_um = nan", "", "m.toml"},
                                           {"EXXX_um = 1", "", "EXX"},

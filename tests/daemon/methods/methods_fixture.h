@@ -78,6 +78,10 @@ class MethodsTest : public FedStation {
     run.header.note = note;
     run.header.started_utc = "2026-11-23T07:00:00.000Z";
     run.header.provenance.recording_kind = "csv";
+    if (!recorded_utc_.empty()) {
+      run.header.started_utc = recorded_utc_;
+      run.header.provenance.recording_kind = "recording";
+    }
     run.header.provenance.recording_path = "/logs/" + note + axis + ".csv";
     run.header.provenance.recording_sha256 = std::string(63, '0') + static_cast<char>('a' + runs_);
     run.header.provenance.rig_text = rig.text;
@@ -93,7 +97,8 @@ class MethodsTest : public FedStation {
 
   std::unique_ptr<MethodsBench> bench_;
   int runs_ = 0;
-  bool simulated_ = false;  // those that are added from now on
+  bool simulated_ = false;    // those that are added from now on
+  std::string recorded_utc_;  // the same: when a recording began; empty: a log without time
 };
 
 }  // namespace mdof::daemon

@@ -88,7 +88,7 @@ def is_beyond_64_bits(value):
     return isinstance(value, int) and not -2 ** 63 <= value < 2 ** 64
 
 
-NEEDED = {"despite_warnings", "incomplete", "rig", "run_x", "run_y"}
+NEEDED = {"despite_warnings", "incomplete", "position_mm", "rig", "run_x", "run_y"}
 
 
 def request(rng, number, method, world):

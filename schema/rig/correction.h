@@ -16,6 +16,7 @@
 
 #include "schema/axis.h"
 #include "schema/rig/chain.h"
+#include "schema/rig/reference.h"
 
 namespace mdof {
 
@@ -26,7 +27,8 @@ struct CorrectionSigns {
   std::array<int, 5> factor{};     // by named error of the axis: c = factor * E; 0: none
   std::array<std::string, 5> gap;  // why there is none
 };
-CorrectionSigns correction_signs(const Chain& chain, Axis axis);
+// At the carriage straightness has none: it is that of a point that travels with the axis.
+CorrectionSigns correction_signs(const Chain& chain, Axis axis, Reference reference);
 
 // The axis whose command takes the correction of a named error: 'Y' for EYX, 'A' for EAX.
 char corrected_by(const ErrorName& name);

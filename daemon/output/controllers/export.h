@@ -97,6 +97,7 @@ struct SquareAxes {
   double EC0Y_rad = 0;
   Budget budget;  // of EC0Y
   Chain machine;
+  StatedAt at = kAtFixture;  // where the angle holds
 };
 
 // Of each pair: to files, and what the controller does with them by its own strict grammar; an

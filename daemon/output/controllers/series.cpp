@@ -103,7 +103,7 @@ Result<Series> short_enough(const Series& s, std::int64_t table, std::size_t mos
 }  // namespace
 
 std::vector<Series> series_of(const CompensationTable& table) {
-  const CorrectionSigns signs = correction_signs(table.machine, table.axis);
+  const CorrectionSigns signs = correction_signs(table.machine, table.axis, table.stated.reference);
   std::vector<Series> all;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     const ErrorName& name = error_names(table.axis)[k];
@@ -170,8 +170,15 @@ std::vector<std::string> head_lines(const CompensationTable& table, const Export
   std::vector<std::string> lines{"mdof compensation table " + std::to_string(table.id) + ", axis " +
                                      letter(table.axis) + ", made " + table.created_utc,
                                  "sha256 of the table " + table.sha256, "sense: " + sense};
+  if (!table.has_positioning()) lines.push_back("valid at the " + stated_place(table.stated));
   for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
   return lines;
+}
+
+std::string stated_place(const StatedAt& at) {
+  const auto mm = [&at](std::size_t k) { return plain_number(to_mm(at.point_m[k]), 6); };
+  return std::string(to_string(at.reference)) + ", " + mm(0) + ", " + mm(1) + ", " + mm(2) +
+         " mm from the origin of the fixture";
 }
 
 double mean_error_at(const Series& s, double position_m) {

@@ -27,6 +27,8 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables);
 // The lines that every file with comments has: table, hash, sense, marks. Without comment signs.
 std::vector<std::string> head_lines(const CompensationTable& table, const ExportOptions& options,
                                     const std::string& sense);
+// "tool, 6, -4, -30 mm from the origin of the fixture"
+std::string stated_place(const StatedAt& at);
 // For a comment: in ASCII and without ends of lines.
 std::string one_plain_line(std::string_view text);
 // Each behind `sign` and a blank, with an end of line.

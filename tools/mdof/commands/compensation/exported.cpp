@@ -258,11 +258,9 @@ Status export_volume(store::Store& store, const ExportRequest& request,
   return {};
 }
 
-// The machine of the run's rig or configuration.
-Result<Chain> chain_of_run(store::Store& store, std::int64_t id) {
+Result<Rig> rig_of_run(store::Store& store, std::int64_t id) {
   MDOF_TRY(const Run run, store.run(id));
-  MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
-  return rig.machine;
+  return daemon::rig_of(run.header);
 }
 
 Status export_square(store::Store& store, const ExportRequest& request, ExportedTables& out) {
@@ -275,18 +273,25 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
   if (stored.axes != AxisPair{})
     return bad_input(name + " is " + squareness_name(stored.axes) +
                      "; the controllers of this format take the squareness of X and Y only");
-  MDOF_TRY(const daemon::FittedSquareness fitted, daemon::stored_squareness(store, stored));
-  MDOF_CHECK(judge({daemon::JudgedKind::squareness, std::to_string(stored.id), stored.simulated,
-                    daemon::without_information(fitted.notices)},
-                   request, out));
-  MDOF_TRY(const Chain x, chain_of_run(store, stored.run_a));
-  MDOF_TRY(const Chain y, chain_of_run(store, stored.run_b));
-  if (!(x == y))
+  MDOF_TRY(const Rig x, rig_of_run(store, stored.run_a));
+  MDOF_TRY(const Rig y, rig_of_run(store, stored.run_b));
+  if (!(x.machine == y.machine))
     return bad_input(name + ": the rigs of the runs " + std::to_string(stored.run_a) + " and " +
                      std::to_string(stored.run_b) +
                      " describe different machines; measure both runs on one machine");
+  // The point at which tables of these rigs hold, too: the angle at another point is another.
+  const StatedAt at = stated_at_by_default(x);
+  if (at != stated_at_by_default(y))
+    return bad_input(name + ": tool_point_mm differs between the rigs of the runs " +
+                     std::to_string(stored.run_a) + " and " + std::to_string(stored.run_b) +
+                     "; measure or replay both runs with the same tool_point_mm");
+  MDOF_TRY(const daemon::FittedSquareness fitted,
+           daemon::stored_squareness(store, stored, {at, at}));
+  MDOF_CHECK(judge({daemon::JudgedKind::squareness, std::to_string(stored.id), stored.simulated,
+                    daemon::without_information(fitted.notices)},
+                   request, out));
   const controllers::SquareAxes axes{stored.id, fitted.squareness.error_rad, fitted.budgets.front(),
-                                     x};
+                                     x.machine, at};
   out.squareness = stored.id;
   out.angle = axes.budget;
   MDOF_TRY(out.files, out.format->square.write(axes, out.options));

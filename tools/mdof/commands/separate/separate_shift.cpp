@@ -34,6 +34,9 @@ Status check(const ShiftCommand& command) {
       return fail(ErrorCode::usage, "--turned takes numbers of set-ups from 2 to " +
                                         std::to_string(set_ups) + ", not " +
                                         std::to_string(number));
+  if (!command.of.turned_about.empty() && command.turned.empty())
+    return fail(ErrorCode::usage,
+                "--turned-about applies only to turned set-ups; give their numbers with --turned");
   return {};
 }
 

@@ -261,8 +261,8 @@ class Database(unittest.TestCase):
             database.execute("DROP TRIGGER point_no_update")
             database.execute("UPDATE point SET dy_m = dy_m + 1e-6 WHERE run = ? AND row = 3", (run,))
         self.client.call("run.points", run=run, offset=0, count=2)
-        self.refused("results were changed after they were stored", "run.points", run=run, offset=2, count=2)
-        self.refused("results were changed after they were stored", "run.points", run=run, offset=0, count=2)  # the run is suspect now
+        self.refused("were changed after they were stored", "run.points", run=run, offset=2, count=2)
+        self.refused("were changed after they were stored", "run.points", run=run, offset=0, count=2)  # the run is suspect now
 
     def test_a_run_under_way_fails_with_that_reason(self):
         watcher = Client(self.daemon.socket)

@@ -232,7 +232,7 @@ class EncoderDatum(unittest.TestCase):
         self.offset_mm = 0
         encoder = self.encoder()
         self.assertEqual((encoder["datum"], encoder["offset_mm"]), ("none", 0))
-        lost = f"the position was set to {position_mm:.9g} mm on {said['utc']}, but was lost by a restart of mdofd; "
+        lost = f"the position was set to {position_mm:.9g} mm on {said['utc']}, but was lost when mdofd restarted; "
         self.assertTrue(encoder["note"].startswith(lost), encoder["note"])
         self.assertIn("encoder of X: " + lost, self.status())
         started = self.client.call("run.start", axis="X")

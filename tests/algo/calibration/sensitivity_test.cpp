@@ -133,7 +133,7 @@ TEST(Sensitivity, WhatCannotBeIsRefused) {
     EXPECT_EQ(found.error().code, ErrorCode::check);
     EXPECT_NE(found.error().message.find(what), std::string::npos) << found.error().message;
   };
-  says(along_z([](double z) { return z; }, 2), "at 2 places");
+  says(along_z([](double z) { return z; }, 2), "at 2 positions");
   says(along_z([](double z) { return z; }, 11, 1e-6), "that cover the used range");
   says(along_z([](double z) { return -z; }), "check the keys \"reads\" and \"measures\"");
   says(along_z([](double z) { return 2.5 * z; }), "um_per_V");

@@ -29,7 +29,7 @@ TEST(CsvStreamConfiguration, KeysAndTheirErrors) {
             "accepted");
   const std::pair<const char*, const char*> wrong[] = {
       {"", "source: is missing"},
-      {"source = \"serial:/dev/ttyS0\"\nbaud = 0", "baud: must be a rate"},
+      {"source = \"serial:/dev/ttyS0\"\nbaud = 0", "baud: must be a baud rate"},
       {"source = \"serial:/dev/ttyS0\"\nparity = \"mark\"", "parity: must be \"none\""},
       {"source = \"serial:/dev/ttyS0\"\nheader = \"1,2\"", "header"},
       {"source = \"serial:ttyS0\"", "source: must be"},

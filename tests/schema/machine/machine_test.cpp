@@ -136,7 +136,7 @@ TEST(MachineToml, WhatIsWrongIsNamed) {
       {"point = \"moving\"\nrange", "point = \"still\"\nrange", "standing"},
       {"EXX_um = [[0, 0, 0.5]", "EXX_um = [[500, 0, 0.5]", "increase"},
       {"[400, 8, 9]", "[400, nan, 9]", "finite"},
-      {"[400, 8, 9]", "[400, 8]", "each row"},
+      {"[400, 8, 9]", "[400, 8]", "all rows"},
       {"[400, 8, 9]", "[400, 80000, 9]", "unit"},
       {"EAX_urad = 3", "EAX_urad = 3e6", "unit"},
       {"EAX_urad = 3", "EAX_um = 3", "EAX_u"},

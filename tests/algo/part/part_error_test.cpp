@@ -128,8 +128,12 @@ void expect_planted_shares_within_U(bool with_budget) {
   EXPECT_LE(rms, 96.5);
 }
 
-TEST(PartError, PlantedSharesAreWithinTheirU) { expect_planted_shares_within_U(false); }
-TEST(PartError, SharesOfABudgetAreWithinTheirU) { expect_planted_shares_within_U(true); }
+TEST(PartError, PlantedSharesAreWithinTheirU) {
+  expect_planted_shares_within_U(false);
+}
+TEST(PartError, SharesOfABudgetAreWithinTheirU) {
+  expect_planted_shares_within_U(true);
+}
 
 // By hand: X under Y of a table; the tool above the point at which the errors hold.
 TEST(MachineCauses, LeversAndSources) {

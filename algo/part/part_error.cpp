@@ -69,7 +69,7 @@ struct Squares {
   std::vector<double> layers, causes;
 };
 
-enum class UnknownCauses { expected, drawn };  // those of which only u is known
+enum class UnknownCauses { expected, drawn };  // causes with a known u and an unknown value
 
 Squares squares_of(const std::vector<PartCause>& causes, const Causes& all,
                    const std::vector<double>& xi, std::size_t layers, UnknownCauses unknown) {

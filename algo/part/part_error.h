@@ -47,7 +47,7 @@ struct PartTrials {
 };
 
 // U for 95 %, by Monte Carlo over the xi: how far from the estimate 95 % of the trials are. The
-// estimate of a cause of which only u is known (a budget) is its expected mean square.
+// estimate of a cause with a known u and an unknown value (a budget) is its expected mean square.
 PartError part_error(const PartPath& path, const std::vector<PartCause>& causes, std::size_t layers,
                      const PartTrials& trials = {});
 

@@ -40,7 +40,7 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
   json.begin_object().field("machine", machine.name).field("simulated", machine.simulated);
   write_error(json, "error", error.exact);
   json.key("u").begin_object();
-  // 0: nothing of which u is known acts on the component.
+  // 0: no source and no error with a known u acts on the component.
   for (int k = 0; k < 3; ++k) json.field(kComponents[k], u[k] > 0 ? to_um(u[k]) : kNaN);
   json.end_object();
   if (!(u.minCoeff() > 0))

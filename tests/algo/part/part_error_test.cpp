@@ -214,7 +214,7 @@ TEST(PartError, OfWhatIsKnownByItsUAloneIsNotNought) {
   EXPECT_GT(found.U_max_m / largest, 1.0);
 }
 
-// The RMS of one cause of which only u is known is |xi| u: 95 % of all are within 0.995 u of u, as
+// The RMS of a cause with unknown value is |xi| u: 95 % of all are within 0.995 u of u, as
 // 2 (Φ(1.995) − Φ(0.005)) = 0.950.
 TEST(PartError, TheRmsOfAnUnknownCauseIsUncertain) {
   const std::vector<PartCause> causes = {{0, "screw", times(shape(2), 0), times(shape(2), 2e-6)}};

@@ -45,7 +45,7 @@ TEST(SmallAngleFixture, HasThreeTopProbesAndTwoSideProbes) {
 }
 
 // D and E 1 mm apart along the motion: `exact` was 76 µm off at 30 mrad with 20 mm along z.
-TEST(SmallAngleFixture, RefusesSideProbesThatAreToOneAnotherAcross) {
+TEST(SmallAngleFixture, RefusesSideProbesTooCloseAlongTheMotion) {
   Fixture fixture = fixture_of_five();
   fixture.probes[4].p_MP.x() = fixture.probes[3].p_MP.x() + 1e-3;
   fixture.probes[4].p_MP.z() = fixture.probes[3].p_MP.z() + 3e-3;

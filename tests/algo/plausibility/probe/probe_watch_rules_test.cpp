@@ -157,7 +157,7 @@ TEST(ProbeWatchRule, DeadFromTheStartWhereHalfOfTheOthersLive) {
   EXPECT_FALSE(dead_from_the_start(5, 4, 128, 0.99e-3));
 }
 
-// Five probes of which `alive` change, over a travel.
+// The readings of `alive` of five probes change while the axis moves.
 bool chain_is_dead(std::size_t alive, double travel_m) {
   Watched w(5);
   for (int i = 0; i < 128; ++i) {

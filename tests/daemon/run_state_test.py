@@ -132,8 +132,9 @@ class RunState(unittest.TestCase):
     def test_a_free_run_stopped_is_what_was_asked_for(self):
         watcher = self.watcher()
         run = self.client.call("run.start", axis="X")["run"]
-        while watcher.next_note()["params"]["value"].get("type") != "points":
-            pass
+        points = 0
+        while points < 2:  # a run that travels and stops at one position only is doubtful
+            points += watcher.next_note()["params"]["value"].get("type") == "points"
         self.client.call("run.stop", run=run)
         header = self.ended(watcher)
         self.assertEqual(header["state"], "complete", notice_lines(header))

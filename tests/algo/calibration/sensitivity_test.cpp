@@ -137,7 +137,7 @@ TEST(Sensitivity, WhatCannotBeIsRefused) {
   says(along_z([](double z) { return z; }, 11, 1e-6), "that cover the used range");
   says(along_z([](double z) { return -z; }), "check the keys \"reads\" and \"measures\"");
   says(along_z([](double z) { return 2.5 * z; }), "um_per_V");
-  says(along_z([](double) { return std::nan(""); }), "at 0 places over 0 um");
+  says(along_z([](double) { return std::nan(""); }), "at 0 positions over 0 um");
   EXPECT_EQ(approaching_axis(rig, kA).value(), Axis::z);
   EXPECT_EQ(approaching_axis(rig, 3).value(), Axis::y);
 }

@@ -115,7 +115,9 @@ Action declare_certificate(CLI::App& command) {
   command.add_option("DCC", o->file, "Digital calibration certificate of the probe (PTB DCC 3.x)")
       ->required()
       ->type_name("");
-  command.add_option("--rig", o->rig, "Rig file of the fixture")->required()->type_name("RIG.toml");
+  command.add_option("--rig", o->rig, "Rig file, which describes the probes and the encoder")
+      ->required()
+      ->type_name("RIG.toml");
   command.add_option("--probe", o->probe, "Probe to which the certificate applies")
       ->required()
       ->type_name("ID");
@@ -131,17 +133,17 @@ Action declare_certificate(CLI::App& command) {
 }  // namespace
 
 Command calibrate_certificate_command() {
-  return {
-      .name = "calibrate certificate",
-      .summary = "Read the sensitivity and linearity of a probe from a calibration certificate",
-      .footer =
-          "Reads a DCC, PTB's Digital Calibration Certificate: a sensitivity in volts per length,\n"
-          "a table of errors (refTypes basic_measuredValue, basic_measurementError or\n"
-          "basic_referenceValue), or both; mdof divides each U by the coverage factor\n"
-          "and prints the values that it takes. It does not verify signatures.\n"
-          "Example:\n"
-          "  mdof calibrate certificate K-4711.xml --rig rig_X.toml --probe A --out A.toml",
-      .declare = declare_certificate};
+  return {.name = "calibrate certificate",
+          .summary = "Read the sensitivity and linearity of a probe from a calibration certificate",
+          .footer =
+              "mdof reads a DCC (Digital Calibration Certificate of PTB) with a sensitivity in\n"
+              "volts per length, a table of errors (refTypes basic_measuredValue,\n"
+              "basic_measurementError or basic_referenceValue), or both. It divides each U by\n"
+              "the coverage factor and prints the values that it takes. It does not verify\n"
+              "signatures.\n"
+              "Example:\n"
+              "  mdof calibrate certificate K-4711.xml --rig rig_X.toml --probe A --out A.toml",
+          .declare = declare_certificate};
 }
 
 }  // namespace mdof::tools

@@ -75,9 +75,11 @@ Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& 
   for (const Point& stop : found.stops)
     traverse.stops.push_back({sign * stop.position_m, stop.probe_m, stop.probe_u_m});
   if (traverse.stops.size() < 2)
-    return bad_input(log.file + ": the log has only one stop, but a slope needs two stops. " +
-                     hazard_of(rig, log.axis) +
-                     "Stop at two or more positions, as far apart as the clearance allows");
+    return bad_input(
+        log.file +
+        ": the axis stops at only one position in this log, but a slope needs two positions. " +
+        hazard_of(rig, log.axis) +
+        "Stop at two or more positions, as far apart as the clearance allows");
   return traverse;
 }
 
@@ -195,8 +197,8 @@ Command calibrate_mounting_command() {
           "the probe. On a rig for X, a traverse of Y drives the target into the probes D\n"
           "and E; the range of these probes may end after 100 um. A tilt of 1 mrad reduces a\n"
           "gap by 1 um for each mm of distance.\n"
-          "First run mdof clearance RIG.toml for each rig. Retract the probes that\n"
-          "this command lists, or leave out the traverse.\n"
+          "First run \"mdof clearance RIG.toml\" for each rig. Retract the probes that this\n"
+          "command lists, or leave out the traverse.\n"
           "Clamp the target at three or more tilts of some mrad about different axes, each\n"
           "tilt also in the opposite direction. At each tilt, traverse each axis that does not\n"
           "move the target towards a probe: some mm, with five or more stops. Record each\n"

@@ -65,7 +65,7 @@ std::string text_of(const SensitivityCalibration& found, bool rig_declares) {
                      with_u(found.sensitivity_1, found.u_sensitivity_1, 6) +
                      " (reading per displacement)\n" + std::to_string(found.stops) +
                      " stops, readings from " + fixed(to_um(found.from_m), 3) + " to " +
-                     fixed(to_um(found.to_m), 3) + " um; residuals from the line: at most " +
+                     fixed(to_um(found.to_m), 3) + " um; residuals from the fitted line: at most " +
                      fixed(to_um(found.linearity_m), 4) + " um, standard deviation " +
                      fixed(to_um(found.residual_sd_m), 4) + " um\n" + not_in_u(found) +
                      "Lines for the rig file:\n";
@@ -128,7 +128,9 @@ Action declare_sensitivity(CLI::App& command) {
           "Log recorded while an axis moved the target along the measuring direction of the probe")
       ->required()
       ->type_name("");
-  command.add_option("--rig", o->rig, "Rig file of the fixture")->required()->type_name("RIG.toml");
+  command.add_option("--rig", o->rig, "Rig file, which describes the probes and the encoder")
+      ->required()
+      ->type_name("RIG.toml");
   command.add_option("--probe", o->probe, "Probe to calibrate")->required()->type_name("ID");
   command.add_flag(
       "--reversed", o->reversed,
@@ -144,9 +146,9 @@ Command calibrate_sensitivity_command() {
   return {.name = "calibrate sensitivity",
           .summary = "Calibrate the sensitivity of a probe against the encoder of an axis",
           .footer =
-              "HAZARD: the target moves towards the probe. First use mdof clearance RIG.toml\n"
-              "and mdof live to see where the range of the probe ends. Use small steps and stay\n"
-              "within the range.\n"
+              "HAZARD: the target moves towards the probe. First use \"mdof clearance RIG.toml\"\n"
+              "and \"mdof live\" to see where the range of the probe ends. Use small steps and\n"
+              "stay within the range.\n"
               "Move the target towards the probe in steps over its range, and stop at each step.\n"
               "The result contains the scale error of the encoder.\n"
               "Example:\n"

@@ -55,7 +55,9 @@ Status clearance(const ClearanceCommand& command) {
 
 Action declare_clearance(CLI::App& command) {
   const auto o = std::make_shared<ClearanceCommand>();
-  command.add_option("RIG", o->rig, "Rig file of the fixture")->required()->type_name("");
+  command.add_option("RIG", o->rig, "Rig file, which describes the probes and the encoder")
+      ->required()
+      ->type_name("");
   add_json_flag(command, o->json);
   return [o] { return clearance(*o); };
 }

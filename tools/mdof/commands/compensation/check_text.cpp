@@ -18,7 +18,8 @@ void write_control(JsonWriter& json, const CheckedError& e, const Control& contr
   json.field(e.angle ? "residual_urad" : "residual_um", control.residual * 1e6);
   json.field("detected", control.detected);
   if (!control.detected && control.too_small)
-    json.field("reason", "the effect of the mistake is smaller than the allowed residual");
+    json.field("reason",
+               "the effect of the simulated mistake is smaller than the allowed residual");
   json.end_object();
 }
 
@@ -38,8 +39,9 @@ std::string causes_text(const CheckedError& e) {
   if (e.by_ramp > kShown)
     text +=
         e.error + ": " + fixed(e.by_ramp * 1e6, 4) + unit +
-        " remain after a reversal, because the ramp of the controller does not start; change "
-        "MAX_ACCELERATION, use the live compensation, or permit this residual with --residual-um\n";
+        " remain after a reversal, because LinuxCNC does not start its ramp for a step of this "
+        "size; change MAX_ACCELERATION, use the live compensation, or permit this residual with "
+        "--residual-um\n";
   if (e.between_nodes > kShown)
     text += e.error + ": " + fixed(e.between_nodes * 1e6, 4) + unit +
             " remain between the nodes of the table\n";
@@ -92,8 +94,9 @@ std::string check_text(const controllers::Check& check) {
                e.cancels ? "yes" : "NO", seen});
   }
   std::string text = table.text() + "allowed: at most " +
-                     plain_number(check.most_residual_m * 1e6) + " µm (µrad) and " +
-                     plain_number(check.share * 100) +
+                     plain_number(check.most_residual_m * 1e6) +
+                     " µm (angles: " + plain_number(check.most_residual_m * 1e6) +
+                     " µrad), and at most " + plain_number(check.share * 100) +
                      " % of \"before\";\n"
                      "see --residual-um and --residual-percent\n";
   for (const CheckedError& e : check.errors) text += causes_text(e);

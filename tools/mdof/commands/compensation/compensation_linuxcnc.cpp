@@ -54,7 +54,7 @@ std::string live_text(const LiveCompensation& live, const std::string& file) {
          "largest velocity of the correction " +
          plain_number(live.max_velocity) + unit + "/s (" + live.velocity_reason +
          ")\n"
-         "after a change of tables the correction changes by at most " +
+         "after a change of tables, the correction changes at a rate of at most " +
          plain_number(live.fade_velocity) + unit + "/s\n";
 }
 

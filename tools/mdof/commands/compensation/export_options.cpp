@@ -16,16 +16,19 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
       ->type_name("NUMBER");
   command
       .add_option("--format", request.format,
-                  "Name of the format (mdof compensation export --list shows all formats)")
+                  "Name of the format; to list the formats, use: mdof compensation export --list")
       ->type_name("NAME");
   command
-      .add_option("--tolerance-um", request.tolerance_um,
-                  "Thin the table: largest interpolation error (angles: urad)")
+      .add_option(
+          "--tolerance-um", request.tolerance_um,
+          "Leave out table points that linear interpolation reproduces to within this value "
+          "(for angles: urad)")
       ->check(not_negative_number());
   command
       .add_option(
           "--residual-um", request.residual_um,
-          "Largest permitted residual of an error, in addition to --tolerance-um (angles: urad)")
+          "Largest permitted residual of an error (for angles: urad); mdof adds --tolerance-um to "
+          "this limit")
       ->check(finite_number())
       ->capture_default_str();
   command
@@ -76,9 +79,9 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
           "--siemens-tables", request.siemens_tables,
           "siemens-cec: number of CEC tables in the control; an export with more tables is refused")
       ->check(CLI::Range(1, 1000));
-  add_consent_flags(command, request.consent, "a table; the files are marked");
+  add_consent_flags(command, request.consent, "a table; a remark in the files says so");
   command.add_flag("--not-in-force", request.not_in_force,
-                   "Also export a table that is not active; the files are marked");
+                   "Also export a table that is not active; a remark in the files says so");
   command.add_flag("--unverified-sign", request.unverified_sign,
                    "Export although the sign convention of the controller is not confirmed");
   add_database_option(command, request.database);

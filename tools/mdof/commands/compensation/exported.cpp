@@ -25,8 +25,9 @@ constexpr double kMostResidual_um = 20, kMostResidual_percent = 50;
 
 Status check_request(const ExportRequest& request) {
   if (request.format.empty())
-    return fail(ErrorCode::usage,
-                "missing option --format NAME; mdof compensation export --list shows the formats");
+    return fail(
+        ErrorCode::usage,
+        "missing option --format NAME; to list the formats, use: mdof compensation export --list");
   if (!std::isfinite(request.tolerance_um) || !std::isfinite(request.home_mm))
     return fail(ErrorCode::usage, "--tolerance-um and --home-mm must be finite numbers");
   if (request.tolerance_um > kMostTolerance_um)
@@ -245,7 +246,7 @@ Status export_volume(store::Store& store, const ExportRequest& request,
   MDOF_TRY(const bool volume, store.is_volumetric(id));
   if (!volume || request.tables.size() > 1)
     return fail(ErrorCode::usage, std::string(out.format->name) +
-                                      " takes exactly one volumetric table; build this table with "
+                                      " takes exactly one volumetric table; build this table with: "
                                       "mdof compensation build --machine");
   MDOF_TRY(const VolumetricTable table, store.volumetric(id));
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
@@ -316,7 +317,7 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
                 request.format + " exports tables, not squareness; leave out --squareness");
   if (!square && request.tables.empty())
     return fail(ErrorCode::usage,
-                "missing table; give its number (mdof compensation list shows the numbers)");
+                "missing table number; to list the tables, use: mdof compensation list");
   out.tables = request.tables;
   out.options.tolerance_m = from_um(request.tolerance_um);
   out.options.residual_m = from_um(request.residual_um);

@@ -31,7 +31,8 @@ Status check_options(const VolumeOptions& o) {
   if (o.volume == !o.plane.empty())
     return fail(ErrorCode::usage, "--machine needs either --plane (XY, XZ or YZ) or --volume");
   if (!o.step_mm)
-    return fail(ErrorCode::usage, "missing option --step-mm (distance between two nodes)");
+    return fail(ErrorCode::usage,
+                "missing option --step-mm (distance between two nodes of the grid)");
   return {};
 }
 
@@ -131,14 +132,16 @@ void add_volume_options(CLI::App& command, VolumeOptions& o) {
   command.add_option("--plane", o.plane, "The two axes of the grid")
       ->check(CLI::IsMember({"XY", "XZ", "YZ"}));
   command.add_flag("--volume", o.volume, "Grid over all three axes");
-  command.add_option("--step-mm", o.step_mm, "Approximate distance between two nodes")
+  command.add_option("--step-mm", o.step_mm, "Approximate distance between two nodes of the grid")
       ->check(positive_number());
-  command.add_option("--at", o.at, "Positions of the other axes, such as Z=30 [default: 0]")
+  command
+      .add_option("--at", o.at,
+                  "Positions of the axes that are not in the grid, such as Z=30 [default: 0]")
       ->type_name("AXIS=MM");
   command
       .add_option(
           "--approach", o.approach,
-          "Direction of approach, for errors that differ between approaches [default: mean]")
+          "Approach whose errors mdof uses: forward, reverse, or the mean of both [default: mean]")
       ->check(CLI::IsMember({"mean", "forward", "reverse"}));
   command.add_flag(
       "--incomplete", o.incomplete,

@@ -70,7 +70,7 @@ void add_machine_argument(CLI::App& command, std::string& file) {
 void add_approach_option(CLI::App& command, std::string& approach) {
   command
       .add_option("--approach", approach,
-                  "Direction of approach, for errors that differ between approaches")
+                  "Approach whose errors mdof uses: forward, reverse, or the mean of both")
       ->check(CLI::IsMember({"mean", "forward", "reverse"}))
       ->capture_default_str();
 }
@@ -123,7 +123,7 @@ void write_command(JsonWriter& json, const char* key, const Machine& machine,
 void warn_beyond(const std::vector<std::string>& names) {
   if (!names.empty())
     warn("positions are beyond the ends of the error tables of " + joined(names) +
-         ": the values at the ends are used");
+         "; there, mdof uses the value at the nearest end of each table");
 }
 
 std::string missing_text(const std::vector<std::string>& not_measured,

@@ -266,7 +266,9 @@ Action declare_machine_map(CLI::App& command) {
       ->capture_default_str();
   command.add_option("--step-mm", o->step_mm, "Approximate distance between two points")
       ->capture_default_str();
-  command.add_option("--at", o->at, "Positions of the other axes, such as Z=30 [default: 0]")
+  command
+      .add_option("--at", o->at,
+                  "Positions of the axes that are not in the plane, such as Z=30 [default: 0]")
       ->type_name("AXIS=MM");
   add_approach_option(command, o->approach);
   command

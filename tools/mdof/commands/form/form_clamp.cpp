@@ -194,7 +194,7 @@ Action declare_form_clamp(CLI::App& command) {
   command
       .add_option("--smooth-mm", o->smooth_mm,
                   "Side length of the squares over which mdof fits the curvature; in small "
-                  "squares, pixel noise increases the stress")
+                  "squares, pixel noise increases the calculated stress")
       ->check(positive_number())
       ->capture_default_str();
   command

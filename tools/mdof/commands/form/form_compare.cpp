@@ -65,7 +65,7 @@ Status form_compare(const FormCompareCommand& o) {
     warn(o.a + ": the shape of the surface does not determine " +
          std::to_string(found.undetermined) +
          " of the 3 movements in the plane (2 shifts, 1 turn, or combinations of these); mdof does "
-         "not make the undetermined movements");
+         "not apply the undetermined movements");
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
   MDOF_CHECK(plot_maps({{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
   return o.json ? write_line(compare_json(found, o)) : write_out(compare_text(found, o));

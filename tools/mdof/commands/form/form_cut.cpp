@@ -85,7 +85,7 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
       "repeatable error: RMS " + in_um(*found.repeatable_rms_m) + " µm; random error: RMS " +
       in_um(*found.random_rms_m) +
       " µm per pass\n"
-      "lowest RMS that further passes can reach: " +
+      "lowest RMS error that further passes can reach: " +
       in_um(*found.floor_gain_one_m) + " µm (gain 1), " + in_um(*found.floor_mean_m) +
       " µm (mean of all passes)" +
       (found.floor_optimal_m ? ", " + in_um(*found.floor_optimal_m) + " µm (optimal gain)" : "") +
@@ -136,9 +136,10 @@ Action declare_form_cut(CLI::App& command) {
                    "All passes used the path of the first pass [default: each pass used its own "
                    "corrected path]");
   command
-      .add_option("--gain", o->gain,
-                  "Correction: error of the last pass (\"1\"), mean error of all passes "
-                  "(\"mean\"), or repeatable share of the mean error (\"optimal\")")
+      .add_option(
+          "--gain", o->gain,
+          "Error that the next path corrects: error of the last pass (\"1\"), mean error of "
+          "all passes (\"mean\"), or repeatable share of the mean error (\"optimal\")")
       ->check(CLI::IsMember({"1", "mean", "optimal"}))
       ->capture_default_str();
   command

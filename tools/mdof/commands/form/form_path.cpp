@@ -207,8 +207,9 @@ std::string path_text(const FoundPath& found, const FormPathCommand& o) {
           plain_number(found.frequency_hz) + " Hz; stroke " + in_um(found.stroke_m) +
           " µm; acceleration up to " + plain_number(found.acceleration_m_s2) + " m/s²\n";
   if (found.left_out)
-    text += "a low-pass filter of " + plain_number(*o.bandwidth_hz) + " Hz removes: PV " +
-            in_um(found.left_out->pv) + " µm, RMS " + in_um(found.left_out->rms) + " µm\n";
+    text += "a low-pass filter of " + plain_number(*o.bandwidth_hz) +
+            " Hz removes from the path: PV " + in_um(found.left_out->pv) + " µm, RMS " +
+            in_um(found.left_out->rms) + " µm\n";
   if (found.request.tool_radius_m > 0) {
     const auto rough = algo::feed_roughness(found.request.tool_radius_m, found.request.feed_m);
     text += "roughness by feed and tool radius: Ra " + plain_number(rough.Ra_m * 1e9) + " nm, Rt " +

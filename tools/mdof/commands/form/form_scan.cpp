@@ -15,9 +15,9 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kScanU =
-    "the noise between neighbouring heights and u of the subtracted axis errors, but not: "
-    "calibration of the probe, encoder, spindle angle, spindle errors, noise common to "
-    "neighbouring heights";
+    "the noise between neighbouring heights and u of the subtracted axis errors, but not the "
+    "errors of the probe calibration, the encoder, the spindle angle and the spindle, and not the "
+    "noise that neighbouring heights have in common";
 
 struct FormScanCommand {
   std::vector<std::string> runs;
@@ -97,11 +97,11 @@ Action declare_form_scan(CLI::App& command) {
 
 Command form_scan_command() {
   return {.name = "form scan",
-          .summary = "Build a height map of a part on a spindle from a probe beside the fixture",
+          .summary = "Build a height map of a part on a spindle from a scanning probe",
           .footer =
               "The table [scan] in the rig of the run gives the probe, the probe position, and the "
-              "column of the spindle angle.\n"
-              "The other form commands also accept the number of such a run.\n"
+              "log column of the spindle angle.\n"
+              "The other form commands accept the number of such a run instead of a map file.\n"
               "Examples:\n"
               "  mdof form scan 12 --out before.csv\n"
               "  mdof form compare 12 13",

@@ -22,7 +22,7 @@ constexpr const char* kNotKept =
     "the measured errors alone exceed the target; the target is not met even if every declared "
     "source has "
     "u = 0";
-constexpr const char* kFactorRule = "all u multiplied by one factor";
+constexpr const char* kFactorRule = "all u are multiplied by the same factor";
 
 // The largest contribution to u_x² + u_y² + u_z² first.
 std::vector<std::size_t> by_size(const algo::BudgetModel& model) {
@@ -171,7 +171,7 @@ std::string measured_text(const FoundMachineBudget& found) {
   std::string text = "\n" + table.text(terminal_columns()) +
                      wrapped(
                          "Each value is the effect of the error at the tool (RMS over all "
-                         "positions of the error table). First rework the error in the first row.",
+                         "positions of the error table). First reduce the error in the first row.",
                          terminal_columns()) +
                      "\n";
   if (!found.now.model.replaced.empty())

@@ -54,7 +54,8 @@ Status name_runs(Machine& machine, const MachineBudgetCommand& o) {
 
 Status machine_budget(const MachineBudgetCommand& o) {
   if (o.file.empty() == o.preset.empty())
-    return fail(ErrorCode::usage, "machine budget needs either MACHINE.toml or --preset co-planar");
+    return fail(ErrorCode::usage,
+                "\"mdof machine budget\" needs either MACHINE.toml or --preset co-planar");
   Machine machine;
   MDOF_TRY(machine, o.file.empty() ? parse_machine(co_planar_machine(), o.preset)
                                    : described_machine(o.file));
@@ -119,7 +120,7 @@ Action declare_machine_budget(CLI::App& command) {
 Command machine_budget_command() {
   return {
       .name = "machine budget",
-      .summary = "Calculate the error budget of a machine and show which error to rework first",
+      .summary = "Calculate the error budget of a machine and show which error to reduce first",
       .footer =
           "mdof calculates u by linear propagation (GUM). It calculates intervals and lengths of\n"
           "error vectors by Monte Carlo with the exact product of rotations. Measured errors\n"

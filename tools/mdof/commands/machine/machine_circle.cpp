@@ -70,10 +70,11 @@ Status check_deviations(const drivers::CsvTable& csv) {
   for (const std::size_t column : {std::size_t{1}, std::size_t{2}})
     for (std::size_t row = 0; row < csv.columns[column].size(); ++row)
       if (std::abs(csv.columns[column][row]) > most_um)
-        return bad_input(csv.where(row) + "column " + (column == 1 ? "ccw_um" : "cw_um") + ": " +
-                         plain_number(csv.columns[column][row]) + " um is beyond the limit of " +
-                         plain_number(most_um) +
-                         " um for a radial deviation; give actual radius - nominal radius in um");
+        return bad_input(
+            csv.where(row) + "column " + (column == 1 ? "ccw_um" : "cw_um") + ": " +
+            plain_number(csv.columns[column][row]) + " um is beyond the limit of " +
+            plain_number(most_um) +
+            " um for a radial deviation; write the actual radius minus the nominal radius, in um");
   return {};
 }
 
@@ -169,7 +170,7 @@ std::string circle_json(const MachineCircleCommand& o, const FoundCircles& found
   found.machine ? json.value(found.machine->name) : json.null();
   json.field("plane", o.plane).field("simulated", found.simulated);
   json.field("sense",
-             "actual radius - nominal radius, about the least-squares centre of all paths");
+             "actual radius minus nominal radius, about the least-squares centre of all paths");
   json.field("u_reason", "no uncertainty is calculated for the prediction and the readings");
   write_strings(json, "not_measured", found.not_measured);
   write_strings(json, "beyond_tables", found.beyond);
@@ -213,7 +214,7 @@ std::string circle_csv(const FoundCircles& found) {
 std::string largest_text(const LargestDifference& at) {
   const std::string U = fixed(to_um(at.U_m), 3) + " µm";
   return wrapped(
-             "largest difference, measured - predicted: " + fixed(to_um(at.value_m), 3) +
+             "largest difference (measured minus predicted): " + fixed(to_um(at.value_m), 3) +
                  " µm at " + fixed(at.angle_rad / kRadiansByDegree, 1) + "°, " +
                  (at.clockwise ? "clockwise" : "counter-clockwise") +
                  (std::isnan(at.U_m) ? "; U of the prediction is unknown, because the errors "
@@ -250,7 +251,8 @@ std::string circle_text(const MachineCircleCommand& o, const FoundCircles& found
                      "\n" + table.text(terminal_columns()) +
                      wrapped(
                          "G refers to the least-squares circle of each path. The other values "
-                         "refer to the circle of all paths. No uncertainty is calculated",
+                         "refer to the least-squares circle of all paths. No uncertainty of these "
+                         "values is calculated.",
                          terminal_columns()) +
                      "\n";
   if (found.largest) text += largest_text(*found.largest);

@@ -113,7 +113,7 @@ std::string diagonals_text(const Machine& machine, const std::vector<algo::Diago
          ": diagonals predicted from the errors of the machine\n" + table.text(terminal_columns()) +
          "predicted, measured: range (largest minus smallest) of the deviation of the\n"
          "tool along the diagonal (ISO 230-6)\n"
-         "difference: largest value of measured - predicted deviation\n" +
+         "difference: measured minus predicted deviation, where it is largest\n" +
          missing_text(diagonals.front().not_measured, {}, terminal_columns());
 }
 
@@ -147,8 +147,8 @@ Result<algo::DiagonalLines> lines_of(const drivers::CsvTable& csv, double u_um) 
     const double line = csv.columns[0][i];
     if (!(line == 1 || line == 2 || line == 3 || line == 4))
       return bad_input(csv.where(i) +
-                       "column \"line\" must be 1 or 2 (along the first and the second axis), 3 "
-                       "(diagonal along which both axes increase) or 4 (other diagonal)");
+                       "column \"line\" must be 1 (first axis), 2 (second axis), 3 (diagonal along "
+                       "which both axes increase) or 4 (other diagonal)");
     of[static_cast<std::size_t>(line) - 1]->length_m.push_back(from_mm(csv.columns[1][i]) +
                                                                from_um(csv.columns[2][i]));
   }
@@ -235,7 +235,9 @@ Action declare_machine_diagonal(CLI::App& command) {
                   "CSV of measured diagonals to compare with the prediction; columns: diagonal (1 "
                   "or 2), position_mm, deviation_um")
       ->type_name("FILE.csv");
-  command.add_option("--u-um", o->u_um, "Standard uncertainty of each measured line")
+  command
+      .add_option("--u-um", o->u_um,
+                  "Standard uncertainty of the length of each line; mdof adds the repeatability")
       ->check(not_negative_number());
   add_approach_option(command, o->approach);
   add_database_option(command, o->database);

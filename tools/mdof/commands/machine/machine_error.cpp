@@ -88,12 +88,14 @@ std::string compensating_text(const Machine& machine, const FoundError& found) {
   for (const MachineFrame& frame : machine.frames)
     if (frame.kind == FrameKind::linear) {
       const double to = algo::command_of(frame, c.command);
-      text += " " + frame.id + " " + fixed(to_mm(to), 6) + " mm (" +
+      text += " " + frame.id + " " + fixed(to_mm(to), 6) + " mm (change " +
               fixed(to_um(to - algo::command_of(frame, found.at)), 4) + " µm)";
     }
   return text + "; residual " + fixed(to_um(c.residual_m.norm()), 6) + " µm\n" +
-         (c.converged ? ""
-                      : "NOT CONVERGED: the errors are too steep for a compensating command\n") +
+         (c.converged
+              ? ""
+              : "NOT CONVERGED: the errors change too much with the position to calculate a "
+                "compensating command\n") +
          "angular errors that remain: " + in_urad(c.angles_rad[0]) + ", " +
          in_urad(c.angles_rad[1]) + ", " + in_urad(c.angles_rad[2]) + " µrad about X, Y, Z\n";
 }

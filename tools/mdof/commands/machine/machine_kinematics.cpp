@@ -93,12 +93,14 @@ Status check_options(const KinematicsCommand& o) {
   const auto refuse = [](const char* option, const std::string& limits) {
     return fail(ErrorCode::usage, std::string(option) + " must be " + limits);
   };
-  if (!(o.tilt_deg > 0 && o.tilt_deg < 90)) return refuse("--tilt-deg", "above 0 and below 90");
-  if (!(o.arm_mm > 0 && o.arm_mm < 1e6)) return refuse("--arm-mm", "above 0 and below 1000000");
+  if (!(o.tilt_deg > 0 && o.tilt_deg < 90))
+    return refuse("--tilt-deg", "above 0 and below 90 degrees");
+  if (!(o.arm_mm > 0 && o.arm_mm < 1e6)) return refuse("--arm-mm", "above 0 and below 1000000 mm");
   if (!(o.screw_resolution_nm > 0 && o.screw_resolution_nm < 1e9))
-    return refuse("--screw-resolution-nm", "above 0 and below 1000000000");
+    return refuse("--screw-resolution-nm", "above 0 and below 1000000000 nm");
   if (!std::isfinite(o.screw_error_um)) return refuse("--screw-error-um", "a finite number");
-  if (!(std::abs(o.tilt_error_deg) < 5)) return refuse("--tilt-error-deg", "between -5 and 5");
+  if (!(std::abs(o.tilt_error_deg) < 5))
+    return refuse("--tilt-error-deg", "between -5 and 5 degrees");
   if (!o.platform.empty() && !o.screws.empty())
     return fail(ErrorCode::usage, "give either --platform or --screws, not both");
   if (o.platform.empty() && o.screws.empty() && !(o.velocity.empty() && o.acceleration.empty()))
@@ -204,8 +206,8 @@ std::string motion_text(const KinematicsCommand& o, const Found& f) {
                moves ? fixed(m.velocity / unit, 6) : "",
                moves ? fixed(m.acceleration / unit, 6) : ""});
   }
-  return "\n" + table.text(terminal_columns()) + "in mm, mm/s, mm/s²" +
-         (f.side == &kPlatform ? "; B in degrees, degrees/s, degrees/s²\n" : "\n");
+  return "\n" + table.text(terminal_columns()) + "values in mm, mm/s and mm/s²" +
+         (f.side == &kPlatform ? "; values of B in degrees, degrees/s and degrees/s²\n" : "\n");
 }
 
 std::string kinematics_text(const KinematicsCommand& o, const Found& f) {
@@ -224,8 +226,8 @@ std::string kinematics_text(const KinematicsCommand& o, const Found& f) {
                  fixed(to_mm(f.travel[i].position), 2)});
   std::string turns = "one screw step turns the platform by";
   for (std::size_t i = 0; i < kTurns_deg.size(); ++i)
-    turns += (i == 0 ? " " : ", ") + fixed(f.rotation_resolution_deg[i], 5) + "° at " +
-             plain_number(kTurns_deg[i]) + "°";
+    turns += (i == 0 ? " " : ", ") + fixed(f.rotation_resolution_deg[i], 5) +
+             "° at B = " + plain_number(kTurns_deg[i]) + "°";
   return "co-planar tilt drive, tilt " + plain_number(o.tilt_deg, 6) + "°, arm " +
          plain_number(o.arm_mm, 6) + " mm\n" + ratios.text(terminal_columns()) + "\n" +
          travels.text(terminal_columns()) + "\n" + wrapped(turns, terminal_columns()) + "\n" +

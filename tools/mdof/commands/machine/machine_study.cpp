@@ -105,8 +105,9 @@ std::string grooving_json(const algo::GroovingStudy& s) {
       .field("tilt_urad", to_urad(s.instruments.tilt_rad))
       .field("repeats", static_cast<std::uint64_t>(s.instruments.repeats))
       .end_object();
-  json.field("sense",
-             "ranges: largest minus smallest value, over 400 mm x 400 mm or along a diagonal");
+  json.field(
+      "sense",
+      "a range is the largest minus the smallest value over 400 mm x 400 mm or along a diagonal");
   write_grooving_state(json, "before", s.before, kPaperBefore);
   write_grooving_state(json, "after", s.after, kPaperAfter);
   json.key("corrections").begin_object();
@@ -157,7 +158,7 @@ std::string grooving_plane_text(const algo::GroovingStudy& s) {
 }
 
 std::string grooving_square_text(const algo::GroovingStudy& s) {
-  TextTable table({"angle between X and Y - 90°/µrad", "before", "after"});
+  TextTable table({"angle between X and Y minus 90°, in µrad", "before", "after"});
   const auto both = [](const algo::SquarenessOfDiagonals& q) {
     return with_u(urad_to_place(q.angle_error_rad, q.u_rad), urad_to_place(q.u_rad, q.u_rad));
   };
@@ -183,11 +184,11 @@ std::string grooving_rotary_text(const algo::GroovingTable& t) {
   add("tilt of the table, errors of X and Y subtracted", t.without_both);
   table.add({"true value (simulated machine)", angle_urad(t.EA0C_rad), angle_urad(t.EB0C_rad), ""});
   return table.text(terminal_columns()) +
-         wrapped("height over one turn at radius " + in_mm(t.radius_m) + " mm: range " +
-                     range_um(t.range_m) + " µm; range without the table tilt " +
-                     range_um(t.range_without_tilt_m) +
-                     " µm; range without the table tilt and the perpendicularity " +
-                     range_um(t.range_left_m) + " µm (errors of X and Y)",
+         wrapped("range of the table height over one turn at radius " + in_mm(t.radius_m) +
+                     " mm: " + range_um(t.range_m) +
+                     " µm; without the table tilt: " + range_um(t.range_without_tilt_m) +
+                     " µm; without the table tilt and the perpendicularity: " +
+                     range_um(t.range_left_m) + " µm (from the errors of X and Y)",
                  terminal_columns()) +
          "\n";
 }
@@ -195,18 +196,24 @@ std::string grooving_rotary_text(const algo::GroovingTable& t) {
 std::string grooving_text(const algo::GroovingStudy& s) {
   const algo::GroovingInstruments& by = s.instruments;
   return simulated_notice(true) +
-         "Study of Hwang, Song and Park (Eq.: equation in the paper), 400 mm x 400 mm; seed " +
-         std::to_string(s.seed) + "\n" +
-         wrapped("noise of one reading: laser " + fixed(to_um(by.position_m), 3) +
-                     " µm along an axis, optical square " + fixed(to_urad(by.square_rad), 2) +
-                     " µrad, " + fixed(to_um(by.line_m), 3) + " µm along a line, indicator " +
+         wrapped(
+             "Study of Hwang, Song and Park on an area of 400 mm x 400 mm. Eq. 1 and Eq. 2 are "
+             "equations of the paper. Seed of the noise: " +
+                 std::to_string(s.seed),
+             terminal_columns()) +
+         "\n" +
+         wrapped("standard deviation of the noise of one reading: laser " +
+                     fixed(to_um(by.position_m), 3) + " µm along an axis and " +
+                     fixed(to_um(by.line_m), 3) +
+                     " µm along a line or a diagonal, optical square " +
+                     fixed(to_urad(by.square_rad), 2) + " µrad, indicator " +
                      fixed(to_um(by.height_m), 3) + " µm, level " + fixed(to_urad(by.tilt_rad), 2) +
                      " µrad; " + std::to_string(by.repeats) + " repeats",
                  terminal_columns()) +
          "\n\n" + grooving_plane_text(s) + "\n" + grooving_square_text(s) +
          wrapped(
              "± is the standard uncertainty u. The diagonals go through the corners of the area. "
-             "The straightness lines go through the middle of the area. The results differ because "
+             "The straightness lines go through the middle of the area. The angles differ because "
              "of the yaw of Y.",
              terminal_columns()) +
          "\n\n" + grooving_rotary_text(s.table) +

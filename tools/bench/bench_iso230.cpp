@@ -48,8 +48,8 @@ int main() {
     y[i] = 1e-6 * x[i] * (1 - x[i]);
   const double arch_ms = best_ms([&] { mdof::algo::minimum_zone_line(x, y); });
   std::printf(
-      "iso230   %u readings: minimum zone %.2f ms, of an arch %.2f ms (bar 20); all three "
-      "lines with sorting %.2f ms\n",
+      "iso230   %u readings: minimum-zone line in %.2f ms, for readings on an arch in %.2f ms "
+      "(limit 20 ms); all three reference lines, with sorting, in %.2f ms\n",
       kReadings, zone_ms, arch_ms, all_ms);
   return zone_ms < 20 && arch_ms < 20 ? 0 : 1;
 }

@@ -62,7 +62,8 @@ void bench(std::uint64_t trials, InstructionSet set) {
     best = std::min(best, static_cast<double>(std::clock() - begin));
     if (round + 1 < kRounds) continue;
     std::printf(
-        "machine budget, %s: %.1f ns a trial; sd %.4f %.4f %.4f µm, 95 %% of the volume %.4f µm\n",
+        "machine budget, %s: %.1f ns a trial; standard deviations of x, y and z %.4f %.4f %.4f µm, "
+        "95 %% of the errors in the volume are below %.4f µm\n",
         mdof::to_string(set), best / CLOCKS_PER_SEC / static_cast<double>(trials) * 1e9,
         figures[0].sd, figures[1].sd, figures[2].sd, figures[3].quantiles[1].value);
   }

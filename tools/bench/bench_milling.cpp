@@ -19,9 +19,8 @@ int main() {
     const double took_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     missed = missed || !result || took_s > 10;
     std::printf(
-        "milling, %s: %.2f s for 1 mm of wall, %.1f turns of %d positions, grid %.3f µm (bar 10 "
-        "s); "
-        "waviness of the tip %.4f µm\n",
+        "milling, %s: %.2f s (limit 10 s) for 1 mm of wall: %.1f turns with %d tool positions "
+        "each, wall points every %.3f µm; waviness at the tip %.4f µm\n",
         mdof::to_string(model), took_s, turns, plan.steps_per_turn, plan.wall_grid_m * 1e6,
         result ? result->wall.waviness_tip_m * 1e6 : 0);
   }

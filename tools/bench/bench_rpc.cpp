@@ -162,10 +162,10 @@ double compare_round_trips(const Bench& bench, int count) {
       (rpc ? rpc_us : echo_us).push_back(us);  // after a block of each to warm up
   }
   const double rpc = median(rpc_us), echo = median(echo_us);
-  std::printf("round trip, median of %zu each, %zu bytes there, %zu back\n", rpc_us.size(),
-              kRequest.size(), bench.reply.size());
+  std::printf("round trip, median of %zu calls of each kind; request %zu bytes, reply %zu bytes\n",
+              rpc_us.size(), kRequest.size(), bench.reply.size());
   std::printf("  compensation.at  %7.2f us\n  bare echo        %7.2f us\n", rpc, echo);
-  std::printf("  ratio            %7.3f   (bar: %.1f)\n", rpc / echo, kMaxRatio);
+  std::printf("  ratio            %7.3f   (limit: %.1f)\n", rpc / echo, kMaxRatio);
   return rpc / echo;
 }
 
@@ -185,7 +185,7 @@ double pipelined_per_s(const Bench& bench, int count) {
   }
   const double s = std::chrono::duration<double>(Clock::now() - begin).count();
   const double per_s = double(chunks) * kChunk / s;
-  std::printf("pipelined, one connection: %.0f requests a second   (bar: %.0f)\n", per_s,
+  std::printf("pipelined, one connection: %.0f requests a second   (required: %.0f)\n", per_s,
               kMinRequestsPerS);
   return per_s;
 }

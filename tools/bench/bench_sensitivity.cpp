@@ -74,10 +74,11 @@ void bench(const char* name, const mdof::algo::SimulationOptions& options, std::
   print("  with all statistics", all_ns);
   const double figures_ms = best_ns(
       1'000'000, [&] { sum += statistics.overall()[0].sd + statistics.bins()[0].outputs[0].sd; });
-  std::printf("  figures of all and of each bin: %.1f ms, once a study\n", figures_ms);
+  std::printf("  figures of the whole travel and of each bin: %.1f ms, once in a study\n",
+              figures_ms);
   const std::size_t memory = statistics.memory_bytes();
-  std::printf("  memory of the statistics: %.1f MB (check %g)\n", static_cast<double>(memory) / 1e6,
-              sum);
+  std::printf("  memory of the statistics: %.1f MB (checksum %g)\n",
+              static_cast<double>(memory) / 1e6, sum);
 }
 
 }  // namespace

@@ -143,7 +143,8 @@ double compare(const fs::path& folder, int points_per_run, int runs_per_round, i
   }
   const double rows = static_cast<double>(points_per_run) * runs_per_round;
   std::printf(
-      "%7d points a run: bare %9.0f rows/s, store %9.0f rows/s, ratio %.2f (median of %d)\n",
+      "%7d points a run: SQLite alone %9.0f rows/s, store %9.0f rows/s, ratio %.2f (median of "
+      "%d)\n",
       points_per_run, rows / median(bare_s), rows / median(store_s), median(ratio), rounds);
   return median(ratio);
 }
@@ -152,7 +153,7 @@ double compare(const fs::path& folder, int points_per_run, int runs_per_round, i
 
 int main(int argc, char** argv) {
   std::string folder = std::string(argc > 1 ? argv[1] : ".") + "/bench-store-XXXXXX";
-  expect(mkdtemp(folder.data()) != nullptr, "cannot make a folder there");
+  expect(mkdtemp(folder.data()) != nullptr, "cannot create a folder in the given folder");
   double worst = compare(folder, 110, 20, 15);
   worst = std::min(worst, compare(folder, 2000, 5, 15));
   worst = std::min(worst, compare(folder, 50000, 1, 15));

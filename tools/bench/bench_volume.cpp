@@ -55,6 +55,6 @@ int main() {
     for (const auto& command : at) sum += mdof::algo::volumetric_at(table, command).correction_m[0];
     best_s = std::min(best_s, seconds_since(from));
   }
-  std::printf("volume of %zu nodes: built in %.2f s; a value %.0f ns (checksum %.6g)\n",
+  std::printf("volume of %zu nodes: built in %.2f s; one value in %.0f ns (checksum %.6g)\n",
               table.nodes(), build_s, best_s / kValues * 1e9, sum);
 }

@@ -100,7 +100,7 @@ class Record(CommandLine):
         before = newest["supersedes"]
         self.assertIsNotNone(before, err)
         self.assertIn(f"run {newest['run']} contains the result", err)
-        self.assertIn(f"so this run replaces run {before}", err)
+        self.assertIn(f"contains the result and replaces run {before}", err)
         # Of one measurement one run is listed.
         started = [r["started_utc"] for r in json.loads(self.done("runs", "--db", other.database, "--json"))["runs"]]
         self.assertEqual((len(set(started)), started[0]), (len(started), newest["started_utc"]))

@@ -33,7 +33,7 @@ Status refuse_beside_daemon(const std::string& command, const std::string& socke
   if (!*runs) return {};
   return io_error(command + ": mdofd runs (" + socket +
                   ") and uses the devices, but this command must open the devices; stop mdofd "
-                  "first, or use mdof device list or mdof live");
+                  "first, or use \"mdof device list\" or \"mdof live\"");
 }
 
 }  // namespace mdof::tools

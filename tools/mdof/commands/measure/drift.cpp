@@ -70,9 +70,9 @@ Action declare_drift(CLI::App& command) {
       ->required()
       ->type_name("");
   command
-      .add_option(
-          "--rig", o->rig,
-          "Rig file of the fixture [default for a recording: the rig stored in the recording]")
+      .add_option("--rig", o->rig,
+                  "Rig file, which describes probes and axis [default if LOG is a recording: the "
+                  "rig stored in it]")
       ->type_name("RIG.toml");
   command
       .add_option(
@@ -97,13 +97,14 @@ Action declare_drift(CLI::App& command) {
 }  // namespace
 
 Command drift_command() {
-  return {
-      .name = "drift",
-      .summary = "Find when the system has warmed up, from a log of a parked axis",
-      .footer =
-          "Exit code 1: the system has not warmed up yet. mdof analyse shows the drift of a run.\n"
-          "Example:\n  mdof drift parked.csv --rig rig_X.toml --limit-nm-per-h 100",
-      .declare = declare_drift};
+  return {.name = "drift",
+          .summary = "Find when the system has warmed up, from a log of a parked axis",
+          .footer =
+              "Exit code 1: the system has not warmed up yet. To see the drift of a run, use: mdof "
+              "analyse RUN\n"
+              "Example:\n"
+              "  mdof drift parked.csv --rig rig_X.toml --limit-nm-per-h 100",
+          .declare = declare_drift};
 }
 
 }  // namespace mdof::tools

@@ -109,8 +109,8 @@ class Export {
            " scans were lost during the recording; the times in the CSV file have gaps at these "
            "scans");
     if (file_of_.size() > 1)
-      say("mdof wrote one file for each device, with times of a common clock; for mdof replay, use "
-          "the recording, not these files");
+      say("mdof wrote one file for each device, with times of a common clock; for \"mdof replay\", "
+          "use the recording, not these files");
   }
 
   const ExportCommand& command_;
@@ -211,7 +211,8 @@ Action declare_export(CLI::App& command) {
                   "[default: standard output]")
       ->type_name("OUT.csv");
   command
-      .add_option("--rig", o->rig, "Write the rig of the recording to this file, for mdof replay")
+      .add_option("--rig", o->rig,
+                  "Write the rig of the recording to this file, for use with \"mdof replay\"")
       ->type_name("RIG.toml")
       ->excludes(out);
   return [o] { return export_as_asked(*o); };

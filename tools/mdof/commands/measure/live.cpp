@@ -34,9 +34,9 @@ Status check_axis(rpc::Client& client, const std::string& axis) {
   std::vector<std::string> names;
   for (const auto known : axes) names.push_back(text(known, "axis"));
   if (names.empty())
-    return fail(
-        ErrorCode::not_found,
-        "live: mdofd measures no axis; add an [[axis]] table to the configuration of mdofd");
+    return fail(ErrorCode::not_found,
+                "live: mdofd has no axis to measure; add an [[axis]] table to the configuration "
+                "file of mdofd");
   if (axis.empty() || std::find(names.begin(), names.end(), axis) != names.end()) return {};
   return fail(ErrorCode::not_found,
               "live: mdofd does not measure axis " + axis + "; it measures " + joined(names));
@@ -74,7 +74,7 @@ Result<LiveUpdate> next_update(rpc::Client& client, const LiveCommand& command) 
   }
   return io_error("mdofd sends no readings" +
                   (command.axis.empty() ? std::string() : " of axis " + command.axis) +
-                  "; mdof device list shows the state of the devices");
+                  "; to see the state of the devices, use: mdof device list");
 }
 
 // A document has an end: one update unless a count is given.
@@ -120,8 +120,8 @@ Action declare_live(CLI::App& command) {
   add_json_flag(command, o->json);
   command
       .add_flag("--ndjson", o->ndjson,
-                "Print one JSON object per line: updates, device faults (type \"trouble\"), stops "
-                "that are not near a target (type \"left_out\")")
+                "Print one JSON object per line: updates, device faults (type \"trouble\"), "
+                "standstills that are not near a target (type \"left_out\")")
       ->excludes("--json");
   return [o] { return live(*o); };
 }

@@ -163,14 +163,14 @@ Status record(RecordCommand command) {
         ? say(wrapped("note: " + words::text(each), terminal_columns(), 2))
         : warn_wrapped(words::line(each));
   say("run " + std::to_string(run) + " of axis " + command.axis +
-      " is measuring; Ctrl-C ends the run and evaluates it");
+      " is in progress; Ctrl-C ends the run and evaluates it");
   const Interrupt interrupt;
   MDOF_TRY(const std::int64_t id, follow(client, run, command));
   if (id != run)
-    say("run " + std::to_string(id) +
-        " contains the result. The targets were numbered again after all stops were "
-        "known, so this run replaces run " +
-        std::to_string(run) + ", which is no longer in the list of \"mdof runs\"");
+    say("run " + std::to_string(id) + " contains the result and replaces run " +
+        std::to_string(run) +
+        ", because mdofd numbered the targets again when all of them were known. \"mdof runs\" "
+        "lists the replaced run only with --all");
   JsonWriter params;
   params.begin_object().field("run", id).end_object();
   MDOF_TRY(const std::string result, client.call("run.get", params.text()));

@@ -35,8 +35,8 @@ Result<std::vector<UnderWay>> runs_under_way(const std::string& info, const std:
     if (const auto run = integer(of, "run")) runs.push_back({name, *run});
   }
   if (known) return runs;
-  return fail(ErrorCode::not_found,
-              "mdofd does not measure axis " + axis + "; mdof status lists the configured axes");
+  return fail(ErrorCode::not_found, "mdofd does not measure axis " + axis +
+                                        "; to list the configured axes, use: mdof status");
 }
 
 Result<std::vector<UnderWay>> stop_all(rpc::Client& client, const StopCommand& command) {
@@ -45,7 +45,7 @@ Result<std::vector<UnderWay>> stop_all(rpc::Client& client, const StopCommand& c
   if (runs.empty())
     return fail(ErrorCode::not_found,
                 "no run" + (command.axis.empty() ? "" : " of axis " + command.axis) +
-                    " is in progress; mdof runs lists the runs that have ended");
+                    " is in progress; to list the runs that have ended, use: mdof runs");
   for (UnderWay& run : runs) {
     JsonWriter params;
     params.begin_object().field("run", run.run).field("abort", command.abort).end_object();

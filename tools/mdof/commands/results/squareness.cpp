@@ -78,7 +78,7 @@ std::string squareness_text(const Squareness& s, const std::vector<Budget>& budg
          " (k = " + fixed(budget.coverage_factor, 2) + ", 95 %)\n" + squareness_sense(s.axes, "°") +
          "\nform " + in_urad(s.form_rad) + " µrad: residual straightness of both axes\n" +
          wrapped("± is the standard uncertainty u. It contains " + covers_text(budget) +
-                     ". mdof budget lists the contributors. Slopes are given at the fixture.",
+                     ". \"mdof budget\" lists the contributors. Slopes are given at the fixture.",
                  terminal_columns()) +
          "\n";
 }
@@ -148,10 +148,10 @@ Action declare_squareness(CLI::App& command) {
                    "Number of the run along the second axis (same square), or \"latest\"");
   add_axes_option(command, o->axes);
   command.add_option("--artefact-urad", o->artefact_urad,
-                     "Angle error of the square [default: from the rigs]");
+                     "Angle error of the reference square [default: value in the rigs]");
   command
       .add_option("--u-artefact-urad", o->u_artefact_urad,
-                  "Standard uncertainty of the angle error of the square")
+                  "Standard uncertainty of the angle error of the reference square")
       ->check(not_negative_number());
   command.add_flag("--partial", o->partial, "Also accept partial runs");
   add_database_option(command, o->database);

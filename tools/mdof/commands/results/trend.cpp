@@ -200,8 +200,9 @@ Command trend_command() {
   return {.name = "trend",
           .summary = "Draw control charts of squareness and other figures over the stored runs",
           .footer =
-              "The squareness values are the results that mdof squareness has stored.\n"
-              "Exit code 1: a figure has moved.\n"
+              "The squareness values are the results that \"mdof squareness\" has stored.\n"
+              "Exit code 1: a figure has moved: the last value is outside the control limits,\n"
+              "or is at least the eighth value in a row on one side of the centre.\n"
               "Examples:\n"
               "  mdof trend --figure EC0Y_urad\n"
               "  mdof trend --axis X --csv > trend_X.csv",

@@ -14,7 +14,7 @@ Status monitor(const DeviceChoice& choice) {
   if (choice.name.empty() && devices.size() > 1)
     return fail(ErrorCode::usage,
                 "device monitor: the configuration has several devices; give the NAME of one "
-                "device (mdof device probe reads all devices)");
+                "device (to read all devices, use: mdof device probe)");
   const Interrupt interrupt;
   return monitor_device(devices.front(), Interrupt::requested);
 }

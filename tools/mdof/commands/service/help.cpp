@@ -16,7 +16,8 @@ Status help(CLI::App* app, const std::vector<std::string>& words) {
         app->get_subcommands([&](const CLI::App* sub) { return sub->get_name() == word; });
     if (found.empty())
       return fail(ErrorCode::usage, "help: \"" + word + "\" is not a command of " +
-                                        app->get_display_name() + "; mdof help lists the commands");
+                                        app->get_display_name() +
+                                        "; to list the commands, use: mdof help");
     app = found.front();
     name += " " + word;
   }

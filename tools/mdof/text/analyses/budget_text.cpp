@@ -137,7 +137,7 @@ std::string stated_figures_text(const StatedFigures& stated, std::size_t width) 
   if (!stated.why.empty())
     return wrapped("Figures without uncertainty: " + stated.why + ".", width) + "\n";
   const std::string missing = not_declared_text(stated.budgets);
-  return "mean of the measured approaches, with uncertainty (mdof budget shows details)\n" +
+  return "mean of the measured approaches, with uncertainty (details: mdof budget)\n" +
          budgets_text(stated.budgets, width) +
          (missing.empty() ? "" : wrapped(missing, width) + "\n");
 }

@@ -115,7 +115,7 @@ std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_
   if (!changes.empty())
     text += wrapped("drift: " + changes +
                         ". All errors of a single approach and all errors relative to the start "
-                        "contain this drift. Let the system warm up (mdof drift shows when the "
+                        "contain this drift. Let the system warm up (\"mdof drift\" shows when the "
                         "system is ready), or replay the log with --remove-drift",
                     width) +
             "\n";

@@ -67,7 +67,7 @@ std::string line_to_type(const algo::WearOffset& offset) {
 void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
   json.field("wear_offset_um", to_um(offset.offset_m)).field("u_wear_offset_um", to_um(offset.u_m));
   if (offset.parts.empty())
-    json.field("u_reason", "the plan declares no uncertainty, such as u_Kt_N_per_mm2");
+    json.field("u_reason", "the plan declares no uncertainty (no key such as u_Kt_N_per_mm2)");
   json.key("contributions").begin_array();
   for (const auto& part : offset.parts)
     json.begin_object()
@@ -75,11 +75,13 @@ void write_offset(JsonWriter& json, const algo::WearOffset& offset) {
         .field("contribution_um", to_um(part.contribution_m))
         .end_object();
   json.end_array();
-  json.field("wear_offset_sense", "added to the radius of the tool; the same sign for G41 and G42")
+  json.field("wear_offset_sense",
+             "the offset is added to the radius of the tool, with the same sign for G41 and G42")
       .field("wear_offset_line", line_to_type(offset))
       .field("wear_offset_line_of",
-             "Fanuc, mm; P: number of the offset; with G90, R replaces the radius wear, with G91, "
-             "the control adds R to the radius wear; double R if the control uses diameters");
+             "Fanuc control, in mm. P is the number of the offset. With G90, R replaces the radius "
+             "wear; with G91, the control adds R to the radius wear. Double R if the control uses "
+             "diameters");
 }
 
 void write_members(JsonWriter& json, const Milled& milled, const MillingCommand& o) {
@@ -150,7 +152,7 @@ std::string offset_text(const Milled& milled) {
       "  With G90, R replaces the radius wear; with G91, the control adds R to the radius wear.\n"
       "  Double R if the control uses diameters.\n";
   if (offset.parts.empty())
-    text += "  u is unknown: the plan declares no uncertainty, such as u_Kt_N_per_mm2\n";
+    text += "  u is unknown: the plan declares no uncertainty (no key such as u_Kt_N_per_mm2)\n";
   for (const auto& part : offset.parts)
     text += "  u from " + std::string(part.input->table) + "." + part.input->key + ": " +
             um_to_place(part.contribution_m, part.contribution_m) + " µm\n";
@@ -241,11 +243,12 @@ Status milling(const MillingCommand& o) {
 
 Action declare_milling(CLI::App& command) {
   const auto o = std::make_shared<MillingCommand>();
-  command.add_option("PLAN", o->plan, "PLAN.toml: tool, run-out, cut, force, model")->type_name("");
+  command.add_option("PLAN", o->plan, "PLAN.toml with tool, run-out, cut, force and model")
+      ->type_name("");
   command
       .add_option("--preset", o->preset,
-                  "Tool and cut from the paper of Huo et al. (2017), with the model of the paper "
-                  "and with a steady cut")
+                  "Calculate the tool and the cut of Huo et al. (2017), with their deflection "
+                  "model and with the model of a steady cut")
       ->check(CLI::IsMember({kPreset}));
   command.add_flag("--offset", o->offset,
                    "Also print the radius wear offset, with u if the plan declares uncertainties");

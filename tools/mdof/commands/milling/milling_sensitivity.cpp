@@ -121,7 +121,7 @@ void write_milling_sensitivity(JsonWriter& json, const MillingSensitivityRequest
 }
 
 std::string milling_sensitivity_text(const MillingSensitivity& found) {
-  std::vector<std::string> head = {"effect of u of the input", "u"};
+  std::vector<std::string> head = {"effect of a change by u", "u"};
   for (const std::string& key : algo::milling_outputs()) head.push_back(key);
   TextTable effects(head);
   for (std::size_t i = 0; i < found.inputs.size(); ++i) {
@@ -131,7 +131,7 @@ std::string milling_sensitivity_text(const MillingSensitivity& found) {
     for (const double effect : found.effects[i]) row.push_back(fixed(effect, 4));
     effects.add(row);
   }
-  std::vector<std::string> all = {"u of all inputs, Monte Carlo", ""};
+  std::vector<std::string> all = {"u from all inputs, Monte Carlo", ""};
   for (const OutputSummary& output : found.outputs) all.push_back(fixed(output.sd, 4));
   effects.add(all);
   head[0] = "share of variance/%";
@@ -148,9 +148,9 @@ std::string milling_sensitivity_text(const MillingSensitivity& found) {
   std::string text = "\n" + effects.text(terminal_columns());
   if (std::any_of(found.inputs.begin(), found.inputs.end(),
                   [](const algo::VaryingInput& input) { return !input.declared; }))
-    text += "* u is taken as 1 %, because the plan declares no u\n";
+    text += "* u is taken as 1 % of the value, because the plan declares no u of this input\n";
   return text + "\n" + shares.text(terminal_columns()) +
-         "share: total index (Sobol), with interactions\n";
+         "share: total Sobol index, which includes interactions\n";
 }
 
 }  // namespace mdof::tools

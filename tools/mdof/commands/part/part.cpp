@@ -108,9 +108,9 @@ std::string part_text(const FoundPart& found) {
       noise_only_notice(part.machine.noise_only) + simulated_notice(part.machine.simulated);
   if (!part.plan.name.empty()) text += part.plan.name + ": ";
   text +=
-      "error of the part, " +
+      "error of the part (" +
       std::string(part.path.normal.empty() ? "length of the error vector" : "along the normals") +
-      ", over " + std::to_string(part.path.at_m.size()) +
+      ") at " + std::to_string(part.path.at_m.size()) +
       " points\n"
       "95 % of the points have an error below " +
       in_um(found.error.p95_m) + " µm (U = " + in_um(found.error.U_p95_m) +
@@ -130,8 +130,8 @@ std::string part_text(const FoundPart& found) {
                 fixed(100 * found.error.causes[k].share, 1),
                 fixed(100 * found.error.causes[k].U_share, 1), in_um(found.error.causes[k].rms_m)});
   return text + "\n" + layers.text(terminal_columns()) + "\n" + causes.text(terminal_columns()) +
-         "share: contribution to the sum of the mean squares\n"
-         "residual: RMS after compensation of the layer\n" +
+         "share: contribution of a layer or cause to the sum of all mean square errors\n"
+         "residual: RMS of the error that remains after the compensation of the layer\n" +
          missing_text(part.not_measured, part.no_u, terminal_columns());
 }
 
@@ -165,7 +165,7 @@ Action declare_part(CLI::App& command) {
 Command part_command() {
   return {
       .name = "part",
-      .summary = "Calculate the error of a part along the path, the causes, and the compensation",
+      .summary = "Calculate the error of a part along the tool path, with causes and compensation",
       .footer = "Example:\n  mdof part part.toml",
       .declare = declare_part};
 }

@@ -72,10 +72,11 @@ Action declare_separate_reversal(CLI::App& command) {
 
 Command separate_reversal_command() {
   return {.name = "separate reversal",
-          .summary = "Separate errors by two set-ups between which the target was turned by 180°",
+          .summary = "Separate machine error and target shape by turning the target by 180°",
           .footer =
-              "For a target that was turned about the moving axis: machine = (first + second)/2 "
-              "and target = (first - second)/2, each minus a fitted line.\n"
+              "For a target that was turned about the moving axis: machine error = (first + "
+              "second)/2 and target height = (first - second)/2, where first and second are the "
+              "readings of the two set-ups. A fitted line is subtracted from both results.\n"
               "Examples:\n"
               "  mdof separate reversal 4 5 --surface side --probe D\n"
               "  mdof separate reversal a.csv b.csv --moves target --surface side --rig-toml \\\n"

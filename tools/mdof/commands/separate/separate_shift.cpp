@@ -69,7 +69,8 @@ Action declare_separate_shift(CLI::App& command) {
   command
       .add_option("--shift-mm", o->shift_mm,
                   "Shift of the target along + of the axis: one number for each set-up, 0 for the "
-                  "first. For a target turned end for end: position of the zero of the target")
+                  "first. If the target was turned end for end, the number is the position of the "
+                  "zero point of the target")
       ->required()
       ->expected(2, 64)
       ->type_name("MM");
@@ -86,7 +87,7 @@ Action declare_separate_shift(CLI::App& command) {
 
 Command separate_shift_command() {
   return {.name = "separate shift",
-          .summary = "Separate errors by set-ups in which the target was shifted, or also turned",
+          .summary = "Separate machine error and target shape by shifts and turns of the target",
           .footer =
               "Positions must be equally spaced, and each shift must be a whole number of steps. "
               "Shifts alone cannot separate a parabola or a period that divides all shifts. If one "

@@ -111,8 +111,10 @@ Command separate_square_command() {
   return {.name = "separate square",
           .summary = "Find squareness and the angle of a square that was turned over between runs",
           .footer =
-              "EC0Y = (first + second)/2. The angle error of the square is half of the difference "
-              "between first and second; the planes in the rigs determine its sign.\n"
+              "EC0Y = (first + second)/2, where first and second are the squareness of the two "
+              "set-ups if the square is taken as exact. The angle error of the square is half of "
+              "the difference between first and second; the planes in the rigs determine the sign "
+              "of this error.\n"
               "Example:\n"
               "  mdof separate square 1 2 3 4",
           .declare = declare_separate_square};

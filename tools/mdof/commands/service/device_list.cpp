@@ -33,7 +33,7 @@ Action declare_list(CLI::App& command) {
 
 Command device_list_command() {
   return {.name = "device list",
-          .summary = "List the devices of mdofd: state, rate, numbers of scans and lost scans",
+          .summary = "List the devices of mdofd with state, rate, scans and lost scans",
           .footer = "Example:\n  mdof device list",
           .declare = declare_list};
 }

@@ -49,15 +49,15 @@ Result<algo::TableLimits> LimitOptions::limits() const {
 
 void add_limit_options(CLI::App& command, LimitOptions& limits) {
   command
-      .add_option(
-          "--limit-um", limits.um,
-          "Largest permitted error or correction (angles: urad) [default: 1000 um, 10000 urad]")
+      .add_option("--limit-um", limits.um,
+                  "Largest permitted error or correction, in urad for angles [default: 1000 um, "
+                  "10000 urad]")
       ->check(positive_number())
       ->type_name("UM");
   command
       .add_option("--limit-um-per-mm", limits.um_per_mm,
-                  "Largest permitted slope of an error or correction (angles: urad/mm) [default: "
-                  "50 um/mm, 500 urad/mm]")
+                  "Largest permitted slope of an error or correction, in urad/mm for angles "
+                  "[default: 50 um/mm, 500 urad/mm]")
       ->check(positive_number())
       ->type_name("UM");
 }

@@ -53,7 +53,7 @@ void declare_preset(CLI::App& command, SensitivityCommand& o) {
 void declare_trials(CLI::App& command, SensitivityCommand& o) {
   command
       .add_option("--trials", o.trials,
-                  "Number of trials; with --adaptive: largest number of trials")
+                  "Number of trials; if --adaptive is given, the largest number of trials")
       ->type_name("N");
   command
       .add_option("--seed", o.seed, "Seed of the random numbers [default: 1, or as in the plan]")
@@ -66,8 +66,9 @@ void declare_trials(CLI::App& command, SensitivityCommand& o) {
   auto* adaptive = command.add_flag("--adaptive", o.adaptive,
                                     "Run trials until the tolerance is reached (JCGM 101 7.9)");
   command
-      .add_option("--digits", o.digits,
-                  "Tolerance: number of significant digits of each standard deviation [default: 2]")
+      .add_option(
+          "--digits", o.digits,
+          "Tolerance as the number of significant digits of each standard deviation [default: 2]")
       ->needs(adaptive)
       ->type_name("N");
   command.add_option("--tolerance", o.tolerances, "Tolerance of one output, such as EBX_urad=0.01")

@@ -78,9 +78,9 @@ Status import(ImportCommand command) {
   show_notices(run.header.notices, true);
   if (run.header.provenance.model == positioning_name(run.header.axis) && command.sense.empty())
     say(run.header.provenance.model +
-        " is read as actual - commanded position in the coordinates of the controller (the default "
-        "of the format). If the errors in the file are positive along + of the machine axis, give "
-        "--sense body");
+        " is read as actual minus commanded position in the coordinates of the controller (the "
+        "default of the format). If the errors in the file are positive along + of the machine "
+        "axis, give --sense body");
   say("stored; build a compensation table with: mdof compensation build " +
       std::to_string(run.header.id));
   if (command.json) return write_line(stored_json(run));
@@ -108,8 +108,8 @@ Action declare_import(CLI::App& command) {
       ->check(CLI::IsMember({"csv", "iso230-2", "rtl"}));
   command
       .add_option("--sense", o->sense,
-                  "Sign of positioning errors: \"command\" (actual - commanded position, ISO "
-                  "230-2; the default) or \"body\" (positive along + of the machine axis)")
+                  "Sign of positioning errors: \"command\" (actual minus commanded position, ISO "
+                  "230-2) or \"body\" (positive along + of the machine axis) [default: command]")
       ->check(CLI::IsMember({"command", "body"}));
   command
       .add_option("--travel", o->travel,
@@ -118,11 +118,11 @@ Action declare_import(CLI::App& command) {
       ->check(CLI::IsMember({"+", "-"}));
   command
       .add_option("--u-um", o->request.u_um,
-                  "Standard uncertainty of each deviation (laser, alignment, temperature)")
+                  "Standard uncertainty of each deviation (from laser, alignment and temperature)")
       ->check(not_negative_number());
   command
       .add_option("--u-urad", o->request.u_urad,
-                  "Standard uncertainty of each deviation, for angular errors")
+                  "Standard uncertainty of each deviation of an angular error")
       ->check(not_negative_number());
   command.add_option("--note", o->request.note, "Note stored with the run; at most 1024 bytes")
       ->type_name("TEXT")
@@ -131,7 +131,7 @@ Action declare_import(CLI::App& command) {
       });
   add_limit_options(command, o->limits);
   command.add_flag("--despite-warnings", o->request.despite_warnings,
-                   "Import the file although it has warnings");
+                   "Import the file even if mdof warns about it");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);

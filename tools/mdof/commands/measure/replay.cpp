@@ -132,9 +132,9 @@ Action declare_replay(CLI::App& command) {
       ->required()
       ->type_name("");
   command
-      .add_option(
-          "--rig", o->rig,
-          "Rig file of the fixture [default for a recording: the rig stored in the recording]")
+      .add_option("--rig", o->rig,
+                  "Rig file, which describes probes and axis [default if LOG is a recording: the "
+                  "rig stored in it]")
       ->type_name("RIG.toml");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);

@@ -86,7 +86,9 @@ Action declare_solve(CLI::App& command) {
                   "for standard input")
       ->required()
       ->type_name("");
-  command.add_option("--rig", o->rig, "Rig file of the fixture")->required()->type_name("RIG.toml");
+  command.add_option("--rig", o->rig, "Rig file, which describes probes and axis")
+      ->required()
+      ->type_name("RIG.toml");
   add_model_option(command, o->model);
   auto* csv = command.add_flag("--csv", o->csv, "Write CSV (the default)");
   command.add_flag("--json", o->json, "Write one JSON document")->excludes(csv);

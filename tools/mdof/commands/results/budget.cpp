@@ -41,7 +41,7 @@ Status check_options(const BudgetCommand& command) {
     return fail(ErrorCode::usage, "--tolerance applies to one figure; give --figure NAME");
   if (!command.run_b.empty() && (!command.figure.empty() || command.at_mm))
     return fail(ErrorCode::usage,
-                "with two runs, mdof budget shows only the squareness of these runs; leave out "
+                "with two runs, this command shows only the squareness of these runs; leave out "
                 "--figure and --at, or leave out RUN_B");
   if (!command.run_b.empty() && command.reference != "fixture")
     return fail(ErrorCode::usage, "squareness always refers to the fixture; leave out --reference");
@@ -165,8 +165,9 @@ Status budget(const BudgetCommand& command) {
 
 Action declare_budget(CLI::App& command) {
   const auto o = std::make_shared<BudgetCommand>();
-  add_run_argument(command, "RUN", o->run,
-                   "Number of the run, or \"latest\"; with RUN_B: run along the first axis");
+  add_run_argument(
+      command, "RUN", o->run,
+      "Number of the run, or \"latest\"; if RUN_B is given, the run along the first axis");
   command
       .add_option("RUN_B", o->run_b,
                   "Number of a run along a second axis, or \"latest\"; mdof then shows the budget "
@@ -190,18 +191,19 @@ Action declare_budget(CLI::App& command) {
                   "\"undecided\" if the rig does not declare every uncertainty")
       ->check(not_negative_number());
   command
-      .add_option("--trials", o->trials.trials,
-                  "Number of Monte Carlo trials for a comparison with the budget (JCGM 101)")
+      .add_option(
+          "--trials", o->trials.trials,
+          "Also calculate the uncertainty with this number of Monte Carlo trials (JCGM 101)")
       ->check(CLI::Range(std::uint64_t{2}, kMostTrials));
-  command.add_option("--seed", o->trials.seed, "Seed of the trials")
+  command.add_option("--seed", o->trials.seed, "Seed of the Monte Carlo trials")
       ->check(not_negative_number())
       ->capture_default_str();
   add_reference_option(command, o->reference)->capture_default_str();
   command.add_option("--artefact-urad", o->artefact_urad,
-                     "Angle error of the square [default: from the rigs]");
+                     "Angle error of the reference square [default: value in the rigs]");
   command
       .add_option("--u-artefact-urad", o->u_artefact_urad,
-                  "Standard uncertainty of the angle error of the square")
+                  "Standard uncertainty of the angle error of the reference square")
       ->check(not_negative_number());
   command.add_flag("--partial", o->partial, "Also accept partial runs");
   add_database_option(command, o->database);

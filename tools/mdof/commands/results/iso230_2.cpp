@@ -170,8 +170,9 @@ Action declare_iso230_2(CLI::App& command) {
                   "multiples of this period")
       ->check(positive_number());
   command
-      .add_option("--device-limit-um", o->device_limit_um,
-                  "Error limit (±) of the measuring device over the travel, for U by ISO/TR 230-9")
+      .add_option(
+          "--device-limit-um", o->device_limit_um,
+          "Error limit (±) of the measuring device over the travel, needed for U (ISO/TR 230-9)")
       ->check(not_negative_number())
       ->excludes(run);
   command

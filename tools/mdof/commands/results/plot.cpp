@@ -162,7 +162,7 @@ Command plot_command() {
           "Writes run-N-five-errors.svg, -straightness.svg, -repeatability.svg, -drift.svg and a\n"
           "-budget-FIGURE.svg for each figure. --point adds run-N-point-K.svg with the raw "
           "readings\n"
-          "of a stop. If two axes have one run each, mdof adds squareness-A-B.svg (A and B:\n"
+          "of a point. If two axes have one run each, mdof adds squareness-A-B.svg (A and B:\n"
           "numbers of the runs). --table adds table-N.svg. For a table over a plane or volume, "
           "--table adds\n"
           "table-N-XY.svg, -XZ.svg and -YZ.svg: the planes through the middle node of the third "

@@ -61,7 +61,7 @@ std::string straightness_table(const ReferenceLines& lines) {
          " positions from " + in_mm(lines.first_m) + " to " + in_mm(lines.last_m) + " mm\n" +
          table.text() +
          "at 0: value of the line at position 0\n"
-         "zone: peak to valley about the line; residual: root mean square\n";
+         "zone: peak to valley about the line; residual: RMS distance from the line\n";
 }
 
 Status draw_lines(const StraightnessCommand& command, const drivers::CsvTable& series,

@@ -71,7 +71,8 @@ Result<std::optional<struct stat>> existing_file(const fs::path& path, Existing 
   }
   if (::stat(path.c_str(), &target) == 0 && is_direct(target)) return target;
   if (existing == Existing::refuse)
-    return fail(ErrorCode::usage, path.string() + ": exists already; give another file");
+    return fail(ErrorCode::usage,
+                path.string() + ": this file exists already; give the name of a new file");
   if (S_ISLNK(itself.st_mode))
     return io_error(path.string() +
                     ": cannot be written, because it is a symbolic link; give the target of "

@@ -124,11 +124,13 @@ Result<fs::path> allow_address(const fs::path& units, const std::string& address
   if (failed)
     written = io_error(folder.string() + ": " + failed.message());
   else
-    written = write_file(file,
-                         "# By mdof setup network: mdofd may reach this device.\n[Service]\n"
-                         "IPAddressAllow=" +
-                             address + "\n",
-                         Existing::replace);
+    written =
+        write_file(file,
+                   "# Written by: mdof setup network. Allows mdofd to connect to this device.\n"
+                   "[Service]\n"
+                   "IPAddressAllow=" +
+                       address + "\n",
+                   Existing::replace);
   if (written) return file;
   return io_error(
       written.error().message +

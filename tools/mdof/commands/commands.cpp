@@ -47,7 +47,7 @@ CLI::App* group_of(CLI::App& app, const std::string& name, const char* section) 
   if (auto* group = made_before(app, name)) return group;
   const auto row = std::find_if(std::begin(kGroups), std::end(kGroups),
                                 [&name](const Group& g) { return g.name == name; });
-  assert(row != std::end(kGroups) && "a group of commands needs its row");
+  assert(row != std::end(kGroups) && "kGroups has no row for this group of commands");
   auto* group = app.add_subcommand(name, row->summary)->require_subcommand(1)->group(section);
   return group->footer(row->footer);
 }

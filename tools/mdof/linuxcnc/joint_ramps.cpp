@@ -26,7 +26,7 @@ Status check_unit(const LinuxCncIni& ini, bool inch) {
   if (!is_inch) return in_context(ini.file.string(), is_inch.error());
   if (*is_inch == inch) return {};
   return bad_input(ini.file.string() + ": [TRAJ]LINEAR_UNITS is " +
-                   ini.value("TRAJ", "LINEAR_UNITS") + ", but the files would be in " +
+                   ini.value("TRAJ", "LINEAR_UNITS") + ", but the exported files would be in " +
                    (inch ? "inch" : "mm") + "; give --units " + (*is_inch ? "inch" : "mm"));
 }
 

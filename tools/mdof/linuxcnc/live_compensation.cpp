@@ -88,9 +88,10 @@ class Judge {
            joint = letters.find(axis, joint + 1))
         joints.push_back({axis, static_cast<int>(joint), !joints.empty()});
       if (joints.size() > 2)
-        refuse(std::string("[KINS]KINEMATICS: axis ") + axis + " has " +
-               std::to_string(joints.size()) +
-               " joints; live compensation supports at most two joints of an axis");
+        refuse(
+            std::string("[KINS]KINEMATICS: axis ") + axis + " has " +
+            std::to_string(joints.size()) +
+            " joints, but live compensation is possible only if each axis has one or two joints");
       for (const LiveJoint& joint : joints) check_joint(section_of(joint));
       if (joints.size() == 2) check_pair(section_of(joints[0]), section_of(joints[1]), axis);
       live_.joints.insert(live_.joints.end(), joints.begin(), joints.end());
@@ -159,7 +160,7 @@ class Judge {
     live_.max_offset = request_.margin_mm * unit_;
     live_.offset_reason = "--margin-mm";
     live_.max_velocity = kMostVelocity_mm_s * unit_;
-    live_.velocity_reason = "the limit of mdof";
+    live_.velocity_reason = "fixed limit of mdof";
     live_.max_acceleration = kMostAcceleration_mm_s2 * unit_;
     for (const LiveJoint& joint : live_.joints) {
       const std::string s = section_of(joint);
@@ -189,7 +190,7 @@ class Judge {
       const double most = number(section, drive).value_or(0), least = needed(section, axis) + more;
       if (most != 0 && most < least)
         refuse("[" + section + "]" + drive + " = " + plain_number(most) + " must be at least " +
-               plain_number(least) + " (" + axis + " plus the maximum of the correction)");
+               plain_number(least) + " (" + axis + " plus the limit for the correction)");
     }
   }
 

@@ -116,8 +116,8 @@ bool FrameSolver::correct(const algo::ReadingCorrection& correction, const Sampl
   if (rig_.physics->dielectric) air = air_of(block, row);
   if (!air) {
     leave_unsolved(row,
-                   "the ambient conditions for [corrections] dielectric are unknown or out of "
-                   "range; give permitted values in each row");
+                   "the dielectric correction ([corrections] of the rig) needs ambient conditions, "
+                   "which are unknown or out of range; give permitted values in each row");
     return false;
   }
   const auto corrected = correction.correct(rig_.sides.target_travel_m(block.value[encoder_][row]),

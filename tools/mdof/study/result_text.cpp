@@ -39,8 +39,8 @@ std::string overall(const StudyResult& result) {
   return table.text(width) +
          wrapped(
              "sd: standard deviation; se: standard error. The coverage intervals (JCGM 101 7.7, "
-             "5.3.4) and the quantiles differ by at most the resolution from the values that all "
-             "sorted trials would give.",
+             "5.3.4) and the quantiles are estimated from histograms. They differ from the exact "
+             "values of the sorted trials by at most the value in the column \"resolution\".",
              width) +
          "\n";
 }

@@ -100,7 +100,7 @@ std::string table_of_positioning_text(const CompensationTable& t) {
                  terminal_columns()) +
          "\n" +
          wrapped(positioning_name(t.axis) +
-                     ": actual - commanded position, positive along + of the coordinates of the "
+                     " = actual - commanded position, positive along + of the coordinates of the "
                      "controller (positioning_sense: " +
                      to_string(kTablePositioningSense) + ")",
                  terminal_columns()) +
@@ -120,7 +120,7 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
                      runs_of(t.runs),
                  terminal_columns()) +
          "\n"
-         "errors: actual - nominal position of the moving " +
+         "error = actual - nominal position of the moving " +
          t.sides.moves() + "\nstraightness " +
          (t.slope_removed ? "about the least-squares line" : "as measured") +
          ", angles relative to the first target\n" + stated_text(t.stated) +

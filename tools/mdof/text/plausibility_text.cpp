@@ -117,7 +117,7 @@ std::string plausibility_text(const Plausibility& p) {
   if (p.short_stops > 0)
     out += "no point   " + std::to_string(p.short_stops) +
            (p.short_stops == 1 ? " stop" : " stops") +
-           " at targets gave no point (too short, or axis moved slowly)\n";
+           " at targets gave no point (too short, or the axis moved slowly)\n";
   return out + probes_text(p.probes);
 }
 

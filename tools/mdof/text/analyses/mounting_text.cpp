@@ -43,8 +43,8 @@ std::string mounting_text(const MountingCalibration& found, const Rig& rig, std:
   }
   std::string text = noise_only_notice(!rig.declares_uncertainty()) + table.text(width);
   text +=
-      "\n" + std::to_string(found.clampings) + " clampings, tilts up to " +
-      plain_number(found.tilt_rad * 1e3, 3) + " mrad apart, " + std::to_string(found.readings) +
+      "\n" + std::to_string(found.clampings) + " clampings, whose tilts differ by up to " +
+      plain_number(found.tilt_rad * 1e3, 3) + " mrad, " + std::to_string(found.readings) +
       " readings\nchi-square " + plain_number(found.chi_square, 4) + " of " +
       std::to_string(found.freedom) + " degrees of freedom" +
       (found.explained ? "" : "; this is more than expected from the noise, so u was increased") +

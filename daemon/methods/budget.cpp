@@ -99,7 +99,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
        .params = {{"run", ParamType::integer, "id of the run", true},
                   {"figure", ParamType::string,
                    "name of the result, such as EYX_straightness_um, EYX_slope_urad or "
-                   "EAX_range_urad; with at_mm: name of an error, such as EYX_um",
+                   "EAX_range_urad; if at_mm is given, the name of an error, such as EYX_um",
                    true},
                   {"at_mm", ParamType::number,
                    "position of the error; mdofd uses the nearest target", false},
@@ -140,10 +140,12 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                    {.least = algo::kFewestOfBaseline, .most = 100'000}},
                   {"mixed", ParamType::boolean,
                    "also use runs with other rigs, models or evaluation options", false, "false"}},
-       .result = "figures: for each result the values in the order of time (runs, started_utc, "
-                 "value, u, u_random, low, high, signal), centre, sigma and baseline (null, null "
-                 "and 0 if there are too few values for limits), moved (since_runs, by, u_by) or "
-                 "null, u_covers, u_not_declared, left_out, notices",
+       .result = "figures: for each result the values in the order of time (each with runs, "
+                 "started_utc, value, u, u_random, the limits low and high, and signal); centre, "
+                 "sigma and baseline of the chart (null, null and 0 if there are too few values "
+                 "for limits); moved: null, or the first runs after a change of the result "
+                 "(since_runs), the size of the change (by) and its standard uncertainty (u_by); "
+                 "u_covers (what u contains), u_not_declared, left_out, notices",
        .example = R"({"figure": "EYX_straightness_um"})",
        .handler = on_query(m, trend)});
   table.add({.name = "squareness.budget",

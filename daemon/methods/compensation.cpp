@@ -192,10 +192,9 @@ void write_correction(JsonWriter& json, const CompensationTable& table, const Er
 
 Result<std::string> at(const Methods& m, const Params& params) {
   if (is_volume(params)) {
-    MDOF_CHECK(
-        refuse(params, {"direction", "position_mm"},
-               " does not apply to a volumetric table, which has one approach; remove it, and "
-               "give X_mm, Y_mm and Z_mm"));
+    MDOF_CHECK(refuse(params, {"direction", "position_mm"},
+                      " does not apply to a volumetric table, which has values of only one "
+                      "approach; leave it out, and give X_mm, Y_mm and Z_mm"));
     return volume_at(m, params);
   }
   MDOF_CHECK(refuse(params, {"X_mm", "Y_mm", "Z_mm"},
@@ -310,37 +309,37 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                    "fails with error -32001",
                    false},
                   {"u_parts", ParamType::boolean,
-                   "for the volume: also return u_common and u_independent of each node", false,
-                   "false"}},
+                   "for the volume: also return the two parts of u of each node, u_common (causes "
+                   "that all nodes have in common) and u_independent",
+                   false, "false"}},
        .result =
            "members of the table, doubtful, generation, points. Points of an axis: errors (actual "
            "- nominal) in um and urad. Points of the volume: X, Y, Z in mm, three corrections and "
            "three u in um; with u_parts also three u_common and three u_independent",
        .example = R"({"axis": "X", "offset": 0, "count": 20})",
        .handler = [&m](const Params& p) { return grid(m, p); }});
-  table.add({.name = "compensation.at",
-             .summary = "Returns the correction at a position. Between grid points, the correction "
-                        "is interpolated linearly. Outside the grid, it is the value at the end of "
-                        "the grid, and \"inside\" is false.",
-             .params = {axis,
-                        {"position_mm", ParamType::number,
-                         "position on the axis; required for an axis", false},
-                        {"X_mm", ParamType::number,
-                         "for the volume: command of X; required if X is an axis of the grid; "
-                         "otherwise the default is the position of X in the table",
-                         false},
-                        {"Y_mm", ParamType::number,
-                         "for the volume: command of Y; the rule of X_mm applies", false},
-                        {"Z_mm", ParamType::number,
-                         "for the volume: command of Z; the rule of X_mm applies", false},
-                        {"direction", ParamType::integer,
-                         "1: forward, -1: reverse, 0: mean of both", false, "0"}},
-             .result = "For an axis: error (um, urad), correction (to be added to the command; "
-                       "null with correction_reason if the sign is unknown), u, inside (true: this "
-                       "approach was measured at this position), simulated, doubtful, generation. "
-                       "For the volume: correction, u, u_common and u_independent by axis",
-             .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
-             .handler = [&m](const Params& p) { return at(m, p); }});
+  table.add(
+      {.name = "compensation.at",
+       .summary = "Returns the correction at a position. Between grid points, the correction "
+                  "is interpolated linearly. Outside the grid, it is the value at the end of "
+                  "the grid, and \"inside\" is false.",
+       .params =
+           {axis,
+            {"position_mm", ParamType::number, "position on the axis; required for an axis", false},
+            {"X_mm", ParamType::number,
+             "for the volume: commanded position of X; required if X is an axis of the "
+             "grid; otherwise the default is the fixed position of X in the table",
+             false},
+            {"Y_mm", ParamType::number, "for the volume: commanded position of Y; see X_mm", false},
+            {"Z_mm", ParamType::number, "for the volume: commanded position of Z; see X_mm", false},
+            {"direction", ParamType::integer, "1: forward, -1: reverse, 0: mean of both", false,
+             "0"}},
+       .result = "For an axis: error (um, urad), correction (to be added to the command; "
+                 "null with correction_reason if the sign is unknown), u, inside (true: this "
+                 "approach was measured at this position), simulated, doubtful, generation. "
+                 "For the volume: correction, u, u_common and u_independent by axis",
+       .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
+       .handler = [&m](const Params& p) { return at(m, p); }});
 }
 
 }  // namespace mdof::daemon

@@ -62,8 +62,8 @@ Result<std::vector<double>> read_targets(const Params& params) {
     for (const char* key : {"jitter_mm", "seed"})
       if (params.has(key))
         return fail(ErrorCode::usage, std::string(key) +
-                                          " applies only to an interval (from_mm, to_mm, "
-                                          "interval_mm); remove it, or give an interval");
+                                          " applies only to targets at equal intervals; leave it "
+                                          "out, or give from_mm, to_mm and interval_mm");
     return params.numbers("targets_mm");
   }
   if (params.has("targets_mm"))
@@ -296,7 +296,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
   table.add(
       {.name = "run.start",
        .summary = "Starts a run of an axis: mdofd records the samples and calculates a point from "
-                  "each stop.",
+                  "each stop of the axis.",
        .params =
            {axis,
             {"targets_mm",
@@ -327,7 +327,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              "0",
              {.least = 0, .most = 10'000}},
             {"note", ParamType::string, "free text, stored with the run", false, "\"\""}},
-       .result = "run, axis, targets_mm, notices. The reply is sent after the run is stored on the "
+       .result = "run, axis, targets_mm, notices. mdofd replies after it has stored the run on the "
                  "disk and the measurement has begun",
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,
@@ -354,26 +354,26 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .params = {offset,
                         count_param(kMaxRunsPage),
                         {"axis", ParamType::string, "list only runs of this axis", false}},
-             .result = "total, runs: header and provenance of each",
+             .result = "total; runs: header and provenance of each run",
              .example = R"({"offset": 0, "count": 10})",
              .handler = on_query(m, list_runs)});
   table.add({.name = "run.get",
              .summary = "Returns a run without its points: header, provenance, straightness, "
-                        "angles, plausibility, who started and stopped it.",
+                        "angles, plausibility, and who started and stopped the run.",
              .params = {run, reference},
              .result =
                  "the run; straightness in um, slopes and angles in urad; uncertainty of each "
                  "result (for imported positioning errors: E and B of ISO 230-2, or the range if "
                  "the approach of a reading is unknown); straightness_lines; result_sha256; n_ij "
-                 "(numbers of visits) is null if the list is too long for a reply",
+                 "(number of visits to each target) is null if the list is too long for a reply",
              .example = R"({"run": 1})",
              .handler = on_query(m, get_run)});
   table.add({.name = "run.points",
              .summary = "Returns the points of a run in the order of measurement, in pages.",
              .params = {run, offset, count_param(kMaxPointsPage), reference},
-             .result = "total, u_covers, points: position_mm, five errors in um and urad, u, "
-                       "u_random, U, k, nu_eff (null: infinite), flags; for an imported run: "
-                       "position_mm, the imported error, u",
+             .result = "total; u_covers (what u contains); points: position_mm, five errors in um "
+                       "and urad, u, u_random, U, k, nu_eff (null: infinite), flags; for an "
+                       "imported run: position_mm, the imported error, u",
              .example = R"({"run": 1, "offset": 0, "count": 20})",
              .handler = on_query(
                  m, [pages = std::make_shared<RunPages>()](Methods&, const Params& params) {

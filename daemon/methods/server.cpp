@@ -122,12 +122,12 @@ HistoryEntry action_with_reason(const Params& params, std::string name) {
 
 std::vector<rpc::Param> limit_params() {
   return {{"limit_um", ParamType::number,
-           "largest error allowed in the table, in um (angles: in urad); default 1000 um and 10000 "
-           "urad",
+           "largest error allowed in the table, in um (angles: in urad); default 1000 um (angles: "
+           "10000 urad)",
            false},
           {"limit_um_per_mm", ParamType::number,
            "largest slope allowed in the table, in um/mm (angles: in urad/mm); default 50 um/mm "
-           "and 500 urad/mm",
+           "(angles: 500 urad/mm)",
            false}};
 }
 

@@ -77,9 +77,10 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
                   "the squareness with its standard uncertainty. X and Y give EC0Y, X and Z give "
                   "EB0Z, Y and Z give EA0Z. An identical result is stored only once.",
        .params = std::move(fit),
-       .result = "EC0Y_urad, u_EC0Y_urad (combined), U_EC0Y_urad (k for 95 %), or the same for "
-                 "EB0Z or EA0Z; form_urad (residual straightness of both axes) and both slopes, at "
-                 "the fixture; sense; notices; lines",
+       .result = "EC0Y_urad, u_EC0Y_urad (combined standard uncertainty) and U_EC0Y_urad (expanded "
+                 "uncertainty, 95 %), or the same for EB0Z or EA0Z; form_urad (residual "
+                 "straightness of both axes) and the slopes of both axes, at the fixture; sense; "
+                 "notices; lines (the squareness for each kind of reference line)",
        .example = R"({"run_x": 1, "run_y": 2})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});

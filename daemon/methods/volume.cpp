@@ -196,8 +196,8 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
     const std::string key = std::string(1, kAxes[k]) + "_mm";
     const bool stands = table.command_m[k].size() == 1;  // then its place is the default
     if (!params.has(key) && !stands)
-      return fail(ErrorCode::usage, key + " is missing; give the command of " + kAxes[k] +
-                                        ", which is an axis of the grid");
+      return fail(ErrorCode::usage, key + " is missing; give the commanded position of " +
+                                        kAxes[k] + ", which is an axis of the grid");
     command_m[k] = params.has(key) ? from_mm(params.number(key)) : table.command_m[k].front();
     json.field(key, to_mm(command_m[k]));
   }
@@ -241,8 +241,8 @@ void add_volume_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Builds a table of corrections over a plane or a volume from the measured "
                         "errors of a machine, and stores the table without activating it.",
              .params = std::move(params),
-             .result = "table, machine, commands of the nodes, interpolation, residual errors, "
-                       "not_measured, simulated, doubtful, notices",
+             .result = "table, machine, commanded positions of the nodes, interpolation, residual "
+                       "errors, not_measured, simulated, doubtful, notices",
              .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-Y-t\"}\n)"
                         R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
                         R"(range_mm = [0, 10]\nEXX_um = 2\n[[axis]]\nid = \"Y\"\n)"

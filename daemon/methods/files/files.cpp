@@ -155,11 +155,11 @@ std::vector<rpc::Param> import_params() {
        "format of the file: csv, iso230-2 or rtl [recognised from the file]", false, "\"\""},
       {"sense", ParamType::string,
        "sign of positioning errors: \"command\" (actual - commanded position) or \"body\" "
-       "(positive along + of the machine) [\"command\"]",
+       "(positive in the + direction of the machine axis) [\"command\"]",
        false},
       {"travel", ParamType::string,
-       "\"+\": the body moves in the + direction when the command increases; \"-\": in the - "
-       "direction [unknown]",
+       "direction in which the moving body moves when the commanded position increases: \"+\" or "
+       "\"-\" [unknown]",
        false},
       {"u_um",
        ParamType::number,
@@ -187,8 +187,8 @@ void add_files_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Replays a log or a recording and stores the result as a run. mdofd "
                         "replays one file at a time.",
              .params = replay_params(),
-             .result = "run: id of the run. The reply is sent after the run is stored (a long log "
-                       "takes a long time)",
+             .result = "run: the id of the new run. mdofd replies after it has stored the run, "
+                       "which takes a long time for a long log",
              .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) {
@@ -198,7 +198,7 @@ void add_files_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Imports a file with the readings of another instrument and stores the "
                         "readings as a run.",
              .params = import_params(),
-             .result = "run: id of the run. The reply is sent after the run is stored",
+             .result = "run: the id of the new run. mdofd replies after it has stored the run",
              .example = R"({"path": "/var/lib/mdof/laser_X.rtl", "axis": "X", "u_um": 0.3})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) {

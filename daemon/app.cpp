@@ -147,7 +147,7 @@ Status App::Parts::open_store() {
     });
   };
   events.head_changed = [](const store::ChainHead& head) {
-    std::fprintf(stderr, "chain of hashes: newest link %lld, SHA-256 %s\n",
+    std::fprintf(stderr, "the newest link of the chain of hashes is %lld (SHA-256 %s)\n",
                  static_cast<long long>(head.link), head.sha256.c_str());
   };
   MDOF_TRY(keeper, Storekeeper::start({config.database, config.durability, config.commit_interval},

@@ -46,10 +46,10 @@ constexpr std::array<FactKind, 11> kKinds = {{
      "travel, reference, point_m, chain, chain_travel, (SELECT group_concat(run) FROM (SELECT run "
      "FROM compensation_source AS s WHERE s.compensation_table = ?1 ORDER BY s.row)) "
      "FROM compensation_table WHERE id = ?1"},
-    {Fact::activation, "activation", "generation", "activation of generation",
+    {Fact::activation, "activation", "generation", "activation of a table, generation",
      "SELECT axis, compensation_table, actor, activated_utc FROM activation NOT INDEXED "
      "WHERE generation = ?"},
-    {Fact::deactivation, "deactivation", "generation", "deactivation of generation",
+    {Fact::deactivation, "deactivation", "generation", "deactivation of a table, generation",
      "SELECT axis, actor, deactivated_utc FROM deactivation NOT INDEXED WHERE generation = ?"},
     {Fact::action, "deed", "id", "action",
      "SELECT name, subject, row, uid, gid, pid, user, utc FROM deed NOT INDEXED WHERE id = ?"},
@@ -64,7 +64,7 @@ constexpr std::array<FactKind, 11> kKinds = {{
      "?1 ORDER BY s.row)) FROM volumetric_table AS v JOIN document ON document.id = v.description "
      "WHERE v.id = ?1"},
     {Fact::volumetric_activation, "volumetric_activation", "generation",
-     "volumetric activation of generation",
+     "activation or deactivation of a volumetric table, generation",
      "SELECT volumetric_table, actor, activated_utc FROM volumetric_activation NOT INDEXED WHERE "
      "generation = ?"},
     {Fact::action_reason, "deed_reason", "deed", "reason of action",
@@ -137,7 +137,7 @@ Status for_each_link(Connection& connection, std::vector<std::string>& findings,
     const FactKind* kind = kind_named(links.text(1));
     if (!kind || links.integer(0) != id) {
       findings.push_back("link " + std::to_string(id) +
-                         " of the ledger is damaged; restore the database from a backup");
+                         " of the chain of hashes is damaged; restore the database from a backup");
       return {};
     }
     const std::string sha256(links.text(3));
@@ -169,7 +169,7 @@ Status check_all(Connection& connection, std::vector<std::string>& findings, Wan
     MDOF_TRY(const std::int64_t stored, count(connection, kind));
     if (stored != linked[static_cast<std::size_t>(kind.fact)])
       findings.push_back("table " + std::string(kind.name) + " has " + std::to_string(stored) +
-                         " rows, but the ledger has the hashes of " +
+                         " rows, but the chain of hashes contains the hashes of " +
                          std::to_string(linked[static_cast<std::size_t>(kind.fact)]) +
                          " rows; restore the database from a backup");
   }

@@ -69,8 +69,8 @@ Status check_shape(const CompensationTable& table) {
                   [&](const auto& s) { fits &= s.size() == table.position_m.size(); });
   if (fits) return {};
   return fail(ErrorCode::usage,
-              "compensation table: each series must have one value for each position (" +
-                  std::to_string(table.position_m.size()) + " positions)");
+              "compensation table: each error and each u must have one value for each of the " +
+                  std::to_string(table.position_m.size()) + " positions");
 }
 
 std::vector<double> all_series(const CompensationTable& table) {

@@ -49,8 +49,9 @@ Status check_shape(const VolumetricTable& t) {
     parts = parts && (t.noise[k].empty() || t.noise[k].size() == t.command_m[k].size());
   if (t.nodes() > 0 && t.correction_m.size() == t.nodes() && t.u_m.size() == t.nodes() && parts)
     return {};
-  return fail(ErrorCode::usage, "volumetric table: each node must have one correction and one u (" +
-                                    std::to_string(t.nodes()) + " nodes)");
+  return fail(ErrorCode::usage,
+              "volumetric table: the corrections and their u must have one value for each of the " +
+                  std::to_string(t.nodes()) + " nodes");
 }
 
 // The bytes are not copied: what is bound has to live until the statement has run.

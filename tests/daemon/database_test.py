@@ -231,7 +231,7 @@ class Database(unittest.TestCase):
                     self.acknowledged()
                     chain = self.head_told()
                     with open(self.daemon.log.name) as journal:
-                        self.assertIn(f"chain of hashes: newest link {chain['link']}, SHA-256 {chain['sha256']}", journal.read())
+                        self.assertIn(f"the newest link of the chain of hashes is {chain['link']} (SHA-256 {chain['sha256']})", journal.read())
                     if not under_mdofd:
                         self.daemon.stop()
                     self.assertEqual(mdof("verify", "--db", self.daemon.database, "--head", chain["sha256"])[0], 0)

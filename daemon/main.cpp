@@ -106,7 +106,7 @@ int main(int argc, char** argv) try {
                "check the configuration, print the errors, and exit");
   auto* http = cli.add_option(
       "--http", options.http,
-      "serve the web page (default address: listen in [http], otherwise 127.0.0.1:8080)");
+      "serve the web page at this address; default: listen in [http], or 127.0.0.1:8080");
   http->type_name("[ADDRESS:PORT]")->expected(0, 1);
   cli.set_version_flag("--version", mdof::daemon::kVersion);
   try {

@@ -31,7 +31,7 @@ std::string delay_problem(const std::string& id, const Rig& rig) {
 std::string too_long(double delay_s, double settle_s) {
   return "a delay of " + plain_number(delay_s, kDigits) +
          " s is longer than settle_s = " + plain_number(settle_s, kDigits) +
-         " s, so the average of a stop would include readings from the motion";
+         " s, so the averages of a stop would include readings from before the axis stopped";
 }
 
 }  // namespace

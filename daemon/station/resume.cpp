@@ -24,7 +24,8 @@ Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisCon
   if (run.state == RunState::open) return refused(run.id, "this run is under way");
   if (run.state == RunState::complete) return refused(run.id, "this run is complete");
   if (run.provenance.recording_kind != "recording")
-    return refused(run.id, "this run was not recorded from devices");
+    return refused(
+        run.id, "the readings of this run come from a file (a log or an import), not from devices");
   MDOF_TRY(const auto later, reader.superseded_by(run.id));
   if (later) return refused(run.id, "run " + std::to_string(*later) + " supersedes this run");
   if (run.provenance.rig_text != axis.rig.text)

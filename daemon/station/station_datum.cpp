@@ -13,7 +13,7 @@ void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDo
   const std::string axis(1, letter(config_.rig.axis));
   if (!config_.live())
     return done(fail(ErrorCode::conflict,
-                     "axis " + axis + " is read from a log; positions of a log cannot be set"));
+                     "axis " + axis + " is read from a log, so its position cannot be set"));
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1))
     return done(

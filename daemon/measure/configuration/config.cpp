@@ -22,8 +22,8 @@ namespace mdof::daemon {
 namespace {
 
 Status read_store(TomlTable& root, Config& config) {
-  config.database_key = config.source + ": store.database (by default)";
-  config.recordings_key = config.source + ": store.recordings (by default)";
+  config.database_key = config.source + ": default of store.database";
+  config.recordings_key = config.source + ": default of store.recordings";
   auto table = root.table("store");
   if (table) {
     if (table->has("database")) config.database_key = table->where("database");
@@ -86,7 +86,7 @@ void read_access(TomlTable& table, RpcAccess& access) {
 
 void read_rpc(TomlTable& root, Config& config) {
   config.socket = default_socket();
-  config.socket_key = config.source + ": rpc.socket (by default)";
+  config.socket_key = config.source + ": default of rpc.socket";
   auto table = root.table("rpc");
   if (!table) return;
   if (table->has("socket")) config.socket_key = table->where("socket");

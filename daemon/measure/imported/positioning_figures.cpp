@@ -153,7 +153,7 @@ StatedFigures positioning_range(const Run& run) {
 
 StatedFigures positioning_figures(const Run& run) {
   if (run.header.provenance.model != positioning_name(run.header.axis))
-    return {{}, "an imported run has figures (ISO 230-2) only if it contains positioning errors"};
+    return {{}, "results according to ISO 230-2 are calculated only for positioning errors"};
   if (has_unknown_approach(run)) return positioning_range(run);
   StatedFigures stated;
   add_figures(run, stated);

@@ -74,7 +74,8 @@ Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
   for (const double s : sense)
     if (s != sense.front())
       return bad_input(name + "column " + std::string(kSenseColumn) +
-                       " has both \"command\" and \"body\"; convert all values to one sense");
+                       " contains both \"command\" and \"body\"; convert all errors to one of the "
+                       "two, and write this word in each row");
   if (!sense.empty()) {
     const StatedSense stated =
         sense.front() == kCommandSense ? StatedSense::command : StatedSense::body;
@@ -90,8 +91,8 @@ Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
       name + "the file does not state the sense of the errors, but axis " + frame.id +
       " has travel \"-\", so the sign of the errors depends on the sense; add a column " +
       std::string(kSenseColumn) +
-      " with \"command\" (actual - commanded position) or \"body\" (positive along + of the "
-      "machine), or give positioning_sense for the axis in MACHINE.toml");
+      " with \"command\" (actual - commanded position) or \"body\" (positive in the + direction of "
+      "the machine axis), or set positioning_sense for the axis in MACHINE.toml");
 }
 
 Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,

@@ -34,9 +34,9 @@ Status OnTheFlyRun::check_room() {
   for (; passes_seen_ < passes.size(); ++passes_seen_)
     points_ += passes[passes_seen_].bins.size() + passes[passes_seen_].left_out.size();
   if (points_ <= options_.most_stops) return {};
-  return bad_input(
-      "a run on the fly may have at most " + std::to_string(options_.most_stops) + " points",
-      Remedy::larger_interval);
+  return bad_input("a run that is measured on the fly may have at most " +
+                       std::to_string(options_.most_stops) + " points",
+                   Remedy::larger_interval);
 }
 
 // Unlike a stop, a bin has its place from each of its scans.
@@ -67,8 +67,10 @@ Status OnTheFlyRun::solve(algo::Sequence& sequence, const algo::Residuals& resid
     any = any || p.errors.valid;
   }
   if (any) return {};
-  return bad_input("none of the " + std::to_string(sequence.points.size()) +
-                   " points on the fly has error values: " + sequence.points.front().errors.reason);
+  return bad_input(
+      "none of the " + std::to_string(sequence.points.size()) +
+      " points that were measured on the fly has error values; reason of the first point: " +
+      sequence.points.front().errors.reason);
 }
 
 Result<Run> OnTheFlyRun::finish() {

@@ -199,8 +199,8 @@ Status check_channels(const std::string& source, const std::vector<Channel>& cha
     MDOF_CHECK(check_unit(source, channels, probe.id));
     if (has_channel(channels, probe.id)) continue;
     return bad_input(source + ": the column of the probe \"" + probe.id + "\" of " + rig.source +
-                     " is missing (" + probe.id + "_um, " + probe.id + "_mm or " + probe.id +
-                     "_V); the columns of the log are " + columns +
+                     " is missing (its name must be " + probe.id + "_um, " + probe.id + "_mm or " +
+                     probe.id + "_V); the columns of the log are " + columns +
                      "; correct the rig or the header");
   }
   MDOF_CHECK(check_air(source, channels, rig));

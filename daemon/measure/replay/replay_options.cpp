@@ -47,7 +47,7 @@ const std::vector<ReplayOption>& replay_options() {
       {"remove_drift", &Request::remove_drift, Range::any, Of::each_run,
        "Subtract a significant drift from the errors and add the uncertainty of this drift to u"},
       {"on_the_fly", &Request::on_the_fly, Range::any, Of::each_run,
-       "For an axis that never stops: fit each point to the readings around its target"},
+       "For an axis that never stops: calculate each point from the readings around a target"},
       {"interval_mm", &Request::interval_mm, Range::positive, Of::motion,
        "On the fly: distance between targets [1]"},
       {"bin_mm", &Request::bin_mm, Range::not_negative, Of::motion,
@@ -65,13 +65,13 @@ Status check_replay_options(const ReplayRequest& request) {
     if (!is_given(option, request)) continue;
     MDOF_CHECK(check_range(option, *(request.*std::get<ReplayOption::Number>(option.member))));
     if (option.of == Of::motion && !request.on_the_fly)
-      return fail(ErrorCode::usage, std::string(option.name) +
-                                        " applies only to a run on the fly; give on_the_fly too");
+      return fail(ErrorCode::usage,
+                  std::string(option.name) +
+                      " applies only to a run that is measured on the fly; set on_the_fly too");
     if (option.of == Of::dwells && request.on_the_fly)
-      return fail(
-          ErrorCode::usage,
-          std::string(option.name) +
-              " applies only to stops, and a run on the fly has no stops; leave this option out");
+      return fail(ErrorCode::usage, std::string(option.name) +
+                                        " applies only to stops, and a run that is measured on the "
+                                        "fly has no stops; leave this option out");
   }
   return {};
 }

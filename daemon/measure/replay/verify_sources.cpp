@@ -82,8 +82,9 @@ void check_file(const Source& source, const std::string& of, SourceCheck& check)
     check.findings.push_back(of + ": " + words::text(actual.error()));
   } else if (!expected.empty() && *actual != expected) {
     check.findings.push_back(of + ": the file " + path +
-                             " is not the file that was measured (its sha256 is " + *actual +
-                             ", expected " + expected + "); restore the measured file from a copy");
+                             " is not the file from which the run was calculated (its sha256 is " +
+                             *actual + ", expected " + expected +
+                             "); restore the original file from a copy");
   }
 }
 

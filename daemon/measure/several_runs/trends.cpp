@@ -81,10 +81,10 @@ void choose_kind(Chosen& chosen, bool mixed) {
                                       {{"runs", others.size()}, {"run", newest_of_kind.id}}));
     return;
   }
-  leave_out(
-      chosen.left_out, others,
-      "the rig, the model, the drift removal or the measurement on the fly differs from that of " +
-          newest + " (" + words::remedy(Remedy::mix_runs) + ")");
+  leave_out(chosen.left_out, others,
+            "the rig, the model or an option of the evaluation (drift removal, on the fly) differs "
+            "from that of " +
+                newest + " (" + words::remedy(Remedy::mix_runs) + ")");
   std::erase_if(chosen.runs, [&](const RunHeader& run) { return kind_of(run) != kind; });
 }
 
@@ -212,11 +212,11 @@ Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& re
     if (static_cast<std::int64_t>(page.size()) < kRunsPage) break;
   }
   if (!others.empty())
-    trend.left_out.push_back(
-        std::to_string(others.size()) +
-        (others.size() == 1 ? " squareness fit" : " squareness fits") +
-        ": the artefact angle or the corner differs from that of the newest fit (" +
-        words::remedy(Remedy::mix_runs) + ")");
+    trend.left_out.push_back(std::to_string(others.size()) +
+                             (others.size() == 1 ? " squareness fit" : " squareness fits") +
+                             ": the angle of the artefact, or the corner of the artefact that was "
+                             "measured, differs from that of the newest squareness fit (" +
+                             words::remedy(Remedy::mix_runs) + ")");
   const auto started = [&](const Squareness& s) {
     return std::max(allowed[s.run_a]->started_utc, allowed[s.run_b]->started_utc);
   };

@@ -35,13 +35,13 @@ Result<std::string> new_token() {
 Result<std::string> make_token(const std::filesystem::path& file) {
   MDOF_TRY(const std::string token, new_token());
   const Descriptor fd(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (fd.get() < 0) return cannot_use(file, "the file cannot be created", errno);
+  if (fd.get() < 0) return cannot_use(file, "mdofd cannot create this file", errno);
   const std::string line = token + "\n";
   if (::write(fd.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size()) ||
       ::fsync(fd.get()) != 0) {
     const int number = errno;
     (void)::unlink(file.c_str());
-    return cannot_use(file, "the file cannot be written", number);
+    return cannot_use(file, "mdofd cannot write to this file", number);
   }
   return token;
 }
@@ -50,9 +50,9 @@ Result<std::string> make_token(const std::filesystem::path& file) {
 
 Result<std::string> read_token(const std::filesystem::path& file) {
   const Descriptor fd(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOFOLLOW));
-  if (fd.get() < 0) return cannot_use(file, "the file cannot be read", errno);
+  if (fd.get() < 0) return cannot_use(file, "mdofd cannot read this file", errno);
   struct stat info {};
-  if (::fstat(fd.get(), &info) != 0) return cannot_use(file, "the file cannot be read", errno);
+  if (::fstat(fd.get(), &info) != 0) return cannot_use(file, "mdofd cannot read this file", errno);
   if (!S_ISREG(info.st_mode))
     return fail(ErrorCode::check, "token_file: " + file.string() +
                                       ": this is not a regular file; remove this file and restart "

@@ -147,7 +147,7 @@ TEST_F(RunMethods, ARunThatCannotGoOnSaysWhy) {
   add_run('X', "whole"), add_run('X', "part", false), add_run('Y');
   EXPECT_TEXT(call("run.resume", R"({"run":1})").message(), "this run is complete");
   EXPECT_TEXT(call("run.resume", R"({"run":2})").message(),
-              "this run was not recorded from devices");
+              "the readings of this run come from a file (a log or an import), not from devices");
   EXPECT_TEXT(call("run.resume", R"({"run":3})").message(), "no rig is configured for axis Y");
 }
 

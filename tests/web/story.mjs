@@ -120,7 +120,7 @@ async function compensation(page, run) {
   assert.equal(history[0].deed, "compensation.activate");
   assert.equal(history[0].detail, "as the story wants it");
   await page.getByText("as the story wants it").waitFor();
-  await page.getByText("All numbers with u").waitFor();
+  await page.getByText("All values with u").waitFor();
   await accessible(page, "Compensation");
   await page.getByRole("link", {name: "Volume"}).click();
   await page.getByText("No table of the volume is active").waitFor();

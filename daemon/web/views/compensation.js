@@ -44,7 +44,7 @@ export function changeOfCorrection(shown, other, side, key) {
 // What two tables state differently besides their values.
 export function statedDifferently(t, other) {
   const text = (x) => typeof x === "object" && x !== null ? JSON.stringify(x) : String(x ?? "not stated");
-  const found = [["reference", "reference point"], ["reference_mm", "reference point in mm"], ["straightness_reference", "straightness"], ["moves", "moving body"], ["travel", "travel"], ["chain", "chain"], ["chain_travel", "travel of the chain"]]
+  const found = [["reference", "reference point"], ["reference_mm", "reference point in mm"], ["straightness_reference", "straightness"], ["moves", "moving body"], ["travel", "travel"], ["chain", "chain"], ["chain_travel", "travel of each axis of the chain"]]
     .filter(([key]) => text(t[key]) !== text(other[key])).map(([key, name]) => `${name}: ${text(t[key])} (table ${other.table}: ${text(other[key])})`);
   for (const key of Object.keys(t.correction ?? {}))
     if (factorOf(t, key) !== factorOf(other, key) || t.correction[key].command !== other.correction?.[key]?.command)
@@ -84,7 +84,7 @@ class TablePicture {
 
 function numbers({points}) {
   const keys = errorKeys(points[0]?.forward);
-  return h("details", {}, h("summary", {}, "All numbers with u"), table("Values of the table; u: standard uncertainty",
+  return h("details", {}, h("summary", {}, "All values with u"), table("Values of the table; u: standard uncertainty",
     [["position/mm", "n"], ["approach"], ...keys.flatMap((key) => [[`${nameOf(key)}/${unitOf(key)}`, "n"], [`u/${unitOf(key)}`, "n"]])],
     points.flatMap((p) => kSides.map(([side]) => [fixed(p.position_mm, 3), side,
       ...keys.flatMap((key) => { const u = p[side].u[key]; return [fixed(p[side][key], decimals(u)), fixed(u, decimals(u))]; })]))));
@@ -130,7 +130,7 @@ class AxisPanel {
       if (this.openId) this.show(this.openId);
       this.build(runs.filter((r) => ["complete", "partial"].includes(r.state)));
       const deeds = history.filter((d) => d.deed.startsWith("compensation."));
-      this.history.replaceChildren(deeds.length === 0 ? h("p", {}, "No table was built or activated yet.") : table("Tables of all axes: who did what, newest first",
+      this.history.replaceChildren(deeds.length === 0 ? h("p", {}, "No table was built or activated yet.") : table("Actions on the tables of all axes, newest first",
         [["when", "w"], ["action"], ["object"], ["by"], ["reason"]], deeds.map((d) => [time(d.utc), d.deed.replace("compensation.", ""),
           `${d.of === "compensation_table" || d.of === "volumetric_table" ? "table" : "generation"} ${d.id}`, d.user || `uid ${d.uid}`, d.detail ?? "–"])));
     } catch (error) {

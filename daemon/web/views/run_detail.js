@@ -54,7 +54,7 @@ class Straightness {
       const stated = (figure, value) => measured(kind === "least_squares" && run.uncertainty?.[`${name}_${figure}`] || {value}, figure.endsWith("_um") ? "µm" : "µrad");
       const sides = [1, -1].filter((d) => this.points.some((p) => p.direction === d && isNumber(p[key])));
       text.textContent = `Straightness ${stated("straightness_um", line?.zone_um)}; slope ${stated("slope_urad", line?.slope_um_per_m)} over the travel of the moving body` +
-        (run.travel === "-" ? ". The moving body moves against the encoder, so the slope over the positions shown has the opposite sign" : "") +
+        (run.travel === "-" ? ". The moving body moves in the − direction when the encoder counts up, so the slope over the encoder positions of the chart has the opposite sign" : "") +
         (sides.length === 2 ? ". Mean of both approaches." : ". Only one approach was measured.");
       chart.set([
         ...[1, -1].map((d) => ({label: approach(d).name, ...approach(d), points: plain(means(this.points, key, d))})),

@@ -149,7 +149,7 @@ export function verdict(change, card, push) {
   if (Math.abs(change) < least) return "no change yet";
   if (!push) return change > 0 ? "rises" : "falls";
   const expected = push.reduce((a, x, k) => a + x * card.probe.direction[k], 0);
-  if (Math.abs(expected) < 0.2) return "◆ changes, although the probe measures across the push";
+  if (Math.abs(expected) < 0.2) return "◆ changes, although the probe measures at right angles to the push";
   return expected * change > 0 ? "● as the rig states"
     : `■ REVERSED: check "measures" and "reads" of probe ${card.probe.id} in the rig`;
 }

@@ -70,7 +70,7 @@ function largestText(nodes) {
 function pictures(volume, nodes) {
   const several = [0, 1, 2].filter((k) => volume.command_mm[kAxes[k]].length > 1);
   const planes = Object.keys(kPlanes).filter((p) => several.includes(kPlanes[p][0]) && several.includes(kPlanes[p][1]));
-  if (planes.length === 0) return h("p", {}, "The table has no plane to draw.");
+  if (planes.length === 0) return h("p", {}, "No plane can be drawn, because fewer than two axes of this table have more than one node.");
   let plane = planes[0], at = null;
   const place = h("div", {}), layers = h("div", {});
   const largest = Math.max(...nodes.map(size), 1e-12);
@@ -130,7 +130,7 @@ export function openVolume(place) {
     const mine = ++turn;
     const [{volume}, {tables}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis: "volume"})]);
     const now = volume ? activeOf(volume, await grid(volume.generation))
-      : [h("p", {class: "notice"}, "No table of the volume is active. Build a table with mdof compensation build --machine, then activate it on this page.")];
+      : [h("p", {class: "notice"}, "No table of the volume is active. To build a table, use: ", h("code", {}, "mdof compensation build --machine"), ". Then activate the table on this page.")];
     if (mine !== turn) return;  // a newer reading is under way
     body.replaceChildren(...now, tables.length ? stored(tables, volume, again) : "");
   }

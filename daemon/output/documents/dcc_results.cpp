@@ -222,7 +222,7 @@ void write_notices(Xml& xml, const ReportRun& run) {
     write_declaration(xml, kMetaData,
                       "uncertainties that the rig does not declare, so that U is too small", keys);
   if (run.results.figures.budgets.empty())
-    write_declaration(xml, kMetaData, "reason for missing figures", run.results.figures.why);
+    write_declaration(xml, kMetaData, "reason for missing results", run.results.figures.why);
 }
 
 void write_meta_data(Xml& xml, const ReportRun& run) {

@@ -23,7 +23,8 @@ RunCharts charts_of_imported(const Run& run, Language language) {
   if (figures)
     series.figures = std::move(*figures);
   else
-    all.left_out.push_back(name + ": the means of ISO 230-2: " + figures.error().message);
+    all.left_out.push_back(
+        name + ": the means of ISO 230-2 cannot be calculated: " + figures.error().message);
   PositioningPicture picture;
   picture.title = title_of_run(run.header, phrase(Phrase::positioning_of_run, language), language);
   picture.about = about_run(run.header, language);

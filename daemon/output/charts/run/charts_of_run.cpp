@@ -30,7 +30,7 @@ void add_budgets(const StatedResults& results, RunCharts& all, Language language
                              " needs u, but u is unknown");
   if (results.figures.budgets.empty())
     all.left_out.push_back(
-        run + ": chart of the budget: " +
+        run + ": the chart of the budget has no values: " +
         (results.figures.why.empty() ? "the run has no calculated results" : results.figures.why));
 }
 
@@ -49,7 +49,7 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
     return all;
   }
   if (!has_five_errors(results)) {
-    all.left_out.push_back(run + ": no point has error values, but each chart needs such points");
+    all.left_out.push_back(run + ": no point has error values, so no chart can be drawn");
     return all;
   }
   add("five-errors", five_errors_svg(results, language));

@@ -14,7 +14,7 @@ namespace mdof::charts {
 std::vector<Mark> marks_of_error(const StatedResults& results, std::size_t named);
 Legend legend_of(std::span<const Mark> marks);
 
-// "run 3, axis X: five errors by position"
+// "run 3, axis X: five geometric errors against position"
 std::string title_of_run(const RunHeader& header, const std::string& what, Language language);
 // "model rigid, complete, recording 0f3a…": no time, so that a replay is drawn in the same bytes.
 std::string about_run(const RunHeader& header, Language language);

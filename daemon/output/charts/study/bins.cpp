@@ -97,8 +97,9 @@ void draw_output(Svg& svg, const Panel& panel, const BinnedOutput& out, std::str
 }
 
 std::string in_words(const StudyResult& result, const std::vector<BinnedOutput>& outputs) {
-  std::string words = study_line(result) + ". In each of " + count_text(result.bins.size()) +
-                      " bins: mean, mean ± sd, symmetric coverage interval, extremes.";
+  std::string words = study_line(result) + ". For each of " + count_text(result.bins.size()) +
+                      " bins, the chart shows the mean, the mean ± sd, the symmetric coverage "
+                      "interval and the extremes.";
   for (const BinnedOutput& out : outputs) {
     const auto sd = [](const Step& s) { return number_text((s.high - s.low) / 2); };
     words += " " + key_label(out.key) + ": sd " + sd(out.sd.front()) + " in the first bin, " +

@@ -24,8 +24,8 @@ struct Figure {
 constexpr std::array<Figure, 4> kFigures = {
     {{&ConvergencePoint::mean, "ink", "ink-dot", "mean"},
      {&ConvergencePoint::sd, "edge dash", "quiet", "sd"},
-     {&ConvergencePoint::low, "blue", "blue-dot", "lower end of the symmetric interval"},
-     {&ConvergencePoint::high, "orange dot", "orange-dot", "upper end of the symmetric interval"}}};
+     {&ConvergencePoint::low, "blue", "blue-dot", "lower end of the coverage interval"},
+     {&ConvergencePoint::high, "orange dot", "orange-dot", "upper end of the coverage interval"}}};
 
 std::vector<const Convergence*> drawn(const StudyResult& result) {
   std::vector<const Convergence*> all;
@@ -61,7 +61,8 @@ void draw_figure(Svg& svg, const Panel& panel, const Convergence& c, const Figur
 std::string last_values(const Convergence& c) {
   const ConvergencePoint& p = c.points.back();
   return key_label(c.key) + " after the last trial: mean " + number_text(p.mean) + ", sd " +
-         number_text(p.sd) + ", interval [" + number_text(p.low) + ", " + number_text(p.high) + "]";
+         number_text(p.sd) + ", coverage interval [" + number_text(p.low) + ", " +
+         number_text(p.high) + "]";
 }
 
 }  // namespace
@@ -82,7 +83,7 @@ std::string convergence_svg(const StudyResult& result) {
     words += " " + last_values(*c) + ".";
   }
   const Sheet sheet(kHeadPx + 24, y, kOutputPx);
-  const std::string title = titled(result, "difference from the last value");
+  const std::string title = titled(result, "difference from the final value");
   Svg svg(kWidthPx, sheet.bottom() + 4, title, words);
   draw_head(svg, title, study_line(result));
   std::vector<LegendItem> legend;

@@ -103,8 +103,8 @@ void draw_uncertainty(Svg& svg, const Panel& panel, const Point& p) {
 
 std::string condition(const Allocation& a) {
   const auto [name, unit] = split_key(a.output);
-  return "|" + name + "| ≤ " + number_text(a.limit) + (unit.empty() ? "" : "\u00a0" + unit) +
-         " with a probability of " + number_text(100 * a.probability) + "\u00a0%";
+  return "P(|" + name + "| ≤ " + number_text(a.limit) + (unit.empty() ? "" : "\u00a0" + unit) +
+         ") ≥ " + number_text(100 * a.probability) + "\u00a0%";
 }
 
 std::string in_words(const StudyResult& result, const std::vector<Frontier>& all) {
@@ -124,7 +124,7 @@ void draw_frontier(Svg& svg, const Panel& panel, const Frontier& f) {
   draw_allowed(svg, panel, f);
   for (const Point& p : f.points) draw_uncertainty(svg, panel, p);
   svg.text("text halo", {panel.corner.x + panel.width, panel.corner.y + 14}, Anchor::end,
-           condition(*f.allocation));
+           "permitted if " + condition(*f.allocation));
 }
 
 }  // namespace
@@ -138,20 +138,21 @@ std::string frontier_svg(const StudyResult& result) {
   std::vector<Range> y;
   for (const Frontier& f : all) y.push_back(second_range(f));
   const Sheet sheet(kHeadPx + 24, y, kFrontierPx);
-  const std::string title = titled(result, "tolerances that meet a limit");
+  const std::string title = titled(result, "permitted pairs of tolerances");
   const bool some_left_out = leaves_some_out(result);
   Svg svg(kWidthPx, sheet.bottom() + (some_left_out ? 24 : 4), title, in_words(result, all));
   draw_head(svg, title, study_line(result));
   const std::vector<LegendItem> legend = {
-      {LegendSign::line, "blue", "largest value that meets the limit"},
-      {LegendSign::area, "wide", "values that meet the limit"},
-      {LegendSign::line, "ink", "95\u00a0% interval of the sampling uncertainty"}};
+      {LegendSign::line, "blue", "largest permitted tolerance on the vertical axis"},
+      {LegendSign::area, "wide", "permitted pairs"},
+      {LegendSign::line, "ink",
+       "95\u00a0% interval of the largest tolerance (sampling uncertainty)"}};
   draw_legend(svg, kHeadPx, legend);
   for (std::size_t i = 0; i < all.size(); ++i)
     draw_frontier(svg, sheet.panel(i, first_range(all[i]), false), all[i]);
   if (some_left_out)
     svg.text("quiet", {kMarginPx, sheet.bottom() + 8}, Anchor::start,
-             "Points where the second tolerance has no upper bound are not drawn.");
+             "Points where the tolerance on the vertical axis has no upper limit are not drawn.");
   return svg.take();
 }
 

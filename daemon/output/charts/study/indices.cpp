@@ -95,7 +95,7 @@ std::string left_out(const OutputIndices& output) {
   double largest = 0;
   for (std::size_t i = shown(output); i < output.causes.size(); ++i)
     largest = std::max(largest, output.causes[i].total);
-  return std::to_string(rest) + " more causes, each with a total of at most " +
+  return std::to_string(rest) + " more causes, each with a total index of at most " +
          fixed_text(largest, 3);
 }
 
@@ -136,7 +136,7 @@ std::string indices_svg(const StudyResult& result) {
   draw_head(svg, title, study_line(result));
   const std::array<LegendItem, 3> legend = {
       {{LegendSign::area, "blue-dot", "first order: effect of the cause alone"},
-       {LegendSign::area, "wide", "total: effect with its interactions"},
+       {LegendSign::area, "wide", "total: effect including interactions"},
        {LegendSign::line, "ink", "± standard error"}}};
   draw_legend(svg, kHeadPx, legend);
   Panel panel;

@@ -180,7 +180,7 @@ TEST_F(Plots, ShowTheirFigures) {
   EXPECT_TRUE(has("histogram-EAX_urad.svg", "shortest 95\u00a0%"));
   EXPECT_TRUE(has("error-against-travel.svg", "travel / mm"));
   EXPECT_TRUE(has("sensitivity.svg", "0.412 ± 0.004"));
-  EXPECT_TRUE(has("allocation.svg", "|EBX| ≤ 2\u00a0µrad with a probability of 95\u00a0%"));
+  EXPECT_TRUE(has("allocation.svg", "permitted if P(|EBX| ≤ 2\u00a0µrad) ≥ 95\u00a0%"));
   EXPECT_TRUE(has("convergence.svg", "10⁸"));
 }
 
@@ -251,7 +251,8 @@ TEST_F(Plots, OfManyCausesShowTheLargestAndSayWhatIsLeftOut) {
   const std::string text = write(r).at("sensitivity.svg");
   EXPECT_NE(text.find(">cause 19<"), std::string::npos);
   EXPECT_EQ(text.find(">cause 20<"), std::string::npos);
-  EXPECT_NE(text.find(">30 more causes, each with a total of at most 0.024<"), std::string::npos);
+  EXPECT_NE(text.find(">30 more causes, each with a total index of at most 0.024<"),
+            std::string::npos);
 }
 
 TEST_F(Plots, SayWhenExtremesAreCutOff) {

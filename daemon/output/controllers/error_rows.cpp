@@ -34,12 +34,14 @@ Result<ControllerFile> ssfk_of(const CompensationTable& table, const Series& s,
                        ": two neighbouring positions are equal when rounded to 0.1 um, the "
                        "resolution of a lead screw table");
   }
-  std::string text =
-      commented(head_lines(table, options,
-                           "setpoint, .pos, .neg in 0.1 um; value = actual - set = +" + s.error),
-                "#");
+  std::string text = commented(
+      head_lines(
+          table, options,
+          ".setpoint, .pos and .neg are in 0.1 um; .pos and .neg = actual - set = +" + s.error),
+      "#");
   text +=
-      "# unit 1: metric, 0.1 um; interval 0: each row has its setpoint; activate: lr_param.ssfk 1\n"
+      "# unit 1 means 0.1 um; interval 0 means that each row has its own setpoint\n"
+      "# to activate the table, set lr_param.ssfk 1\n"
       "kw.ssfk.interval 0\nkw.ssfk.unit 1\nkw.ssfk.bilateral 1\nkw.ssfk.modulo 0\n"
       "kw.ssfk.kw_startpos " +
       tenths_text(s.position_m.front()) + "\nkw.ssfk.kw_nr_max " +
@@ -128,10 +130,11 @@ Result<Export> write_weihong(const std::vector<CompensationTable>& tables,
   std::string head, body;
   for (const CompensationTable& table : tables) {
     MDOF_TRY(const Series s, positioning_of(table, kMostOfWeihong, options, kWeihongFile, out));
-    head +=
-        commented(head_lines(table, options,
-                             "nominal, forward error, backward error in mm; error = +" + s.error),
-                  ";");
+    head += commented(
+        head_lines(
+            table, options,
+            "columns in mm: nominal position, forward error, backward error; error = +" + s.error),
+        ";");
     body += std::string("[") + s.along + "]\n";
     for (std::size_t i = 0; i < s.position_m.size(); ++i)
       body += fixed(to_mm(s.position_m[i]), 6) + ", " + fixed(to_mm(s.forward[i]), 6) + ", " +

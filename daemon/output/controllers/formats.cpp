@@ -16,8 +16,8 @@ const std::vector<Format>& formats() {
       {.name = "linuxcnc",
        .of = "LinuxCNC 2.9, COMP_FILE",
        .holds = "positioning (EXX, EYY, EZZ), forward and reverse; one table per axis",
-       .limits = "256 points per joint; linear interpolation between points; end values outside "
-                 "the range of the points",
+       .limits = "256 points per joint; linear interpolation between the points; constant value "
+                 "beyond the first and last points",
        .sense = "trim = -E in mm or inches, added to the motor command (COMP_FILE_TYPE 1)",
        .source = "source code of LinuxCNC; tested in LinuxCNC",
        .sign_confirmed = true,
@@ -31,7 +31,8 @@ const std::vector<Format>& formats() {
        .of = "any program",
        .holds = "all errors of the table with their uncertainty",
        .limits = "none",
-       .sense = "E = actual - nominal; correction = factor * E, if the chain is known",
+       .sense = "E = actual - nominal; correction = factor * E, if the kinematic chain of the "
+                "machine is known",
        .source = "format of mdof",
        .sign_confirmed = true,
        .quantum_m = 1e-15,
@@ -42,8 +43,10 @@ const std::vector<Format>& formats() {
       {.name = "siemens-lec",
        .of = "Siemens SINUMERIK, encoder error compensation (ENC_COMP)",
        .holds = "positioning, one value for both approaches; one file per axis",
-       .limits = "200 points at equal steps (other controls: option siemens-points, MD38000); "
-                 "linear interpolation between points; end values outside the range of the points",
+       .limits =
+           "200 points at equal steps (if MD38000 of the control has another limit, use the option "
+           "siemens-points); linear interpolation between the points; constant value beyond "
+           "the first and last points",
        .sense = "value = +E in mm: a positive value moves the axis in the negative direction",
        .source = "manual of the 808D, 01/2017; not tested on a control",
        .sign_confirmed = true,
@@ -56,9 +59,10 @@ const std::vector<Format>& formats() {
        .of = "Siemens SINUMERIK, cross error compensation (sag, CEC)",
        .holds = "positioning and straightness, both approaches; or a volumetric table as sums and "
                 "products of one-axis tables; one file",
-       .limits = "200 points at equal steps and 8 tables in an 828D (other controls: options "
-                 "siemens-points and siemens-tables, MD18342); linear interpolation between "
-                 "points; end values outside the range of the points",
+       .limits =
+           "200 points at equal steps, and 8 tables in an 828D (if MD18342 of the control has "
+           "another limit, use the options siemens-points and siemens-tables); linear "
+           "interpolation between the points; constant value beyond the first and last points",
        .sense = "value = correction in mm, added to the command of the output axis",
        .source = "format: manual of the 828D and 840D sl, 03/2013; this manual does not state the "
                  "sign; another program writes nominal - measured; not tested on a control",
@@ -82,7 +86,7 @@ const std::vector<Format>& formats() {
        .square = {}},
       {.name = "weihong",
        .of = "Weihong NcStudio, NK: axeserr.dat",
-       .holds = "positioning, forward and backward; one file of all axes",
+       .holds = "positioning, forward and backward; one file for all axes",
        .limits = "10000 rows per axis (limit of mdof)",
        .sense = "forward and backward error = +E in mm",
        .source = "inferred from the backlash example of the manual",
@@ -95,8 +99,9 @@ const std::vector<Format>& formats() {
       {.name = "isg-csv",
        .of = "Beckhoff TwinCAT CNC (TF5280) and ISG kernel, volumetric compensation",
        .holds = "volumetric table: corrections of X, Y and Z over a plane or a volume",
-       .limits = "all nodes of the table (max_records); linear interpolation between nodes",
-       .sense = "EXX, EYX, EZX in mm = actual - nominal of the tool = -correction",
+       .limits = "all nodes of the table, if max_records of the control is large enough; linear "
+                 "interpolation between nodes",
+       .sense = "columns EXX, EYX, EZX in mm = actual - nominal position of the tool = -correction",
        .source = "format: manual of the TF5280; this manual uses the errors of ISO 230-1 and has "
                  "the key \"negate\" for the opposite sign; not tested on a control",
        .sign_confirmed = false,
@@ -110,7 +115,8 @@ const std::vector<Format>& formats() {
        .holds = "volumetric table: corrections of X, Y and Z over the plane XY",
        .limits = "4000 rows and columns at equal steps; bilinear interpolation; beyond the grid, "
                  "the last cell is extrapolated",
-       .sense = "X, Y: corrected command; Z: correction, added to the command; inch",
+       .sense =
+           "X and Y: corrected commands; Z: correction that is added to the command; all in inch",
        .source = "manual and published source code of KMotion; not tested on a control",
        .sign_confirmed = true,
        .quantum_m = 1e-12,
@@ -159,7 +165,7 @@ const std::vector<Format>& formats() {
        .of = "LinuxCNC 2.10, matrixkins (not in 2.9)",
        .holds = "the squareness of X and Y",
        .limits = "stores one angle only; assumes that both axes are straight",
-       .sense = "C_xy: joint X = x + C_xy y",
+       .sense = "parameter C_xy: for the command x, y, joint X moves to x + C_xy y",
        .source = "manual and test code of the component matrixkins; not tested in LinuxCNC",
        .sign_confirmed = true,
        .quantum_m = 1e-10,

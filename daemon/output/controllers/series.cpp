@@ -80,8 +80,9 @@ Result<Series> without_holes(const Series& s, std::int64_t table, bool cut, Expo
   const std::string range =
       place_text(s.position_m[first]) + " to " + place_text(s.position_m[end - 1]);
   if (!cut) return bad_input(missing, Remedy::cut_range, range);
-  out.notes.push_back(missing + "; only the range " + range +
-                      " is exported, and the controller uses the end values beyond this range");
+  out.notes.push_back(
+      missing + "; only the range " + range +
+      " is exported; beyond this range, the controller uses the values at its two ends");
   return range_of(s, {first, end});
 }
 
@@ -177,8 +178,8 @@ std::vector<std::string> head_lines(const CompensationTable& table, const Export
 
 std::string stated_place(const StatedAt& at) {
   const auto mm = [&at](std::size_t k) { return plain_number(to_mm(at.point_m[k]), 6); };
-  return std::string(to_string(at.reference)) + ", " + mm(0) + ", " + mm(1) + ", " + mm(2) +
-         " mm from the origin of the fixture";
+  return std::string(to_string(at.reference)) + ": X, Y, Z = " + mm(0) + ", " + mm(1) + ", " +
+         mm(2) + " mm from the origin of the measuring fixture";
 }
 
 double mean_error_at(const Series& s, double position_m) {

@@ -23,7 +23,7 @@ std::vector<std::string> head_of(const SquareAxes& axes, const ExportOptions& op
       "EC0Y " + plain_number(to_urad(axes.EC0Y_rad), 6) + " urad, U " +
           plain_number(to_urad(b.U), 3) + " urad (k " + plain_number(b.coverage_factor, 3) +
           ", 95 %); U contains " + one_plain_line(covers_text(b)),
-      "the angle at the " + stated_place(axes.at),
+      "the angle is valid at the " + stated_place(axes.at),
       "machine " + axes.machine.text + " (" + travels_of(axes.machine) + ")"};
   for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
   return lines;
@@ -34,7 +34,7 @@ Result<Export> exported(const SquareAxes& axes, const ExportOptions& options, co
                         const char* sign, const std::vector<std::string>& how,
                         const std::string& line) {
   Export out;
-  if (options.tolerance_m > 0) out.notes.emplace_back("the tolerance has no effect on an angle");
+  if (options.tolerance_m > 0) out.notes.emplace_back("tolerance_um has no effect on an angle");
   if (options.home_m) out.notes.emplace_back("home_mm has no effect on an angle");
   std::vector<std::string> head = head_of(axes, options);
   head.insert(head.end(), how.begin(), how.end());

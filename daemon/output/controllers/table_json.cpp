@@ -34,7 +34,9 @@ Result<AppliedCorrection> correction_of(const element& table, const std::string&
   std::string_view axis, command;
   if (table["axis"].get(axis) != simdjson::SUCCESS || axis.size() != 1 ||
       rule["command"].get(command) != simdjson::SUCCESS || command.size() != 1)
-    return bad_input(file + ": " + key + " has no axis or no command");
+    return bad_input(file + ": " + key +
+                     ": the key \"axis\" of the table or the key \"command\" of this correction is "
+                     "missing or wrong");
   const double factor = number_of(rule, "factor");
   AppliedCorrection read{key.substr(0, key.find('_')), axis[0], command[0], {}, {}, {}};
   simdjson::dom::array points;

@@ -58,9 +58,8 @@ std::vector<double> places_of(std::vector<double> all) {
 
 std::string isg_list(const VolumetricTable& t, const std::vector<std::string>& head) {
   return commented(head, "#") +
-         "# set in the start-up list: vol_comp[0].file_name, and vol_comp[0].max_records to at "
-         "least " +
-         std::to_string(t.nodes()) +
+         "# in the start-up list, set vol_comp[0].file_name, and set vol_comp[0].max_records to " +
+         std::to_string(t.nodes()) + " or more" +
          "\n# 1, 2, 3 are assumed to be the logical numbers of the axes X, Y, Z\n"
          "X 1\nY 2\nZ 3\nworkpiece_axes 0\ninterpolation GRID\nfile[0] " +
          kIsgTable + "\nfile_format[0] ISG_CSV\n";
@@ -76,17 +75,18 @@ std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& 
       "sha256 of the table " + t.sha256,
       "machine " + t.machine.text + " (" + travels_of(t.machine) + "), approach " + t.approach,
       "sense: " + sense};
-  std::string at = "valid at the tool point";
-  for (const double x : t.tool_m) at += " " + plain_number(to_mm(x), 9);
+  const auto mm = [](double m) { return plain_number(to_mm(m), 9); };
+  std::string at = "valid for the tool point X, Y, Z = " + mm(t.tool_m[0]) + ", " +
+                   mm(t.tool_m[1]) + ", " + mm(t.tool_m[2]) + " mm";
   for (std::size_t k = 0; k < 3; ++k)
     if (t.command_m[k].size() == 1 && t.machine.find(kLinear[k]))
-      at += ", " + letter_of(k) + " " + plain_number(to_mm(t.command_m[k].front()), 9);
-  lines.push_back(at + " mm");
+      at += ", at the command " + letter_of(k) + " = " + mm(t.command_m[k].front()) + " mm";
+  lines.push_back(at);
   Vec3 u{};
   for (const Vec3& node : t.u_m)
     for (std::size_t k = 0; k < 3; ++k) u[k] = std::max(u[k], node[k]);
-  lines.push_back("largest u of X, Y, Z: " + plain_number(to_um(u[0])) + ", " +
-                  plain_number(to_um(u[1])) + ", " + plain_number(to_um(u[2])) +
+  lines.push_back("largest u of the tool position along X, Y, Z: " + plain_number(to_um(u[0])) +
+                  ", " + plain_number(to_um(u[1])) + ", " + plain_number(to_um(u[2])) +
                   " um; u contains " + one_plain_line(covers_text(t)));
   for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
   return lines;
@@ -127,7 +127,8 @@ Result<Export> write_isg_csv(const VolumetricTable& t, const ExportOptions& opti
   note_options(options, out);
   const auto axes = axes_of_grid(t);
   const auto head =
-      head_of(t, options, "EXX, EYX, EZX in mm = actual - nominal of the tool = -correction");
+      head_of(t, options,
+              "columns EXX, EYX, EZX in mm = actual - nominal position of the tool = -correction");
   std::string text = commented(head, "//");
   for (const std::size_t k : axes) text += letter_of(k) + " ";
   text += "EXX EYX EZX\n";
@@ -230,10 +231,12 @@ Result<Export> write_dynomotion(const VolumetricTable& t, const ExportOptions& o
               "," + inches(c[2]) + "\n";
     }
   // KMotion reads as many rows as the first line says, and nothing behind them.
-  text += commented(head_of(t, options,
-                            "row, column, corrected command of X and Y, correction added to Z; "
-                            "steps and positions in machine coordinates; all in inch"),
-                    "//");
+  text +=
+      commented(head_of(t, options,
+                        "columns: row number, column number, corrected command of X, corrected "
+                        "command of Y, correction that is added to the command of Z; all lengths "
+                        "are in inch, and all positions are machine coordinates"),
+                "//");
   out.files.push_back({kGeoTable, std::move(text)});
   out.notes.emplace_back(
       "beyond the grid KMotion extrapolates the last cell; keep the workpiece inside the grid");

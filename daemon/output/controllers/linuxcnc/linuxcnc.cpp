@@ -154,13 +154,14 @@ std::optional<std::size_t> joint_of(std::string_view line) {
 }
 
 std::string joints_text(const ExportOptions& options) {
-  if (options.joints.empty()) return "0 1 2 are X Y Z";
+  if (options.joints.empty()) return "Joints 0, 1, 2 belong to axes X, Y, Z, in this order";
   std::string numbers, axes;
   for (const ExportOptions::Joint& joint : options.joints) {
-    numbers += (numbers.empty() ? "" : " ") + std::to_string(joint.number);
-    axes += (axes.empty() ? "" : " ") + std::string(1, joint.axis);
+    numbers += (numbers.empty() ? "" : ", ") + std::to_string(joint.number);
+    axes += (axes.empty() ? "" : ", ") + std::string(1, joint.axis);
   }
-  return numbers + " are " + axes;
+  if (options.joints.size() == 1) return "Joint " + numbers + " belongs to axis " + axes;
+  return "Joints " + numbers + " belong to axes " + axes + ", in this order";
 }
 
 }  // namespace
@@ -172,7 +173,7 @@ Result<Export> write_linuxcnc(const std::vector<CompensationTable>& tables,
   std::string ini = std::string(
                         "# Copy these lines to the ini file of LinuxCNC, and copy the .comp files "
                         "to the folder of the ini file.\n") +
-                    "# Restart LinuxCNC to change a table. Joints " + joints_text(options) +
+                    "# Restart LinuxCNC to change a table.\n# " + joints_text(options) +
                     ".\n# A joint with a table ignores BACKLASH.\n# Do not add comments to a .comp "
                     "file: LinuxCNC stops reading at a comment.\n";
   if (options.inch) ini += std::string(kUnits) + "inch\n";

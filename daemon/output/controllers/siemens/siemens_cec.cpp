@@ -193,7 +193,7 @@ Status check_count(std::size_t tables, const ExportOptions& options, Export& out
   const std::string count = std::to_string(tables) + " CEC tables are needed, but ";
   if (options.siemens_tables > 0 && tables > options.siemens_tables)
     return bad_input(count + "the control has " + std::to_string(options.siemens_tables) +
-                     " (option siemens-tables); export fewer tables of axes");
+                     " (option siemens-tables); export the tables of fewer axes");
   if (options.siemens_tables == 0 && tables > kTablesOf828D)
     out.notes.push_back(count + "an 828D allows only " + std::to_string(kTablesOf828D) +
                         "; on other controls MD18342 sets the limit");
@@ -221,7 +221,8 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
   std::size_t t = 0;
   for (const CompensationTable& table : tables) {
     for (const std::string& line : head_lines(
-             table, options, "mm; value = correction, added to the command of the output axis"))
+             table, options,
+             "values in mm; value = correction that is added to the command of the output axis"))
       head += "; " + line + "\n";
     MDOF_CHECK(add_errors(table, as_measured, out, text, t));
   }
@@ -324,12 +325,12 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
   for (const std::size_t axis : axes_of_grid(t)) {
     MDOF_TRY(step_m[axis], equal_step(t, axis, "CEC"));
     if (t.command_m[axis].size() > most_points(options))
-      return bad_input("table " + std::to_string(t.id) + ": " +
-                       std::to_string(t.command_m[axis].size()) + " positions of " +
-                       kLinearAxes[axis] + ", but a CEC table has at most " +
-                       std::to_string(most_points(options)) +
-                       " points; build a table with larger steps, or give the limit of the control "
-                       "(option siemens-points)");
+      return bad_input(
+          "table " + std::to_string(t.id) + ": " + std::to_string(t.command_m[axis].size()) +
+          " positions of " + kLinearAxes[axis] + ", but a CEC table has at most " +
+          std::to_string(most_points(options)) +
+          " points; build a table with larger steps, or state the limit of the control "
+          "(option siemens-points)");
   }
   std::vector<CecTable> tables;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -348,7 +349,8 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
                                " by the position of " + tables[i].input,
                      kDecimalsOfVolume);
   const auto head =
-      head_of(t, options, "mm; value = correction, added to the command of the output axis");
+      head_of(t, options,
+              "values in mm; value = correction that is added to the command of the output axis");
   out.files.push_back({kFile, file_text(commented(head, ";"), text)});
   out.notes.push_back(
       "the correction is written as sums and products of one-axis tables; largest residual: " +

@@ -30,8 +30,9 @@ Status check_reversal(const CompensationTable& table, const Series& s, const Exp
     largest = std::max({largest, std::abs(s.forward[i]), std::abs(s.reverse[i])});
   }
   if (!(reversal > 0)) return {};
-  out.left_out.push_back(s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +
-                         " um, because ENC_COMP stores only the mean of both approaches");
+  out.left_out.push_back(
+      s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +
+      " um is not corrected, because ENC_COMP stores only the mean of both approaches");
   const double limit =
       algo::ResidualLimits{options.residual_m, options.residual_share}.of(largest, kStepOfLec_m);
   if (options.one_approach || reversal / 2 <= limit) return {};
@@ -52,7 +53,7 @@ std::string lec_text(const CompensationTable& table, const Series& s, const Equa
   std::string text = std::string(kLecHead) + "\n";
   for (const std::string& line :
        head_lines(table, options,
-                  "mm; value = +" + s.error +
+                  "values in mm; value = +" + s.error +
                       ", mean of both approaches; a positive value moves the "
                       "axis in the negative direction"))
     text += "; " + line + "\n";

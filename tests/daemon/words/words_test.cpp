@@ -107,10 +107,12 @@ TEST(Catalogue, GermanLinesHaveSingularAndPlural) {
   const auto left_out = [](int stops) {
     return notice(NoticeCode::stop_at_end_of_log, "", {{"stops", stops}, {"positions_mm", "5.5"}});
   };
-  EXPECT_EQ(line(left_out(1)),
-            "Hinweis: 1 Halt weggelassen (einmal angefahren, am Ende des Protokolls): bei 5.5 mm");
+  EXPECT_EQ(
+      line(left_out(1)),
+      "Hinweis: 1 Halt wurde ausgelassen (einmal angefahren, am Ende des Protokolls): bei 5.5 mm");
   EXPECT_EQ(line(left_out(2)),
-            "Hinweis: 2 Halte weggelassen (einmal angefahren, am Ende des Protokolls): bei 5.5 mm");
+            "Hinweis: 2 Halte wurden ausgelassen (einmal angefahren, am Ende des Protokolls): bei "
+            "5.5 mm");
   const auto missing = [](int n) {
     return notice(NoticeCode::targets_missing, "",
                   {{"missing", n}, {"of", 9}, {"targets", "targets 2, 4"}});

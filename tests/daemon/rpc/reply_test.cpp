@@ -218,8 +218,8 @@ TEST_F(Replies, AnErrorHasItsRemedyAsWordsAndAsCode) {
   for (const std::string method : {"fail_at_once", "fail_later"})
     EXPECT_EQ(
         client.ask(R"({"jsonrpc":"2.0","method":")" + method + R"(","id":1})"),
-        R"({"jsonrpc":"2.0","error":{"code":-32010,"message":"run 7 is too long; read the run )"
-        R"(with mdof show 7","data":{"remedy":"show_run"}},"id":1})");
+        R"({"jsonrpc":"2.0","error":{"code":-32010,"message":"run 7 is too long; to read the run, )"
+        R"(use: mdof show 7","data":{"remedy":"show_run"}},"id":1})");
   EXPECT_EQ(
       at(client.ask(R"({"jsonrpc":"2.0","method":"fail","params":[1],"id":2})"), "/error/data"),
       "");
@@ -227,7 +227,7 @@ TEST_F(Replies, AnErrorHasItsRemedyAsWordsAndAsCode) {
   ASSERT_TRUE(mdof);
   const auto result = mdof->call("fail_later");
   ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().message, "run 7 is too long; read the run with mdof show 7");
+  EXPECT_EQ(result.error().message, "run 7 is too long; to read the run, use: mdof show 7");
 }
 
 }  // namespace

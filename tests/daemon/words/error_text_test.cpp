@@ -34,9 +34,9 @@ TEST(ErrorText, EachRemedyHasWordsOfItsOwnInBothLanguages) {
 
 TEST(ErrorText, AnErrorEndsInItsRemedy) {
   const auto error = bad_input("run 7 has 200000 points", Remedy::show_run, "7").value();
-  EXPECT_EQ(words::text(error), "run 7 has 200000 points; read the run with mdof show 7");
+  EXPECT_EQ(words::text(error), "run 7 has 200000 points; to read the run, use: mdof show 7");
   EXPECT_EQ(words::text(error, words::Language::german),
-            "run 7 has 200000 points; die Messung mit mdof show 7 lesen");
+            "run 7 has 200000 points; um die Messung zu lesen: mdof show 7");
   EXPECT_EQ(words::text(bad_input("a.csv: is empty").value()), "a.csv: is empty");
 }
 

@@ -104,10 +104,10 @@ std::string volumetric_sha256(const VolumetricTable& t) {
 
 std::string covers_text(const VolumetricTable& table) {
   std::string text =
-      table.noise_only ? "the u of the errors (the u of at least one error contains only noise and "
-                         "repeatability)"
-                       : "the u of the errors; errors of different axes and errors from files are "
-                         "treated as independent, except for the scales of common probes";
+      table.noise_only
+          ? "the u of the errors; the u of at least one error contains only noise and repeatability"
+          : "the u of the errors; errors of different axes and errors from files are "
+            "treated as independent, except for the scales of common probes";
   if (!table.u_not_declared.empty()) text += "; errors without a u are not included";
   if (!table.u_independent_m.empty())
     text +=

@@ -112,10 +112,10 @@ TEST(PhysicsContributors, ATiltThatIsNotCorrectedCountsWhole) {
   const Rig rig =
       rig_of_physics(kGapKeys + "u_tilt_factor = 0.4\n", "", "[corrections]\ntilt = false\n");
   const mdof::Run run = run_of_physics(rig, tilting_axis);
-  const Contributor b = named_contributor(rig, run, "probe B: tilt, not corrected");
+  const Contributor b = named_contributor(rig, run, "probe B: uncorrected tilt");
   const double whole = std::sqrt(5 * 5 + 0.4 * 0.4);
   expect_shown(b, "tilt_factor", whole, "");
-  expect_tilts(b, named_contributor(rig, run, "probe D: tilt, not corrected"), run, whole);
+  expect_tilts(b, named_contributor(rig, run, "probe D: uncorrected tilt"), run, whole);
 }
 
 // B looks 20 mrad askew at its plane. Of each unit of the factor it sees the change since the zero.
@@ -215,8 +215,8 @@ TEST(PhysicsContributors, ACurveThatIsNotCorrectedCountsWhole) {
     const Rig rig = rig_of_physics("", c.keys, off);
     mdof::Run run = run_of_physics(rig, rising_axis);
     run.points.resize(9);  // one way: the largest reading is the first alone
-    const Contributor found = named_contributor(rig, run, "probe B: linearity, not corrected");
-    EXPECT_FALSE(has_contributor(rig, run, "probe C: linearity, not corrected"));
+    const Contributor found = named_contributor(rig, run, "probe B: uncorrected linearity");
+    EXPECT_FALSE(has_contributor(rig, run, "probe C: uncorrected linearity"));
     const auto parts = found.parts();
     double most_um = 0;
     for (std::size_t j = 0; j < run.points.size(); ++j) {
@@ -285,7 +285,7 @@ TEST(PhysicsContributors, OfAirThatIsCorrectedWhatIsNotKnownOfIt) {
   const Rig rig = rig_of_physics(
       kGapKeys, "", "[corrections]\ndielectric = true\n[air]\n" + kAirThen + kAirNow + kUOfAir);
   const mdof::Run run = run_of_physics(rig, rising_axis);
-  EXPECT_FALSE(has_contributor(rig, run, "air: dielectric, not corrected"));
+  EXPECT_FALSE(has_contributor(rig, run, "air: uncorrected permittivity"));
   expect_quantities_of_air(rig, run, kNow);
 }
 
@@ -293,7 +293,7 @@ TEST(PhysicsContributors, AirThatIsNotCorrectedCountsWhole) {
   const Rig rig = rig_of_physics(
       kGapKeys, "", "[corrections]\ndielectric = false\n[air]\n" + kAirThen + kAirNow + kUOfAir);
   const mdof::Run run = run_of_physics(rig, rising_axis);
-  const Contributor whole = named_contributor(rig, run, "air: dielectric, not corrected");
+  const Contributor whole = named_contributor(rig, run, "air: uncorrected permittivity");
   const double relative =
       permittivity_of_air(23, 99, 65) / permittivity_of_air(20, 101.325, 40) - 1;
   EXPECT_EQ(whole.key, "[air]");
@@ -313,13 +313,13 @@ TEST(PhysicsContributors, OfAirThatTheLogTellsTheSlopesAreThoseOfTheCalibration)
   const Rig rig = rig_of_physics(kGapKeys, "",
                                  "[corrections]\ndielectric = false\n[air]\n" + kAirThen + kUOfAir);
   const mdof::Run run = run_of_physics(rig, rising_axis);
-  EXPECT_FALSE(has_contributor(rig, run, "air: dielectric, not corrected"));
+  EXPECT_FALSE(has_contributor(rig, run, "air: uncorrected permittivity"));
   expect_quantities_of_air(rig, run, kThen);
   // So it is where the log tells one quantity.
   const Rig partly = rig_of_physics(kGapKeys, "",
                                     "[corrections]\ndielectric = false\n[air]\n" + kAirThen +
                                         "temperature_C = 23\nhumidity_percent = 65\n" + kUOfAir);
-  EXPECT_FALSE(has_contributor(partly, run, "air: dielectric, not corrected"));
+  EXPECT_FALSE(has_contributor(partly, run, "air: uncorrected permittivity"));
 }
 
 TEST(PhysicsContributors, PointsWithoutErrorsHaveNone) {

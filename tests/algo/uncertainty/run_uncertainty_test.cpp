@@ -51,7 +51,8 @@ TEST(RunUncertainty, WhatIsDeclaredAddsToTheNoise) {
   const Rig rig = rig_x_with("B", "u_calibration_um = { u = 0.03, dof = 4 }");
   const auto found = run_uncertainty(rig, measured(rig, noise));
   EXPECT_FALSE(found.noise_only);
-  EXPECT_EQ(covers_text(found), "noise, repeatability and the uncertainties that the rig declares");
+  EXPECT_EQ(covers_text(found),
+            "noise, repeatability and the uncertainties declared in the rig file");
   const auto& point = found.points[7];
   const double share = kUp_m / kL_m / 2;
   const double random2 = noise * noise * (1 + 2 * share * share);

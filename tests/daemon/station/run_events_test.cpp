@@ -27,8 +27,8 @@ TEST(RunEvents, ManyPointsComeInMessagesThatALineHolds) {
     const auto json = parser.parse(message);
     EXPECT_EQ(std::uint64_t(json["offset"]), next);
     EXPECT_EQ(std::string_view(json["u_covers"]),
-              "noise only (no uncertainties are declared); repeatability is not included (u of "
-              "each single stop)");
+              "noise only (no uncertainties are declared); repeatability is not included (u is "
+              "given for each single stop)");
     for (const auto point : json["points"]) EXPECT_EQ(std::uint64_t(point["target"]), ++next - 40);
   }
   EXPECT_EQ(next, 540u);

@@ -13,7 +13,9 @@
 
 namespace mdof {
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they lie");
+static_assert(
+    std::endian::native == std::endian::little,
+    "numbers are written in the byte order of the processor, which must be little-endian");
 
 // An integer or a double, as it lies in memory.
 template <class T>

@@ -182,7 +182,7 @@ CalibratedProbe read_probe(TomlTable& table) {
   if (table.has("sensitivity_dof")) {
     probe.sensitivity_freedom = table.number("sensitivity_dof");
     if (!(probe.sensitivity_freedom >= 1))
-      table.reject("sensitivity_dof", "must be 1 or greater (degrees of freedom)");
+      table.reject("sensitivity_dof", "must be a number of degrees of freedom, 1 or greater");
   }
   read_certificate(table);  // apply_records() takes it
   return probe;
@@ -222,8 +222,8 @@ std::string record_text(const CalibrationRecord& record, const CertificateFacts&
       record.kind + "-" + record.date + "-" + sha256_hex(body).substr(0, kIdDigits);
   const std::string hashed = line("id", id) + body;
   return "# Made by a calibration of " + record.kind +
-         ". A rig uses this record with calibration = \"this file\".\n# Do not edit: sha256 is the "
-         "hash of the text below it.\n" +
+         ". To use this record, give the name of this file in the key \"calibration\" of a rig.\n# "
+         "Do not edit this record: sha256 is the hash of the text below the line sha256.\n" +
          std::string(kRecordHead) + "\n" + std::string(kHashKey) + sha256_hex(hashed) + "\"\n" +
          hashed;
 }

@@ -119,7 +119,8 @@ tl::unexpected<Error> off_grid(const std::string& place, char axis, double x_m,
 
 Result<SurfaceMap> grid_of(const MapPoints& points, const std::string& source,
                            const std::function<std::string(std::size_t)>& place) {
-  if (points.z_m.empty()) return bad_input(source + ": has no pixel; write rows x, y, z");
+  if (points.z_m.empty())
+    return bad_input(source + ": has no points; write one row x, y, z for each point");
   MDOF_TRY(const Steps columns, steps_of(points.x_m, 'x', source));
   MDOF_TRY(const Steps rows, steps_of(points.y_m, 'y', source));
   if (columns.count == 1 && rows.count == 1)

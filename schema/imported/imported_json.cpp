@@ -18,7 +18,7 @@ void write_imported_point(JsonWriter& json, const MeasuredPoint& point, const st
 void write_imported_members(JsonWriter& json, const RunHeader& header, NoticeWords words) {
   write_header_members(json, header, words);
   json.field("imported", true).field("error", header.provenance.model);
-  json.field("sense", "actual - nominal, as in the file");
+  json.field("sense", "actual minus nominal, as in the file");
   if (header.provenance.model != positioning_name(header.axis)) return;
   json.field("positioning_sense", to_string(run_options(header).imported.sense));
 }

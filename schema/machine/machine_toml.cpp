@@ -145,8 +145,9 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
       frame.positioning_sense = sense == "command" ? StatedSense::command : StatedSense::body;
     if (sense != "command" && sense != "body")
       table.reject("positioning_sense",
-                   "must be \"body\" (positive along + of the machine axis) or \"command\" (actual "
-                   "- commanded position in coordinates of the controller)");
+                   "must be \"body\" (the error is positive in the + direction of the machine "
+                   "axis) or \"command\" (the error is the actual minus the commanded position in "
+                   "the coordinates of the controller)");
     if (table.has("angles_zero_at_mm"))
       frame.angles_zero_m = position_from_written(frame, table.number("angles_zero_at_mm"));
     frame.runs = read_stored_rows(table, "runs");
@@ -224,14 +225,14 @@ void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& fr
   frame.ratio = table.number("ratio");
   if (!(std::abs(frame.ratio) <= kLargestRatio) || frame.ratio == 0)
     table.reject("ratio",
-                 "must be from -1000 to 1000 and not 0 (mm along + of `along` per mm of the "
-                 "command of `with`)");
+                 "must be from -1000 to 1000, but not 0; ratio is the motion along + of the axis "
+                 "in \"along\", in mm per mm of the command of the axis in \"with\"");
   const std::string point = table.string("point", "moving");
   frame.point_moves = point == "moving";
   if (point != "moving" && point != "standing")
     table.reject("point",
-                 "must be \"standing\" (errors at a fixed point) or \"moving\" (errors at a point "
-                 "that moves with the body)");
+                 "must be \"standing\" (errors at a point that does not move) or \"moving\" "
+                 "(errors at a point that moves with the body)");
 }
 
 // A body that is no axis has errors all the same: how it was put upon the one before.
@@ -244,9 +245,11 @@ void read_fixed_frames(TomlTable& root, Machine& machine) {
     if (frame.id.size() < 2 || machine.find(frame.id))
       table.reject("id", "must be a name of two letters or more that no other frame has");
     if (!place) {
-      table.reject("after", "\"" + after +
-                                "\" is not a link of the chain; give w, b, an axis or the " +
-                                "id of a frame above this one");
+      table.reject(
+          "after",
+          "\"" + after +
+              "\" is not a link of the chain; give \"w\" (work), \"b\" (bed), an axis, or the " +
+              "id of a [[frame]] above this one in the file");
       continue;
     }
     frame.carries_work = after == "w" || (after != "b" && machine.frames[*place - 1].carries_work);

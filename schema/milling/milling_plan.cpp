@@ -214,7 +214,7 @@ Result<DeclaredMillingPlan> parse_milling_plan(std::string_view text, const std:
   plan.axial_depth_m = read.number("axial_depth_mm", kPositive) * kMm;
   if (plan.radial_depth_m > plan.diameter_m)
     cut.reject("radial_depth_mm",
-               "is above tool.diameter_mm; a cut is at most as wide as the tool");
+               "exceeds tool.diameter_mm, but a cut cannot be wider than the tool");
   if (plan.axial_depth_m > plan.overhang_m())
     cut.reject("axial_depth_mm", "must not exceed the overhang of the tool");
   if (plan.feed_per_tooth_m * plan.teeth > plan.radius_m())

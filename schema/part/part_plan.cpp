@@ -42,11 +42,11 @@ void read_layer(TomlTable& layers, PartLayer& layer) {
     layers.reject(key, "needs one file, such as " + key + " = \"" +
                            (key == "form" ? "clamp.csv" : "plan.toml") + "\"");
   if (key == "budget" && !layer.from.empty())
-    layers.reject(key, "must be true or false; the sources are in the machine file");
+    layers.reject(key, "must be true or false; the error sources are listed in the machine file");
   for (const std::string& from : layer.from)
     if (key == "axes" && !table_number(from))
       layers.reject(key, "is \"" + from +
-                             "\"; it must be true (errors of the machine file) or "
+                             "\"; it must be true (to use the errors of the machine file) or name "
                              "stored tables, such as \"table:12\"");
 }
 
@@ -70,7 +70,9 @@ Result<PartPlan> parse_part_plan(std::string_view text, const std::string& sourc
   plan.path = root.string("path");
   auto layers = root.table("layers");
   if (!layers)
-    root.reject("layers", "table [layers] is missing; add it with axes, budget, form or milling");
+    root.reject("layers",
+                "table [layers] is missing; add it with at least one of the keys axes, budget, "
+                "form and milling");
   for (const char* name : kLayers) {
     if (!layers || !layers->has(name)) continue;
     PartLayer layer{name, {}, true, false, {}};

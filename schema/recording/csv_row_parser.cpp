@@ -86,7 +86,7 @@ Result<bool> CsvRowParser::last(SampleBlock& block) {
     return bad_input(header_.source +
                      (bad_lines_.empty()
                           ? ": has a header, but no rows; check that the recording was saved"
-                          : ": no valid row; the first bad line: " + bad_lines_[0]));
+                          : ": has no valid row; the first bad line is: " + bad_lines_[0]));
   if (row_ == 0) return false;
   deliver(block);
   return true;

@@ -21,7 +21,8 @@ std::string fault(std::string_view key, const std::string& value) {
     return "\"" + value + "\" is not a country code of ISO 3166-1; give two capitals, such as DE";
   if (key == "place" && !value.empty() && value != "laboratory" && value != "customer" &&
       value != "other")
-    return "\"" + value + "\" is not a place; give \"laboratory\", \"customer\" or \"other\"";
+    return "\"" + value +
+           "\" is not one of the known places; give \"laboratory\", \"customer\" or \"other\"";
   if (key == "date" && !value.empty() && !is_date(value))
     return "\"" + value + "\" is not a date; give YYYY-MM-DD";
   return "";

@@ -32,8 +32,8 @@ Vec3 read_direction(TomlTable& table, std::string_view key) {
     }
   }
   table.reject(key, "\"" + text +
-                        "\" is not a direction; use \"+X\" \"-X\" \"+Y\" \"-Y\" \"+Z\" \"-Z\""
-                        " or direction = [x, y, z]");
+                        "\" is not a direction; use \"+X\", \"-X\", \"+Y\", \"-Y\", \"+Z\", \"-Z\" "
+                        "or direction = [x, y, z]");
   return {0, 0, 1};
 }
 
@@ -104,8 +104,8 @@ Probe read_probe(TomlTable& table) {
   const double delay_us = table.number("delay_us", 0.0);
   if (!(delay_us >= 0 && delay_us <= kMostDelay_us))
     table.reject("delay_us",
-                 "must be from 0 to 10000000 (the delay of the readings relative to the encoder, "
-                 "for example because of a filter)");
+                 "must be from 0 to 10000000 us: the delay of the readings relative to the "
+                 "encoder, for example because of a filter");
   probe.delay_s = delay_us / 1e6;
   probe.uncertainty = {read_uncertainty(table, "u_calibration_um", from_um(1)),
                        read_uncertainty(table, "u_sensitivity_ppm", 1e-6),
@@ -214,8 +214,9 @@ void check_machine(TomlTable& table, const Rig& rig) {
   if (!in_chain)
     return table.reject("machine", "the chain " + rig.machine.text + " has no axis " + axis);
   if (in_chain->against_command != rig.sides.against_encoder)
-    table.reject("travel", "is \"" + std::string(rig.sides.travel()) + "\", but [machine] travel." +
-                               axis + " is the opposite (default \"+\"); correct the wrong value");
+    table.reject("travel",
+                 "is \"" + std::string(rig.sides.travel()) + "\", but travel." + axis +
+                     " of [machine] is the opposite (\"+\" if not given); correct the wrong value");
 }
 
 constexpr std::size_t kMostProbes = 1000;  // each is compared with each
@@ -358,8 +359,9 @@ Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name
   apply_records(table, toml_text, rig);
   read_physics(table, rig);
   if (const auto scan = read_scan(table, rig.axis); scan && rig.probe_index(scan->probe))
-    table.reject("scan", "the scan probe \"" + scan->probe +
-                             "\" is a probe of the fixture; give another column");
+    table.reject("scan",
+                 "the scan probe \"" + scan->probe +
+                     "\" is already a [[probe]] of this rig; name another column of the log");
   MDOF_CHECK(table.finish());
   MDOF_CHECK(check_rig(rig));
   return rig;

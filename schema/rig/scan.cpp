@@ -18,10 +18,11 @@ std::optional<RigScan> read_scan(TomlTable& rig, Axis axis) {
   if (along && (word[0] == '+' || word[0] == '-') && *along != axis)
     scan.direction[static_cast<std::size_t>(*along)] = word[0] == '-' ? -1.0 : 1.0;
   else
-    table->reject("measures",
-                  "\"" + word +
-                      "\" is not a direction across the axis; give a direction such as \"+" +
-                      (axis == Axis::z ? "X" : "Z") + "\"");
+    table->reject(
+        "measures",
+        "\"" + word +
+            "\" is not a direction perpendicular to the axis; give a direction such as \"+" +
+            (axis == Axis::z ? "X" : "Z") + "\"");
   const std::string sense = table->string("sense", "+");
   if (sense != "+" && sense != "-")
     table->reject("sense", "\"" + sense + "\" must be \"+\" or \"-\"");

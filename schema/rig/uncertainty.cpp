@@ -67,7 +67,8 @@ Declared read_inline(TomlTable& table) {
     declared.u = numbers_of(table, "u");
   }
   if (table.has("dof")) declared.freedom = table.number("dof");
-  if (!(declared.freedom >= 1)) table.reject("dof", "must be 1 or greater (degrees of freedom)");
+  if (!(declared.freedom >= 1))
+    table.reject("dof", "must be a number of degrees of freedom, 1 or greater");
   return declared;
 }
 

@@ -21,7 +21,7 @@ inline const char* to_string(Surface surface) {
 // Shapes that no reading of these set-ups can determine: they are taken out of the result by least
 // squares, and nothing is put in their place.
 struct UnseenShape {
-  std::string name;            // "offset", "parabola", "period 10 mm", "4 symmetric about -30 mm"
+  std::string name;  // "offset", "parabola", "period 10 mm", "4 more shapes symmetric about -30 mm"
   std::size_t dimensions = 1;  // a period has two: sine and cosine
 };
 

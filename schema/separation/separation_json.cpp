@@ -57,8 +57,8 @@ void write_fit(JsonWriter& json, const Separation& fit) {
 
 const char* not_in_separation_u() {
   return "undeclared sources (scale of the probe, drift within a set-up, flatness of other "
-         "surfaces), errors of the shifts, unequal lever arms, sag; the fit determines the tilt "
-         "between the set-ups";
+         "surfaces), errors of the shifts, unequal lever arms and sag; the tilt between the "
+         "set-ups is no source, because the fit determines it";
 }
 
 std::string separation_json(const SeparationRecord& record) {

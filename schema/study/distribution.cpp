@@ -84,7 +84,8 @@ void read_shape(TomlTable& table, Distribution& d) {
     case Kind::triangular:
       read_limits(table, d);
       d.mode = table.number("mode", (d.low + d.high) / 2);
-      if (!(d.mode >= d.low && d.mode <= d.high)) table.reject("mode", "must lie from low to high");
+      if (!(d.mode >= d.low && d.mode <= d.high))
+        table.reject("mode", "must be between low and high");
       break;
     case Kind::trapezoidal:
       read_limits(table, d);

@@ -147,7 +147,7 @@ void read_analyses(TomlTable& table, const std::filesystem::path& folder, StudyP
     plan.allocations.push_back(read_allocation(allocation, plan));
   if (auto compare = table.table("compare")) plan.compare = read_rig(*compare, "rig", folder);
   if (plan.compare && plan.compare->axis != plan.rig.axis)
-    table.reject("compare", "the compared rig must be of the same axis");
+    table.reject("compare", "must name a rig that measures the same axis as the rig of this plan");
 }
 
 void read_settings(TomlTable& table, StudyPlan& plan) {

@@ -155,9 +155,9 @@ Status check_journal(const fs::path& database) {
   if (end.size() != 16 || end.substr(8) != kMagic || end.substr(0, 4) == std::string(4, '\0'))
     return {};
   return bad_input(name.string() +
-                   ": names a super-journal. mdof never makes a super-journal, and SQLite would "
-                   "delete this file, so mdof does not read the database. Remove the journal, or "
-                   "restore the database and the journal from a copy");
+                   ": this journal names a super-journal. mdof never makes a super-journal, and "
+                   "SQLite would delete this file, so mdof does not read the database. Remove the "
+                   "journal, or restore the database and the journal from a copy");
 }
 
 // As SQLite: one whose first byte is 0 has been used up.

@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{quantity("distribution = \"uniform\"\nhalf_width = -1\n"),
             "half_width: must be greater"},
         Bad{quantity("distribution = \"triangular\"\nlow = 0\nhigh = 1\nmode = 2\n"),
-            "low to high"},
+            "between low and high"},
         Bad{quantity("distribution = \"trapezoidal\"\nlow = 0\nhigh = 1\nbeta = 2\n"), "beta"},
         Bad{quantity("distribution = \"constant\"\nvalue = -3\n", "probe.*.position_um"),
             "must not be negative, because probe.*.position_um is a radius"},

@@ -108,9 +108,9 @@ class CertificateReader {
   }
 
   tl::unexpected<Error> no_uncertainty(long line, const char* what) const {
-    return bad_input(
-        at(line) + "the " + what +
-        " has no uncertainty and cannot be used; ask the laboratory to complete the DCC");
+    return bad_input(at(line) + "the " + what +
+                     " has no uncertainty in the certificate, so mdof cannot use this certificate; "
+                     "ask the laboratory for a certificate that states the uncertainty");
   }
 
   Status take_sensitivity() {

@@ -66,8 +66,9 @@ class Fit {
     }
     return fail(ErrorCode::check,
                 "no positions of the probes and no tilts of the target agree with these readings; "
-                "check that each log contains only one clamping and only the axis of the rig, and "
-                "check in which direction the target moves",
+                "check that each log contains only one clamping of the target and only motion of "
+                "the axis of the rig, and that the target moves in the direction that mdof "
+                "calculates from the rig and the encoder",
                 Remedy::reverse_target);
   }
 
@@ -259,8 +260,9 @@ Status check_places(const Rig& rig, const MountingFit& fit) {
                 rig.source + ": the readings put probe \"" + rig.probes[k].id +
                     "\" at a distance of " + plain_number(to_mm(away_m), 3) +
                     " mm from its position_mm (limit " + plain_number(to_mm(kFarthest_m), 3) +
-                    " mm); check position_mm, check that no two probes are exchanged, and check in "
-                    "which direction the target moves",
+                    " mm); check position_mm of this probe, check that no two probes are "
+                    "exchanged, and check that the target moves in the direction that mdof "
+                    "calculates from the rig and the encoder",
                 Remedy::reverse_target);
   }
   return {};
@@ -284,8 +286,8 @@ Result<MountingFit> fit_mounting(const Rig& rig, const std::vector<Clamping>& cl
   MDOF_TRY(MountingModel model, MountingModel::create(rig, clampings));
   if (model.readings().empty())
     return fail(ErrorCode::check,
-                "no probe has a usable reading at any stop; check the keys \"range_um\" and "
-                "\"offset_um\" of the probes");
+                "no probe has a usable reading while the axis stands still; check the keys "
+                "\"range_um\" and \"offset_um\" of the probes");
   Fit fit(std::move(model));
   MDOF_CHECK(fit.run(rig.uncertainty.encoder.u));
   MountingFit result = fit.result(rig, clampings);

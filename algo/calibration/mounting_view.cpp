@@ -115,7 +115,7 @@ class Naming {
     }
     double length = 0;
     if (is_unseen(zero, length))
-      out_.sentences.push_back("the common zero of " + ids_of(model_, group) +
+      out_.sentences.push_back("the common zero offset of " + ids_of(model_, group) +
                                "; the mean of offset_um in the rig is not changed");
   }
 
@@ -143,7 +143,7 @@ class Naming {
             " relative to the other probes: clamp the target at more tilts, with larger "
             "differences");
     if (unseen(unknown_of(k, kZero)))
-      out_.sentences.push_back("the zero of " + id + " relative to the other probes");
+      out_.sentences.push_back("the zero offset of " + id + " relative to the other probes");
     if (unseen(unknown_of(k, kTowards1)) || unseen(unknown_of(k, kTowards2)))
       out_.sentences.push_back("the direction of " + id + ": the tilts and readings are too small");
     if (unseen(unknown_of(k, kScale)))

@@ -49,7 +49,7 @@ TEST(MountingView, NamesAProbeBesideTheOthers) {
     return unseen.sentences;
   };
   using Sentences = std::vector<std::string>;
-  EXPECT_EQ(sentences(1, kZero), Sentences{"the zero of B relative to the other probes"});
+  EXPECT_EQ(sentences(1, kZero), Sentences{"the zero offset of B relative to the other probes"});
   for (const auto which : {kTowards1, kTowards2})
     EXPECT_EQ(sentences(4, which),
               Sentences{"the direction of E: the tilts and readings are too small"});
@@ -85,10 +85,11 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
   const auto zeros =
       Eigen::VectorXd(unit(model, 0, kZero) + unit(model, 1, kZero) + unit(model, 2, kZero));
   const Unseen zero = named(model, {zeros, unit(model, 4, kZero)});
-  EXPECT_EQ(zero.sentences, (std::vector<std::string>{
-                                "the common zero of A, B, C; the mean of offset_um in the rig "
-                                "is not changed",
-                                "the zero of E relative to the other probes"}));
+  EXPECT_EQ(zero.sentences,
+            (std::vector<std::string>{
+                "the common zero offset of A, B, C; the mean of offset_um in the rig "
+                "is not changed",
+                "the zero offset of E relative to the other probes"}));
   EXPECT_EQ(zero.apart.cols(), 1);
 }
 

@@ -41,7 +41,7 @@ Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
       });
       if (std::abs(*near - p.point.position_m) > window) {
         return bad_input(
-            "run " + std::to_string(run.header.id) + " has a stop at " +
+            "run " + std::to_string(run.header.id) + " has a measured point at " +
             plain_number(to_mm(p.point.position_m), 7) + " mm, but run " +
             std::to_string(runs.front().header.id) +
             " has no target at this position; build a table from runs with the same targets");

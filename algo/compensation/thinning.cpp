@@ -21,7 +21,8 @@ Status check_input(const std::vector<double>& x, const Columns& columns, double 
       return bad_input("position " + std::to_string(i + 1) +
                        " is not greater than the position before");
   for (const auto& y : columns) {
-    if (y.size() != x.size()) return bad_input("the numbers of positions and values differ");
+    if (y.size() != x.size())
+      return bad_input("the number of positions differs from the number of values");
     for (std::size_t i = 0; i < y.size(); ++i)
       if (!std::isfinite(y[i]))
         return bad_input("position " + std::to_string(i + 1) + " has no value");

@@ -266,10 +266,12 @@ Status check_overlap(const SurfaceMap& a, const SurfaceMap& b, std::size_t pixel
   const std::size_t measured = a.measured();
   if (pixels > 1 && static_cast<double>(pixels) >= kLeastOverlap * static_cast<double>(measured))
     return {};
-  return bad_input(a.name + " and " + b.name + ": only " + std::to_string(pixels) + " of " +
-                   std::to_string(measured) +
-                   " pixels of the first map have a counterpart in the second map (" + extent(a) +
-                   "; " + extent(b) + "); give both maps in the same coordinates");
+  return bad_input(
+      a.name + " and " + b.name + ": only " + std::to_string(pixels) + " of " +
+      std::to_string(measured) +
+      " pixels of the first map have a counterpart in the second map (the first map covers " +
+      extent(a) + ", the second map covers " + extent(b) +
+      "); give both maps in the same coordinates");
 }
 
 }  // namespace

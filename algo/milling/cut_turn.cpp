@@ -179,10 +179,12 @@ class Turn {
         u_[instant(phase, i)] = U.segment(row(i, 0, 0), 2 * elements());
       return {};
     }
-    return fail(ErrorCode::check, "the force and the deflection have no stable equilibrium at " +
-                                      std::to_string(turned(phase) * 360 / kWholeTurn_rad) +
-                                      " degrees of the turn; the tool is too weak for this cut: "
-                                      "reduce overhang_mm or the depths of cut");
+    return fail(
+        ErrorCode::check,
+        "the cutting force and the tool deflection have no stable equilibrium when the tool has "
+        "turned by " +
+            std::to_string(turned(phase) * 360 / kWholeTurn_rad) +
+            " degrees; the tool is too weak for this cut: reduce overhang_mm or the depths of cut");
   }
 
   bool settle(std::size_t phase, double first_step, VectorXd& U) {

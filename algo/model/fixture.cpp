@@ -42,7 +42,7 @@ Result<const TargetPlane*> named_plane(const Rig& rig, const Probe& probe) {
   for (const auto& plane : rig.planes)
     if (plane.id == probe.plane) return &plane;
   return bad_input(rig.source + ": probe \"" + probe.id + "\": plane = \"" + probe.plane +
-                   "\" is not the id of a [[plane]]; ids of the rig: " +
+                   "\" is not the id of a [[plane]]; the planes of the rig are: " +
                    (rig.planes.empty() ? "none" : ids_of(rig)));
 }
 
@@ -61,9 +61,10 @@ Result<const TargetPlane*> plane_of(const Rig& rig, const Probe& probe) {
     }
   }
   if (cosine(*best, probe) <= kLooksAt)
-    return bad_input(rig.source + ": probe \"" + probe.id +
-                     "\" does not look at any [[plane]] of the rig (its direction is more than 60° "
-                     "from the normal of every plane); add the [[plane]] that it measures");
+    return bad_input(
+        rig.source + ": probe \"" + probe.id +
+        "\" does not point at any [[plane]] of the rig (the direction of the probe is more than "
+        "60° from the normal of every plane); add the [[plane]] that this probe measures");
   if (second && cosine(*second, probe) > cosine(*best, probe) - kMargin)
     return bad_input(rig.source + ": probe \"" + probe.id +
                      "\": its direction fits two planes, \"" + best->id + "\" and \"" + second->id +
@@ -99,12 +100,12 @@ Status check_common_planes(const Rig& rig, const Fixture& fixture,
       if (looks_at[i] != looks_at[j] || std::abs(way) < kSameWay) continue;
       const double of_b = way > 0 ? b.plane_offset_m : -b.plane_offset_m;
       if (std::abs(a.plane_offset_m - of_b) <= kOnPlane_m) continue;
-      return bad_input(
-          rig.source + ": probes \"" + a.id + "\" and \"" + b.id +
-          "\" look at one plane, but their position_mm give two positions of this plane: " +
-          in_mm(a.plane_offset_m) + " and " + in_mm(of_b) +
-          "; correct position_mm, or declare two [[plane]] tables with offset_mm and give plane = "
-          "\"...\" in each [[probe]]");
+      return bad_input(rig.source + ": probes \"" + a.id + "\" and \"" + b.id +
+                       "\" measure one plane, but the position_mm of each probe gives another "
+                       "position of this plane: " +
+                       in_mm(a.plane_offset_m) + " and " + in_mm(of_b) +
+                       "; correct position_mm, or declare two [[plane]] tables with offset_mm and "
+                       "set plane = \"...\" in each [[probe]]");
     }
   }
   return {};

@@ -132,11 +132,12 @@ Frontier frontier(const ScalableExperiment& experiment, const TrialsWithinLimit&
   return pairs;
 }
 
-Result<std::size_t> place_of(const std::string& name, const std::vector<std::string>& names,
+Result<std::size_t> place_of(const char* kind, const std::string& name,
+                             const std::vector<std::string>& names,
                              const PlannedAllocation& planned) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    return bad_input(planned.where + ": \"" + name + "\" is not in this experiment");
+    return bad_input(planned.where + ": this study has no " + kind + " \"" + name + "\"");
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -148,10 +149,11 @@ void one_after_the_other(std::size_t count, const std::function<void(std::size_t
 
 Result<Allocation> allocate(const ScalableExperiment& experiment, const PlannedAllocation& planned,
                             const ForEach& for_each) {
-  MDOF_TRY(const std::size_t output, place_of(planned.output, experiment.outputs(), planned));
+  MDOF_TRY(const std::size_t output,
+           place_of("output", planned.output, experiment.outputs(), planned));
   std::vector<std::size_t> which;
   for (const auto& name : planned.tolerances) {
-    MDOF_TRY(const std::size_t at, place_of(name, experiment.quantities(), planned));
+    MDOF_TRY(const std::size_t at, place_of("quantity", name, experiment.quantities(), planned));
     which.push_back(at);
   }
   const TrialsWithinLimit within(experiment, planned, output, for_each);
@@ -175,7 +177,8 @@ Result<Allocation> allocate(const ScalableExperiment& experiment, const PlannedA
 Result<double> largest_factor(const ScalableExperiment& experiment,
                               const PlannedAllocation& planned,
                               const std::vector<std::size_t>& which, const ForEach& for_each) {
-  MDOF_TRY(const std::size_t output, place_of(planned.output, experiment.outputs(), planned));
+  MDOF_TRY(const std::size_t output,
+           place_of("output", planned.output, experiment.outputs(), planned));
   const TrialsWithinLimit within(experiment, planned, output, for_each);
   const std::vector<double> as_planned(experiment.quantities().size(), 1.0);
   return FactorSearch(within, as_planned, which)

@@ -117,7 +117,7 @@ Result<ProbeSeries> probe_series(const Run& run, const Rig& rig, const std::stri
   const Probe& found = rig.probes[*index];
   const double along = found.direction[static_cast<std::size_t>(normal)];
   if (std::abs(along) < 1 - kAcross)
-    return bad_input(rig.source + ": probe \"" + probe + "\" does not look along " +
+    return bad_input(rig.source + ": probe \"" + probe + "\" does not measure along " +
                          letter(normal) + ", the normal of this surface",
                      Remedy::take_other_surface);
   const double sense = along > 0 ? 1.0 : -1.0;

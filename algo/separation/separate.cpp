@@ -178,11 +178,12 @@ VectorXd judge(const Equations& e, const Solution& solution, Separation& result)
                                       {{"chi_square", chi_square}, {"freedom", freedom}}));
     return e.u;
   }
-  result.u_reason = freedom > 0 ? "the scatter about the fit (" + std::to_string(freedom) +
-                                      " degrees of freedom)" + declared_text(result, e) +
-                                      "; not every reading has a u above 0"
-                                : "unknown: not every reading has a u above 0, and the fit has no "
-                                  "degrees of freedom to estimate u; give u_um";
+  result.u_reason =
+      freedom > 0
+          ? "the scatter about the fit (" + std::to_string(freedom) + " degrees of freedom)" +
+                declared_text(result, e) + "; not every reading has a u above 0"
+          : "unknown: not every reading has a u above 0, and the fit has no degrees of freedom to "
+            "estimate u; give the standard uncertainty of the readings (u_um)";
   return VectorXd::Constant(e.u.size(), result.residual_m);
 }
 
@@ -210,9 +211,9 @@ Result<Separation> separate(const SeparationRequest& request) {
   MDOF_CHECK(check_shared(grid, request.set_ups));
   const Equations e = equations_of(request, std::move(grid));
   if (e.A.cols() > in(kMostUnknowns))
-    return bad_input("these set-ups have " + std::to_string(e.A.cols()) + " places, but at most " +
-                     std::to_string(kMostUnknowns) +
-                     " can be separated at once; leave some set-ups out");
+    return bad_input("these set-ups have " + std::to_string(e.A.cols()) +
+                     " unknowns, but at most " + std::to_string(kMostUnknowns) +
+                     " can be calculated at once; leave some set-ups out");
   const Solution solution = solve(e);
   Separation result;
   result.set_ups = request.set_ups.size();

@@ -69,8 +69,8 @@ class CorrectedPlace {
     MDOF_TRY(p.found_, compensating_command(machine, p.command_, request.approach));
     if (p.found_.converged) return p;
     return bad_input("at " + place_text(command_m) +
-                     ": the errors change so steeply that no command can compensate them; check "
-                     "the units of the tables");
+                     ": the errors change so steeply with the position that no commanded position "
+                     "can compensate them; check the units of the error tables");
   }
   Vec3 correction_m() const {
     Vec3 c{};

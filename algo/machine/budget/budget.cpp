@@ -109,7 +109,8 @@ Status check_sizes(const BudgetModel& model) {
             return bad_input(
                 "source \"" + cause.name + "\": with the standard uncertainty u of this source, " +
                 name_of(model.machine.frames[i], k, of_line) +
-                " at this command can exceed the limit of " + (k < 3 ? "10 mm" : "0.1 rad") +
+                " at the commanded position can exceed the limit of " +
+                (k < 3 ? "10 mm" : "0.1 rad") +
                 "; check the keys \"u\" and \"factor\" of the source and the units of both values");
           }
       }

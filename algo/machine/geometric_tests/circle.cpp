@@ -71,7 +71,9 @@ Status check_path(const CircularPath& path) {
     return std::all_of(v.begin(), v.end(), [](double x) { return std::isfinite(x); });
   };
   if ((path.ccw_m.empty() && path.cw_m.empty()) || !fits(path.ccw_m) || !fits(path.cw_m))
-    return bad_input("a circular path needs a deviation for each angle in at least one direction");
+    return bad_input(
+        "a circular path needs a deviation for each angle in at least one direction (clockwise or "
+        "counterclockwise)");
   if (!finite(path.angle_rad) || !finite(path.ccw_m) || !finite(path.cw_m))
     return bad_input("every angle and deviation of a circular path must be a finite number");
   if (n < kFewestAngles || largest_gap(path.angle_rad) > kLargestGap_rad + 1e-9)

@@ -148,7 +148,7 @@ Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines
     squares += declared * declared;
   }
   if (!(squares > 0))
-    return bad_input("the uncertainty of the lines is unknown", Remedy::give_u_of_lines);
+    return bad_input("the uncertainty of the line lengths is unknown", Remedy::give_u_of_lines);
   s.u_rad = std::sqrt(squares);
   s.freedom = effective_freedom(parts);
   s.k = coverage_factor(s.freedom);

@@ -103,12 +103,12 @@ Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture) {
     f.x[k] = probe.p_MP.x();
     f.across[k] = top ? probe.p_MP.y() : probe.p_MP.z();
     if (top && std::abs(probe.p_MP.z()) > kSamePlane_m) {
-      return not_of_this_kind("probe " + probe.id + " does not meet its target at z = 0");
+      return not_of_this_kind("probe " + probe.id + " does not measure a point on the plane z = 0");
     }
   }
   f.h = fixture.probes[f.probe[3]].p_MP.y();
   if (std::abs(fixture.probes[f.probe[4]].p_MP.y() - f.h) > kSamePlane_m) {
-    return not_of_this_kind("the two probes along ±y look at different planes");
+    return not_of_this_kind("the two probes along ±y measure different planes");
   }
   if (!top_weights(f)) return not_of_this_kind("the three probes along ±z are on one line");
   const double span = f.x[4] - f.x[3];

@@ -131,7 +131,7 @@ Result<PlanAxis> PlanAxis::create(const StudyPlan& plan, const Rig& rig, const s
     return bad_input(
         plan.source + ": a plan needs a rig with moves = \"target\" and travel = \"+\", but " +
         rig.source + " has other values. Use a copy of the rig without these two keys; " +
-        "the effects of rig errors have the same size");
+        "the size of the effects of rig errors does not depend on these keys");
   MDOF_CHECK(check_forward(plan, solver->fixture()));
   const std::size_t positions = series ? plan.series_positions : 0;
   MDOF_TRY(PlanDraws draws, PlanDraws::create(plan, rig, prefix, 1 + positions, causes));

@@ -93,7 +93,8 @@ TEST(BuildTable, NamesItsRunsAndIsSimulatedAsTheyAre) {
 // Targets of two runs are one within 2 % of the step, 0.2 mm.
 TEST(BuildTable, TakesTargetsForOneWithinTheirWindow) {
   EXPECT_EQ(refusal({run_by_hand(1), run_by_hand(2, 0.19e-3)}), "");
-  EXPECT_NE(refusal({run_by_hand(1), run_by_hand(2, 0.21e-3)}).find("run 2 has a stop at 0.21 mm"),
+  EXPECT_NE(refusal({run_by_hand(1), run_by_hand(2, 0.21e-3)})
+                .find("run 2 has a measured point at 0.21 mm"),
             std::string::npos);
 }
 

@@ -251,10 +251,12 @@ TEST(MachineBudget, AnErrorOfTheLineIsNoneOfTheBody) {
   const auto body = with_source(false, 1e6), line = with_source(true, 1e6);
   ASSERT_FALSE(body);
   ASSERT_FALSE(line);
-  EXPECT_NE(body.error().message.find("ECX at this command can exceed the limit of 0.1 rad"),
-            std::string::npos)
+  EXPECT_NE(
+      body.error().message.find("ECX at the commanded position can exceed the limit of 0.1 rad"),
+      std::string::npos)
       << body.error().message;
-  EXPECT_EQ(line.error().message.find("ECX at this command can exceed"), std::string::npos)
+  EXPECT_EQ(line.error().message.find("ECX at the commanded position can exceed"),
+            std::string::npos)
       << line.error().message;
 }
 
@@ -295,7 +297,8 @@ TEST(MachineBudget, EachErrorOfABodyHasItsLimit) {
     const double u = (k < 3 ? 10e3 : 100e3) / std::sqrt(3.0);
     EXPECT_EQ(refusal(k, 0.99 * u), "") << k;
     const std::string said = refusal(k, 1.01 * u);
-    EXPECT_NE(said.find(std::string(names[k]) + " at this command"), std::string::npos) << said;
+    EXPECT_NE(said.find(std::string(names[k]) + " at the commanded position"), std::string::npos)
+        << said;
     EXPECT_NE(said.find(k < 3 ? "10 mm" : "0.1 rad"), std::string::npos) << said;
   }
 }

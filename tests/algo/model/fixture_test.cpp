@@ -95,7 +95,7 @@ TEST(Fixture, NamesAnyProbeThatIsOffThePlaneOfTheOthers) {
       EXPECT_EQ(fixture.has_value(), off_m == 0.9e-6) << k << " " << off_m;
       if (fixture) continue;
       EXPECT_TRUE(says(fixture.error().message,
-                       {"look at one plane", ("\"" + rig.probes[k].id + "\"").c_str()}));
+                       {"measure one plane", ("\"" + rig.probes[k].id + "\"").c_str()}));
     }
 }
 

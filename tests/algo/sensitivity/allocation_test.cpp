@@ -198,7 +198,7 @@ TEST(Allocation, RefusesWhatIsNotThere) {
   PlannedAllocation planned{"EZX_um", 1, 0.95, {"probe.A.drift_nm"}, 1000, "plan.toml:9"};
   const auto found = allocate(*e, planned);
   ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().message, "plan.toml:9: \"EZX_um\" is not in this experiment");
+  EXPECT_EQ(found.error().message, "plan.toml:9: this study has no output \"EZX_um\"");
 }
 
 // Twice the distance: half the angle, for the same reading errors, trial by trial.

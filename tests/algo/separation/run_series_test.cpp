@@ -94,7 +94,7 @@ TEST(RunSeries, RefusesAProbeThatLooksElsewhere) {
   const auto run = of_slopes(test::rig_x());
   const auto other = probe_series(run, test::rig_x(), "A", Axis::y);
   ASSERT_FALSE(other);
-  EXPECT_NE(other.error().message.find("probe \"A\" does not look along Y"), std::string::npos);
+  EXPECT_NE(other.error().message.find("probe \"A\" does not measure along Y"), std::string::npos);
   const auto none = probe_series(run, test::rig_x(), "Q", Axis::y);
   ASSERT_FALSE(none);
   EXPECT_NE(

@@ -24,7 +24,7 @@ Status check(const AinCalibration& c, std::size_t gain) {
     return {};
   return io_error("the calibration constants in the flash of the device are impossible (slopes " +
                   std::to_string(c.positive_slope) + ", " + std::to_string(c.negative_slope) +
-                  " V, centre " + std::to_string(c.centre) +
+                  " V per code, centre at code " + std::to_string(c.centre) +
                   "); send the device to LabJack for calibration");
 }
 
@@ -44,8 +44,9 @@ Status ScanSplitter::take(std::span<const std::uint16_t> samples,
     if (begun_.size() == words_) end_scan(scans);
   }
   if (!gap_ || candidates_ > 0) return {};
-  return io_error("the stream dropped " + std::to_string(*gap_) +
-                  " scans, but does not report where, so the times of later scans are unknown");
+  return io_error(
+      "the stream dropped " + std::to_string(*gap_) +
+      " scans, but does not report at which point, so the times of later scans are unknown");
 }
 
 void ScanSplitter::end_scan(std::vector<Scan>& scans) {

@@ -50,12 +50,12 @@ void read_rate(TomlTable& table, Settings& settings) {
   const std::size_t words = scan_list(settings.inputs).size();
   settings.rate_hz = table.number("rate_hz", settings.rate_hz);
   if (!(settings.rate_hz >= 1 && settings.rate_hz * static_cast<double>(words) <= kMostSamples_Hz))
-    return table.reject("rate_hz",
-                        "must be from 1 to " +
-                            std::to_string(static_cast<int>(kMostSamples_Hz) / words) +
-                            ": a T7 measures at most 100000 samples/s, and a scan of these "
-                            "inputs has " +
-                            std::to_string(words) + " samples (2 for a counter)");
+    return table.reject(
+        "rate_hz",
+        "must be from 1 to " + std::to_string(static_cast<int>(kMostSamples_Hz) / words) +
+            ": a T7 measures at most 100000 samples/s, and a scan of these "
+            "inputs has " +
+            std::to_string(words) + " samples (1 for an analogue input, 2 for a counter)");
   const auto automatic = static_cast<std::int64_t>(quick_packet(settings.rate_hz, words));
   const std::int64_t samples = table.integer("samples_per_packet", automatic);
   if (samples < 1 || samples > static_cast<std::int64_t>(labjack_t7::kMostSamples) ||

@@ -169,7 +169,7 @@ Status LabjackT7::take_start() {
 
 Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
-  if (!stream_) return io_error(place() + " is not open; open the device before reading");
+  if (!stream_) return io_error(place() + " is not open; call open() before read()");
   if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
   fill_block(block);
   return ReadState::more;

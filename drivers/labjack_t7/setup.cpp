@@ -33,9 +33,10 @@ Status check_product(float product) {
 // What older ones lack would be missed later, and in other words.
 Status check_firmware(float firmware) {
   const auto is_older = [&](double than) { return firmware < than - 1e-5; };
-  const char* lacks = is_older(kStampFirmware)      ? "the time stamp of a stream (new in 1.0214)"
-                      : is_older(kRecoveryFirmware) ? "the recovery of streams (new in 1.026)"
-                                                    : nullptr;
+  const char* lacks =
+      is_older(kStampFirmware)      ? "the time stamp of a stream (added in firmware 1.0214)"
+      : is_older(kRecoveryFirmware) ? "the recovery of streams (added in firmware 1.026)"
+                                    : nullptr;
   if (!lacks) return {};
   return io_error("firmware " + plain_number(static_cast<double>(firmware), 5) + " lacks " + lacks +
                   "; update the firmware with LabJack Kipling");

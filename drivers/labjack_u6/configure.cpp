@@ -52,7 +52,7 @@ void read_rate(TomlTable& table, Settings& settings) {
     table.reject("rate_hz",
                  "must be from 1 to " + std::to_string(static_cast<int>(kMostSamples_Hz) / words) +
                      ": a U6 measures at most 50000 samples/s, and a scan of these inputs has " +
-                     std::to_string(words) + " samples (2 for a counter)");
+                     std::to_string(words) + " samples (1 for an analogue input, 2 for a counter)");
 }
 
 std::string counter_name(int line) {

@@ -141,7 +141,7 @@ Status LabjackU6::take_up_counter() {
 
 Result<ReadState> LabjackU6::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
-  if (!stream_) return io_error(place() + " is not open; open the device before reading");
+  if (!stream_) return io_error(place() + " is not open; call open() before read()");
   if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
   fill_block(block);
   return ReadState::more;

@@ -34,7 +34,7 @@ std::string framed(std::uint8_t kind, std::size_t size, std::uint8_t command,
 Status check_frame(std::string_view bytes) {
   if (bytes.size() >= 2 && byte_at(bytes, 0) == 0xB8 && byte_at(bytes, 1) == 0xB8)
     return io_error(
-        "the U6 reports a wrong checksum in the data it received (B8 B8); check the cable");
+        "the U6 received data with a wrong checksum (its reply is B8 B8); check the cable");
   if (bytes.size() < kHead) return io_error("a reply of the U6 is incomplete; check the cable");
   if (byte_at(bytes, 0) != checksum8(bytes.substr(1, kHead - 1)) ||
       word_at(bytes, 4) != checksum16(bytes.substr(kHead)))

@@ -41,9 +41,9 @@ TEST_F(LabjackT7Driver, AStampOfAnotherStreamIsRefused) {
 TEST_F(LabjackT7Driver, FirmwareThatLacksWhatIsNeededIsRefused) {
   for (const auto& [firmware, says] :
        {std::pair{1.0188F, "1.0188 lacks the time stamp"},
-        {1.0213F, "(new in 1.0214)"},
-        {1.0214F, "1.0214 lacks the recovery of streams (new in 1.026)"},
-        {1.0259F, "(new in 1.026)"},
+        {1.0213F, "(added in firmware 1.0214)"},
+        {1.0214F, "1.0214 lacks the recovery of streams (added in firmware 1.026)"},
+        {1.0259F, "(added in firmware 1.026)"},
         {1.026F, "opened"}}) {
     made.reset();
     served.reset();

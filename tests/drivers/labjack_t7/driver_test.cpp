@@ -114,7 +114,7 @@ TEST_F(LabjackT7Driver, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
   cases[3].says = "closed";
   cases[4].faults.recovery_at = 2;
   cases[4].faults.unmarked = true;
-  cases[4].says = "scans, but does not report where";
+  cases[4].says = "scans, but does not report at which point";
   for (const Case& c : cases) {
     made.reset();
     served.reset();

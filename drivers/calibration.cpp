@@ -94,12 +94,13 @@ namespace {
 Status reject_encoder(const SampleBlock& block, const Channel& encoder, const std::string& rig) {
   const std::string unit = suffix(encoder.unit);
   const std::string scale =
-      encoder.unit == Unit::volt ? "give [encoder] um_per_V in " + rig + ", or " : "";
-  return bad_input((block.device.empty() ? "" : "device \"" + block.device + "\": ") +
-                   "channel \"encoder\" " + (unit.empty() ? "has no unit" : "is in " + unit) +
-                   ", but an axis position must be a length; " + scale +
-                   "choose an input that gives counts (with um_per_count), um or mm; in CSV rows, "
-                   "name the column encoder_mm or encoder_um");
+      encoder.unit == Unit::volt ? "set um_per_V in [encoder] of " + rig + ", or " : "";
+  return bad_input(
+      (block.device.empty() ? "" : "device \"" + block.device + "\": ") + "channel \"encoder\" " +
+      (unit.empty() ? "has no unit" : "is in " + unit) +
+      ", but an axis position must be a length; " + scale +
+      "use an input in um or mm, or an input in counts together with the key um_per_count; a CSV "
+      "column of the encoder must have the name encoder_mm or encoder_um");
 }
 
 }  // namespace
@@ -138,8 +139,8 @@ Status Calibrator::apply_probe(const Probe& probe, std::size_t channel, SampleBl
     um_per_unit = 1e3;
   } else if (unit != Unit::um) {
     return bad_input("channel \"" + probe.id +
-                     "\" is a probe of the rig, but its unit is neither a length nor "
-                     "volts; name the column " +
+                     "\" is a probe of the rig, but the unit of this channel is neither a length "
+                     "nor volts; a CSV column of this probe must have the name " +
                      probe.id + "_um or " + probe.id + "_V");
   }
   auto& column = block.value[channel];

@@ -153,8 +153,8 @@ const std::vector<DriverRow>& driver_rows() {
       {
           .name = "pokeys57u",
           .folder = "pokeys57u",
-          .devices = "PoLabs PoKeys57U, 56U over USB HID: encoders (and analogue inputs), polled "
-                     "for each scan",
+          .devices = "PoLabs PoKeys57U and PoKeys56U over USB HID: encoders and analogue inputs, "
+                     "which mdof requests for each scan",
           .configure = configure_pokeys57u,
           .node =
               UsbDevice{
@@ -185,8 +185,9 @@ const std::vector<DriverRow>& driver_rows() {
       {
           .name = "replay",
           .folder = "recording",
-          .devices = "a recording of mdofd (`*.mdofrec`), read by chunks, with every hash checked; "
-                     "or a probe log in CSV, plain or gzip (`csv/`, thread `csv read`)",
+          .devices =
+              "a recording of mdofd (`*.mdofrec`), whose hashes mdof checks chunk by chunk, or a "
+              "probe log as a CSV file, plain or gzip (read by `csv/` in the thread `csv read`)",
           .configure = configure_replay,
       },
       {

@@ -71,8 +71,7 @@ Status Capancdt::open() {
 
 Result<ReadState> Capancdt::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, options_.name, channels_);
-  if (!session_)
-    return naming_device({ErrorCode::io, "is not open; open the device before reading"});
+  if (!session_) return naming_device({ErrorCode::io, "is not open; call open() before read()"});
   Session& s = *session_;
   if ((s.waiting.empty() || !s.warm) && !s.failed)
     if (auto received = receive(timeout); !received) s.failed = std::move(received.error());

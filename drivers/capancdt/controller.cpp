@@ -59,8 +59,8 @@ Result<std::optional<int>> setting(CommandPort& port, const std::string& command
 }
 
 constexpr const char* kCorrectOne =
-    "correct one of the two values, or give configure = true, so that the driver sets the "
-    "controller";
+    "correct one of the two values, or set configure = true, so that the driver writes its setting "
+    "to the controller";
 
 Status check(const char* key, std::optional<int> wanted, std::optional<int> is) {
   if (!wanted || !is || *wanted == *is) return {};
@@ -126,8 +126,8 @@ Status read_settings(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const auto trigger, setting(port, "$TRG?"));
   if (trigger.value_or(0) != 0)
     return wrong("the controller waits for a trigger (TRG " + std::to_string(*trigger) +
-                     "), so its counter does not measure time",
-                 "set the trigger to continuous, or give configure = true");
+                     "), so the counter in the data does not measure time",
+                 "set the trigger to continuous, or set configure = true in the configuration");
   MDOF_CHECK(read_averaging(port, options, setup));
   MDOF_TRY(const auto time_us, setting(port, "$STI?"));
   if (!time_us)
@@ -162,7 +162,7 @@ Result<Setup::Input> read_input(CommandPort& port, const Options::Channel& chann
   if (!stated_um && channel.range_um == 0)
     return wrong(where + ": the controller does not report the range of channel " +
                      channel.input.input + " as a length",
-                 "give range_um");
+                 "set the key \"range_um\" of this channel");
   const double range_um = channel.range_um > 0 ? channel.range_um : *stated_um;
   if (stated_um && std::abs(range_um - *stated_um) > kSameRange * *stated_um)
     return wrong(where + ": range_um is " + plain_number(range_um) +
@@ -194,7 +194,8 @@ Status read_data_port(CommandPort& port, const Options& options, Setup& setup) {
   setup.data_port = reported.value_or(kDataPort);
   if (setup.data_port >= 1 && setup.data_port <= 65535) return {};
   return io_error("the controller reports data port " + std::to_string(setup.data_port) +
-                  ", which is not from 1 to 65535; give data_port");
+                  ", which is not a port number from 1 to 65535; set the key \"data_port\" in the "
+                  "configuration");
 }
 
 Result<Setup> dialogue(CommandPort& port, const Options& options) {
@@ -221,7 +222,7 @@ Status check_filter(double sample_time_us, int averaged_values, double settle_s)
   if (settle_s <= 0 || averaged_values < 2 || filter_s <= settle_s) return {};
   return wrong("the averaging takes " + plain_number(filter_s) +
                    " s, which is longer than settle_s = " + plain_number(settle_s) +
-                   " s, so the first readings of a stop would still contain motion",
+                   " s, so the first readings of each standstill would still contain motion",
                "lower averaged_values or sample_time_us, or raise [measure] settle_s to " +
                    plain_number(filter_s));
 }

@@ -27,7 +27,7 @@ Status CsvLog::open() {
 }
 
 Result<ReadState> CsvLog::read(SampleBlock& block, std::chrono::milliseconds timeout) {
-  if (!rows_) return io_error(path_ + ": is not open");
+  if (!rows_) return io_error(path_ + ": is not open; call open() before read()");
   MDOF_TRY(const ReadState state, rows_->next(block, timeout));
   block.device = path_;
   return state;

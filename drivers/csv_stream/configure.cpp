@@ -35,7 +35,7 @@ void read_source(TomlTable& table, const std::string& base_path, CsvStreamOption
   } else {
     table.reject("source",
                  "must be \"tcp://HOST:PORT\", \"fifo:PATH\" or \"serial:/dev/...\"; to start a "
-                 "program, give command = [\"python3\", \"my_probe.py\"]");
+                 "program, set command = [\"python3\", \"my_probe.py\"] instead of source");
   }
 }
 

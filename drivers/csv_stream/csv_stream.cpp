@@ -118,8 +118,8 @@ tl::unexpected<Error> CsvStream::no_header(Error why) const {
     why.message += "; no program has written to the FIFO yet; start the script";
   else if (!options_.port.empty())
     why.message +=
-        "; check the key \"baud\"; if the device sends no header line when the port is opened, "
-        "give header = \"encoder_mm,A_um,...\"";
+        "; check the key \"baud\"; if the device sends no header line when the port is opened, set "
+        "header = \"encoder_mm,A_um,...\" in the configuration";
   else if (why.code == ErrorCode::io)
     why.message +=
         "; the script must send a header line first on each connection, and flush its output; if "
@@ -152,7 +152,8 @@ Status CsvStream::check_units() const {
 }
 
 Result<ReadState> CsvStream::read(SampleBlock& block, milliseconds timeout) {
-  if (!protocol_ || !protocol_->header()) return io_error(source_ + ": is not open");
+  if (!protocol_ || !protocol_->header())
+    return io_error(source_ + ": is not open; call open() before read()");
   const CsvHeader& header = *protocol_->header();
   start_block(block, name_, header.channels);
   if (rows_.empty() && status_) status_ = fetch(timeout);

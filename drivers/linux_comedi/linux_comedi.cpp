@@ -81,7 +81,7 @@ Status LinuxComedi::start() {
 // An error comes alone: what came before it has been given out.
 Result<ReadState> LinuxComedi::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
-  if (!board_) return io_error(place() + " is not open; open the device before reading");
+  if (!board_) return io_error(place() + " is not open; call open() before read()");
   if (broken_) {
     if (auto received = receive(steady_clock::now() + timeout); !received)
       broken_ = in_context(place(), std::move(received.error()));

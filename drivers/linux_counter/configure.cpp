@@ -19,11 +19,10 @@ Result<DriverSpec> configure_linux_counter(TomlTable& table, const DriverContext
     table.reject("rate_hz", "must be from 0.1 to 5000");
   MDOF_TRY(options.channels, read_channels(table, context.rig, [&](TomlTable& channel) {
              if (channel.has("index_mm") && options.chip != kQuad8)
-               channel.reject(
-                   "index_mm",
-                   "needs chip = \"104-quad-8\", because only this counter of the kernel is "
-                   "known to load its count at a reference mark",
-                   Remedy::count_without_mark);
+               channel.reject("index_mm",
+                              "needs chip = \"104-quad-8\", because no other counter driver of the "
+                              "Linux kernel is known to load the count at a reference mark",
+                              Remedy::count_without_mark);
            }));
   MDOF_CHECK(table.finish());
   for (const auto& channel : options.channels) MDOF_CHECK(check_um_per_count(channel));

@@ -17,7 +17,8 @@ Status check_quad8(const std::string& folder, const std::string& count, std::uin
     return io_error(path + "/ceiling: is " + std::to_string(ceiling) + ", not " +
                     std::to_string(kCeiling) +
                     ", so the count at the reference mark is unknown; set count_mode to "
-                    "normal, or install a newer kernel (some old kernels use one bit too many)");
+                    "\"normal\"; if the ceiling stays 33554431 (25 bits instead of 24), the kernel "
+                    "is too old: install a newer kernel");
   const std::string number = count.substr(std::string("count").size());
   const auto n = parse_sysfs_integer(number);
   if (!n || *n < 0 || *n > 7) return io_error(path + ": is not a count of a " + kQuad8);
@@ -26,7 +27,8 @@ Status check_quad8(const std::string& folder, const std::string& count, std::uin
   if (mode.value_or("") == "synchronous") return {};
   return to_be_written(
       signal + "/synchronous_mode",
-      "is \"" + mode.value_or("") + "\", so the reference mark would be as wide as the index pulse",
+      "is \"" + mode.value_or("") +
+          "\", so the reference mark would be as wide as the index pulse, not one count wide",
       "synchronous");
 }
 

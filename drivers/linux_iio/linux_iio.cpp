@@ -46,7 +46,8 @@ Status set_sampling(const LinuxIioOptions& options, const std::string& folder) {
       return io_error(file + ": is still " + hz.value_or("") + " after " + wanted + " was written");
   }
   const auto value = parse_sysfs_integer(hz.value_or(""));
-  if (!value || *value <= 0) return io_error(file + ": \"" + hz.value_or("") + "\" is not a rate");
+  if (!value || *value <= 0)
+    return io_error(file + ": \"" + hz.value_or("") + "\" is not a sampling rate in Hz");
   const double scan_s = static_cast<double>(options.channels.size()) *
                         (1 / static_cast<double>(*value) + kOverhead_s);
   if (options.rate_hz * scan_s <= 1) return {};

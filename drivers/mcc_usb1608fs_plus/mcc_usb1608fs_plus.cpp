@@ -117,7 +117,7 @@ Status MccUsb1608fsPlus::read_calibrations() {
 
 Result<ReadState> MccUsb1608fsPlus::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
-  if (!stream_) return io_error(place() + " is not open; open the device before reading");
+  if (!stream_) return io_error(place() + " is not open; call open() before read()");
   if (auto received = receive(steady_clock::now() + timeout); !received)
     return in_context(place(), std::move(received.error()));
   fill_block(block);

@@ -159,8 +159,8 @@ Status ModbusClient::Impl::prove(int address, modbus::Shape regular) {
   const modbus::Shape sentinel = sentinels.pick(regular);
   if (sentinel.count == 0)
     return io_error(
-        "cannot test the line for late replies, because the profile already uses every length of a "
-        "read; remove a value from the profile");
+        "cannot test the line for late replies, because the requests of the profile already use "
+        "every number of registers that one request can read; remove a value from the profile");
   const int last = modbus::kLastAddress + 1 - sentinel.count;
   const auto pdu = modbus::read_request(static_cast<modbus::Function>(sentinel.function),
                                         std::min(address, last), sentinel.count);

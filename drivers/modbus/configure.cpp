@@ -44,8 +44,8 @@ void read_where(TomlTable& table, ModbusSettings& settings) {
                                 ", such as \"192.168.0.5\"");
   else if (settings.address.empty() == settings.port.empty())
     table.reject("port",
-                 "give either \"port\" (a serial line such as \"/dev/ttyUSB0\") or \"address\" (of "
-                 "a serial device server)");
+                 "give either \"port\" (a serial port, such as \"/dev/ttyUSB0\") or \"address\" "
+                 "(the TCP address of a serial device server)");
   if (settings.address.empty()) return;
   if (auto to = parse_endpoint(settings.address, settings.profile.port); !to)
     table.reject("address", to.error().message);

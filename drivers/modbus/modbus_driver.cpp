@@ -127,7 +127,7 @@ Result<ReadState> ModbusDriver::read(SampleBlock& block, milliseconds timeout) {
   block.time_ns.clear();
   block.value.assign(settings_.channels.size(), {});
   block.quality.assign(settings_.channels.size(), {});
-  if (!client_) return io_error(who() + ": is not open");
+  if (!client_) return io_error(who() + ": is not open; call open() before read()");
   for (const auto until = steady_clock::now() + timeout; block.scans() == 0;) {
     std::this_thread::sleep_until(std::min(next_, until));
     if (steady_clock::now() < next_) break;

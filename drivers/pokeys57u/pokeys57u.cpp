@@ -162,8 +162,8 @@ Status PoKeys57u::check_enabled(const Frame& options) const {
     if (input.index < 3 || input.index >= kEncoders) continue;
     if ((options.data[input.index] & kEnabled) == 0)
       return io_error(place() + ": " + input.name +
-                      " is switched off; give counting = \"x4\" in the channel of this encoder, "
-                      "and set the pins of the encoder with the program of the manufacturer");
+                      " is switched off; set counting = \"x4\" in the channel of this encoder, and "
+                      "set the pins of the encoder with the program of the manufacturer");
   }
   return {};
 }
@@ -216,7 +216,7 @@ Result<std::optional<Frame>> PoKeys57u::reply_to(std::uint8_t id, Time until) {
 
 Result<ReadState> PoKeys57u::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
-  if (!device_) return io_error(place() + ": is not open; open the device before reading");
+  if (!device_) return io_error(place() + ": is not open; call open() before read()");
   const auto until = steady_clock::now() + timeout;
   do {
     std::this_thread::sleep_until(std::min(next_, until));

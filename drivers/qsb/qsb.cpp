@@ -209,7 +209,7 @@ std::optional<std::string> Qsb::next_line() {
 
 Result<ReadState> Qsb::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, name_, {{options_.channel.id, Unit::um}});
-  if (!stream_) return io_error(place() + ": is not open; open the device before reading");
+  if (!stream_) return io_error(place() + ": is not open; call open() before read()");
   if (samples_.empty() && status_) status_ = fetch(timeout);
   if (samples_.empty()) MDOF_CHECK(status_);
   give_out(block);

@@ -66,7 +66,7 @@ Status Simulator::open() {
 Result<ReadState> Simulator::read(SampleBlock& block, std::chrono::milliseconds timeout) {
   start_block(block, name_, channels_);
   if (!start_ns_ || gone_)
-    return io_error("device \"" + name_ + "\" is not open; open the device before reading");
+    return io_error("device \"" + name_ + "\" is not open; call open() before read()");
   const std::int64_t due_ns =
       options_.real_time ? wait_for_packet(timeout) : std::numeric_limits<std::int64_t>::max();
   for (std::size_t n = 0; n < kBlockScans; ++n, ++next_) {

@@ -61,8 +61,7 @@ Result<ReadState> SysfsPoller::read(SampleBlock& block, std::chrono::millisecond
     ++marks_passed_;
     datum_lost_ = false;
   }
-  if (!is_open_)
-    return io_error("device \"" + name_ + "\" is not open; open the device before reading");
+  if (!is_open_) return io_error("device \"" + name_ + "\" is not open; call open() before read()");
   const std::int64_t until_ns =
       monotonic_ns() +
       std::chrono::nanoseconds(std::min(timeout, std::chrono::milliseconds(3'600'000))).count();

@@ -74,7 +74,7 @@ TEST(Calibration, TakesThePositionInVoltsByTheScaleOfTheRig) {
   }
   const Status refused = Calibrator(rig_with("")).check({{kEncoderChannel, Unit::volt}});
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("give [encoder] um_per_V in "), std::string::npos)
+  EXPECT_NE(refused.error().message.find("set um_per_V in [encoder] of "), std::string::npos)
       << refused.error().message;
 }
 

@@ -39,7 +39,7 @@ TEST(CapancdtSetup, RangeFromTheControllerOrTheConfiguration) {
 
   device.states_range = false;
   Rack untold(device);
-  expect_has(error_of(Capancdt(untold.options).open()), "give range_um");
+  expect_has(error_of(Capancdt(untold.options).open()), "set the key \"range_um\"");
   for (auto& channel : untold.options.channels) channel.range_um = channel.number == 1 ? 500 : 2000;
   Capancdt given(untold.options);
   ASSERT_EQ(error_of(given.open()), "");

@@ -90,7 +90,7 @@ TEST(CsvStream, APositionInVoltsNeedsTheScaleOfTheRig) {
     const std::string reported = opened ? "" : opened.error().message;
     ASSERT_EQ(reported.empty(), scaled) << reported;
     if (scaled) continue;
-    EXPECT_NE(reported.find("give [encoder] um_per_V in rig_X.toml"), std::string::npos)
+    EXPECT_NE(reported.find("set um_per_V in [encoder] of rig_X.toml"), std::string::npos)
         << reported;
   }
   // Of a source that sends no header line it is known at once.

@@ -135,9 +135,9 @@ TEST_F(Quad8Index, WhatIsNotSetUpIsSaid) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
     ASSERT_TRUE(device_->tree().set(name, was));
   };
-  expect_refused("count0/ceiling", "33554431", "old kernels use one bit too many");
+  expect_refused("count0/ceiling", "33554431", "the kernel is too old");
   expect_refused("signal16/synchronous_mode", "non-synchronous",
-                 "index pulse; set the value with a udev rule that runs: echo synchronous");
+                 "not one count wide; set the value with a udev rule that runs: echo synchronous");
   device_->tree().remove("count0/preset_enable");
   EXPECT_NE(refusal().find("preset_enable"), std::string::npos);
 }

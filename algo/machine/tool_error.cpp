@@ -100,14 +100,13 @@ bool has_u(const MachineFrame& frame, const ErrorDerivative& d) {
   return d.of_line ? frame.location[d.k].u.has_value() : !frame.error[d.k].u.empty();
 }
 
-// EC0X says the same as EC0Y of two linear axes, with the other sign: one of them is enough.
+// One of the two errors of a squareness is enough.
 bool stands_for_another(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
   if (!d.of_line || frame.kind != FrameKind::linear || is_known(frame, d)) return false;
-  const std::size_t other = 3 - frame.direction - d.k % 3;  // k's own turn is about the third
-  const MachineFrame* axis = machine.find(std::string(1, "XYZ"[other]));
+  const MachineFrame* axis = other_of_square(machine, d);
   if (!axis) return true;  // no two axes to be square
-  return axis->location[d.k].value.has_value() || frame.direction < other;
+  return axis->location[d.k].value.has_value() || frame.direction < axis->direction;
 }
 
 std::string name_of(const Machine& machine, const ErrorDerivative& d) {
@@ -139,6 +138,13 @@ void name_missing_errors(const Machine& machine, const std::vector<ErrorDerivati
 void add_new(const std::vector<std::string>& names, std::vector<std::string>& to) {
   for (const std::string& name : names)
     if (std::find(to.begin(), to.end(), name) == to.end()) to.push_back(name);
+}
+
+const MachineFrame* other_of_square(const Machine& machine, const ErrorDerivative& d) {
+  const MachineFrame& frame = machine.frames[d.frame];
+  if (!d.of_line || frame.kind != FrameKind::linear) return nullptr;
+  const std::size_t other = 3 - frame.direction - d.k % 3;  // k's own turn is about the third
+  return machine.find(std::string(1, "XYZ"[other]));
 }
 
 Pose nominal_tool(const Machine& machine, const Command& command) {

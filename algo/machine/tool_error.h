@@ -35,6 +35,10 @@ std::vector<ErrorDerivative> derivatives(const Machine& machine, const Command& 
 std::vector<Vector6> shared_effects(const std::vector<ErrorDerivative>& derivatives,
                                     const std::vector<FrameValues>& values);
 
+// The other linear axis of a squareness: a turn of one line says the same as that turn of the other
+// line with the other sign (EC0X and EC0Y). nullptr: no squareness, or no such axis.
+const MachineFrame* other_of_square(const Machine& machine, const ErrorDerivative& d);
+
 // Sum of derivative times error.
 Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
                      const std::vector<FrameValues>& values);

@@ -117,18 +117,25 @@ Status check_sizes(const BudgetModel& model) {
   return {};
 }
 
-bool acts_on(const BudgetCause& cause, const ErrorDerivative& d) {
-  return std::any_of(cause.effects.begin(), cause.effects.end(), [&](const CauseEffect& e) {
-    return e.frame == d.frame && e.k == d.k && e.of_line == d.of_line;
+bool has_cause(const BudgetModel& model, const MachineFrame& frame, const ErrorDerivative& d) {
+  return std::any_of(model.causes.begin(), model.causes.end(), [&](const BudgetCause& cause) {
+    return std::any_of(cause.effects.begin(), cause.effects.end(), [&](const CauseEffect& e) {
+      return &model.machine.frames[e.frame] == &frame && e.k == d.k && e.of_line == d.of_line;
+    });
   });
 }
 
+// A squareness is named once, of the later of its two axes.
 void name_not_declared(const std::vector<ErrorDerivative>& all, BudgetModel& model) {
   for (const ErrorDerivative& d : all) {
-    if (d.of_line || d.d.head<3>().norm() < 1e-12) continue;
-    if (std::none_of(model.causes.begin(), model.causes.end(),
-                     [&](const BudgetCause& cause) { return acts_on(cause, d); }))
-      model.not_declared.push_back(error_name(model.machine.frames[d.frame], d.k));
+    const MachineFrame& frame = model.machine.frames[d.frame];
+    if (d.d.head<3>().norm() < 1e-12 || has_cause(model, frame, d)) continue;
+    if (d.of_line && frame.kind == FrameKind::fixed) continue;
+    if (d.of_line && frame.kind == FrameKind::linear) {
+      const MachineFrame* other = other_of_square(model.machine, d);
+      if (!other || frame.direction < other->direction || has_cause(model, *other, d)) continue;
+    }
+    model.not_declared.push_back(name_of(frame, d.k, d.of_line));
   }
 }
 

@@ -1,0 +1,50 @@
+// Which errors a budget names as without a cause.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "algo/machine/budget/budget.h"
+#include "schema/machine/machine.h"
+
+namespace mdof::algo {
+namespace {
+
+// A squareness is one error of two axes: it is named once, and not where either of them has a
+// cause.
+TEST(MachineBudget, ASquarenessWithoutACauseIsNamedOnce) {
+  std::string text = "name = \"m\"\nmachine = {chain = \"w-X-b-Y-Z-t\"}\n";
+  for (const char* id : {"X", "Y", "Z"})
+    text +=
+        std::string("[[axis]]\nid = \"") + id + "\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n";
+  auto parsed = parse_machine(text, "m");
+  ASSERT_TRUE(parsed) << parsed.error().message;
+  Machine machine = *parsed;
+  machine.tool_m = {0.01, 0.02, -0.1};
+  const Command at = {0.03, 0.04, 0.05, 0, 0, 0};
+  const auto squares = [&](const char* axis, std::size_t k) {
+    Machine m = machine;
+    if (*axis)
+      m.sources.push_back(
+          {"s",
+           "urad",
+           1,
+           SourceShape::normal,
+           {{static_cast<std::size_t>(m.find(axis) - m.frames.data()), k, true, 1e-6, 0, 0}}});
+    const auto model = budget_model(m, at, MachineApproach::mean, BudgetStage::designed);
+    EXPECT_TRUE(model) << model.error().message;
+    std::vector<std::string> found;
+    for (const std::string& name : model->not_declared)
+      if (name.find('0') != std::string::npos) found.push_back(name);
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(squares("", 0), (Names{"EA0Z", "EB0Z", "EC0Y"}));
+  EXPECT_EQ(squares("X", 5), (Names{"EA0Z", "EB0Z"}));  // EC0X
+  EXPECT_EQ(squares("Y", 5), (Names{"EA0Z", "EB0Z"}));  // EC0Y
+  EXPECT_EQ(squares("X", 4), (Names{"EA0Z", "EC0Y"}));  // EB0X
+  EXPECT_EQ(squares("Z", 3), (Names{"EB0Z", "EC0Y"}));
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -145,7 +145,7 @@ Status Store::check_open(std::int64_t run) const {
   if (open_runs_.contains(run)) return {};
   return fail(ErrorCode::conflict,
               "run " + std::to_string(run) +
-                  ": this run has ended, or another program started it; start a new run");
+                  ": this run has ended, or it belongs to another program; start a new run");
 }
 
 // There is one writer, and it has just started: whatever has no end will not get one any more.

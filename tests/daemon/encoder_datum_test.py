@@ -306,7 +306,7 @@ class Units(unittest.TestCase):
                     ('driver = "modbus"\nprofile = "adam-6017"\naddress = "127.0.0.1"\n'
                      'channel = [{ id = "encoder", input = "AI0", um_per_count = 3 }]', "um_per_count applies to counts"),
                     ('driver = "labjack_t7"\naddress = "127.0.0.1"\nchannel = [{ id = "encoder", input = "AIN0" }]',
-                     r"is in V, .*give \[encoder\] um_per_V in .*rig_volts_X.toml")):
+                     r"is in V, .*set um_per_V in \[encoder\] of .*rig_volts_X.toml")):
                 config = os.path.join(folder, "mdofd.toml")
                 with open(config, "w") as f:
                     f.write(f'[store]\ndatabase = "{folder}/mdof.db"\n[rpc]\nsocket = "{folder}/s"\n[[axis]]\n'

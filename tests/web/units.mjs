@@ -79,7 +79,7 @@ export async function units(page) {
   assert.deepEqual(found.squares, ["larger", "smaller", "larger", "larger"]);
   assert.match(found.right, /as the rig states/);
   assert.match(found.wrong, /REVERSED.*probe A/);
-  assert.match(found.across, /across/);
+  assert.match(found.across, /right angles/);
   assert.equal(found.none, "no change yet");
   assert.equal(found.shim, "Shim 40.0 µm: move the probe towards +Z, or the target towards −Z");
   assert.equal(found.shim_back, "Shim 40.0 µm: move the probe towards −Z, or the target towards +Z");

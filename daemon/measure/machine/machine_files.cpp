@@ -91,7 +91,8 @@ Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
       name + "the file does not state the sense of the errors, but axis " + frame.id +
       " has travel \"-\", so the sign of the errors depends on the sense; add a column " +
       std::string(kSenseColumn) +
-      " with \"command\" (actual - commanded position) or \"body\" (positive in the + direction of "
+      " with \"command\" (actual minus commanded position) or \"body\" (positive in the + "
+      "direction of "
       "the machine axis), or set positioning_sense for the axis in MACHINE.toml");
 }
 

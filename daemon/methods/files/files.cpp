@@ -154,7 +154,7 @@ std::vector<rpc::Param> import_params() {
       {"format", ParamType::string,
        "format of the file: csv, iso230-2 or rtl [recognised from the file]", false, "\"\""},
       {"sense", ParamType::string,
-       "sign of positioning errors: \"command\" (actual - commanded position) or \"body\" "
+       "sign of positioning errors: \"command\" (actual minus commanded position) or \"body\" "
        "(positive in the + direction of the machine axis) [\"command\"]",
        false},
       {"travel", ParamType::string,

@@ -150,7 +150,7 @@ class AxisPanel {
     const result = this.result ??= h("div", {role: "status"});
     this.builder.replaceChildren(h("form", {class: "panel", onsubmit: (e) => { e.preventDefault(); this.make(new FormData(e.target)); }},
       h("h2", {}, "Build a table"), runs.length === 0 ? h("p", {}, `There is no run of ${this.axis} yet; measure one in Capture.`)
-        : h("fieldset", {}, h("legend", {}, "From runs with the same targets"), runs.slice(0, 20).map((r) => h("label", {class: "check"},
+        : h("fieldset", {}, h("legend", {}, "New table from one or more runs with the same targets"), runs.slice(0, 20).map((r) => h("label", {class: "check"},
           h("input", {type: "checkbox", name: "run", value: r.run, checked: chosen.has(r.run)}), `run ${r.run}, ${time(r.started_utc)}, ${r.state}${r.simulated ? ", SIMULATED" : ""} ${r.note ?? ""}`))),
       h("label", {class: "check"}, h("input", {type: "checkbox", name: "keep_slope"}), "Keep the slope in the straightness (by default the slope belongs to squareness)"),
       h("label", {class: "check"}, h("input", {type: "checkbox", name: "partial"}), "Also accept partial runs"),

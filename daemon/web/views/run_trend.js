@@ -12,7 +12,7 @@ export function controlSeries({values, centre}) {
     points: values.map((v, i) => [i + 1, of(v), of(v), of(v)]).filter((p) => isNumber(p[2]))});
   const value = (v, i) => [i + 1, v.value - (v.u ?? 0), v.value, v.value + (v.u ?? 0)];
   return [{label: "value", name: "value ± u", colour: "blue", dash: false, points: values.map(value)},
-    {label: "beyond", name: "beyond the limits, or the eighth value on one side of the centre", colour: "orange", dash: false, marks: true,
+    {label: "beyond", name: "beyond the limits, or the eighth value in a row on one side of the centre line", colour: "orange", dash: false, marks: true,
       points: values.map((v, i) => v.signal ? value(v, i) : null).filter(Boolean)},
     line("centre", "text", false, () => centre), line("lower limit", "orange", true, (v) => v.low), line("upper limit", "orange", true, (v) => v.high)];
 }

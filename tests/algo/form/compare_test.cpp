@@ -90,9 +90,9 @@ TEST(FormCompare, HolesAndNoOverlap) {
   ASSERT_FALSE(far);
   EXPECT_NE(far.error().message.find("counterpart"), std::string::npos);
   EXPECT_NE(far.error().message.find("only 0 of 9801"), std::string::npos);
-  EXPECT_NE(
-      far.error().message.find("(x -30 to 30 mm, y -20 to 20 mm; x 200 to 260 mm, y -20 to 20 mm)"),
-      std::string::npos)
+  EXPECT_NE(far.error().message.find("(the first map covers x -30 to 30 mm, y -20 to 20 mm, the "
+                                     "second map covers x 200 to 260 mm, y -20 to 20 mm)"),
+            std::string::npos)
       << far.error().message;
 }
 

@@ -275,7 +275,7 @@ void expect_quantities_of_air(const Rig& rig, const Run& run, const AirState& sl
     const Contributor now = named_contributor(rig, run, "air: " + name);
     expect_shown(now, ("u_" + key).c_str(), kUNow[q], kQuantityUnit[q]);
     expect_gaps_longer(now, run, kUNow[q] * slopes_at.slope(q));
-    const Contributor then = named_contributor(rig, run, "air of the calibration: " + name);
+    const Contributor then = named_contributor(rig, run, "air during the calibration: " + name);
     expect_shown(then, ("u_calibration_" + key).c_str(), kUThen[q], kQuantityUnit[q]);
     expect_gaps_longer(then, run, -kUThen[q] * kThen.slope(q));
   }

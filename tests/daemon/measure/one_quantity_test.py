@@ -372,7 +372,7 @@ class NothingDeclared(unittest.TestCase):
                           ("compensation", "build", 1), ("compensation", "show", 1)):
                 texts[words] = mdof(*words, *db)
             for words, text in texts.items():
-                self.assertTrue(text.startswith("NOISE ONLY: nothing is declared"), (words, text[:200]))
+                self.assertTrue(text.startswith("NOISE ONLY: no declared uncertainty"), (words, text[:200]))
             for words in (("show", 1), ("analyse", 1), ("budget", 1), ("trend",), ("compensation", "show", 1)):
                 for r in rows(mdof(*words, "--csv", *db)):
                     self.assertRegex(r["u_covers"], "^noise( and repeatability)? only", words)

@@ -163,7 +163,7 @@ TEST(Pipeline, AProbeThatIsDeadThroughoutIsTheReasonWhyNothingIsSolved) {
     return run ? "measured" : run.error().message;
   };
   const std::string missing = refusal([](SampleBlock& b) { lose(b, kC, 0, b.scans()); });
-  EXPECT_SAYS(missing, "probe \"C\" gave no usable value in any stop");
+  EXPECT_SAYS(missing, "probe \"C\" gave no usable value at any stop");
   const std::string frozen =
       refusal([](SampleBlock& b) { std::fill(b.value[kC].begin(), b.value[kC].end(), 1.25); });
   EXPECT_SAYS(frozen, "probe \"C\" gives the same reading in every scan");

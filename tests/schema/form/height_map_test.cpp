@@ -69,7 +69,7 @@ TEST(HeightMapCsv, WhatIsWrongIsNamed) {
   const std::string head = "x_mm,y_mm,z_um\n";
   const std::pair<std::string, const char*> bad[] = {
       {"", "is empty"},
-      {head, "has no pixel"},
+      {head, "has no points"},
       {"x_inch,y_inch,z_um\n0,0,1\n", "map.csv:1: column x_inch"},
       {"x_mm,y_mm,z_nm\n0,0,1\n", "map.csv:1: column z_nm"},
       {"x_mm,y_mm\n0,0\n", "no column z_um"},

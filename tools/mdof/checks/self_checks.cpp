@@ -178,8 +178,7 @@ void check_detection(const Result<Run>& run, std::vector<SelfCheck>& checks) {
       missed += !p.errors.valid;
     }
   }
-  checks.push_back(
-      {"synthetic log, points that are missing, extra or invalid", missed, 0, "", problem});
+  checks.push_back({"missing, extra or invalid points of a synthetic log", missed, 0, "", problem});
   checks.push_back({"synthetic log, straightness", worst.straightness_um, 1e-6, "um", problem});
   checks.push_back({"synthetic log, angles", worst.angle_urad, 1e-6, "urad", problem});
 }

@@ -66,9 +66,9 @@ void declare_trials(CLI::App& command, SensitivityCommand& o) {
   auto* adaptive = command.add_flag("--adaptive", o.adaptive,
                                     "Run trials until the tolerance is reached (JCGM 101 7.9)");
   command
-      .add_option(
-          "--digits", o.digits,
-          "Tolerance as the number of significant digits of each standard deviation [default: 2]")
+      .add_option("--digits", o.digits,
+                  "Significant digits of each standard deviation that must be stable (JCGM 101, "
+                  "7.9) [default: 2]")
       ->needs(adaptive)
       ->type_name("N");
   command.add_option("--tolerance", o.tolerances, "Tolerance of one output, such as EBX_urad=0.01")
@@ -200,7 +200,7 @@ Status check_usage(SensitivityCommand& command) {
                 "sensitivity: give exactly one of --preset, --plan and --continue");
   if (command.preset.empty() && any_of_preset(command))
     return fail(ErrorCode::usage,
-                "sensitivity: options such as --radius-um need --preset; leave out these options, "
+                "sensitivity: options such as --radius-um apply only to --preset; leave them out, "
                 "because a plan or a stored study has its own parameters");
   if (command.continued && any_setting(command))
     return fail(ErrorCode::usage,

@@ -100,8 +100,8 @@ std::string table_of_positioning_text(const CompensationTable& t) {
                  terminal_columns()) +
          "\n" +
          wrapped(positioning_name(t.axis) +
-                     " = actual - commanded position, positive along + of the coordinates of the "
-                     "controller (positioning_sense: " +
+                     " = actual minus commanded position, positive in the + direction of the "
+                     "controller coordinates (positioning_sense: " +
                      to_string(kTablePositioningSense) + ")",
                  terminal_columns()) +
          "\n" + corrections_text(t, terminal_columns()) + "\nforward\n" +

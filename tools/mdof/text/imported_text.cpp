@@ -21,8 +21,8 @@ bool is_positioning(const Run& run) {
 std::string sense_text(const Run& run) {
   if (!is_positioning(run)) return "";
   return run_options(run.header).imported.sense == PositioningSense::body
-             ? ", positive if the moving body is too far along + of the machine axis"
-             : ", positive along + of the coordinates of the controller";
+             ? ", positive if the moving body is too far in the + direction of the machine axis"
+             : ", positive in the + direction of the controller coordinates";
 }
 
 }  // namespace

@@ -69,7 +69,7 @@ std::string simulated_notice(bool simulated) {
 
 std::string noise_only_notice(bool noise_only) {
   return noise_only
-             ? "NOISE ONLY: nothing is declared that adds to u; every u and U is too small.\n"
+             ? "NOISE ONLY: no declared uncertainty adds to u, so every u and U is too small.\n"
              : "";
 }
 

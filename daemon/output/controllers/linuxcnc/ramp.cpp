@@ -40,7 +40,7 @@ void note_ramp(const Series& s, const ExportOptions::Ramp& ramp, Export& out) {
                       " mm is not applied, because with MAX_ACCELERATION " +
                       mm_s2(ramp.max_acceleration_m_s2) + " and a servo period of " +
                       plain_number(ramp.period_s * 1e3, 4) +
-                      " ms the ramp of LinuxCNC does not start for a reversal above " +
+                      " ms LinuxCNC does not start a motion for a reversal above " +
                       um_text(held.above_m) + " and up to " + um_text(held.up_to_m) + kRampRemedy);
 }
 
@@ -61,8 +61,8 @@ void note_unknown_ramp(const Series& s, Export& out) {
       "reversal (" +
       um_text(least) + " to " + um_text(most) + ") if MAX_ACCELERATION is from " +
       mm_s2(least / up_to_m) + " to " + mm_s2(2 * most / up_to_m) +
-      " (servo period 1 ms), because the ramp of LinuxCNC does not start for such a step; give "
-      "MAX_ACCELERATION (option max-acceleration-mm-s2) or the ini file (option ini)");
+      " (servo period 1 ms), because LinuxCNC does not start a motion for a step of this size; "
+      "give MAX_ACCELERATION (option max-acceleration-mm-s2) or the ini file (option ini)");
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ std::string json_of(const SensitivityCalibration& found, const CalibrationRecord
     json.begin_array().value(reading_um).value(correction_um).end_array();
   json.end_array()
       .field("u_covers",
-             rig_declares ? "noise and the uncertainties that the rig declares" : "noise only")
+             rig_declares ? "noise and the uncertainties declared in the rig file" : "noise only")
       .field("noise_only", !rig_declares)
       .end_object();
   return json.take();

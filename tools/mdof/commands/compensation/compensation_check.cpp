@@ -30,9 +30,9 @@ Status check_tables(const CheckTablesCommand& command) {
                 "nothing to correct, because all errors are smaller than the last digit of the "
                 "format; check the unit "
                 "of the measured values");
-  return fail(
-      ErrorCode::check,
-      "the export does not cancel the error, or the check did not detect a simulated mistake");
+  return fail(ErrorCode::check,
+              "the exported files do not cancel the errors, or the check does not detect the "
+              "mistakes that it makes on purpose (wrong sign, exchanged approaches)");
 }
 
 Action declare_check_tables(CLI::App& command) {

@@ -79,8 +79,8 @@ Status import(ImportCommand command) {
   if (run.header.provenance.model == positioning_name(run.header.axis) && command.sense.empty())
     say(run.header.provenance.model +
         " is read as actual minus commanded position in the coordinates of the controller (the "
-        "default of the format). If the errors in the file are positive along + of the machine "
-        "axis, give --sense body");
+        "default of the format). If the errors in the file are positive in the + direction of "
+        "the machine axis, set --sense body");
   say("stored; build a compensation table with: mdof compensation build " +
       std::to_string(run.header.id));
   if (command.json) return write_line(stored_json(run));
@@ -107,9 +107,10 @@ Action declare_import(CLI::App& command) {
                   "Format of the file [default: recognised from the file]")
       ->check(CLI::IsMember({"csv", "iso230-2", "rtl"}));
   command
-      .add_option("--sense", o->sense,
-                  "Sign of positioning errors: \"command\" (actual minus commanded position, ISO "
-                  "230-2) or \"body\" (positive along + of the machine axis) [default: command]")
+      .add_option(
+          "--sense", o->sense,
+          "Sign of positioning errors: \"command\" (actual minus commanded position, ISO "
+          "230-2) or \"body\" (positive in the + direction of the machine axis) [default: command]")
       ->check(CLI::IsMember({"command", "body"}));
   command
       .add_option("--travel", o->travel,

@@ -247,7 +247,7 @@ Action declare_milling(CLI::App& command) {
       ->type_name("");
   command
       .add_option("--preset", o->preset,
-                  "Calculate the tool and the cut of Huo et al. (2017), with their deflection "
+                  "Evaluate the published example of Huo et al. (2017) with their deflection "
                   "model and with the model of a steady cut")
       ->check(CLI::IsMember({kPreset}));
   command.add_flag("--offset", o->offset,

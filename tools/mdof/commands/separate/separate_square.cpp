@@ -28,8 +28,9 @@ struct SquareCommand {
 };
 
 std::string covers_of(const SquareReversal& s) {
-  return s.noise_only ? "noise and repeatability only"
-                      : "noise, and uncertainties that the rigs declare as common to both set-ups";
+  return s.noise_only
+             ? "noise and repeatability only"
+             : "noise, and the uncertainties that the rig files declare as common to both set-ups";
 }
 
 std::string json_of(const SquareReversal& s, const std::array<std::int64_t, 4>& run,
@@ -108,16 +109,18 @@ Action declare_separate_square(CLI::App& command) {
 }  // namespace
 
 Command separate_square_command() {
-  return {.name = "separate square",
-          .summary = "Find squareness and the angle of a square that was turned over between runs",
-          .footer =
-              "EC0Y = (first + second)/2, where first and second are the squareness of the two "
-              "set-ups if the square is taken as exact. The angle error of the square is half of "
-              "the difference between first and second; the planes in the rigs determine the sign "
-              "of this error.\n"
-              "Example:\n"
-              "  mdof separate square 1 2 3 4",
-          .declare = declare_separate_square};
+  return {
+      .name = "separate square",
+      .summary =
+          "Separate the squareness of the machine from the angle of a square that was turned over",
+      .footer =
+          "EC0Y = (first + second)/2, where first and second are the squareness of the two "
+          "set-ups if the square is taken as exact. The angle error of the square is half of "
+          "the difference between first and second; the planes in the rigs determine the sign "
+          "of this error.\n"
+          "Example:\n"
+          "  mdof separate square 1 2 3 4",
+      .declare = declare_separate_square};
 }
 
 }  // namespace mdof::tools

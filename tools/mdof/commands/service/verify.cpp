@@ -101,7 +101,7 @@ Status verify(const VerifyCommand& command) {
     return fail(ErrorCode::check, "verify: " + std::to_string(check.findings.size()) +
                                       " finding(s); restore the items named above from a backup");
   if (command.json) return {};
-  if (head.link > 0) say("chain of hashes: newest " + head_text(head));
+  if (head.link > 0) say("the newest link of the chain of hashes is " + head_text(head));
   return write_line("no fault found: every checksum and reference is correct");
 }
 

@@ -87,7 +87,7 @@ std::string mounting_json(const MountingCalibration& found, const CalibrationRec
   json.field("tilt_mrad", found.tilt_rad * 1e3).field("chi_square", found.chi_square);
   json.field("freedom", found.freedom).field("explained", found.explained);
   json.field("u_covers",
-             rig_declares ? "noise and the uncertainties that the rig declares" : "noise only")
+             rig_declares ? "noise and the uncertainties declared in the rig file" : "noise only")
       .field("noise_only", !rig_declares)
       .end_object();
   return json.take();

@@ -1,5 +1,6 @@
 // rig.get.
 #include "daemon/methods/methods.h"
+#include "daemon/paths.h"
 #include "daemon/words/words.h"
 #include "drivers/calibration.h"
 #include "schema/base/json_writer.h"

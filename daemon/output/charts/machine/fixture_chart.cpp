@@ -6,6 +6,7 @@
 #include "daemon/output/charts/labels.h"
 #include "daemon/output/charts/panel.h"
 #include "daemon/output/charts/run/series.h"
+#include "daemon/output/charts/style.h"
 #include "schema/units.h"
 
 namespace mdof::charts {

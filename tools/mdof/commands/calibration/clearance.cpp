@@ -8,6 +8,7 @@
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

@@ -10,6 +10,7 @@
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/run_choice.h"
+#include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {

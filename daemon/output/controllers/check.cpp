@@ -158,10 +158,13 @@ Series without_missing(const Series& s) {
   return whole;
 }
 
-// The constant that the file lacks: the machine's zero is moved by it, which is no error.
-double zero_of(const Series& s, const ExportOptions& options) {
+// The constant that the file lacks: the machine's zero is moved by it, which is no error. Beyond
+// the file's ends the controller holds them, also where more was measured.
+double zero_of(const Series& s, const AppliedCorrection& applied, const ExportOptions& options) {
   if (!options.home_m) return 0;
-  return s.factor * mean_error_at(s, *options.home_m);
+  const double held_m =
+      std::clamp(*options.home_m, applied.position_m.front(), applied.position_m.back());
+  return s.factor * mean_error_at(s, held_m);
 }
 
 double most_residual(const ExportOptions& options) {
@@ -173,7 +176,7 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
                     const ExportOptions& options) {
   const Series series = without_missing(measured);
   const Trial trial(series, applied, machine_of(table, applied),
-                    format.takes_home ? zero_of(series, options) : 0);
+                    format.takes_home ? zero_of(series, applied, options) : 0);
   CheckedError e;
   e.error = applied.error;
   e.angle = series.angle;

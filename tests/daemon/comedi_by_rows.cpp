@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
@@ -68,21 +69,27 @@ struct comedi_t_struct {       // NOLINT(readability-identifier-naming): comedil
 
   void scan() const {
     std::string line;
-    char byte = 0;
-    while (::read(rows, &byte, 1) == 1) {
-      if (byte != '\n') {
-        line += byte;
-        continue;
+    std::array<char, 4096> bytes_read{};
+    for (ssize_t n = 0; (n = ::read(rows, bytes_read.data(), bytes_read.size())) > 0;)
+      for (ssize_t i = 0; i < n; ++i) {
+        if (bytes_read[static_cast<std::size_t>(i)] != '\n') {
+          line += bytes_read[static_cast<std::size_t>(i)];
+          continue;
+        }
+        if (!pass_on(line)) return;
+        line.clear();
       }
-      const auto volts = volts_of(line.c_str());
-      line.clear();
-      if (volts.empty()) continue;
-      std::vector<sampl_t> codes;
-      for (const unsigned input : list) codes.push_back(code_of(volts.at(CR_CHAN(input))));
-      const std::size_t bytes = codes.size() * sizeof(sampl_t);
-      if (::write(ends[1], codes.data(), bytes) != static_cast<ssize_t>(bytes)) return;
-    }
     ::shutdown(ends[1], SHUT_WR);
+  }
+
+  // False: nobody reads any more.
+  bool pass_on(const std::string& row) const {
+    const auto volts = volts_of(row.c_str());
+    if (volts.empty()) return true;
+    std::vector<sampl_t> codes;
+    for (const unsigned input : list) codes.push_back(code_of(volts.at(CR_CHAN(input))));
+    const std::size_t bytes = codes.size() * sizeof(sampl_t);
+    return ::write(ends[1], codes.data(), bytes) == static_cast<ssize_t>(bytes);
   }
 };
 

@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 
 // Counts per scan at two encoders and a probe. Thread-safe.
 struct TwoCounters {
-  std::atomic<int> opened{0}, destroyed{0};
+  std::atomic<int> opened{0}, destroyed{0}, x_trusted{0};
   std::atomic<bool> gone{false}, x_lost{false}, y_lost{false};
 };
 
@@ -49,7 +49,10 @@ class TwoCountersDriver final : public drivers::Driver {
     if (state_->y_lost) block.quality[2] = {Quality::suspect};
     return drivers::ReadState::more;
   }
-  void trust_count() override { state_->x_lost = false; }
+  void trust_count() override {
+    state_->x_lost = false;
+    ++state_->x_trusted;
+  }
   void trust_further_count(const std::string& channel) override {
     if (channel == "encoder_Y") state_->y_lost = false;
   }
@@ -163,16 +166,17 @@ TEST_F(SharedDeviceTest, WhenItIsLostBothAxesAreTold) {
 TEST_F(SharedDeviceTest, ADatumIsOfOneAxis) {
   start();
   state_->y_lost = true;
-  ASSERT_TRUE(comes_true([&] { return standing(*part_y_) == 1; }));
-  EXPECT_EQ(y_.troubles(), std::vector<std::string>{"suspect"});
+  const std::vector<std::string> suspect = {"suspect"};
+  ASSERT_TRUE(comes_true([&] { return y_.troubles() == suspect; }));
+  EXPECT_EQ(standing(*part_y_), 1u);
   EXPECT_EQ(standing(*part_x_), 0u);
   EXPECT_TRUE(x_.troubles().empty());
   part_x_->trust_count();  // of the other axis
-  std::this_thread::sleep_for(milliseconds(30));
+  ASSERT_TRUE(comes_true([&] { return state_->x_trusted == 1; }));
   EXPECT_TRUE(state_->y_lost);
   EXPECT_EQ(standing(*part_y_), 1u);
   state_->x_lost = true;
-  ASSERT_TRUE(comes_true([&] { return standing(*part_x_) == 1; }));
+  ASSERT_TRUE(comes_true([&] { return x_.troubles() == suspect; }));
   part_y_->trust_count();
   ASSERT_TRUE(comes_true([&] { return !state_->y_lost; }));
   EXPECT_TRUE(state_->x_lost);

@@ -109,7 +109,7 @@ def check(options, name):
         worst = worst_errors(points, zero_mm)
         for key, error in worst.items():
             bound = setup.straightness_um if key.endswith("_um") else setup.angle_urad
-            assert error < bound, f"{name}: {key} is off by {error} (bound {bound})"
+            assert error < bound, (f"{name}: {key} is off by {error} (bound {bound})", [p["flags"] for p in points], notice_lines(header))
         assert {(p["target"], p["direction"]) for p in points} >= {
             (t + 1, d) for t in range(len(setup.targets)) for d in (1, -1)}
         if setup.position_um:

@@ -68,7 +68,9 @@ Decision decision(const Budget& budget, double limit, const std::string& against
                    ? "U is incomplete: no uncertainty was declared at import"
                    : "U is incomplete: the rig does not declare " + list_of(budget.not_declared);
   else if (budget.is_single_run)
-    d.reason = "U is incomplete: no target was visited again, so slow noise is not in U";
+    d.reason =
+        "U is incomplete: no target was visited twice from the same side, so slow noise is not in "
+        "U";
   else if (size + d.guard_band <= limit)
     d.conformity = Conformity::conform;
   else if (size - d.guard_band > limit)

@@ -6,6 +6,7 @@
 #include "daemon/measure/stops.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
+#include "schema/uncertainty/covers.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/calibration/record_file.h"
 #include "tools/mdof/commands/command.h"
@@ -45,7 +46,7 @@ std::string json_of(const SensitivityCalibration& found, const CalibrationRecord
     json.begin_array().value(reading_um).value(correction_um).end_array();
   json.end_array()
       .field("u_covers",
-             rig_declares ? "noise and the uncertainties declared in the rig file" : "noise only")
+             covers_text(Covers{rig_declares ? Covered::noise_rig : Covered::noise_only}))
       .field("noise_only", !rig_declares)
       .end_object();
   return json.take();

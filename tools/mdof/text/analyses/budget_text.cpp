@@ -110,11 +110,10 @@ std::string not_declared_text(const std::vector<Budget>& budgets) {
   const Budget& first = budgets.front();  // all are of the same rigs
   if (first.not_declared.empty()) return "";
   const bool only = are_noise_only(budgets);
-  return std::string(
-             !only ? "the rig does not declare all uncertainties"
-             : declares(first)
-                 ? "noise only: the uncertainties declared in the rig file contribute nothing"
-                 : std::string("noise only: ") + kNothingDeclared) +
+  return std::string(!only ? "the rig does not declare all uncertainties"
+                     : declares(first)
+                         ? "noise only: the uncertainties declared in the rig file contribute zero"
+                         : std::string("noise only: ") + kNothingDeclared) +
          ", so U is too small. Not declared: " + joined(named_once(first.not_declared));
 }
 

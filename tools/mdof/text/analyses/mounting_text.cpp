@@ -4,6 +4,7 @@
 
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
+#include "schema/uncertainty/covers.h"
 #include "schema/units.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
@@ -87,7 +88,7 @@ std::string mounting_json(const MountingCalibration& found, const CalibrationRec
   json.field("tilt_mrad", found.tilt_rad * 1e3).field("chi_square", found.chi_square);
   json.field("freedom", found.freedom).field("explained", found.explained);
   json.field("u_covers",
-             rig_declares ? "noise and the uncertainties declared in the rig file" : "noise only")
+             covers_text(Covers{rig_declares ? Covered::noise_rig : Covered::noise_only}))
       .field("noise_only", !rig_declares)
       .end_object();
   return json.take();

@@ -154,7 +154,7 @@ const std::vector<DriverRow>& driver_rows() {
           .name = "pokeys57u",
           .folder = "pokeys57u",
           .devices = "PoLabs PoKeys57U and PoKeys56U over USB HID: encoders and analogue inputs, "
-                     "which mdof requests for each scan",
+                     "requested for each scan",
           .configure = configure_pokeys57u,
           .node =
               UsbDevice{
@@ -186,7 +186,7 @@ const std::vector<DriverRow>& driver_rows() {
           .name = "replay",
           .folder = "recording",
           .devices =
-              "a recording of mdofd (`*.mdofrec`), whose hashes mdof checks chunk by chunk, or a "
+              "a recording of mdofd (`*.mdofrec`), whose hashes are checked chunk by chunk, or a "
               "probe log as a CSV file, plain or gzip (read by `csv/` in the thread `csv read`)",
           .configure = configure_replay,
       },

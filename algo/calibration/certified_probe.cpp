@@ -109,7 +109,7 @@ class CertificateReader {
 
   tl::unexpected<Error> no_uncertainty(long line, const char* what) const {
     return bad_input(at(line) + "the " + what +
-                     " has no uncertainty in the certificate, so mdof cannot use this certificate; "
+                     " has no uncertainty in the certificate, so the value cannot be used; "
                      "ask the laboratory for a certificate that states the uncertainty");
   }
 

@@ -56,9 +56,8 @@ Result<CompensatingCommand> compensating_command(const Machine& machine, const C
                                                  MachineApproach approach) {
   const auto directions = linear_axes(machine);
   if (directions.empty())
-    return bad_input(
-        "the chain " + machine.chain.text +
-        " has no linear axis, so there is no commanded position that mdof can correct");
+    return bad_input("the chain " + machine.chain.text +
+                     " has no linear axis, so there is no commanded position to correct");
   const LeastNorm inverse(jacobian(machine, wanted, directions));
   const Eigen::Vector3d target = nominal_tool(machine, wanted).p;
   CompensatingCommand c;

@@ -92,8 +92,7 @@ Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
       " has travel \"-\", so the sign of the errors depends on the sense; add a column " +
       std::string(kSenseColumn) +
       " with \"command\" (actual minus commanded position) or \"body\" (positive in the + "
-      "direction of "
-      "the machine axis), or set positioning_sense for the axis in MACHINE.toml");
+      "direction of the machine axis), or set positioning_sense for the axis in MACHINE.toml");
 }
 
 Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,

@@ -1,10 +1,11 @@
 #include "daemon/methods/query_thread.h"
 
-#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <utility>
+
+#include "schema/base/thread_start.h"
 
 namespace mdof::daemon {
 namespace {
@@ -89,7 +90,7 @@ void QueryThread::done(Cost cost, std::string damage) {
 }
 
 void QueryThread::work() {
-  ::pthread_setname_np(::pthread_self(), "query");
+  start_thread_as("query");
   // Linux: of this thread alone.
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kQueryNiceness);
   for (;;) {

@@ -1,7 +1,5 @@
 #include "daemon/station/station.h"
 
-#include <pthread.h>
-
 #include <algorithm>
 
 #include "daemon/measure/configuration/slow_channels.h"
@@ -11,6 +9,7 @@
 #include "daemon/station/open_run.h"
 #include "daemon/version.h"
 #include "daemon/words/error_text.h"
+#include "schema/base/thread_start.h"
 
 namespace mdof::daemon {
 namespace {
@@ -179,8 +178,7 @@ void Station::start_run(const RunRequest& request, const RunDone& done) {
 // On the thread "resume-X".
 void Station::resume_run(NewRun description, const RunRequest& request, const Options& options,
                          const RunDone& done) {
-  const std::string name = std::string("resume-") + letter(config_.rig.axis);
-  pthread_setname_np(pthread_self(), name.c_str());
+  start_thread_as(std::string("resume-") + letter(config_.rig.axis));
   const auto ready = [&]() -> Result<std::shared_ptr<Beginning>> {
     MDOF_TRY(auto pipeline, Pipeline::create(config_.rig, *options));
     auto beginning = std::make_shared<Beginning>(Beginning{std::move(pipeline), 0});

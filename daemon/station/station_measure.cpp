@@ -1,5 +1,4 @@
 // The thread "measure-X" of a station: samples in, points out.
-#include <pthread.h>
 
 #include <algorithm>
 #include <deque>
@@ -15,6 +14,7 @@
 #include "daemon/store/result_hash.h"
 #include "daemon/words/error_text.h"
 #include "schema/base/json_writer.h"
+#include "schema/base/thread_start.h"
 #include "schema/rig/calibrated.h"
 #include "schema/rig/check/rig_check.h"
 #include "schema/run_json.h"
@@ -131,8 +131,7 @@ std::string progress_json(std::int64_t run, Axis axis, const RunRequest& request
 }  // namespace
 
 void Station::measure() {
-  const std::string name = std::string("measure-") + letter(config_.rig.axis);
-  pthread_setname_np(pthread_self(), name.c_str());
+  start_thread_as(std::string("measure-") + letter(config_.rig.axis));
   std::deque<Item> items;
   while (!shared_->queue.closed_and_empty()) {
     measure_turn_ = steady_clock::now();

@@ -1,6 +1,5 @@
 #include "daemon/storekeeper/storekeeper.h"
 
-#include <pthread.h>
 #include <sys/statvfs.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include "daemon/store/file/announced_head.h"
 #include "daemon/storekeeper/storage_errors.h"
 #include "daemon/words/error_text.h"
+#include "schema/base/thread_start.h"
 
 namespace mdof::daemon {
 namespace {
@@ -86,7 +86,7 @@ Storekeeper::~Storekeeper() {
 }
 
 void Storekeeper::work() {
-  pthread_setname_np(pthread_self(), "store");
+  start_thread_as("store");
   auto next_commit = std::chrono::steady_clock::now() + options_.commit_interval;
   while (!queue_.closed_and_empty()) {
     if (const auto job = queue_.pop(std::min(options_.commit_interval, kLongestPop))) (*job)();

@@ -1,13 +1,12 @@
 #include "drivers/csv/csv_rows.h"
 
-#include <pthread.h>
-
 #include <optional>
 #include <thread>
 #include <utility>
 
 #include "drivers/csv/byte_source.h"
 #include "drivers/csv/chunk_ring.h"
+#include "schema/base/thread_start.h"
 
 namespace mdof::drivers {
 namespace {
@@ -57,7 +56,6 @@ class CsvRows::Reading {
 Status CsvRows::Reading::start(const CsvRowsOptions& options) {
   if (companion_) {
     thread_ = std::thread([this] { go_along(); });
-    ::pthread_setname_np(thread_.native_handle(), "csv read");
   }
   const LineChunk* const first = chunks_.next(Role::parser, kForever);
   if (!first) MDOF_CHECK(chunks_.status());
@@ -72,6 +70,7 @@ Status CsvRows::Reading::start(const CsvRowsOptions& options) {
 
 // Keeps ahead of the parser, and hashes plain text.
 void CsvRows::Reading::go_along() {
+  start_thread_as("csv read");
   while (const LineChunk* const chunk = chunks_.next(Role::companion, kForever)) {
     if (hash_) hash_->update(chunk->read());
     chunks_.done(Role::companion);

@@ -29,10 +29,12 @@ def datum_notices(*documents):
 class EncoderDatum(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
         self.setup_ = SETUPS["labjack_t7"]
         self.setup_.targets, self.setup_.dwell_s = TARGETS, 0.5
         shutil.copy(self.setup_.rig, self.folder.name)
         self.simulators = Simulators(SIMULATE, self.setup_, self.folder.name)
+        self.addCleanup(lambda: self.simulators.kill())  # those of then
 
     def begin(self, change=lambda text: text):
         self.offset_mm, self.said_mm = 0, []
@@ -42,8 +44,6 @@ class EncoderDatum(unittest.TestCase):
 
     def tearDown(self):
         self.daemon.stop()
-        self.simulators.kill()
-        self.folder.cleanup()
 
     def device(self):
         return self.client.call("device.list")["devices"][0]

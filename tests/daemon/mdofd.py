@@ -155,5 +155,9 @@ class Daemon:
 
     def stop(self):
         self.process.terminate()
-        code = self.process.wait(20)
+        try:
+            code = self.process.wait(20)
+        except subprocess.TimeoutExpired:
+            self.kill()
+            raise
         assert code == 0, f"mdofd ended with {code}: {open(self.log.name).read()[-2000:]}"

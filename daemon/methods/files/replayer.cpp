@@ -1,6 +1,5 @@
 #include "daemon/methods/files/replayer.h"
 
-#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -10,6 +9,7 @@
 #include <mutex>
 
 #include "daemon/measure/budgets.h"
+#include "schema/base/thread_start.h"
 
 namespace mdof::daemon {
 namespace {
@@ -35,7 +35,7 @@ struct Replayer::Shared {
 };
 
 void Replayer::Shared::work(const Make& make, const HistoryEntry& action, const Done& done) {
-  ::pthread_setname_np(::pthread_self(), "replay");
+  start_thread_as("replay");
   // Linux: of this thread alone.
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
   auto run = make([this](const Progress&) { return !stopping; });

@@ -1,7 +1,5 @@
 #include "daemon/station/device/acquisition.h"
 
-#include <pthread.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "daemon/paths.h"
 #include "daemon/words/error_text.h"
 #include "drivers/long_step.h"
+#include "schema/base/thread_start.h"
 
 namespace mdof::daemon {
 namespace {
@@ -33,11 +32,6 @@ std::string with_one_decimal(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.1f", x);
   return text;
-}
-
-// Names of threads end after 15 characters.
-void name_thread(const std::string& device) {
-  pthread_setname_np(pthread_self(), ("acq-" + device).substr(0, 15).c_str());
 }
 
 // Devices that fail together are not to be asked again together: from 3/4 to all of the pause.
@@ -114,7 +108,7 @@ void Acquisition::report(Trouble::Kind kind, const std::string& text, const std:
 }
 
 void Acquisition::acquire(std::uint64_t pass) {
-  name_thread(spec_.name);
+  start_thread_as("acq-" + spec_.name);
   backoff_ = kFirstBackoff;
   last_ns_.reset();
   lost_since_.reset();

@@ -5,6 +5,7 @@ file that does not answer.
 usage: stop_test.py MDOFD"""
 import ctypes
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -35,6 +36,15 @@ def bytes_read(pid):
         return int(counts.readline().split()[1])
 
 
+def blocked_signals(pid):
+    """Of each thread, a bit for each signal."""
+    masks = {}
+    for thread in os.listdir(f"/proc/{pid}/task"):
+        with open(f"/proc/{pid}/task/{thread}/status") as status:
+            masks[int(thread)] = int(re.search(r"SigBlk:\s*(\w+)", status.read()).group(1), 16)
+    return masks
+
+
 class Stop(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -63,6 +73,19 @@ class Stop(unittest.TestCase):
             process.send_signal(number)
             self.assertEqual(process.wait(), 0, f"ended by signal {number}")
             self.assertFalse(os.path.exists(self.daemon.database), "it was later than this test means")
+
+    def test_the_signals_go_to_the_main_thread(self):
+        """One that came to a device's thread would interrupt its driver."""
+        self.daemon.start()
+        pid, end = self.daemon.process.pid, time.monotonic() + SOON_S
+        ending = sum(1 << number - 1 for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP))
+        while True:
+            blocked = blocked_signals(pid)
+            self.assertEqual(blocked.pop(pid) & ending, 0)
+            if len(blocked) >= 4 and all(mask & ending == ending for mask in blocked.values()):  # store, query, acq, measure
+                break
+            self.assertLess(time.monotonic(), end, blocked)
+        self.assert_ends(self.daemon.process)
 
     def test_a_check_that_is_cut_off_is_none(self):
         with open(self.daemon.config, "a") as config:

@@ -1,7 +1,6 @@
 #include "tools/mdof/solve/error_rows.h"
 
 #include <fcntl.h>
-#include <pthread.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <deque>
 
 #include "schema/base/number/number.h"
+#include "schema/base/thread_start.h"
 #include "schema/units.h"
 #include "tools/mdof/output.h"
 
@@ -56,7 +56,6 @@ ErrorRows::ErrorRows(RowForm form, const MovingAxis& moving, Model model)
   }
   ::fcntl(STDOUT_FILENO, F_SETPIPE_SZ, kPipeBytes);  // where it is a pipe: fewer changes of turn
   thread_ = std::thread([this] { work(); });
-  ::pthread_setname_np(thread_.native_handle(), "write rows");
 }
 
 ErrorRows::~ErrorRows() {
@@ -84,6 +83,7 @@ Status ErrorRows::finish() {
 }
 
 void ErrorRows::work() {
+  start_thread_as("write rows");
   status_ = write_all();
   std::deque<SolvedRows> rest;
   free_.pop_all(rest, {});

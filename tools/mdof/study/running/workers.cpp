@@ -1,6 +1,5 @@
 #include "tools/mdof/study/running/workers.h"
 
-#include <pthread.h>
 #include <sched.h>
 
 #include <algorithm>
@@ -12,6 +11,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "schema/base/thread_start.h"
 
 namespace mdof::tools {
 namespace {
@@ -34,7 +35,7 @@ struct Shared {
 };
 
 void work_off(Shared& shared, unsigned worker) {
-  pthread_setname_np(pthread_self(), ("study " + std::to_string(worker + 1)).c_str());
+  start_thread_as("study " + std::to_string(worker + 1));
   std::exception_ptr failure;
   try {
     while (!shared.stop) {

@@ -133,6 +133,7 @@ class Daemon:
         self.arguments, self.environment = [], {}
 
     def start(self, timeout_s=60):
+        """Until it has answered: TSan (LLVM 14) may lose a signal that comes in the main thread's first wait."""
         self.log = open(os.path.join(self.folder, "stderr"), "ab")
         self.process = subprocess.Popen([self.program, *self.arguments, "--config", self.config],
                                         stderr=self.log, stdout=self.log,
@@ -141,7 +142,9 @@ class Daemon:
         end = time.monotonic() + timeout_s
         while True:
             try:
-                return Client(self.socket)
+                client = Client(self.socket)
+                client.call("server.info")
+                return client
             except OSError:
                 if self.process.poll() is not None:
                     raise RuntimeError(open(self.log.name).read())

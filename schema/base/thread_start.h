@@ -9,8 +9,7 @@
 namespace mdof {
 
 // Names the calling thread (Linux keeps 15 bytes), and leaves the signals that end a program to the
-// main thread: one that came here would interrupt a driver's call, and ThreadSanitizer holds it
-// back until this thread's wait ends.
+// main thread: one that came here would interrupt a driver's call.
 inline void start_thread_as(const std::string& name) {
   ::pthread_setname_np(::pthread_self(), name.substr(0, 15).c_str());
   sigset_t ending;

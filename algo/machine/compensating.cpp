@@ -78,6 +78,20 @@ Result<CompensatingCommand> compensating_command(const Machine& machine, const C
   return c;
 }
 
+std::vector<ErrorDerivative> derivatives_of_command(const Machine& machine,
+                                                    const Command& command) {
+  std::vector<ErrorDerivative> all = derivatives(machine, command);
+  const auto directions = linear_axes(machine);
+  const LeastNorm inverse(jacobian(machine, command, directions));
+  for (ErrorDerivative& d : all) {
+    const Eigen::VectorXd step = inverse.solve(Eigen::VectorXd(d.d.head<3>()));
+    d.d.head<3>().setZero();
+    for (std::size_t i = 0; i < directions.size(); ++i)
+      d.d[static_cast<Eigen::Index>(directions[i])] = step[static_cast<Eigen::Index>(i)];
+  }
+  return all;
+}
+
 std::array<double, 3> reversal_of_command(const Machine& machine, const Command& command) {
   std::array<double, 3> sum{};
   const auto directions = linear_axes(machine);

@@ -23,6 +23,11 @@ struct CompensatingCommand {
 Result<CompensatingCommand> compensating_command(const Machine& machine, const Command& wanted,
                                                  MachineApproach approach);
 
+// derivatives() with the place in the commands of X, Y, Z in place of the work's coordinates, in
+// which a turned rotary axis has other directions: what a unit of each error does to the
+// correction, but for its sign. 0 for an axis that the chain has not.
+std::vector<ErrorDerivative> derivatives_of_command(const Machine& machine, const Command& command);
+
 // By how much the corrections of X, Y, Z differ with the approaches of the axes, at a command: of
 // each axis forward less reverse while the others are at their means, as magnitudes added, since
 // each may come from either side; m. First order in the errors.

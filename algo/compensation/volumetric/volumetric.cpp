@@ -85,6 +85,18 @@ class CorrectedPlace {
   CompensatingCommand found_;
 };
 
+// NaN: nothing that counts has an uncertainty.
+Vec3 u_of_correction(const Machine& machine, const Command& command, MachineApproach approach) {
+  const Vector6 all = error_uncertainty(derivatives_of_command(machine, command),
+                                        values_at(machine, command, approach));
+  Vec3 u{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    u[k] = all[static_cast<Eigen::Index>(k)];
+    if (u[k] == 0) u[k] = kNaN;
+  }
+  return u;
+}
+
 // Whether noise is known apart, axis by axis.
 bool has_parts(const VolumetricTable& table) {
   return std::any_of(table.noise.begin(), table.noise.end(),
@@ -105,7 +117,7 @@ Status add_node(VolumetricTable& table, const Machine& machine, const Volumetric
            CorrectedPlace::at(machine, request, table.command_at(node)));
   const ToolError error = tool_error(machine, place.command(), request.approach);
   table.correction_m.push_back(place.correction_m());
-  table.u_m.push_back({error.u[0], error.u[1], error.u[2]});
+  table.u_m.push_back(u_of_correction(machine, place.command(), request.approach));
   if (has_parts(table)) table.u_independent_m.push_back(u_independent(table, node));
   table.place_left_m = std::max(table.place_left_m, place.found().residual_m.norm());
   const Vec3 reversal = reversal_of_command(machine, place.command());

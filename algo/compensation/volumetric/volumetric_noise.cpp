@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "algo/machine/tool_error.h"
+#include "algo/machine/compensating.h"
 
 namespace mdof::algo {
 namespace {
@@ -22,7 +22,7 @@ struct AffineEffect {
 
 EffectOnTool effect_at(const Machine& machine, std::size_t frame, const Command& command) {
   EffectOnTool effect = EffectOnTool::Zero();
-  for (const ErrorDerivative& d : derivatives(machine, command))
+  for (const ErrorDerivative& d : derivatives_of_command(machine, command))
     if (d.frame == frame && !d.of_line) effect.col(static_cast<Eigen::Index>(d.k)) = d.d.head<3>();
   return effect;
 }

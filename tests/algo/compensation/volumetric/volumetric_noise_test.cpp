@@ -67,8 +67,10 @@ TEST(VolumetricNoise, IsThatOfTheSumOfTwoNodesAxisByAxis) {
 // correlation goes from 0.2 at 4 mm to -0.6 at 20 mm: 0.2 at 0 mm, -0.1 at 10 mm.
 TEST(VolumetricNoise, NodesSharePartsOfTheirTargets) {
   auto machine = parse_machine(
-      "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\ntool = {point_mm = [40, 30, 20]}\n"
-      "[[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\nrange_mm = [0, 20]\n",
+      "name = \"m\"\nmachine = {chain = \"w-b-X-Y-Z-t\"}\ntool = {point_mm = [40, 30, 20]}\n"
+      "[[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\nrange_mm = [0, 20]\n"
+      "[[axis]]\nid = \"Y\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n"
+      "[[axis]]\nid = \"Z\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n",
       "m.toml");
   ASSERT_TRUE(machine) << machine.error().message;
   const std::size_t x = static_cast<std::size_t>(machine->find("X") - machine->frames.data());

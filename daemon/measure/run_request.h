@@ -18,7 +18,6 @@ struct CutOffRun {
   std::int64_t id = 0;
   std::filesystem::path recording;
   EncoderDatum datum = {};  // of its positions
-  std::string started_utc = {};
 };
 
 struct RunRequest {

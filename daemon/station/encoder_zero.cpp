@@ -29,9 +29,8 @@ Notice position_lost(const DatumSetting& said, bool since_start, const EncoderDa
 }  // namespace
 
 EncoderZero::EncoderZero(const std::vector<drivers::DriverSpec>& devices,
-                         std::optional<DatumSetting> before, std::optional<double> um_per_V,
-                         std::string utc)
-    : um_per_V_(um_per_V), since_utc_(std::move(utc)), last_(std::move(before)) {
+                         std::optional<DatumSetting> before, std::optional<double> um_per_V)
+    : um_per_V_(um_per_V), last_(std::move(before)) {
   for (const auto& device : devices) {
     const auto& ids = device.channels;
     const bool all = ids.empty();
@@ -163,15 +162,20 @@ Result<EncoderDatum> EncoderZero::put(const DatumSetting& setting, const std::st
   return datum_;
 }
 
-bool EncoderZero::counts_on_since(const std::string& utc) const {
+void EncoderZero::begins(std::int64_t run) {
   const std::lock_guard lock(mutex_);
-  return !counts_ || utc >= since_utc_;
+  runs_.insert(run);
 }
 
-void EncoderZero::lose(const std::string& device, const std::string& utc) {
+bool EncoderZero::counts_on_since(std::int64_t run) const {
+  const std::lock_guard lock(mutex_);
+  return !counts_ || runs_.count(run) > 0;
+}
+
+void EncoderZero::lose(const std::string& device) {
   const std::lock_guard lock(mutex_);
   if (device != device_ || datum_.kind == EncoderDatum::Kind::absolute) return;
-  since_utc_ = utc;
+  runs_.clear();
   counts_ = true;
   found_ = false;
   if (datum_.kind == EncoderDatum::Kind::index) datum_.offset_m = 0;  // of counts from the mark

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,10 @@ struct EncoderState {
 class EncoderZero {
  public:
   // `um_per_V`: of an encoder that gives volts. `before`: what was said last before this program
-  // began, which it does not hold any more. `utc`: now, since when its count is watched.
+  // began, which it does not hold any more.
   explicit EncoderZero(const std::vector<drivers::DriverSpec>& devices,
                        std::optional<DatumSetting> before = std::nullopt,
-                       std::optional<double> um_per_V = std::nullopt, std::string utc = "");
+                       std::optional<double> um_per_V = std::nullopt);
 
   // Adds the offset to the encoder's values of `block`, where it has any, and keeps what it shows.
   void apply(SampleBlock& block);
@@ -40,17 +41,19 @@ class EncoderZero {
   Result<DatumSetting> find(Axis axis, double position_m, const std::string& utc);
   // It holds from now on. Error (conflict): its device has been without power since it was found.
   Result<EncoderDatum> put(const DatumSetting& setting, const std::string& by);
-  // Its device counts from elsewhere since `utc`.
-  void lose(const std::string& device, const std::string& utc = "");
+  // Its device counts from elsewhere from now on.
+  void lose(const std::string& device);
   // Its device counts from its reference mark from now on, whatever held before. False: it is not
   // the one that gives the encoder, or not asked to look for a mark.
   bool pass_mark(const std::string& device, const std::string& utc);
 
   EncoderDatum datum() const;
   EncoderState state() const;
-  // Has it counted from one place since then? False where nobody knows: before this program or
-  // before its device was without power. An encoder that does not count is certain.
-  bool counts_on_since(const std::string& utc) const;
+  // A run is measured from now on.
+  void begins(std::int64_t run);
+  // Has it counted from one place since the run began? False where nobody knows: that was before
+  // this program or before its device was without power. An encoder that does not count is certain.
+  bool counts_on_since(std::int64_t run) const;
   // The device that gives the encoder; "": not known before it gave some.
   std::string device() const;
 
@@ -63,7 +66,7 @@ class EncoderZero {
   mutable std::mutex mutex_;
   EncoderDatum datum_;             // guarded by mutex_
   bool counts_ = false;            // guarded by mutex_
-  std::string since_utc_;          // of its count; guarded by mutex_
+  std::set<std::int64_t> runs_;    // of its present count; guarded by mutex_
   std::string device_;             // guarded by mutex_
   std::optional<double> index_m_;  // where the axis is at its encoder's reference mark
   // What was said last, before this program or since. Guarded by mutex_.

@@ -65,8 +65,7 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   request.note = header.note;
   request.targets_m = options->sequence.targets_m;
   request.repeats = options->repeats;
-  request.resumes =
-      CutOffRun{run, header.provenance.recording_path, options->datum, header.started_utc};
+  request.resumes = CutOffRun{run, header.provenance.recording_path, options->datum};
   for (const Notice& of_run : header.notices)  // of a run that had gone on before
     if (of_run.code == NoticeCode::run_goes_on) request.notices.push_back(of_run);
   request.notices.push_back(

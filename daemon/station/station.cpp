@@ -40,7 +40,7 @@ Station::Station(AxisConfig config, PipelineOptions options, std::string configu
       shared_(std::make_shared<Shared>(std::move(events))),
       measure_turn_(steady_clock::now()),
       zero_(config_.devices, config_.live() ? std::move(before) : std::nullopt,
-            config_.rig.encoder_um_per_V, utc_now()) {
+            config_.rig.encoder_um_per_V) {
   SharedDevices alone;
   for (const auto& device : config_.devices)
     acquisitions_.push_back(device.part.empty() ? std::make_unique<Acquisition>(device, sink())
@@ -152,7 +152,7 @@ NewRun Station::describe_run(const RunRequest& request, const PipelineOptions& o
 
 void Station::start_run(const RunRequest& request, const RunDone& done) {
   if (request.resumes) {
-    const bool counts_on = zero_.counts_on_since(request.resumes->started_utc);
+    const bool counts_on = zero_.counts_on_since(request.resumes->id);
     const Status same = check_same_datum(*request.resumes, zero_.datum(), counts_on);
     if (!same) return done(tl::unexpected(same.error()));
   }

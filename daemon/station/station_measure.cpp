@@ -165,7 +165,7 @@ void Station::source_ended(std::uint64_t pass, const std::string& reason,
 }
 
 void Station::take_trouble(const Trouble& trouble) {
-  if (trouble.kind == Trouble::Kind::suspect) zero_.lose(trouble.device, utc_now());
+  if (trouble.kind == Trouble::Kind::suspect) zero_.lose(trouble.device);
   if (open_) open_->troubles.add(trouble);
 }
 
@@ -195,6 +195,7 @@ void Station::attach(std::int64_t run, const RunRequest& request, const Options&
   open_->datum = options->datum;
   open_->model = options->model;
   if (beginning) open_->left_out_ns = beginning->end_ns;  // those before were reported then
+  zero_.begins(run);
   shared_->run = run;
   shared_->events.run_event(event_json("started", run, config_.rig.axis));
   done(run);

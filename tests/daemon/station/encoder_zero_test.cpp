@@ -94,18 +94,22 @@ TEST(EncoderZero, WhatWasFoundBeforeThePowerWentIsNotPut) {
 }
 
 TEST(EncoderZero, ItsCountGoesOnFromItsStartOrItsLastLoss) {
-  EncoderZero zero({counting()}, std::nullopt, std::nullopt, "2026-11-23T07:00:00.000Z");
-  EXPECT_FALSE(zero.counts_on_since("2026-11-23T06:59:59.999Z"));
-  EXPECT_TRUE(zero.counts_on_since("2026-11-23T07:00:00.000Z"));
+  EncoderZero zero({counting()});
+  EXPECT_FALSE(zero.counts_on_since(6));  // of an earlier start
+  zero.begins(7);
+  EXPECT_TRUE(zero.counts_on_since(7));
   SampleBlock block = resting_at(3);
   zero.apply(block);
-  zero.lose("t7", "2026-11-23T08:00:00.000Z");
-  EXPECT_FALSE(zero.counts_on_since("2026-11-23T07:30:00.000Z"));
-  EXPECT_TRUE(zero.counts_on_since("2026-11-23T08:00:01.000Z"));
+  zero.lose("another");
+  EXPECT_TRUE(zero.counts_on_since(7));
+  zero.lose("t7");
+  EXPECT_FALSE(zero.counts_on_since(7));
+  zero.begins(8);
+  EXPECT_TRUE(zero.counts_on_since(8));
+  EXPECT_FALSE(zero.counts_on_since(7));
   auto absolute = counting();
   absolute.encoder.counts = false;
-  EXPECT_TRUE(EncoderZero({absolute}, std::nullopt, std::nullopt, "2026-11-23T07:00:00.000Z")
-                  .counts_on_since(""));
+  EXPECT_TRUE(EncoderZero({absolute}).counts_on_since(6));
 }
 
 // Of Y at 12.5 mm, whatever took it.

@@ -51,7 +51,7 @@ EncoderDatum datum(EncoderDatum::Kind kind, double offset_m) {
 }
 
 std::string why_not(const EncoderDatum& of_run, const EncoderDatum& now, bool counts_on) {
-  const Status same = check_same_datum({7, "", of_run, ""}, now, counts_on);
+  const Status same = check_same_datum({7, "", of_run}, now, counts_on);
   return same ? "goes on" : words::text(same.error());
 }
 

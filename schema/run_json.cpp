@@ -117,6 +117,11 @@ void write_reference(JsonWriter& json, const StatedAt& at) {
   json.end_array();
 }
 
+void write_reference(JsonWriter& json, const CompensationTable& table) {
+  if (!table.has_positioning()) return write_reference(json, table.stated);
+  json.key("reference").null().key("reference_mm").null();
+}
+
 void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& p,
                  const ErrorsUncertainty& uncertainty) {
   const Axis axis = moving.axis;
@@ -322,7 +327,7 @@ void write_table_members(JsonWriter& json, const CompensationTable& t) {
   json.key("runs").begin_array();
   for (const auto id : t.runs) json.value(id);
   json.end_array();
-  write_reference(json, t.stated);
+  write_reference(json, t);
   if (t.has_positioning()) {  // whichever body moves, and whichever way it goes
     json.key("moves").null().key("travel").null();
     json.field("positioning_sense", to_string(kTablePositioningSense));
@@ -333,10 +338,13 @@ void write_table_members(JsonWriter& json, const CompensationTable& t) {
   t.machine.known() ? json.value(t.machine.text) : json.null();
   json.field("chain_travel", travels_of(t.machine));
   write_corrections(json, t);
-  json.field("sense", t.has_positioning() ? kPositioningTableSense : kTableSense)
-      .field("straightness_reference", t.slope_removed ? "least squares line" : "as measured")
-      .field("angle_reference", "first target, mean of both approaches")
-      .field("first_mm", to_mm(t.position_m.front()))
+  json.field("sense", t.has_positioning() ? kPositioningTableSense : kTableSense);
+  if (t.has_positioning())
+    json.key("straightness_reference").null().key("angle_reference").null();
+  else
+    json.field("straightness_reference", t.slope_removed ? "least squares line" : "as measured")
+        .field("angle_reference", "first target, mean of both approaches");
+  json.field("first_mm", to_mm(t.position_m.front()))
       .field("last_mm", to_mm(t.position_m.back()))
       .field("points_total", static_cast<std::uint64_t>(t.position_m.size()))
       .field("created_utc", t.created_utc)

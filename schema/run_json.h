@@ -23,6 +23,8 @@ void write_strings(JsonWriter& json, const char* key, const std::vector<std::str
 
 // "reference" and "reference_mm" (null for the carriage) of an open object.
 void write_reference(JsonWriter& json, const StatedAt& at);
+// null for positioning: its place is the measuring line, which an imported file does not say.
+void write_reference(JsonWriter& json, const CompensationTable& table);
 
 // Identity, state and provenance, without points; the members of an open object.
 void write_header_members(JsonWriter& json, const RunHeader& header, NoticeWords words);

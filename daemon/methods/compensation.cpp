@@ -218,7 +218,7 @@ Result<std::string> at(const Methods& m, const Params& params) {
       .field("axis", std::string_view(&"XYZ"[static_cast<std::size_t>(table.axis)], 1))
       .field("position_mm", position_mm)
       .field("direction", direction);
-  write_reference(json, table.stated);
+  write_reference(json, table);
   json.field("sense", kSense);
   write_values(json, "error", table.axis, value.error);
   write_correction(json, table, value.error);

@@ -177,6 +177,7 @@ std::vector<std::string> head_lines(const CompensationTable& table, const Export
 }
 
 std::string stated_place(const StatedAt& at) {
+  if (at.reference == Reference::carriage) return "origin of the carriage, which travels";
   const auto mm = [&at](std::size_t k) { return plain_number(to_mm(at.point_m[k]), 6); };
   return std::string(to_string(at.reference)) + ": X, Y, Z = " + mm(0) + ", " + mm(1) + ", " +
          mm(2) + " mm from the origin of the measuring fixture";

@@ -65,6 +65,11 @@ bool has_uncertainty(const AllocatedTolerance& t) {
   return t.low < t.high && t.low <= t.value && t.value <= t.high;
 }
 
+bool has_interval(const Frontier& f) {
+  return std::any_of(f.points.begin(), f.points.end(),
+                     [](const Point& p) { return has_uncertainty(p.second); });
+}
+
 Range first_range(const Frontier& f) {
   Range x;
   x.include(0);
@@ -142,11 +147,12 @@ std::string frontier_svg(const StudyResult& result) {
   const bool some_left_out = leaves_some_out(result);
   Svg svg(kWidthPx, sheet.bottom() + (some_left_out ? 24 : 4), title, in_words(result, all));
   draw_head(svg, title, study_line(result));
-  const std::vector<LegendItem> legend = {
+  std::vector<LegendItem> legend = {
       {LegendSign::line, "blue", "largest permitted tolerance on the vertical axis"},
-      {LegendSign::area, "wide", "permitted pairs"},
-      {LegendSign::line, "ink",
-       "95\u00a0% interval of the largest tolerance (sampling uncertainty)"}};
+      {LegendSign::area, "wide", "permitted pairs"}};
+  if (std::any_of(all.begin(), all.end(), has_interval))
+    legend.push_back({LegendSign::line, "ink",
+                      "95\u00a0% interval of the largest tolerance (sampling uncertainty)"});
   draw_legend(svg, kHeadPx, legend);
   for (std::size_t i = 0; i < all.size(); ++i)
     draw_frontier(svg, sheet.panel(i, first_range(all[i]), false), all[i]);

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <stdexcept>
 
 #include "daemon/output/charts/study/study_plots.h"
 #include "schema/base/sha256.h"
@@ -227,6 +228,18 @@ TEST_F(Plots, OfExtremeFiguresAreStillValid) {
     EXPECT_EQ(write(r).size(), 8u) << x;
     fs::remove_all(folder_);
   }
+}
+
+TEST_F(Plots, OfAFrontierNameOnlyIntervalsThatAreDrawn) {
+  StudyResult r = study();
+  const auto names_intervals = [&] {
+    for (const auto& [name, text] : write(r))
+      if (name == "allocation.svg") return text.find("sampling uncertainty") != text.npos;
+    throw std::runtime_error("no frontier is drawn");
+  };
+  EXPECT_TRUE(names_intervals());
+  for (auto& pair : r.allocations[0].frontier) pair[1].low = pair[1].high = kNaN;
+  EXPECT_FALSE(names_intervals());
 }
 
 TEST_F(Plots, OfAConstantHaveOneBar) {

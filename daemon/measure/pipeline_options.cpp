@@ -59,4 +59,13 @@ std::string PipelineOptions::json() const {
   return json.take();
 }
 
+std::string PipelineOptions::settings_json() const {
+  PipelineOptions o = *this;
+  o.align.interval_s.clear();  // of devices, as measured
+  o.sequence.targets_m.clear();
+  o.repeats = 0;
+  o.datum = {};
+  return o.json();
+}
+
 }  // namespace mdof::daemon

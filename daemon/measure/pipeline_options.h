@@ -31,6 +31,8 @@ struct PipelineOptions {
   std::size_t most_stops = kMostStops;  // later ones are counted and left out
 
   std::string json() const;  // for the provenance
+  // Of that what the configuration gives: not the devices' rates, the targets and the datum.
+  std::string settings_json() const;
 };
 
 }  // namespace mdof::daemon

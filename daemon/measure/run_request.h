@@ -17,7 +17,8 @@ namespace mdof::daemon {
 struct CutOffRun {
   std::int64_t id = 0;
   std::filesystem::path recording;
-  EncoderDatum datum = {};  // of its positions
+  EncoderDatum datum = {};    // of its positions
+  std::string settings = {};  // as of PipelineOptions::settings_json()
 };
 
 struct RunRequest {

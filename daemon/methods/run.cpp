@@ -137,6 +137,12 @@ Notices settings_of_devices(const Station& station) {
   return found;
 }
 
+// A run that goes on has some already.
+void append_new(Notices& to, Notices more) {
+  for (Notice& each : more)
+    if (std::find(to.begin(), to.end(), each) == to.end()) to.push_back(std::move(each));
+}
+
 // The probes of a device that several axes have are at one of them at a time.
 Status check_probes_free(const Methods& m, const Station& station) {
   for (const auto& other : m.stations) {
@@ -157,9 +163,9 @@ Status check_probes_free(const Methods& m, const Station& station) {
 
 void begin_run(const Methods& m, Station& station, RunRequest request, Reply reply) {
   if (auto free = check_probes_free(m, station); !free) return reply(tl::unexpected(free.error()));
-  append(request.notices, standing_trouble(station));
-  append(request.notices, unsettled_clocks(station));
-  append(request.notices, settings_of_devices(station));
+  for (Notices now :
+       {standing_trouble(station), unsettled_clocks(station), settings_of_devices(station)})
+    append_new(request.notices, std::move(now));
   // The run has its datum among its options, and takes no notice of it from here.
   RunRequest told = request;
   if (auto missing = station.encoder().notice) told.notices.push_back(std::move(*missing));

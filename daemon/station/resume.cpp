@@ -30,7 +30,23 @@ Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisCon
   if (later) return refused(run.id, "run " + std::to_string(*later) + " supersedes this run");
   if (run.provenance.rig_text != axis.rig.text)
     return refused(run.id, "the rig was changed after this run began; start a new run");
+  if (run.simulated != axis.simulated())
+    return refused(run.id, run.simulated
+                               ? "its devices were simulated, and those of the axis now are "
+                                 "not; start a new run"
+                               : "its devices were not simulated, and one of the axis now is; "
+                                 "start a new run");
   return {};
+}
+
+// Said of samples or targets that the run keeps, and not found again from its samples.
+bool stays(const Notice& of_run) {
+  using enum NoticeCode;
+  const std::initializer_list<NoticeCode> kept = {run_goes_on,         device_trouble,
+                                                  trouble_at_start,    clock_not_settled,
+                                                  scale_period_hidden, blocks_not_recorded};
+  return std::find(kept.begin(), kept.end(), of_run.code) != kept.end() ||
+         of_run.source.starts_with("device ");
 }
 
 Result<std::int64_t> copy(drivers::RecordingLog& log, store::RecordingWriter& writer,
@@ -65,12 +81,21 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
   request.note = header.note;
   request.targets_m = options->sequence.targets_m;
   request.repeats = options->repeats;
-  request.resumes = CutOffRun{run, header.provenance.recording_path, options->datum};
-  for (const Notice& of_run : header.notices)  // of a run that had gone on before
-    if (of_run.code == NoticeCode::run_goes_on) request.notices.push_back(of_run);
+  request.resumes =
+      CutOffRun{run, header.provenance.recording_path, options->datum, options->settings_json()};
+  for (const Notice& of_run : header.notices)
+    if (stays(of_run)) request.notices.push_back(of_run);
   request.notices.push_back(
       notice(NoticeCode::run_goes_on, "", {{"run", run}, {"datum", datum_text(options->datum)}}));
   return request;
+}
+
+Status check_same_settings(const CutOffRun& cut_off, const PipelineOptions& now) {
+  if (cut_off.settings == now.settings_json()) return {};
+  return refused(
+      cut_off.id,
+      "the model, the delays or other settings of the measurement in the configuration are "
+      "not those of this run; restore them and restart mdofd, or start a new run");
 }
 
 Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool counts_on) {

@@ -19,9 +19,13 @@
 namespace mdof::daemon {
 
 // What the run was asked for, with the run itself to go on from. Errors: not_found; conflict for a
-// run that is complete or under way, was not recorded here, is superseded, or whose rig is another.
+// run that is complete or under way, was not recorded here, is superseded, whose rig is another, or
+// one of which only the first or only the second part is simulated.
 Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
                                      const AxisConfig& axis);
+
+// One run is evaluated in one way. Error (conflict): these settings would change its first part.
+Status check_same_settings(const CutOffRun& cut_off, const PipelineOptions& now);
 
 // One run has one datum. Error (conflict): a position of the run and the same number `now` are, or
 // may be, two places. `counts_on`: as of EncoderZero::counts_on_since() the run's beginning.

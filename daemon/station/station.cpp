@@ -155,6 +155,8 @@ void Station::start_run(const RunRequest& request, const RunDone& done) {
     const bool counts_on = zero_.counts_on_since(request.resumes->id);
     const Status same = check_same_datum(*request.resumes, zero_.datum(), counts_on);
     if (!same) return done(tl::unexpected(same.error()));
+    const Status alike = check_same_settings(*request.resumes, options_for(request));
+    if (!alike) return done(tl::unexpected(alike.error()));
   }
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1)) {

@@ -45,17 +45,20 @@ class RunState(unittest.TestCase):
     @classmethod
     def stopped_early(cls):
         """A run of two repeats, stopped after six points of sixteen: its header."""
-        watcher = cls.watcher()
-        run = cls.client.call("run.start", axis="X", targets_mm=TARGETS, repeats=2, note="half")["run"]
+        return cls.stopped_early_by(cls.client, cls.watcher())
+
+    @staticmethod
+    def stopped_early_by(client, watcher):
+        run = client.call("run.start", axis="X", targets_mm=TARGETS, repeats=2, note="half", scale_period_um=100)["run"]
         points = 0
         while points < 6:
             value = watcher.next_note()["params"]["value"]
             points = value["points"] if value.get("type") == "progress" else points
-        stopped = cls.client.call("run.stop", run=run)["run"]
+        stopped = client.call("run.stop", run=run)["run"]
         while (value := watcher.next_note()["params"]["value"]).get("type") != "ended":
             pass
         assert (value["run"], value["state"]) == (stopped, "partial"), value
-        return cls.client.call("run.get", run=stopped)
+        return client.call("run.get", run=stopped)
 
     def ended(self, watcher):
         while True:
@@ -120,6 +123,8 @@ class RunState(unittest.TestCase):
         self.assertEqual(header["state"], "complete", notice_lines(header))
         self.assertIn(header["supersedes"], (partial["run"], resumed))
         self.assertTrue(all(n == 0 for n in self.missing_of(header).values()))
+        for run in (partial, header):  # it has the same targets
+            self.assertEqual([n["code"] for n in run["notices"]].count("scale_period_hidden"), 1, notice_lines(run))
         code, out, err = mdof("replay", header["recording"]["path"], "--no-store", "--json")
         self.assertEqual(code, 0, err)
         again = json.loads(out)
@@ -128,6 +133,31 @@ class RunState(unittest.TestCase):
             self.assertEqual(again[key], header[key])
         with self.assertRaisesRegex(RpcError, "is complete"):
             self.client.call("run.resume", run=header["run"])
+
+    def test_with_other_settings_or_devices_it_is_another_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            daemon = Daemon(MDOFD, folder, simulator("X", targets_mm=TARGETS))
+            client = daemon.start()
+            watcher = Client(daemon.socket, timeout_s=60)
+            watcher.call("live.subscribe", interval_ms=1000)
+            run = self.stopped_early_by(client, watcher)["run"]
+            daemon.stop()
+            with open(daemon.config) as f:
+                config = f.read()
+            before, device = config.split("[axis.device]")
+            others = {"other settings of the measurement": "[measure]\nmodel = \"simplified\"\n" + config,
+                      "were simulated": before + '[axis.device]\ndriver = "csv_stream"\nsource = "tcp://127.0.0.1:1"\n'}
+            for why, other in others.items():
+                with open(daemon.config, "w") as f:
+                    f.write(other)
+                client = daemon.start()
+                with self.assertRaisesRegex(RpcError, f"run {run} cannot be continued: .*{why}"):
+                    client.call("run.resume", run=run)
+                daemon.stop()
+            with open(daemon.config, "w") as f:
+                f.write(config)
+            self.assertGreater(daemon.start().call("run.resume", run=run)["run"], run)
+            daemon.stop()
 
     def test_a_free_run_stopped_is_what_was_asked_for(self):
         watcher = self.watcher()

@@ -26,7 +26,7 @@ constexpr const char* kPositioningTableSense =
 // {"EYX_um": {"factor", "command", "reason"}, ...}: a correction is factor times the error, added
 // to the command of that axis; factor null: there is none, for that reason.
 void write_corrections(JsonWriter& json, const CompensationTable& t) {
-  const CorrectionSigns signs = correction_signs(t.machine, t.axis, t.stated.reference);
+  const CorrectionSigns signs = correction_signs(t.machine, t.axis, t.sides, t.stated.reference);
   json.key("correction").begin_object();
   for (std::size_t k = 0; k < 5; ++k) {
     const ErrorName& name = error_names(t.axis)[k];

@@ -7,7 +7,29 @@ int sign_of_error(const ChainAxis& measured) {
   return measured.carries_work ? -1 : 1;
 }
 
+// Why straightness stated there says nothing of the tool; empty: it does.
+std::string gap_of_point(const ChainAxis& measured, Axis axis, Sides sides, Reference reference) {
+  const bool at_carriage = reference == Reference::carriage;
+  if (fixture_is_with_tool(measured, sides)) {
+    if (!at_carriage) return "";
+    return "straightness at the carriage holds for a point that travels with the axis, not for the "
+           "tool; build a table with the reference \"fixture\" or \"tool\"";
+  }
+  if (at_carriage) return "";
+  return std::string("the rig states that the ") + sides.moves() +
+         " moves, and the chain that axis " + letter(axis) + " carries the " +
+         (measured.carries_work ? "work" : "tool") +
+         ", so the fixture is on the side of the work, and straightness at the " +
+         to_string(reference) +
+         " holds for a point of the work, not for the tool; if the fixture is in the spindle, "
+         "correct moves in the rig, else build a table with the reference \"carriage\"";
+}
+
 }  // namespace
+
+bool fixture_is_with_tool(const ChainAxis& measured, Sides sides) {
+  return sides.fixture_moves != measured.carries_work;
+}
 
 int sign_of_command(const ChainAxis& axis) {
   const int travel = axis.against_command ? -1 : 1;
@@ -18,7 +40,7 @@ char corrected_by(const ErrorName& name) {
   return name.name[1];
 }
 
-CorrectionSigns correction_signs(const Chain& chain, Axis axis, Reference reference) {
+CorrectionSigns correction_signs(const Chain& chain, Axis axis, Sides sides, Reference reference) {
   CorrectionSigns signs;
   const ChainAxis* measured = chain.find(letter(axis));
   for (std::size_t k = 0; k < signs.factor.size(); ++k) {
@@ -30,12 +52,11 @@ CorrectionSigns correction_signs(const Chain& chain, Axis axis, Reference refere
           "chain, such as \"w-Y-X-b-Z-t\", to the rig or to mdofd.toml, then build the table again";
     } else if (!measured || !correcting) {
       signs.gap[k] = "the chain " + chain.text + " has no axis " + (measured ? by : letter(axis));
-    } else if (reference == Reference::carriage && !error_names(axis)[k].angle) {
-      signs.gap[k] =
-          "straightness at the carriage holds for a point that travels with the axis, not for the "
-          "tool; build a table with the reference \"fixture\" or \"tool\"";
     } else {
-      signs.factor[k] = -sign_of_error(*measured) * sign_of_command(*correcting);
+      if (!error_names(axis)[k].angle)
+        signs.gap[k] = gap_of_point(*measured, axis, sides, reference);
+      if (signs.gap[k].empty())
+        signs.factor[k] = -sign_of_error(*measured) * sign_of_command(*correcting);
     }
   }
   return signs;

@@ -17,8 +17,13 @@
 #include "schema/axis.h"
 #include "schema/rig/chain.h"
 #include "schema/rig/reference.h"
+#include "schema/rig/sides.h"
 
 namespace mdof {
+
+// The fixture is on the side of the tool, as this axis moves one of the two: the tool's point is
+// one of the fixture's frame. Else it is on the side of the work.
+bool fixture_is_with_tool(const ChainAxis& measured, Sides sides);
 
 // s_k of an axis.
 int sign_of_command(const ChainAxis& axis);
@@ -27,8 +32,9 @@ struct CorrectionSigns {
   std::array<int, 5> factor{};     // by named error of the axis: c = factor * E; 0: none
   std::array<std::string, 5> gap;  // why there is none
 };
-// At the carriage straightness has none: it is that of a point that travels with the axis.
-CorrectionSigns correction_signs(const Chain& chain, Axis axis, Reference reference);
+// Straightness has one only where the point that it is stated at goes with the tool: a point of the
+// fixture, or, where the fixture is on the side of the work, the carriage.
+CorrectionSigns correction_signs(const Chain& chain, Axis axis, Sides sides, Reference reference);
 
 // The axis whose command takes the correction of a named error: 'Y' for EYX, 'A' for EAX.
 char corrected_by(const ErrorName& name);

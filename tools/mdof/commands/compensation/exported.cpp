@@ -10,6 +10,7 @@
 #include "daemon/measure/machine/volumetric.h"
 #include "schema/base/number/number_text.h"
 #include "schema/imported/series.h"
+#include "schema/rig/correction.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/compensation/active_table.h"
 #include "tools/mdof/linuxcnc/joint_ramps.h"
@@ -280,6 +281,17 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
     return bad_input(name + ": the rigs of the runs " + std::to_string(stored.run_a) + " and " +
                      std::to_string(stored.run_b) +
                      " describe different machines; measure both runs on one machine");
+  for (const Rig* rig : {&x, &y}) {
+    const ChainAxis* measured = rig->machine.find(letter(rig->axis));
+    if (measured && !fixture_is_with_tool(*measured, rig->sides))
+      return bad_input(
+          name +
+          " is stated at a point of the fixture, and by moves and chain of the rig "
+          "of axis " +
+          letter(rig->axis) +
+          " the fixture is on the side of the work, so this angle is not that of the tool; "
+          "measure it with the fixture in the spindle, or correct moves in the rig");
+  }
   // The point at which tables of these rigs hold, too: the angle at another point is another.
   const StatedAt at = stated_at_by_default(x);
   if (at != stated_at_by_default(y))

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 
 namespace mdof {
 
@@ -27,6 +28,9 @@ inline constexpr double to_mm(double x_m) {
 }
 inline constexpr double to_urad(double x_rad) {
   return x_rad * 1e6;
+}
+inline constexpr double to_deg(double x_rad) {
+  return x_rad * (180 / std::numbers::pi);
 }
 inline constexpr double ns_to_s(std::int64_t t_ns) {
   return static_cast<double>(t_ns) * 1e-9;

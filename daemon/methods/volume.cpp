@@ -201,6 +201,7 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
     command_m[k] = params.has(key) ? from_mm(params.number(key)) : table.command_m[k].front();
     json.field(key, to_mm(command_m[k]));
   }
+  write_rotary(json, table);
   const algo::VolumetricValue value = algo::volumetric_at(table, command_m);
   write_um(json, "correction", value.correction_m);
   write_um(json, "u", value.u_m);

@@ -1,7 +1,5 @@
 #include "schema/volumetric/volumetric_json.h"
 
-#include <numbers>
-
 #include "schema/run_json.h"
 #include "schema/units.h"
 
@@ -14,7 +12,6 @@ constexpr const char* kSense =
     "position";
 constexpr const char* kAxesMm[] = {"X_mm", "Y_mm", "Z_mm"};
 constexpr const char* kAxesUm[] = {"X_um", "Y_um", "Z_um"};
-constexpr double kDegreesByRadian = 180 / std::numbers::pi;
 constexpr const char* kRotaryKeys[] = {"A_deg", "B_deg", "C_deg"};
 
 void write_commands(JsonWriter& json, const VolumetricTable& t) {
@@ -24,14 +21,18 @@ void write_commands(JsonWriter& json, const VolumetricTable& t) {
     for (const double x : t.command_m[k]) json.value(to_mm(x));
     json.end_array();
   }
-  json.end_object().key("rotary").begin_object();
-  for (std::size_t k = 0; k < 3; ++k)
-    if (t.machine.find(kRotaryKeys[k][0]))
-      json.field(kRotaryKeys[k], t.rotary_rad[k] * kDegreesByRadian);
   json.end_object();
+  write_rotary(json, t);
 }
 
 }  // namespace
+
+void write_rotary(JsonWriter& json, const VolumetricTable& t) {
+  json.key("rotary").begin_object();
+  for (std::size_t k = 0; k < 3; ++k)
+    if (t.machine.find(kRotaryKeys[k][0])) json.field(kRotaryKeys[k], to_deg(t.rotary_rad[k]));
+  json.end_object();
+}
 
 void write_um(JsonWriter& json, const char* key, const Vec3& value_m) {
   json.key(key).begin_object();

@@ -2,11 +2,14 @@
 
 #include <cmath>
 #include <span>
+#include <string_view>
 
 #include "schema/base/canonical.h"
+#include "schema/base/number/number_text.h"
 #include "schema/base/sha256.h"
 #include "schema/notice/notice_json.h"
 #include "schema/sample.h"
+#include "schema/units.h"
 
 namespace mdof {
 
@@ -100,6 +103,16 @@ std::string volumetric_sha256(const VolumetricTable& t) {
   if (reversal) put_vector(t.reversal_m);
   if (!t.doubtful.empty()) put_text(notices_json(t.doubtful));
   return sha256_hex(bytes);
+}
+
+std::string rotary_text(const VolumetricTable& table) {
+  constexpr std::string_view kRotary = "ABC";
+  std::string text;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (table.machine.find(kRotary[k]))
+      text += (text.empty() ? "" : ", ") + std::string(1, kRotary[k]) + " = " +
+              plain_number(to_deg(table.rotary_rad[k]), 9) + " deg";
+  return text;
 }
 
 std::string covers_text(const VolumetricTable& table) {

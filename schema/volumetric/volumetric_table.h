@@ -78,6 +78,10 @@ struct VolumetricTable {
   Vec3 u_common_at(std::size_t node) const;
 };
 
+// Where the rotary axes of the machine stand, as "A = 0 deg, C = 30 deg"; "": it has none. The
+// table holds there only.
+std::string rotary_text(const VolumetricTable& table);
+
 // The part of u that is left beside another, m; NaN where one is.
 Vec3 u_beside(const Vec3& u_m, const Vec3& part_m);
 

@@ -65,6 +65,16 @@ std::string isg_list(const VolumetricTable& t, const std::vector<std::string>& h
          kIsgTable + "\nfile_format[0] ISG_CSV\n";
 }
 
+// Where u of one node is not known, the largest is not.
+std::string largest_u_text(const VolumetricTable& t, std::size_t axis) {
+  double largest = 0;
+  for (const Vec3& node : t.u_m) {
+    if (std::isnan(node[axis])) return "unknown";
+    largest = std::max(largest, node[axis]);
+  }
+  return plain_number(to_um(largest));
+}
+
 }  // namespace
 
 std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& options,
@@ -81,13 +91,11 @@ std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& 
   for (std::size_t k = 0; k < 3; ++k)
     if (t.command_m[k].size() == 1 && t.machine.find(kLinear[k]))
       at += ", at the command " + letter_of(k) + " = " + mm(t.command_m[k].front()) + " mm";
+  if (const std::string rotary = rotary_text(t); !rotary.empty()) at += ", only at " + rotary;
   lines.push_back(at);
-  Vec3 u{};
-  for (const Vec3& node : t.u_m)
-    for (std::size_t k = 0; k < 3; ++k) u[k] = std::max(u[k], node[k]);
-  lines.push_back("largest u of the tool position along X, Y, Z: " + plain_number(to_um(u[0])) +
-                  ", " + plain_number(to_um(u[1])) + ", " + plain_number(to_um(u[2])) +
-                  " um; u contains " + one_plain_line(covers_text(t)));
+  lines.push_back("largest u of the correction of X, Y, Z in um: " + largest_u_text(t, 0) + ", " +
+                  largest_u_text(t, 1) + ", " + largest_u_text(t, 2) + "; u contains " +
+                  one_plain_line(covers_text(t)));
   for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
   return lines;
 }

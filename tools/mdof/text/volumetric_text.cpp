@@ -31,7 +31,8 @@ std::string grid_text(const VolumetricTable& t) {
       text +=
           " to " + in_mm(commands.back()) + " (" + std::to_string(commands.size()) + " positions)";
   }
-  return text + " mm";
+  const std::string rotary = rotary_text(t);
+  return text + " mm" + (rotary.empty() ? "" : ", only at " + rotary);
 }
 
 struct Largest {

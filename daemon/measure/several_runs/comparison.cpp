@@ -51,6 +51,10 @@ ComparedFigure compared(const Budget& before, const Budget& after) {
     return figure;
   }
   algo::complete(change);
+  if (before.value * after.value < 0) {  // what both runs share adds
+    change.u = before.u + after.u;
+    change.U = change.coverage_factor * change.u;
+  }
   // A range of noisy means is biased upwards, which first order does not know.
   if (before.U_by_trials || after.U_by_trials) {
     change.U = std::max(change.U, std::hypot(before.U, after.U));

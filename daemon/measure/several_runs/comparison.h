@@ -21,7 +21,8 @@ struct ComparedFigure {
   Budget before, after;
   // value: |after| - |before|, so that a reduction is negative whatever the sign of a slope is. The
   // two runs are taken as independent: what they share (a probe's gain, the mounting) cancels, so
-  // that u is too large rather than too small.
+  // that u is too large rather than too small. Where the sign has changed it adds, and u is the
+  // sum.
   Budget change;
   Effect effect = Effect::not_shown;
 };

@@ -79,7 +79,8 @@ std::string comparison_text(const daemon::Comparison& c) {
          wrapped("± is the expanded uncertainty U (95 %). u contains " + covers_text(c) +
                      ". The change is |after| - |before|. U of the change treats the runs as "
                      "independent. Uncertainties that both runs share cancel, so this U tends to "
-                     "be too large.",
+                     "be too large. Where the sign of a figure has changed, they add, and u of the "
+                     "change is the sum of both.",
                  terminal_columns()) +
          "\n";
 }

@@ -115,16 +115,11 @@ Field wall_normals(const algo::PartPath& path, bool is_up) {
   Field normals;
   const std::size_t n = path.at_m.size();
   for (std::size_t k = 0; k < n; ++k) {
-    if (!path.normal.empty()) {
-      normals.emplace_back(path.normal[k](0), path.normal[k](1), 0);
-      continue;
-    }
     const Eigen::Vector3d way = path.at_m[std::min(k + 1, n - 1)] - path.at_m[k > 0 ? k - 1 : 0];
-    const double length = std::hypot(way(0), way(1)), side = is_up ? -1 : 1;
-    if (length > 0)
-      normals.emplace_back(-way(1) / length * side, way(0) / length * side, 0);
-    else
-      normals.emplace_back(0, 0, 0);
+    Eigen::Vector3d normal(-way(1), way(0), 0);
+    if (is_up) normal = -normal;
+    if (!path.normal.empty()) normal = {path.normal[k](0), path.normal[k](1), 0};
+    normals.push_back(normal.stableNormalized());  // 0 stays 0
   }
   return normals;
 }

@@ -1,6 +1,7 @@
 // mdof part PART.toml: the error of a part along its path, what makes it, and what takes it out.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -37,6 +38,21 @@ std::vector<std::size_t> ranked(const std::vector<algo::PartShare>& shares) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return shares[a].share > shares[b].share; });
   return order;
+}
+
+// Where causes have no u, a U of 0 and a residual that is u alone are not known.
+void forget_unknown(FoundPart& found) {
+  if (found.part.no_u.empty()) return;
+  const auto forget = [](double& x) {
+    if (x == 0) x = std::nan("");
+  };
+  for (double* U : {&found.error.U_p95_m, &found.error.U_max_m}) forget(*U);
+  for (auto* shares : {&found.error.layers, &found.error.causes})
+    for (algo::PartShare& share : *shares) {
+      forget(share.U_rms_m);
+      forget(share.U_share);
+    }
+  for (algo::PartShare& left : found.left.layers) forget(left.rms_m);
 }
 
 void write_share(JsonWriter& json, const algo::PartShare& share) {
@@ -145,6 +161,7 @@ Status part(const PartCommand& o) {
   found.left = algo::part_error(found.part.path, found.part.left, layers, none);
   found.layers = ranked(found.error.layers);
   found.causes = ranked(found.error.causes);
+  forget_unknown(found);
   return o.json ? write_line(part_json(found)) : write_out(part_text(found));
 }
 

@@ -171,7 +171,8 @@ void write_values(JsonWriter& json, const char* key, Axis axis, const Errors5& v
 // null without a chain; a component that no axis of the chain can correct is null. Why, is said
 // once for each reason.
 void write_correction(JsonWriter& json, const CompensationTable& table, const Errors5& error) {
-  const CorrectionSigns signs = correction_signs(table.machine, table.axis, table.sides, table.stated.reference);
+  const CorrectionSigns signs =
+      correction_signs(table.machine, table.axis, table.sides, table.stated.reference);
   Errors5 correction{};
   std::string why;
   if (std::any_of(error.begin(), error.end(), [](double x) { return std::isnan(x); }))

@@ -104,7 +104,8 @@ Result<Series> short_enough(const Series& s, std::int64_t table, std::size_t mos
 }  // namespace
 
 std::vector<Series> series_of(const CompensationTable& table) {
-  const CorrectionSigns signs = correction_signs(table.machine, table.axis, table.sides, table.stated.reference);
+  const CorrectionSigns signs =
+      correction_signs(table.machine, table.axis, table.sides, table.stated.reference);
   std::vector<Series> all;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     const ErrorName& name = error_names(table.axis)[k];

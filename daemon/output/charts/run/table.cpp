@@ -52,7 +52,8 @@ std::string correction_line(int factor, const std::string& command, const std::s
 
 std::vector<TableSeries> series_of_table(const CompensationTable& table, Language language) {
   std::vector<TableSeries> all;
-  const CorrectionSigns signs = correction_signs(table.machine, table.axis, table.sides, table.stated.reference);
+  const CorrectionSigns signs =
+      correction_signs(table.machine, table.axis, table.sides, table.stated.reference);
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     const ErrorName& name = error_names(table.axis)[k];
     TableSeries series;

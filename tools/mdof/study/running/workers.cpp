@@ -1,5 +1,6 @@
 #include "tools/mdof/study/running/workers.h"
 
+#include <pthread.h>
 #include <sched.h>
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
-#include "schema/base/thread_start.h"
 
 namespace mdof::tools {
 namespace {
@@ -35,7 +34,7 @@ struct Shared {
 };
 
 void work_off(Shared& shared, unsigned worker) {
-  start_thread_as("study " + std::to_string(worker + 1));
+  pthread_setname_np(pthread_self(), ("study " + std::to_string(worker + 1)).c_str());
   std::exception_ptr failure;
   try {
     while (!shared.stop) {

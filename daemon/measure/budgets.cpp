@@ -12,6 +12,7 @@
 #include "algo/uncertainty/stated.h"
 #include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
+#include "schema/base/append_new.h"
 #include "schema/base/number/number_text.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
@@ -156,12 +157,6 @@ struct FoundSetUp {
   Notices notices;
   bool simulated = false;
 };
-
-template <class T>
-void append_new(std::vector<T>& to, std::vector<T> more) {
-  for (T& each : more)
-    if (std::find(to.begin(), to.end(), each) == to.end()) to.push_back(std::move(each));
-}
 
 // Its square taken to be true.
 Result<FoundSetUp> square_set_up(store::Store& store, SquarenessRequest request) {

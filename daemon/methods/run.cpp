@@ -14,6 +14,7 @@
 #include "daemon/station/resume.h"
 #include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
+#include "schema/base/append_new.h"
 #include "schema/base/json_page.h"
 #include "schema/imported/series.h"
 #include "schema/plausibility/plausibility_json.h"
@@ -137,12 +138,6 @@ Notices settings_of_devices(const Station& station) {
   return found;
 }
 
-// A run that goes on has some already.
-void append_new(Notices& to, Notices more) {
-  for (Notice& each : more)
-    if (std::find(to.begin(), to.end(), each) == to.end()) to.push_back(std::move(each));
-}
-
 // The probes of a device that several axes have are at one of them at a time.
 Status check_probes_free(const Methods& m, const Station& station) {
   for (const auto& other : m.stations) {
@@ -163,9 +158,10 @@ Status check_probes_free(const Methods& m, const Station& station) {
 
 void begin_run(const Methods& m, Station& station, RunRequest request, Reply reply) {
   if (auto free = check_probes_free(m, station); !free) return reply(tl::unexpected(free.error()));
-  for (Notices now :
-       {standing_trouble(station), unsettled_clocks(station), settings_of_devices(station)})
-    append_new(request.notices, std::move(now));
+  // A run that goes on has some already.
+  append_new(request.notices, standing_trouble(station));
+  append_new(request.notices, unsettled_clocks(station));
+  append_new(request.notices, settings_of_devices(station));
   // The run has its datum among its options, and takes no notice of it from here.
   RunRequest told = request;
   if (auto missing = station.encoder().notice) told.notices.push_back(std::move(*missing));

@@ -9,6 +9,7 @@
 #include "daemon/measure/evaluation.h"
 #include "daemon/words/error_text.h"
 #include "daemon/words/words.h"
+#include "schema/base/append_new.h"
 #include "schema/iso230/iso230_json.h"
 #include "schema/run_json.h"
 #include "tools/mdof/text/run_tables.h"
@@ -16,12 +17,6 @@
 
 namespace mdof::tools {
 namespace {
-
-template <class T>
-void add_new(std::vector<T>& to, const std::vector<T>& more) {
-  for (const T& one : more)
-    if (std::find(to.begin(), to.end(), one) == to.end()) to.push_back(one);
-}
 
 // Its place in error_names().
 Result<std::size_t> place_of_error(const std::string& asked, Axis axis) {
@@ -39,7 +34,7 @@ Result<std::vector<std::size_t>> chosen_errors(const std::vector<std::string>& a
   std::vector<std::size_t> chosen;
   for (const auto& name : asked) {
     MDOF_TRY(const std::size_t k, place_of_error(name, axis));
-    add_new(chosen, {k});
+    append_new(chosen, {k});
   }
   return chosen;
 }
@@ -49,11 +44,11 @@ Status add_error(const Run& run, std::size_t k, double scale_period_m, RunPositi
   auto figures = algo::positioning(series.readings);
   if (!figures)
     return in_context("run " + std::to_string(run.header.id), std::move(figures.error()));
-  add_new(found.notices, algo::plan_notices(*figures, scale_period_m));
+  append_new(found.notices, algo::plan_notices(*figures, scale_period_m));
   if (series.left_out > 0)
-    add_new(found.notices,
-            {notice(NoticeCode::readings_left_out, "",
-                    {{"left_out", series.left_out}, {"points", run.points.size()}})});
+    append_new(found.notices,
+               {notice(NoticeCode::readings_left_out, "",
+                       {{"left_out", series.left_out}, {"points", run.points.size()}})});
   const ErrorName& name = error_names(run.header.axis)[k];
   constexpr std::size_t kFewestOfALine =
       3;  // a line through two leaves nothing, whatever the axis is

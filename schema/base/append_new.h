@@ -1,0 +1,16 @@
+// Appends those of `more` that are not in `to` yet, in their order.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace mdof {
+
+template <class T>
+void append_new(std::vector<T>& to, std::vector<T> more) {
+  for (T& each : more)
+    if (std::find(to.begin(), to.end(), each) == to.end()) to.push_back(std::move(each));
+}
+
+}  // namespace mdof

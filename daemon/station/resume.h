@@ -20,7 +20,7 @@ namespace mdof::daemon {
 
 // What the run was asked for, with the run itself to go on from. Errors: not_found; conflict for a
 // run that is complete or under way, was not recorded here, is superseded, whose rig is another, or
-// one of which only the first or only the second part is simulated.
+// whose devices were simulated where those of the axis are not, or the other way round.
 Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
                                      const AxisConfig& axis);
 

@@ -178,10 +178,10 @@ Result<store::Activation> activate_checked(store::Store& store, const Activation
                                            const store::Marks& marks) {
   MDOF_TRY(const bool volumetric, store.is_volumetric(request.table));
   const std::string actor = actor_text(request.action.by);
-  MDOF_TRY(auto done,
-           volumetric
-               ? store.change_volumetric(request.table, actor, request.action.utc, request.action)
-               : store.activate(request.table, actor, request.action.utc, request.action));
+  const auto& [table, consent, action, expected] = request;
+  MDOF_TRY(auto done, volumetric
+                          ? store.change_volumetric(table, actor, action.utc, action, expected)
+                          : store.activate(table, actor, action.utc, action, expected));
   done.marks = marks;
   return done;
 }
@@ -210,6 +210,7 @@ Status check_measured_without(store::Store& store, const CompensationTable& tabl
 Result<store::Marks> check_activation(store::Store& store, const ActivationRequest& request) {
   MDOF_TRY(const bool volumetric, store.is_volumetric(request.table));
   if (volumetric) return check_volumetric_activation(store, request.table, request.consent);
+  MDOF_CHECK(store.check_generation(request.expected_generation));
   MDOF_TRY(const CompensationTable table, store.table(request.table));
   if (table.has_positioning())
     return fail(

@@ -64,7 +64,8 @@ Status store_table(store::Store& store, CompensationTable& table,
 struct ActivationRequest {
   std::int64_t table = 0;
   Consent consent;
-  HistoryEntry action;  // who asks
+  HistoryEntry action;                                             // who asks
+  std::optional<std::int64_t> expected_generation = std::nullopt;  // of all active tables
 };
 // Activates the table. Refuses one that is not what its hash says, and what check_gate()
 // refuses: a controller sees numbers only.

@@ -79,7 +79,8 @@ void activate(Methods& m, const Params& params, Reply reply) {
   const ActivationRequest request{
       params.integer("table"),
       {params.boolean("simulated", false), params.boolean("despite_warnings", false)},
-      action_with_reason(params, "compensation.activate")};
+      action_with_reason(params, "compensation.activate"),
+      expected_generation_of(params)};
   answer_with_change(m, std::move(reply), [&m, request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(const store::Marks marks, check_activation(reader, request));
     return change_active(
@@ -94,12 +95,12 @@ void deactivate(Methods& m, const Params& params, Reply reply) {
   if (!axis) return reply(tl::unexpected(axis.error()));
   answer_with_change(
       m, std::move(reply),
-      [&m, axis = *axis, action = action_with_reason(params, "compensation.deactivate")](
-          store::Store&) -> Result<Change> {
+      [&m, axis = *axis, action = action_with_reason(params, "compensation.deactivate"),
+       expected = expected_generation_of(params)](store::Store&) -> Result<Change> {
         return change_active(m, std::string("\"axis\":\"") + letter(axis) + "\"",
-                             [axis, action](store::Store& store) {
+                             [axis, action, expected](store::Store& store) {
                                return store.deactivate(axis, actor_text(action.by), action.utc,
-                                                       action);
+                                                       action, expected);
                              });
       });
 }
@@ -245,6 +246,11 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param reason{"reason", ParamType::string,
                           "free text that explains the change; stored in the history", false,
                           "\"\""};
+  const rpc::Param expected{
+      "expected_generation", ParamType::integer,
+      "generation (of compensation.status, for all tables) on which the decision is based; if it "
+      "has changed, the call fails with error -32001, names the active tables and changes nothing",
+      false};
   std::vector<rpc::Param> build_params{
       {"runs", ParamType::array, "ids of runs of one axis with the same targets", true},
       {"keep_slope", ParamType::boolean,
@@ -274,6 +280,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                   {"despite_warnings", ParamType::boolean,
                    "also accept a table that is doubtful because of notices of its runs", false,
                    "false"},
+                  expected,
                   reason},
        .result =
            "table, generation, changed (false: the table was already active), simulated, doubtful",
@@ -285,7 +292,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "compensation.deactivate",
        .summary =
            "Deactivates the active table of one axis, or of the volume. Other tables stay active.",
-       .params = {axis, reason},
+       .params = {axis, expected, reason},
        .result = "axis, generation, changed (false: no table was active)",
        .example = R"({"axis": "X"})",
        .writes = true,

@@ -138,15 +138,22 @@ void write_active_volume(JsonWriter& json, const store::ActiveVolumetric& active
 
 }  // namespace
 
+std::optional<std::int64_t> expected_generation_of(const Params& params) {
+  if (!params.has("expected_generation")) return std::nullopt;
+  return params.integer("expected_generation");
+}
+
 bool is_volume(const Params& params) {
   return params.string("axis") == "volume";
 }
 
 void deactivate_volume(Methods& m, const Params& params, Reply reply) {
   const HistoryEntry action = action_with_reason(params, "compensation.deactivate");
-  answer_with_change(m, std::move(reply), [&m, action](store::Store&) -> Result<Change> {
-    return change_active(m, R"("axis":"volume")", [action](store::Store& store) {
-      return store.change_volumetric(std::nullopt, actor_text(action.by), action.utc, action);
+  const auto expected = expected_generation_of(params);
+  answer_with_change(m, std::move(reply), [&m, action, expected](store::Store&) -> Result<Change> {
+    return change_active(m, R"("axis":"volume")", [action, expected](store::Store& store) {
+      return store.change_volumetric(std::nullopt, actor_text(action.by), action.utc, action,
+                                     expected);
     });
   });
 }

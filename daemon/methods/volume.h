@@ -9,6 +9,8 @@ namespace mdof::daemon {
 // As many as a page may have; its bytes may be fewer.
 inline constexpr std::int64_t kMaxNodesPage = 1000;
 
+// Of activate and deactivate; nothing: not asked for.
+std::optional<std::int64_t> expected_generation_of(const rpc::Params& params);
 // {"axis": "volume"}
 bool is_volume(const rpc::Params& params);
 void deactivate_volume(Methods& m, const rpc::Params& params, rpc::Reply reply);

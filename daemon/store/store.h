@@ -147,13 +147,18 @@ class Store {
                                                      std::optional<Axis> axis = std::nullopt);
   // Activates a table on its axis; gives the new generation. Generations rise strictly over all
   // axes, so that one number shows a client whether anything has changed.
+  // `expected`: the generation() on which the decision was based; checked in the same transaction.
+  // Error (conflict) if it differs: names the active tables, and changes nothing.
   Result<Activation> activate(std::int64_t table, const std::string& actor, const std::string& utc,
-                              const std::optional<HistoryEntry>& action = std::nullopt);
+                              const std::optional<HistoryEntry>& action = std::nullopt,
+                              std::optional<std::int64_t> expected = std::nullopt);
   // No table is active on the axis from then on.
   Result<Activation> deactivate(Axis axis, const std::string& actor, const std::string& utc,
-                                const std::optional<HistoryEntry>& action = std::nullopt);
+                                const std::optional<HistoryEntry>& action = std::nullopt,
+                                std::optional<std::int64_t> expected = std::nullopt);
   Result<ActiveTable> active(Axis axis);  // not_found where none is active
   Result<std::int64_t> generation();      // the highest; 0: nothing was ever activated
+  Status check_generation(std::optional<std::int64_t> expected);  // see activate()
 
   // ---- volumetric tables ----
   // Their numbers and generations are of one count with those of compensation tables.
@@ -165,7 +170,8 @@ class Store {
   // Activates one; without a table none is active from then on.
   Result<Activation> change_volumetric(std::optional<std::int64_t> table, const std::string& actor,
                                        const std::string& utc,
-                                       const std::optional<HistoryEntry>& action = std::nullopt);
+                                       const std::optional<HistoryEntry>& action = std::nullopt,
+                                       std::optional<std::int64_t> expected = std::nullopt);
   Result<ActiveVolumetric> active_volumetric();  // not_found where none is active
 
   // ---- where an axis stood when somebody said so ----
@@ -265,6 +271,7 @@ class Store {
   Result<CompensationTable> table_of(sqlite::Statement& row);
   Result<std::vector<std::int64_t>> integers(std::string_view sql, std::int64_t of);
   Result<std::int64_t> next_generation(const std::string& utc);
+  std::string active_text();
   // volumetric.cpp
   Result<std::int64_t> next_table();
   Result<VolumetricTable> volumetric_of(sqlite::Statement& row);

@@ -305,14 +305,16 @@ Result<std::int64_t> Store::next_generation(const std::string& utc) {
 
 Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
                                    const std::string& utc,
-                                   const std::optional<HistoryEntry>& action) {
+                                   const std::optional<HistoryEntry>& action,
+                                   std::optional<std::int64_t> expected) {
+  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
+  MDOF_CHECK(check_generation(expected));
   MDOF_TRY(const CompensationTable wanted, this->table(table));
   const auto now = active(wanted.axis);
   if (now && now->table.id == table) return Activation{now->generation, false};
   if (!now && now.error().code != ErrorCode::not_found) return tl::unexpected(now.error());
   MDOF_TRY(const std::int64_t generation, next_generation(utc));
   const char axis = letter(wanted.axis);
-  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert, connection_.prepare("INSERT INTO activation VALUES (?, ?, ?, ?, ?)"));
   MDOF_CHECK(insert.bind(generation)
                  .bind(std::string_view(&axis, 1))
@@ -327,13 +329,15 @@ Result<Activation> Store::activate(std::int64_t table, const std::string& actor,
 }
 
 Result<Activation> Store::deactivate(Axis axis, const std::string& actor, const std::string& utc,
-                                     const std::optional<HistoryEntry>& action) {
+                                     const std::optional<HistoryEntry>& action,
+                                     std::optional<std::int64_t> expected) {
+  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
+  MDOF_CHECK(check_generation(expected));
   MDOF_TRY(const std::int64_t last, generation());
   const auto now = active(axis);
   if (!now && now.error().code == ErrorCode::not_found) return Activation{last, false};
   MDOF_TRY(const std::int64_t generation, next_generation(utc));
   const char letter_of_axis = letter(axis);
-  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert, connection_.prepare("INSERT INTO deactivation VALUES (?, ?, ?, ?)"));
   MDOF_CHECK(insert.bind(generation)
                  .bind(std::string_view(&letter_of_axis, 1))

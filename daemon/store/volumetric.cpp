@@ -1,4 +1,4 @@
-// Store: volumetric tables and which of them is active.
+// Store: volumetric tables and which of them is active; whether what is active has changed.
 #include "daemon/store/bytes.h"
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
@@ -195,7 +195,10 @@ Result<std::vector<VolumetricTable>> Store::list_volumetric(std::int64_t offset,
 
 Result<Activation> Store::change_volumetric(std::optional<std::int64_t> table,
                                             const std::string& actor, const std::string& utc,
-                                            const std::optional<HistoryEntry>& action) {
+                                            const std::optional<HistoryEntry>& action,
+                                            std::optional<std::int64_t> expected) {
+  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
+  MDOF_CHECK(check_generation(expected));
   if (table) MDOF_CHECK(check_exists(RowOf::volumetric_table, *table));
   const auto now = active_volumetric();
   if (!now && now.error().code != ErrorCode::not_found && table) return tl::unexpected(now.error());
@@ -206,7 +209,6 @@ Result<Activation> Store::change_volumetric(std::optional<std::int64_t> table,
     return Activation{last, false};
   }
   MDOF_TRY(const std::int64_t generation, next_generation(utc));
-  MDOF_TRY(Transaction transaction, Transaction::begin(connection_));
   MDOF_TRY(Statement insert,
            connection_.prepare("INSERT INTO volumetric_activation VALUES (?, ?, ?, ?)"));
   insert.bind(generation).bind(table);
@@ -233,6 +235,31 @@ Result<ActiveVolumetric> Store::active_volumetric() {
   active.activated_utc = row.text(3);
   MDOF_TRY(active.table, volumetric(row.integer(1)));
   return active;
+}
+
+// "axis X table 3, volume table 7".
+std::string Store::active_text() {
+  std::string text;
+  const auto add = [&](const std::string& of, const auto& active) {
+    if (!active && active.error().code == ErrorCode::not_found) return;
+    text += (text.empty() ? "" : ", ") + of + " table " +
+            (active ? std::to_string(active->table.id) : std::string("(unreadable)"));
+  };
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z})
+    add(std::string("axis ") + letter(axis), active(axis));
+  add("volume", active_volumetric());
+  return text.empty() ? "none" : text;
+}
+
+Status Store::check_generation(std::optional<std::int64_t> expected) {
+  if (!expected) return {};
+  MDOF_TRY(const std::int64_t now, generation());
+  if (now == *expected) return {};
+  return fail(ErrorCode::conflict,
+              "the active tables have changed since they were read: the generation is " +
+                  std::to_string(now) + ", not " + std::to_string(*expected) +
+                  "; active now: " + active_text() +
+                  ". Nothing was changed; read the active tables again, then decide again");
 }
 
 }  // namespace mdof::store

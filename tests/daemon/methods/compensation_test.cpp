@@ -198,6 +198,30 @@ TEST_F(CompensationMethods, OutOfForceNothingIsServed) {
   EXPECT_EQ(history.at("/result/history/0/deed"), "\"compensation.deactivate\"") << history.text();
 }
 
+TEST_F(CompensationMethods, WhatWasDecidedOfAnotherGenerationIsRefusedWithWhatIsActive) {
+  const std::string generation = activate();
+  const std::string shown = R"("expected_generation":)" + generation;
+  ASSERT_EQ(call("compensation.build", R"({"runs":[1]})").at("/result/table"), "2");
+  const std::string table = R"({"table":2,"despite_warnings":true,)";
+  const Answer before = call("compensation.activate", table + R"("expected_generation":0})");
+  EXPECT_EQ(before.code(), rpc::kChanged) << before.text();
+  EXPECT_SAID(before.message(), "axis X table 1");
+  EXPECT_SAID(before.message(), generation);
+  EXPECT_EQ(call("compensation.status").at("/result/axes/X/table"), "1");
+  const Answer done = call("compensation.activate", table + shown + "}");
+  EXPECT_EQ(done.at("/result/changed"), "true") << done.text();
+  for (const char* of : {"X", "volume"})
+    EXPECT_EQ(
+        call("compensation.deactivate", std::string(R"({"axis":")") + of + "\"," + shown + "}")
+            .code(),
+        rpc::kChanged);
+  EXPECT_EQ(call("compensation.status").at("/result/axes/X/table"), "2");
+  EXPECT_EQ(call("compensation.deactivate",
+                 R"({"axis":"X","expected_generation":)" + done.at("/result/generation") + "}")
+                .at("/result/changed"),
+            "true");
+}
+
 // A measured table in force is not replaced by a simulated one unasked, and every reply says so.
 TEST_F(CompensationMethods, ASimulatedTableIsPutInForceOnlyWhenAskedForAndMarked) {
   activate();

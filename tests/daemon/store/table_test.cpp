@@ -103,6 +103,40 @@ TEST_F(StoreTest, WhatIsInForceOrNotIsNotMadeSoAgain) {
   EXPECT_EQ(store->active(Axis::x)->generation, back->generation);
 }
 
+// Each change of any table makes a decision that was based on the ones before void.
+TEST_F(StoreTest, AChangeThatExpectsAnotherGenerationIsRefusedAndChangesNothing) {
+  auto store = writer();
+  ASSERT_TRUE(store->add_run(make_run(1)));
+  for (const Axis axis : {Axis::x, Axis::x, Axis::y})
+    ASSERT_TRUE(store->add_table(make_table({1}, axis)));
+  ASSERT_TRUE(store->add_volumetric(make_volume({1})));
+  const auto first = store->activate(1, "anna", "t1", {}, 0);
+  ASSERT_TRUE(first->changed);
+  const auto other = store->activate(3, "ben", "t2", {}, first->generation);
+  ASSERT_TRUE(other->changed);
+  const auto head = store->chain_head().value();
+  for (const std::int64_t old : {std::int64_t{0}, first->generation, other->generation + 1})
+    for (const auto& refused :
+         {store->activate(2, "anna", "t3", {}, old), store->activate(1, "anna", "t3", {}, old),
+          store->deactivate(Axis::x, "anna", "t3", {}, old),
+          store->deactivate(Axis::z, "anna", "t3", {}, old),
+          store->change_volumetric(4, "anna", "t3", {}, old),
+          store->change_volumetric(std::nullopt, "anna", "t3", {}, old)}) {
+      ASSERT_FALSE(refused) << old;
+      EXPECT_EQ(refused.error().code, ErrorCode::conflict);
+      for (const std::string& named : {std::to_string(other->generation), std::string("table 1"),
+                                       std::string("table 3"), std::string("axis Y")})
+        EXPECT_NE(refused.error().message.find(named), std::string::npos)
+            << refused.error().message;
+    }
+  EXPECT_EQ(store->generation().value(), other->generation);
+  EXPECT_EQ(store->chain_head().value(), head);
+  EXPECT_EQ(store->active(Axis::x)->table.id, 1);
+  const auto volume = store->change_volumetric(4, "anna", "t4", {}, other->generation);
+  ASSERT_TRUE(volume->changed);
+  EXPECT_TRUE(store->deactivate(Axis::x, "anna", "t5", {}, volume->generation)->changed);
+}
+
 // A client keeps what it read under a number: no number comes again, not even in a new database.
 TEST_F(StoreTest, GenerationsGoOnWhereTheDatabaseWasMadeAnew) {
   std::int64_t last = 0;

@@ -11,10 +11,10 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from mdofd import RIG, Daemon, RpcError, simulator, write_log  # noqa: E402
+from mdofd import RIG, Client, Daemon, RpcError, simulator, write_log  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
-FORBIDDEN = -32003
+FORBIDDEN, CHANGED = -32003, -32001
 ME = {"uid": os.getuid(), "gid": os.getgid(), "pid": os.getpid()}
 
 
@@ -59,6 +59,27 @@ class History(unittest.TestCase):
         self.assertTrue(all(d["pid"] == ME["pid"] for d in deeds))
         _, shown = mdof("show", read, "--db", daemon.database)
         self.assertRegex(shown, rf"run {run}: run.abort by uid {ME['uid']} .*pid {ME['pid']}")
+
+    def test_a_table_is_not_replaced_by_one_who_decided_before_another_client_changed_it(self):
+        daemon, client = self.serve()
+        other = Client(daemon.socket)
+        first = self.table(client)
+        second = client.call("compensation.build", runs=client.call("compensation.table", table=first)["runs"])["table"]
+        shown = client.call("compensation.status")["generation"]
+        changed = other.call("compensation.activate", table=first, despite_warnings=True, expected_generation=shown)["generation"]
+        with self.assertRaisesRegex(RpcError, f"table {first}") as refusal:
+            client.call("compensation.activate", table=second, despite_warnings=True, expected_generation=shown)
+        self.assertEqual(refusal.exception.code, CHANGED)
+        for words in (("activate", second, "--despite-warnings"), ("deactivate", "--axis", "X")):
+            with self.assertRaisesRegex(AssertionError, f"table {first}"):
+                mdof("compensation", *words, "--expected-generation", shown, "--db", daemon.database, "--socket", daemon.socket)
+        self.assertEqual(client.call("compensation.status")["axes"]["X"]["table"], first)
+        daemon.stop()
+        listed = json.loads(mdof("compensation", "list", "--json", "--db", daemon.database)[1])
+        self.assertEqual(listed["generation"], changed)
+        with self.assertRaisesRegex(AssertionError, f"table {first}"):  # of the file itself
+            mdof("compensation", "activate", second, "--despite-warnings", "--expected-generation", shown, "--db", daemon.database)
+        mdof("compensation", "activate", second, "--despite-warnings", "--expected-generation", changed, "--db", daemon.database)
 
     def test_the_command_line_is_named_where_it_writes_itself(self):
         database = os.path.join(self.folder.name, "own.db")

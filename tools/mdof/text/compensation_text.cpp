@@ -135,7 +135,8 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
 
 std::string list_document(const ListedTables& list) {
   JsonWriter json;
-  json.begin_object().field("offset", std::int64_t{0}).key("tables").begin_array();
+  json.begin_object().field("generation", list.generation);
+  json.field("offset", std::int64_t{0}).key("tables").begin_array();
   for (std::size_t i = 0; i < list.tables.size(); ++i) {
     json.begin_object();
     write_table_members(json, list.tables[i]);

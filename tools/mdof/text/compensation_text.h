@@ -19,6 +19,7 @@ struct ListedTables {
   std::vector<CompensationTable> tables;
   std::vector<VolumetricTable> volumes;
   std::vector<std::int64_t> generations, volume_generations;
+  std::int64_t generation = 0;  // of all active tables
 };
 std::string list_document(const ListedTables& list);
 std::string list_text(const ListedTables& list);

@@ -1,5 +1,7 @@
 #include "tools/mdof/commands/compensation/active_table.h"
 
+#include <CLI/CLI.hpp>
+
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/json_read.h"
 
@@ -15,6 +17,14 @@ Result<std::int64_t> generation_in(const Result<Active>& active, std::int64_t ta
 }
 
 }  // namespace
+
+void add_expected_generation_option(CLI::App& command, std::optional<std::int64_t>& generation) {
+  command
+      .add_option("--expected-generation", generation,
+                  "Generation of the active tables on which the decision is based; if it has "
+                  "changed, nothing is changed")
+      ->type_name("N");
+}
 
 Result<std::int64_t> generation_of(store::Store& store, const CompensationTable& table) {
   return generation_in(store.active(table.axis), table.id);

@@ -1,9 +1,17 @@
 // Which compensation tables are active, and what a change of that says.
 #pragma once
 
+#include <optional>
+
 #include "daemon/store/store.h"
 
+namespace CLI {
+class App;
+}
+
 namespace mdof::tools {
+
+void add_expected_generation_option(CLI::App& command, std::optional<std::int64_t>& generation);
 
 // The generation of a table that is active, else 0.
 Result<std::int64_t> generation_of(store::Store& store, const CompensationTable& table);

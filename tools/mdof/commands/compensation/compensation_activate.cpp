@@ -17,6 +17,7 @@ struct ActivateCommand {
   std::string database, socket, reason;
   std::int64_t table = 0;
   daemon::Consent consent;
+  std::optional<std::int64_t> expected_generation;
   bool json = false;
 };
 
@@ -28,15 +29,17 @@ Result<std::string> activated(const ActivateCommand& command) {
         .field("table", command.table)
         .field("simulated", command.consent.simulated)
         .field("despite_warnings", command.consent.despite_warnings)
-        .field("reason", command.reason)
-        .end_object();
+        .field("reason", command.reason);
+    if (command.expected_generation)
+      params.field("expected_generation", *command.expected_generation);
+    params.end_object();
     return mdofd->call("compensation.activate", params.text());
   }
   MDOF_TRY(store::Store store, open_to_write(command.database));
   HistoryEntry action = daemon::action_now("compensation.activate", daemon::this_process());
   action.detail = command.reason;
-  MDOF_TRY(const auto done,
-           daemon::activate_table(store, {command.table, command.consent, action}));
+  MDOF_TRY(const auto done, daemon::activate_table(store, {command.table, command.consent, action,
+                                                           command.expected_generation}));
   return store::activation_json("\"table\":" + std::to_string(command.table), done);
 }
 
@@ -52,6 +55,7 @@ Action declare_activate(CLI::App& command) {
   command.add_option("TABLE", o->table, "Number of the table")->required()->type_name("");
   add_consent_flags(command, o->consent, "a table");
   command.add_option("--reason", o->reason, "Reason of the change, stored in the history");
+  add_expected_generation_option(command, o->expected_generation);
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return activate(*o); };

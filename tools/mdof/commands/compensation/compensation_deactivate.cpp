@@ -17,6 +17,7 @@ constexpr const char* kVolume = "volume";
 
 struct DeactivateCommand {
   std::string database, socket, axis, reason;
+  std::optional<std::int64_t> expected_generation;
   bool json = false;
 };
 
@@ -24,17 +25,21 @@ Result<std::string> deactivated(const DeactivateCommand& command) {
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   if (mdofd) {
     JsonWriter params;
-    params.begin_object().field("axis", command.axis).field("reason", command.reason).end_object();
+    params.begin_object().field("axis", command.axis).field("reason", command.reason);
+    if (command.expected_generation)
+      params.field("expected_generation", *command.expected_generation);
+    params.end_object();
     return mdofd->call("compensation.deactivate", params.text());
   }
   MDOF_TRY(store::Store store, open_to_write(command.database));
   HistoryEntry action = daemon::action_now("compensation.deactivate", daemon::this_process());
   action.detail = command.reason;
   const std::string actor = daemon::actor_text(action.by);
-  MDOF_TRY(const auto done,
-           command.axis == kVolume
-               ? store.change_volumetric(std::nullopt, actor, action.utc, action)
-               : store.deactivate(*axis_from(command.axis), actor, action.utc, action));
+  MDOF_TRY(const auto done, command.axis == kVolume
+                                ? store.change_volumetric(std::nullopt, actor, action.utc, action,
+                                                          command.expected_generation)
+                                : store.deactivate(*axis_from(command.axis), actor, action.utc,
+                                                   action, command.expected_generation));
   return store::activation_json("\"axis\":\"" + command.axis + "\"", done);
 }
 
@@ -55,6 +60,7 @@ Action declare_deactivate(CLI::App& command) {
       ->required()
       ->check(CLI::IsMember({"X", "Y", "Z", kVolume}));
   command.add_option("--reason", o->reason, "Reason of the change, stored in the history");
+  add_expected_generation_option(command, o->expected_generation);
   add_socket_option(command, o->socket);
   add_json_flag(command, o->json);
   return [o] { return deactivate(*o); };

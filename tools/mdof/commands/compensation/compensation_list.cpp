@@ -22,6 +22,7 @@ struct ListTablesCommand {
 Status list(const ListTablesCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   ListedTables found;
+  MDOF_TRY(found.generation, store.generation());
   MDOF_TRY(found.tables, store.list_tables(0, kMostTables, axis_from(command.axis)));
   for (const auto& table : found.tables) {
     MDOF_TRY(const std::int64_t generation, generation_of(store, table));

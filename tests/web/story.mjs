@@ -105,13 +105,23 @@ async function compensation(page, run) {
   await page.getByText("No table is active").waitFor();
   await page.getByLabel(new RegExp(`run ${run},`)).check();
   await page.getByRole("button", {name: "Build the table"}).click();
-  await page.getByRole("button", {name: "Activate table 1"}).click();
   const dialog = page.getByRole("dialog");
-  await dialog.waitFor();
-  await accessible(page, "the question before a table is activated");
-  await dialog.getByLabel("Reason").fill("as the story wants it");
-  for (const box of await dialog.getByRole("checkbox").all()) await box.check();
-  await dialog.getByRole("button", {name: "Activate"}).click();
+  const activate = async (meanwhile) => {
+    await page.getByRole("button", {name: "Activate table 1"}).click();
+    await dialog.waitFor();
+    await accessible(page, "the question before a table is activated");
+    await dialog.getByLabel("Reason").fill("as the story wants it");
+    for (const box of await dialog.getByRole("checkbox").all()) await box.check();
+    await meanwhile();
+    await dialog.getByRole("button", {name: "Activate"}).click();
+  };
+  await activate(async () => {  // another client changes what the question was asked of
+    await daemon.call("compensation.activate", {table: 1, simulated: true, despite_warnings: true});
+    await daemon.call("compensation.deactivate", {axis: "X"});
+  });
+  await page.locator(".notice.invalid").filter({hasText: /generation/}).waitFor();
+  assert.deepEqual((await daemon.call("compensation.status")).axes, {});
+  await activate(async () => {});
   await page.getByText(/^Table 1, generation \d+/).waitFor();
   const {axes} = await daemon.call("compensation.status");
   assert.equal(axes.X.table, 1);

@@ -122,6 +122,7 @@ class AxisPanel {
         call("run.list", {axis, count: 100}), call("history.list", {count: 200})]);
       if (mine !== this.readings) return;  // a newer reading is under way
       this.now = status.axes[axis] ?? null;
+      this.generation = status.generation;
       this.active.replaceChildren(...this.now ? [h("p", {class: "result"}, `Table ${this.now.table}, generation ${this.now.generation}`), card(this.now), covers(this.now) ?? "",
         h("p", {class: "buttons"}, h("button", {onclick: () => this.show(this.now.table)}, "Show this table"), h("button", {class: "danger", onclick: () => this.deactivate()}, "Deactivate …"))]
         : [h("p", {}, status.volume ? `No table of this axis is active. Table ${status.volume.table} of the volume (${status.volume.machine}) corrects the axes.`
@@ -189,15 +190,16 @@ class AxisPanel {
       await this.read();
     } catch (error) {
       this.wrong.replaceChildren(problem(error));
+      await this.read();
     }
   }
   async activate(id) {
     const t = await call("compensation.table", {table: id, count: 1}).catch((error) => this.wrong.replaceChildren(problem(error)));
-    if (t) this.change("compensation.activate", {table: id}, {title: `Activate table ${id} on axis ${t.axis}?`, action: "Activate", marks: t,
+    if (t) this.change("compensation.activate", {table: id, expected_generation: this.generation}, {title: `Activate table ${id} on axis ${t.axis}?`, action: "Activate", marks: t,
       text: [card(t), this.now ? differences(t, this.now) : null, this.now ? h("p", {}, `Table ${id} replaces table ${this.now.table} at once, for all clients.`) : null]});
   }
   deactivate() {
-    this.change("compensation.deactivate", {axis: this.axis}, {title: `Deactivate the table of axis ${this.axis}?`, action: "Deactivate",
+    this.change("compensation.deactivate", {axis: this.axis, expected_generation: this.generation}, {title: `Deactivate the table of axis ${this.axis}?`, action: "Deactivate",
       text: h("p", {}, `mdofd no longer serves table ${this.now.table}; nothing is corrected on this axis.`)});
   }
   close() { this.opened?.close(); }

@@ -104,10 +104,10 @@ function activeOf(volume, nodes) {
 }
 
 // Activating one of the volume while one of an axis is active is refused by mdofd: both would correct twice.
-function stored(tables, active, done) {
+function stored(tables, active, generation, done) {
   const act = async (method, params, question) => {
     try {
-      await change(method, params, question);
+      await change(method, {...params, expected_generation: generation}, question);
       done();
     } catch (error) {
       done(error);
@@ -128,11 +128,11 @@ export function openVolume(place) {
   let turn = 0;
   async function read() {
     const mine = ++turn;
-    const [{volume}, {tables}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis: "volume"})]);
+    const [{volume, generation}, {tables}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis: "volume"})]);
     const now = volume ? activeOf(volume, await grid(volume.generation))
       : [h("p", {class: "notice"}, "No table of the volume is active. To build a table, use: ", h("code", {}, "mdof compensation build --machine"), ". Then activate the table on this page.")];
     if (mine !== turn) return;  // a newer reading is under way
-    body.replaceChildren(...now, tables.length ? stored(tables, volume, again) : "");
+    body.replaceChildren(...now, tables.length ? stored(tables, volume, generation, again) : "");
   }
   function again(error) {
     wrong.replaceChildren(...error ? [problem(error)] : []);

@@ -8,9 +8,12 @@
 namespace mdof::daemon {
 
 // A foreign program holds the file: that passes.
+inline bool is_busy(const Error& error) {
+  return error.message.find("SQLITE_BUSY") != std::string::npos;
+}
 template <class T>
 bool is_busy(const Result<T>& done) {
-  return !done && done.error().message.find("SQLITE_BUSY") != std::string::npos;
+  return !done && is_busy(done.error());
 }
 
 // The disk takes nothing: it is full, read-only, or it errs.

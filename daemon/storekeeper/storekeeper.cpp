@@ -31,16 +31,33 @@ bool has_room(const std::filesystem::path& file) {
          std::uint64_t{disk.f_bavail} * disk.f_frsize > kLeastBytes;
 }
 
-std::string not_writable(const Error& error) {
-  return words::text(error) +
-         "; mdofd serves the active tables and tries again to open the database; until the "
-         "database is open, mdofd stores nothing";
+std::string another_locks(const Storekeeper::Options& options, const char* consequence) {
+  const std::string file = options.database.string();
+  return file + ": another program locks the database (SQLITE_BUSY)" + consequence +
+         "; end that program (to find it, use: fuser " + file + ")";
+}
+
+StorageState not_writable(const Storekeeper::Options& options, const Error& error) {
+  const bool held = is_busy(error);
+  return {held ? "held" : "full",
+          (held ? another_locks(options, "") : words::text(error)) +
+              "; mdofd serves the active tables and tries again to open the database; until the "
+              "database is open, mdofd stores nothing"};
 }
 
 // What is there can be served, though nothing can be stored.
 bool can_only_be_read(const Storekeeper::Options& options, const Error& why) {
-  if (why.code != ErrorCode::io || is_busy(Status(tl::unexpected(why)))) return false;
-  return store::Store::open(options.database, store::Access::read_only).has_value();
+  if (why.code != ErrorCode::io) return false;
+  const store::StoreOptions how{options.durability, static_cast<int>(options.busy_timeout.count())};
+  return store::Store::open(options.database, store::Access::read_only, how).has_value();
+}
+
+// "No table is active" would be a guess, after which a controller would not correct.
+Error not_readable(const Storekeeper::Options& options, Error why) {
+  if (!is_busy(why)) return why;
+  return {ErrorCode::io, another_locks(options,
+                                       " such that not even the active tables can be read, so "
+                                       "mdofd does not start")};
 }
 
 // A mdofd that is just ending still holds it for a while.
@@ -59,13 +76,12 @@ Result<store::Store> open_patiently(const Storekeeper::Options& options) {
 Result<std::unique_ptr<Storekeeper>> Storekeeper::start(const Options& options, Events events) {
   auto database = open_patiently(options);
   if (!database && !can_only_be_read(options, database.error()))
-    return tl::unexpected(std::move(database.error()));
+    return tl::unexpected(not_readable(options, std::move(database.error())));
   std::unique_ptr<Storekeeper> keeper(new Storekeeper(options, std::move(events)));
   if (database)
     keeper->store_.emplace(std::move(*database));
   else
-    keeper->full_ = not_writable(database.error());
-  keeper->opened_ = keeper->store_.has_value();
+    keeper->unopened_ = not_writable(options, database.error());
   keeper->begin_chain();
   keeper->watch_database();
   keeper->announce_head();
@@ -122,15 +138,11 @@ void Storekeeper::open_again() {
   if (now - tried_ < kBetweenTries) return;
   tried_ = now;
   auto opened = open_database(options_);
-  if (!opened) return set(full_, not_writable(opened.error()));
+  if (!opened) return set_unopened(not_writable(options_, opened.error()));
   store_.emplace(std::move(*opened));
   database_ = store::FileWatch(options_.database);
   begin_chain();
-  {
-    const std::lock_guard guard(fault_mutex_);
-    opened_ = true;
-  }
-  set(full_, "");
+  set_unopened({});
 }
 
 // A refusal of the disk holds until there is room again.
@@ -148,6 +160,19 @@ void Storekeeper::set(std::string& which, const std::string& reason) {
     const std::lock_guard guard(fault_mutex_);
     which = reason;
   }
+  report_change(before);
+}
+
+void Storekeeper::set_unopened(StorageState now) {
+  const StorageState before = storage();
+  {
+    const std::lock_guard guard(fault_mutex_);
+    unopened_ = std::move(now);
+  }
+  report_change(before);
+}
+
+void Storekeeper::report_change(const StorageState& before) {
   const StorageState now = storage();
   if (now != before && events_.storage_changed) events_.storage_changed(now);
 }
@@ -155,6 +180,7 @@ void Storekeeper::set(std::string& which, const std::string& reason) {
 StorageState Storekeeper::storage() const {
   const std::lock_guard guard(fault_mutex_);
   if (!lost_.empty()) return {"lost", lost_};
+  if (!unopened_.reason.empty()) return unopened_;
   if (!full_.empty()) return {"full", full_};
   if (!held_.empty()) return {"held", held_};
   if (!damaged_.empty()) return {"damaged", damaged_};
@@ -246,7 +272,7 @@ void Storekeeper::watch_database() {
 
 std::string Storekeeper::fault() const {
   const std::lock_guard guard(fault_mutex_);
-  return lost_.empty() && !opened_ ? full_ : lost_;
+  return lost_.empty() ? unopened_.reason : lost_;
 }
 
 Status Storekeeper::commit(std::int64_t run, Recording& recording) {

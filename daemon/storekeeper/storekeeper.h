@@ -75,7 +75,8 @@ class Storekeeper {
   };
 
   // Opens the database and starts the thread. One that can be read but not written now is taken as
-  // well, since tables are to be served: it is opened again and again. Else errors as Store::open.
+  // well, since tables are to be served: it is opened again and again. Else errors as Store::open:
+  // what cannot be read could be anything, and "no table is active" must not be a guess.
   static Result<std::unique_ptr<Storekeeper>> start(const Options& options, Events events);
   // Ends the queue, writes out what waits, joins.
   ~Storekeeper();
@@ -124,6 +125,8 @@ class Storekeeper {
   void note_full(const Error& error);
   void note_space();
   void set(std::string& which, const std::string& reason);
+  void set_unopened(StorageState now);
+  void report_change(const StorageState& before);
   void work();
   void commit_recordings();
   void watch_files();
@@ -187,8 +190,8 @@ class Storekeeper {
   std::chrono::steady_clock::time_point tried_{};
   mutable std::mutex fault_mutex_;  // guards the next seven
   std::string lost_, full_, held_, damaged_;
+  StorageState unopened_;  // why there is no store_ yet; "ok": there is one
   store::ChainHead announced_;
-  bool opened_ = false;
   std::map<std::int64_t, std::string> open_because_;
   std::int64_t changes_announced_ = -1;  // of the database, when its head was announced
   std::vector<Unended> unended_;

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A disk that is full: mdofd starts, serves the table in force, says so, and goes on once there is room. And a
-signal that comes when a terminal is closed ends a run in good order.
+"""A disk that is full, or a database that another program locks: mdofd starts, serves the table in force, says so, and
+goes on once it can write. And a signal that comes when a terminal is closed ends a run in good order.
 
 usage: storage_test.py MDOFD MDOF"""
 import contextlib
@@ -17,36 +17,19 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from mdofd import RIG, Client, Daemon, RpcError, notice_lines, simulator, write_log  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
+IO_ERROR = -32011
 
 
-class SmallDisk(unittest.TestCase):
+class Served(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
-        self.disk = os.path.join(self.folder.name, "disk")
-        os.mkdir(self.disk)
-        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=6m", "tmpfs", self.disk], capture_output=True, text=True)
-        if mounted.returncode != 0:
-            self.skipTest("a small disk cannot be mounted here: " + mounted.stderr.strip())
-        self.addCleanup(lambda: subprocess.run(["umount", "-l", self.disk], check=False))
         self.daemon = Daemon(MDOFD, os.path.join(self.folder.name, "d"), simulator("X"))
-        with open(self.daemon.config) as f:
-            config = f.read()
-        self.daemon.database = os.path.join(self.disk, "mdof.db")
-        with open(self.daemon.config, "w") as f:
-            f.write(config.replace(os.path.join(self.daemon.folder, "mdof.db"), self.daemon.database))
-        self.addCleanup(lambda: self.daemon.process.poll() is None and self.daemon.stop())
+        self.addCleanup(self.end)
 
-    def recordings(self):
-        return sorted(os.listdir(os.path.join(self.disk, "recordings")))
-
-    def fill(self):
-        with open(os.path.join(self.disk, "filler"), "wb", buffering=0) as f:
-            try:
-                while True:
-                    f.write(b"x" * 4096)
-            except OSError:
-                pass
+    def end(self):
+        if self.daemon.process and self.daemon.process.poll() is None:
+            self.daemon.stop()
 
     def wait_for_storage(self, client, state):
         end = time.monotonic() + 5
@@ -70,6 +53,34 @@ class SmallDisk(unittest.TestCase):
         time.sleep(0.3)
         self.daemon.kill()
         return status, run
+
+
+class SmallDisk(Served):
+    def setUp(self):
+        super().setUp()
+        self.disk = os.path.join(self.folder.name, "disk")
+        os.mkdir(self.disk)
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=6m", "tmpfs", self.disk], capture_output=True, text=True)
+        if mounted.returncode != 0:
+            self.skipTest("a small disk cannot be mounted here: " + mounted.stderr.strip())
+        self.addCleanup(lambda: subprocess.run(["umount", "-l", self.disk], check=False))
+        self.addCleanup(self.end)  # before that
+        with open(self.daemon.config) as f:
+            config = f.read()
+        self.daemon.database = os.path.join(self.disk, "mdof.db")
+        with open(self.daemon.config, "w") as f:
+            f.write(config.replace(os.path.join(self.daemon.folder, "mdof.db"), self.daemon.database))
+
+    def recordings(self):
+        return sorted(os.listdir(os.path.join(self.disk, "recordings")))
+
+    def fill(self):
+        with open(os.path.join(self.disk, "filler"), "wb", buffering=0) as f:
+            try:
+                while True:
+                    f.write(b"x" * 4096)
+            except OSError:
+                pass
 
     def test_a_cut_off_run_on_a_full_disk_keeps_nobody_from_the_table(self):
         status, run = self.cut_off(self.daemon.start())
@@ -159,6 +170,62 @@ class SmallDisk(unittest.TestCase):
         self.wait_for_storage(client, "full")
         os.remove(os.path.join(self.disk, "filler"))
         self.wait_for_storage(client, "ok")
+
+
+# Another program that holds the database until its input ends.
+HOLDER = """
+import sqlite3, sys
+database = sqlite3.connect(sys.argv[1], isolation_level=None)
+for statement in sys.argv[2:]:
+    database.execute(statement).fetchall()
+print("held", flush=True)
+sys.stdin.read()
+"""
+
+
+class HeldDatabase(Served):
+    def hold(self, *statements):
+        holder = subprocess.Popen([sys.executable, "-c", HOLDER, self.daemon.database, *statements], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self.addCleanup(lambda: (holder.kill(), holder.communicate()))
+        self.assertEqual(holder.stdout.readline(), "held\n")
+        return holder
+
+    def release(self, holder):
+        holder.communicate()
+        self.assertEqual(holder.returncode, 0)
+
+    def test_a_database_that_another_program_locks_is_served_and_written_once_it_can_be(self):
+        status, run = self.cut_off(self.daemon.start())
+        holder = self.hold("BEGIN EXCLUSIVE")
+        client = self.daemon.start()
+        self.assertEqual(client.call("compensation.status"), status)
+        self.assertIn("EYX_um", client.call("compensation.at", axis="X", position_mm=1)["error"])
+        reason = self.wait_for_storage(client, "held")
+        self.assertIn(f"fuser {self.daemon.database}", reason)
+        text = subprocess.run([MDOF, "status", "--socket", self.daemon.socket], capture_output=True, text=True).stdout
+        self.assertIn("storage held", text)
+        for method, params in (("run.start", {"axis": "X"}), ("compensation.deactivate", {"axis": "X"})):
+            with self.assertRaisesRegex(RpcError, "another program locks") as refusal:
+                client.call(method, **params)
+            self.assertEqual(refusal.exception.code, IO_ERROR)
+        with open(self.daemon.log.name) as log:
+            self.assertIn("storage held: ", log.read())
+        self.release(holder)
+        self.wait_for_storage(client, "ok")
+        self.assertEqual(client.call("compensation.status"), status)
+        new = client.call("run.start", axis="X")["run"]
+        client.call("run.stop", run=new, abort=True)
+        self.assertEqual(client.call("run.get", run=run)["state"], "aborted")
+        self.assertTrue(client.call("compensation.deactivate", axis="X")["changed"])
+
+    def test_one_that_cannot_even_be_read_keeps_mdofd_from_starting_and_says_why(self):
+        status, _ = self.cut_off(self.daemon.start())
+        holder = self.hold("PRAGMA locking_mode = EXCLUSIVE", "BEGIN EXCLUSIVE")
+        with self.assertRaisesRegex(RuntimeError, f"fuser {self.daemon.database}"):
+            self.daemon.start()
+        self.assertNotEqual(self.daemon.process.returncode, 0)
+        self.release(holder)
+        self.assertEqual(self.daemon.start().call("compensation.status"), status)
 
 
 class HangUp(unittest.TestCase):

@@ -8,6 +8,7 @@
 #include "daemon/measure/imported/positioning_figures.h"
 #include "daemon/methods/methods.h"
 #include "daemon/methods/run_pages.h"
+#include "daemon/methods/run_replies.h"
 #include "daemon/paths.h"
 #include "daemon/rpc/params/list_page.h"
 #include "daemon/run_item.h"
@@ -37,25 +38,6 @@ constexpr std::size_t kMaxVisits = 1500;  // numbers of n_ij in one reply
 constexpr std::int64_t kMaxRunsPage = 100;
 constexpr std::int64_t kMaxRunPoints = 100'000;  // all of them make the figures; some 0.3 s
 constexpr std::size_t kMaxTargets = 1500;        // the reply names them all, and a line holds them
-
-std::string run_reply(std::int64_t id, Axis axis, const RunRequest& request) {
-  JsonWriter json;
-  json.begin_object().field("run", id).field("axis", std::string(1, letter(axis)));
-  json.key("targets_mm").begin_array();
-  for (const double target_m : request.targets_m) json.value(to_mm(target_m));
-  json.end_array();
-  write_notices(json, "notices", request.notices, words::text);
-  json.end_object();
-  return json.take();
-}
-
-// Answers a station's callback, which comes on another thread.
-RunDone answer_with_run(Reply reply, Axis axis, const RunRequest& request = {}) {
-  auto shared = std::make_shared<Reply>(std::move(reply));
-  return [shared, axis, request](const Result<std::int64_t>& id) {
-    (*shared)(id ? Result<std::string>(run_reply(*id, axis, request)) : tl::unexpected(id.error()));
-  };
-}
 
 // A list, or even intervals.
 Result<std::vector<double>> read_targets(const Params& params) {
@@ -198,7 +180,7 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
     if (id < 1 || station->run() != id) continue;  // 0: it has none, -1: about to begin
     const bool abort = params.boolean("abort");
     return station->stop_run(abort, action_of(params, abort ? "run.abort" : "run.stop"),
-                             answer_with_run(std::move(reply), station->config().rig.axis));
+                             answer_with_end(m, std::move(reply), station->config().rig.axis));
   }
   reply(fail(ErrorCode::not_found, "run " + std::to_string(id) +
                                        " is not under way; server.info lists the runs under way"));
@@ -346,8 +328,11 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "run.stop",
        .summary = "Ends a run that is under way, and evaluates the run.",
        .params = {run, {"abort", ParamType::boolean, "mark the run as aborted", false, "false"}},
-       .result = "run: id of the evaluated run. If mdofd renumbered the targets at the end, this "
-                 "is a new run that supersedes the stopped run",
+       .result =
+           "run: id of the evaluated run. If mdofd renumbered the targets at the end, this "
+           "is a new run that supersedes the stopped run. axis, state, supersedes and notices "
+           "of the evaluated run; state and notices are null if the stored run cannot be "
+           "read",
        .example = R"({"run": 1})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { stop_run(m, p, std::move(r)); }});

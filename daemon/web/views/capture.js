@@ -165,8 +165,8 @@ class Progress {
     if (abort && !await ask(`Abort run ${this.run}?`, h("p", {},
       "The points stay stored, and the run is marked as aborted. No table can be built from an aborted run."), "Abort the run")) return;
     try {
-      const {run} = await call("run.stop", {run: this.run, abort});
-      if (!this.over) this.ended({state: abort ? "aborted" : "stopped", run});
+      const {run, state} = await call("run.stop", {run: this.run, abort});
+      if (!this.over) this.ended({state: state ?? (abort ? "aborted" : "stopped"), run});
     } catch (error) {
       this.end.replaceChildren(problem(error));
     }

@@ -30,8 +30,15 @@ TEST_F(RunMethods, ARunIsStartedWithWhatWasAskedForAndStopped) {
   axis.pass_both_ways({0, 5, 10});
   feed_->give(axis.block(0, 1700));
   feed_->wait_until_read();
-  EXPECT_EQ(call("run.stop", R"({"run":1})").at("/result/run"), "1");
+  const Answer ended = call("run.stop", R"({"run":1})");
+  EXPECT_EQ(ended.at("/result/run"), "1");
+  EXPECT_EQ(ended.at("/result/axis"), "\"X\"");
+  EXPECT_EQ(ended.at("/result/state"), "\"partial\"") << ended.text();
+  EXPECT_EQ(ended.at("/result/supersedes"), "null");
+  EXPECT_EQ(ended.at("/result/targets_mm"), "");
   const Answer run = call("run.get", R"({"run":1})");
+  EXPECT_EQ(ended.at("/result/notices"), run.at("/result/notices"));
+  EXPECT_TEXT(ended.at("/result/notices"), R"("code":"datum_missing")");
   EXPECT_EQ(run.at("/result/state"), "\"partial\"") << run.text();
   EXPECT_EQ(run.at("/result/note"), "\"after scraping\"");
   EXPECT_EQ(run.number("/result/points_total"), 3);

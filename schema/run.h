@@ -28,8 +28,9 @@ struct Provenance {
 };
 
 // partial: it ended before all was measured that was asked for, or most of it could not be solved;
-// its notices say what is missing.
-enum class RunState { open, complete, partial, aborted, failed };
+// its notices say what is missing. ended: it is no longer measured, but its end is not stored yet
+// (stored it is open, and nobody but mdofd knows).
+enum class RunState { open, complete, partial, aborted, failed, ended };
 const char* to_string(RunState state);
 
 // A reference line through a straightness series and what is left of it. Slopes are over the

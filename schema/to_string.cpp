@@ -74,6 +74,8 @@ const char* to_string(RunState state) {
       return "partial";
     case RunState::aborted:
       return "aborted";
+    case RunState::ended:
+      return "ended";
     case RunState::failed:
       break;
   }

@@ -176,6 +176,8 @@ void resume_run(Methods& m, const Params& params, Reply reply) {
 
 void stop_run(Methods& m, const Params& params, Reply reply) {
   const std::int64_t id = params.integer("run");
+  if (const std::string why = m.keeper.why_open(id); !why.empty())
+    return reply(fail(ErrorCode::conflict, "run " + std::to_string(id) + " has ended; " + why));
   for (auto& station : m.stations) {
     if (id < 1 || station->run() != id) continue;  // 0: it has none, -1: about to begin
     const bool abort = params.boolean("abort");
@@ -186,12 +188,13 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
                                        " is not under way; server.info lists the runs under way"));
 }
 
-// A run that stands as open though nobody measures it says why.
+// A run that is stored as open though nobody measures it says so, and why.
 void explain(const Methods& m, RunHeader& header) {
   if (header.state != RunState::open) return;
   std::string why = m.keeper.why_open(header.id);
-  if (!why.empty())
-    header.notices.push_back(notice(NoticeCode::run_still_open, "", {{"reason", why}}));
+  if (why.empty()) return;
+  header.state = RunState::ended;
+  header.notices.push_back(notice(NoticeCode::run_still_open, "", {{"reason", why}}));
 }
 
 Result<std::string> runs_json(const Methods& m, store::Store& store, rpc::ListPage page,
@@ -341,7 +344,9 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .params = {offset,
                         count_param(kMaxRunsPage),
                         {"axis", ParamType::string, "list only runs of this axis", false}},
-             .result = "total; runs: header and provenance of each run",
+             .result = "total; runs: header and provenance of each run. state: open (under way), "
+                       "complete, partial, aborted, failed, or ended (the run has ended, but mdofd "
+                       "cannot store the end yet: see its notices and storage of server.info)",
              .example = R"({"offset": 0, "count": 10})",
              .handler = on_query(m, list_runs)});
   table.add({.name = "run.get",

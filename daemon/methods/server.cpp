@@ -67,8 +67,12 @@ std::string server_info(const Methods& m) {
     json.key("devices").begin_array();
     for (const auto& device : station->config().devices) json.value(device.name);
     json.end_array();
+    const std::int64_t run = station->run();
+    const bool ended = run > 0 && !m.keeper.why_open(run).empty();
     json.key("run");
-    station->run() > 0 ? json.value(station->run()) : json.null();
+    run > 0 && !ended ? json.value(run) : json.null();
+    json.key("unstored_run");
+    ended ? json.value(run) : json.null();
     json.key("encoder");
     write_encoder(json, station->encoder());
     json.end_object();
@@ -236,7 +240,8 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
              .result =
                  "identity of the daemon; http: url of the web page and path of its token file, or "
                  "null; chain: link and sha256 of the newest entry in the chain of hashes, for a "
-                 "later check of the database; axes: devices, run under way, datum of the encoder "
+                 "later check of the database; axes: devices, run under way, unstored_run (a run "
+                 "that has ended, but waits for storage), datum of the encoder "
                  "(absolute, none, configured, set or index), offset_mm, note",
              .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add(

@@ -57,6 +57,8 @@ const char* state_text(RunState state, Language language) {
       return phrase(Phrase::state_partial, language);
     case RunState::aborted:
       return phrase(Phrase::state_aborted, language);
+    case RunState::ended:
+      return phrase(Phrase::state_ended, language);
     case RunState::failed:
       break;
   }

@@ -150,6 +150,14 @@ NewRun Station::describe_run(const RunRequest& request, const PipelineOptions& o
   return run;
 }
 
+std::string Station::why_occupied(std::int64_t run) const {
+  const std::string of = std::string("a run of axis ") + letter(config_.rig.axis);
+  if (run < 0) return of + " is about to begin, or the axis position is being stored; try again";
+  if (const std::string why = keeper_.why_open(run); !why.empty())
+    return of + " (run " + std::to_string(run) + ") has ended; " + why;
+  return of + " is under way; stop this run with run.stop first";
+}
+
 void Station::start_run(const RunRequest& request, const RunDone& done) {
   if (request.resumes) {
     const bool counts_on = zero_.counts_on_since(request.resumes->id);
@@ -160,11 +168,7 @@ void Station::start_run(const RunRequest& request, const RunDone& done) {
   }
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1)) {
-    return done(fail(ErrorCode::conflict,
-                     std::string("a run of axis ") + letter(config_.rig.axis) +
-                         (none < 0 ? " is about to begin, or the axis position is being stored; "
-                                     "try again"
-                                   : " is under way; stop this run with run.stop first")));
+    return done(fail(ErrorCode::conflict, why_occupied(none)));
   }
   const auto options = std::make_shared<const PipelineOptions>(options_for(request));
   NewRun description = describe_run(request, *options);

@@ -101,6 +101,8 @@ class Station {
   };
   static constexpr std::size_t kQueuedBlocks = 1024;
 
+  // That nothing can begin on the axis, of the value of shared_->run: not 0.
+  std::string why_occupied(std::int64_t run) const;
   DeviceSink sink();
   NewRun describe_run(const RunRequest& request, const PipelineOptions& options) const;
   PipelineOptions options_for(const RunRequest& request) const;

@@ -16,12 +16,7 @@ void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDo
                      "axis " + axis + " is read from a log, so its position cannot be set"));
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1))
-    return done(
-        fail(ErrorCode::conflict,
-             "a run of axis " + axis +
-                 (none < 0 ? " is about to begin, or the axis position is being stored; try again"
-                           : " is under way, so its positions must not change; stop this run with "
-                             "run.stop first")));
+    return done(fail(ErrorCode::conflict, why_occupied(none)));
   shared_->post([position_m, action, done = std::move(done)](Station& s) {
     s.take_datum(position_m, action, done);
   });

@@ -10,6 +10,7 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -39,6 +40,15 @@ class Served(unittest.TestCase):
                 return info["storage_reason"]
             time.sleep(0.05)
         self.fail(f"storage is {info['storage']} ({info['storage_reason']}) and not {state}")
+
+    def wait_for_state(self, client, run, state):
+        end = time.monotonic() + 20
+        while (now := next(r for r in client.call("run.list")["runs"] if r["run"] == run)["state"]) != state:
+            self.assertLess(time.monotonic(), end, f"run {run} is {now}")
+            time.sleep(0.05)
+
+    def axis(self, client):
+        return client.call("server.info")["axes"][0]
 
     def cut_off(self, client):
         """A table in force, and a run that a kill cuts off."""
@@ -158,6 +168,15 @@ class SmallDisk(Served):
         self.assertIn("SQLITE_CORRUPT", str(refusal.exception))
         self.assertIn("SQLITE_CORRUPT", self.wait_for_storage(client, "damaged"))
 
+    def test_a_run_that_a_full_disk_ends_is_not_said_to_be_under_way(self):
+        client = self.daemon.start()
+        run = client.call("run.start", axis="X")["run"]
+        self.fill()
+        self.wait_for_state(client, run, "ended")
+        self.assertIsNone(self.axis(client)["run"])
+        os.remove(os.path.join(self.disk, "filler"))
+        self.wait_for_state(client, run, "failed")
+
     def test_a_run_that_a_full_disk_refuses_leaves_no_empty_recording(self):
         client = self.daemon.start()
         client.call("run.stop", run=client.call("run.start", axis="X")["run"], abort=True)
@@ -217,6 +236,30 @@ class HeldDatabase(Served):
         client.call("run.stop", run=new, abort=True)
         self.assertEqual(client.call("run.get", run=run)["state"], "aborted")
         self.assertTrue(client.call("compensation.deactivate", axis="X")["changed"])
+
+    def test_a_run_that_ended_meanwhile_is_not_said_to_be_under_way(self):
+        client = self.daemon.start()
+        run = client.call("run.start", axis="X")["run"]
+        self.assertEqual((self.axis(client)["run"], self.axis(client)["unstored_run"]), (run, None))
+        holder = self.hold("BEGIN IMMEDIATE")
+        stopping = Client(self.daemon.socket)
+        stopped = []
+        thread = threading.Thread(target=lambda: stopped.append(stopping.call("run.stop", run=run, abort=True)))
+        thread.start()
+        self.addCleanup(thread.join)
+        self.wait_for_state(client, run, "ended")
+        self.assertIn("run_still_open", [n["code"] for n in client.call("run.get", run=run)["notices"]])
+        self.assertEqual((self.axis(client)["run"], self.axis(client)["unstored_run"]), (None, run))
+        text = subprocess.run([MDOF, "status", "--socket", self.daemon.socket], capture_output=True, text=True).stdout
+        self.assertRegex(text, rf"(?m)^X +{run} \(ended, not stored yet\)")
+        for method, params in (("run.start", {"axis": "X"}), ("run.stop", {"run": run}), ("encoder.set", {"axis": "X", "position_mm": 1})):
+            with self.subTest(method=method), self.assertRaisesRegex(RpcError, "has ended; .*not stored yet"):
+                client.call(method, **params)
+        self.release(holder)
+        thread.join()
+        self.assertEqual(stopped[0]["state"], "aborted")
+        self.assertEqual(client.call("run.get", run=stopped[0]["run"])["state"], "aborted")
+        self.assertEqual((self.axis(client)["run"], self.axis(client)["unstored_run"]), (None, None))
 
     def test_one_that_cannot_even_be_read_keeps_mdofd_from_starting_and_says_why(self):
         status, _ = self.cut_off(self.daemon.start())

@@ -106,7 +106,8 @@ class Progress {
       this.draw(page);
       // A daemon that was restarted sends no event of the end.
       const {state} = await call("run.get", {run: this.run});
-      if (state !== "open" && !this.over) this.ended({state, run: this.run});
+      if (state === "ended") setText(this.where, `Run ${this.run} has ended; mdofd waits for storage to store its end`);
+      else if (state !== "open" && !this.over) this.ended({state, run: this.run});
     } catch (error) {
       if (this.points.length === 0) this.end.replaceChildren(problem(error));
     }
@@ -135,6 +136,7 @@ class Progress {
       this.points.splice(e.offset, e.points.length, ...e.points);
       this.draw(e);
     }
+    if (e.type === "storage" && !this.over) this.read();
     if (e.type === "progress") this.progress(e);
   }
   // The newest ones; all are in the notices of the run.

@@ -68,7 +68,7 @@ export function open(place) {
     try {
       const [info, {devices}, compensation, health] = await Promise.all([call("server.info"), call("device.list"), call("compensation.status"), call("server.health")]);
       const newest = health.newest_recording?.run;
-      if (newest && (sized?.run !== newest || sized.state === "open")) sized = await call("run.get", {run: newest});
+      if (newest && (sized?.run !== newest || ["open", "ended"].includes(sized.state))) sized = await call("run.get", {run: newest});
       const why = reasons(info, devices, compensation), hours = hoursLeft(health, sized);
       setRows(t.why, why);
       t.why.hidden = why.length === 0;

@@ -7,7 +7,7 @@ import {openPair, openSquareness} from "./run_pair.js";
 import {openTrend} from "./run_trend.js";
 
 const kPage = 100;
-const kStates = ["complete", "partial", "open", "aborted", "failed"];
+const kStates = ["complete", "partial", "open", "ended", "aborted", "failed"];
 
 const headOf = (run) => h("a", {href: `#runs/${run.run}`}, String(run.run));
 const rowOf = (run) => [headOf(run), run.axis, (run.state === "complete" ? "● " : "▲ ") + run.state, time(run.started_utc),

@@ -45,9 +45,14 @@ std::string server_text(const element& info, std::size_t columns) {
   array axes;
   if (info["axes"].get_array().get(axes)) return lines;
   TextTable table({"axis", "run", "rig", "devices", "simulated"});
+  const auto run_of = [](const element& axis) {
+    const auto unstored = integer(axis, "unstored_run");
+    return unstored ? std::to_string(*unstored) + " (ended, not stored yet)"
+                    : or_dash(integer(axis, "run"));
+  };
   for (const element axis : axes)
-    table.add({text(axis, "axis"), or_dash(integer(axis, "run")), text(axis, "rig"),
-               joined(texts(axis, "devices")), flag(axis, "simulated") ? "SIMULATED" : "no"});
+    table.add({text(axis, "axis"), run_of(axis), text(axis, "rig"), joined(texts(axis, "devices")),
+               flag(axis, "simulated") ? "SIMULATED" : "no"});
   if (axes.size() == 0) return lines + "no axis is configured\n";
   return lines + "\n" + table.text(columns) + encoder_text(axes, columns);
 }

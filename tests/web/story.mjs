@@ -36,7 +36,23 @@ async function byKeyboard(page) {
   await page.getByRole("button", {name: "Start the run"}).waitFor();
 }
 
+// Empty targets are no free run that nobody asked for.
+async function emptyTargets(page) {
+  await page.getByLabel("Repeats").fill("");
+  for (const [kind, labels] of [["list", ["Targets/mm"]], ["even", ["From/mm", "To/mm", "Interval/mm", "Jitter/mm", "Seed of the jitter"]]]) {
+    await page.getByLabel("Targets are").selectOption(kind);
+    for (const label of labels) await page.getByLabel(label).fill("");
+    await page.getByRole("button", {name: "Start the run"}).click();
+    await page.getByRole("alert").filter({hasText: labels.slice(0, 3).join(", ")}).waitFor();
+    assert.equal(await page.getByRole("dialog").count(), 0, "nothing is asked of mdofd");
+  }
+  await page.getByLabel("From/mm").fill("0");
+  await page.getByRole("button", {name: "Start the run"}).click();
+  await page.getByRole("alert").filter({hasText: /To\/mm, Interval\/mm/}).filter({hasNotText: /From\/mm/}).waitFor();
+}
+
 async function capture(page) {
+  await emptyTargets(page);
   await page.getByLabel("To/mm").fill("6");
   await page.getByLabel("Interval/mm").fill("2");
   await page.getByLabel("Repeats").fill("1");

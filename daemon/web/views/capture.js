@@ -20,6 +20,10 @@ export function request(form) {
   return params;
 }
 
+// The fields without which the chosen kind of targets has none: a run without targets would be a free one.
+const kNeeded = {even: [["from_mm", "From/mm"], ["to_mm", "To/mm"], ["interval_mm", "Interval/mm"]], list: [["targets_mm", "Targets/mm"]], free: []};
+export const emptyFields = (form) => kNeeded[form.get("kind")].filter(([key]) => !form.get(key)?.trim()).map(([, label]) => label);
+
 // How many stops the axis has to make; null: not known before.
 export function expected({from_mm, to_mm, interval_mm, targets_mm, repeats}) {
   const targets = targets_mm ? targets_mm.length
@@ -27,7 +31,7 @@ export function expected({from_mm, to_mm, interval_mm, targets_mm, repeats}) {
   return targets === null ? null : {targets, points: repeats > 0 ? 2 * targets * repeats : null};
 }
 
-const kKinds = [["even", "at even intervals"], ["list", "listed"], ["free", "found from the stops of the axis"]];
+const kKinds = [["even", "at even intervals"], ["list", "listed"], ["free", "found from the stops of the axis (free run)"]];
 
 class Wizard {
   constructor(started) {
@@ -59,12 +63,15 @@ class Wizard {
     this.even.hidden = kind !== "even";
     this.list.hidden = kind !== "list";
     this.repeats.hidden = kind === "free";
-    const count = expected(request(new FormData(this.element)));
+    const form = new FormData(this.element), missing = emptyFields(form), count = expected(request(form));
     setText(this.preview, kind === "free" ? "mdofd finds the targets from the stops; the run ends when you stop it."
-      : count === null ? "Enter values for From, To and Interval; Interval must be above 0."
+      : missing.length ? `Enter a value for ${missing.join(", ")}.` : count === null ? "Enter values for From, To and Interval; Interval must be above 0."
       : `${count.targets} targets` + (count.points ? `, ${count.points} points expected: each target forward and in reverse.` : "; the run ends when you stop it."));
   }
   async start(started) {
+    const missing = emptyFields(new FormData(this.element));
+    if (missing.length)
+      return this.wrong.replaceChildren(problem(new Error(`Not started, because these fields are empty: ${missing.join(", ")}. Enter values, or choose "${kKinds[2][1]}" as the targets.`)));
     try {
       started(await call("run.start", request(new FormData(this.element))));
       this.wrong.replaceChildren();
@@ -129,6 +136,7 @@ class Progress {
     if (e.type === "trouble" && e.axis === this.axis) this.tell(`${e.device ? `${e.device}: ` : ""}${e.kind}: ${e.text}`);
     // Its id may be another one: of the run that supersedes it.
     if (e.type === "ended" && e.axis === this.axis && !this.over) return this.ended(e);
+    if (e.type === "storage" && !this.over) this.read();
     if (e.run !== this.run) return;
     if (e.type === "left_out") this.tell(e.text);
     if (e.type === "points") {
@@ -136,7 +144,6 @@ class Progress {
       this.points.splice(e.offset, e.points.length, ...e.points);
       this.draw(e);
     }
-    if (e.type === "storage" && !this.over) this.read();
     if (e.type === "progress") this.progress(e);
   }
   // The newest ones; all are in the notices of the run.

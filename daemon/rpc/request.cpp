@@ -10,19 +10,22 @@ using MaybeElement = std::optional<element>;
 
 struct Members {
   MaybeElement jsonrpc, method, params, id;
+  std::string_view twice;  // a member that is given twice; empty: none is
+  bool id_twice = false;
 };
-
-void keep_first(MaybeElement& slot, const element& value) {
-  if (!slot) slot = value;
-}
 
 Members members_of(const simdjson::dom::object& message) {
   Members out;
+  const auto keep = [&](MaybeElement& slot, std::string_view key, const element& value) {
+    if (slot) out.twice = key;
+    slot = value;
+  };
   for (const auto [key, value] : message) {
-    if (key == "jsonrpc") keep_first(out.jsonrpc, value);
-    if (key == "method") keep_first(out.method, value);
-    if (key == "params") keep_first(out.params, value);
-    if (key == "id") keep_first(out.id, value);
+    if (key == "jsonrpc") keep(out.jsonrpc, key, value);
+    if (key == "method") keep(out.method, key, value);
+    if (key == "params") keep(out.params, key, value);
+    out.id_twice = out.id_twice || (key == "id" && out.id);
+    if (key == "id") keep(out.id, key, value);
   }
   return out;
 }
@@ -61,6 +64,8 @@ bool may_be_id(const element& id) {
 
 // Where the specification shows an error object, that is what is sent: without a reason.
 std::optional<std::string> fault_of(const Members& members) {
+  // Another reader of the line (a log, a filter) may take the other of the two.
+  if (!members.twice.empty()) return "member \"" + std::string(members.twice) + "\" is given twice";
   if (!members.method || !members.method->is_string()) return "";
   std::string_view version;
   if (!members.jsonrpc || members.jsonrpc->get(version) || version != "2.0")
@@ -90,7 +95,7 @@ Request read_request(const element& message, const Source& source, std::size_t m
   }
   const Members members = members_of(object);
   out.invalid = fault_of(members);
-  if (members.id)
+  if (members.id && !members.id_twice)
     read_id(*members.id, source, max_id_bytes, out);
   else if (out.invalid)
     out.id = "null";

@@ -24,7 +24,7 @@ struct Request {
   std::optional<std::string> invalid;            // not a request; the reason, may be empty
 };
 
-// Of members given twice the first counts; unknown ones are ignored.
+// A member given twice makes it invalid (an id given twice is null); unknown ones are ignored.
 Request read_request(const simdjson::dom::element& message, const Source& source,
                      std::size_t max_id_bytes);
 

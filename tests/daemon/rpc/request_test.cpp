@@ -36,6 +36,29 @@ TEST_F(Requests, AnIdOfAnotherKindIsRefused) {
       "-32600");
 }
 
+// RFC 8259, 4: which of two members of one name counts is unpredictable.
+TEST_F(Requests, AMemberGivenTwiceIsRefusedByItsName) {
+  const std::string whole = R"("jsonrpc":"2.0","method":"get_data","params":[],"id":8)";
+  const std::string twice[][3] = {{R"("jsonrpc":"2.0")", "jsonrpc", "8"},
+                                  {R"("method":"get_data")", "method", "8"},
+                                  {R"("method":"sum")", "method", "8"},
+                                  {R"("params":[1])", "params", "8"},
+                                  {R"("params":null)", "params", "8"},
+                                  {R"("id":8)", "id", "null"},
+                                  {R"("id":9)", "id", "null"},
+                                  {R"("\u0069d":9)", "id", "null"}};
+  for (const auto& [again, name, id] : twice)
+    for (const std::string& request :
+         {"{" + whole + "," + again + "}", "{" + again + "," + whole + "}"}) {
+      const auto reply = ask(request);
+      EXPECT_EQ(at(reply, "/error/code"), "-32600") << request;
+      EXPECT_EQ(at(reply, "/id"), id) << request;
+      EXPECT_NE(at(reply, "/error/data").find("\\\"" + name + "\\\""), std::string::npos) << reply;
+      EXPECT_EQ(at(ask("[" + request + "]"), "/0/error/code"), "-32600") << request;
+    }
+  EXPECT_EQ(at(ask("{" + whole + R"(,"note":1,"note":2})"), "/result"), R"(["hello",5])");
+}
+
 TEST_F(Requests, OtherVersionsAreRefusedWithTheirId) {
   for (const char* version : {R"("1.0")", "2.0", "null"}) {
     const auto reply = ask(std::string(R"({"jsonrpc":)") + version + R"(,"method":"sum","id":8})");

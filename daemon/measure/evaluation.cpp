@@ -162,6 +162,8 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
   const Status declared = algo::add_declared_uncertainty(table, rigs, runs, options);
   for (const Rig& rig : rigs) add_not_declared(table, rig.undeclared_uncertainties());
   MDOF_TRY(Notices notices, table_notices(runs));
+  MDOF_TRY(Notices superseded, superseded_notices(store, request.runs));
+  append(notices, std::move(superseded));
   if (!declared)
     notices.push_back(
         notice(NoticeCode::declared_not_in_u, "", {{"reason", words::text(declared.error())}}));
@@ -208,9 +210,9 @@ Status check_measured_without(store::Store& store, const CompensationTable& tabl
 }
 
 Result<store::Marks> check_activation(store::Store& store, const ActivationRequest& request) {
+  MDOF_CHECK(store.check_generation(request.expected_generation));
   MDOF_TRY(const bool volumetric, store.is_volumetric(request.table));
   if (volumetric) return check_volumetric_activation(store, request.table, request.consent);
-  MDOF_CHECK(store.check_generation(request.expected_generation));
   MDOF_TRY(const CompensationTable table, store.table(request.table));
   if (table.has_positioning())
     return fail(
@@ -270,6 +272,17 @@ Status check_axes(const SquarenessRequest& request, const Run& a, const Run& b) 
 
 }  // namespace
 
+namespace {
+
+Result<Notices> squareness_notices(store::Store& store, const Run& a, const Run& b) {
+  Notices notices = algo::inherited_notices({&a, &b});
+  MDOF_TRY(Notices superseded, superseded_notices(store, {a.header.id, b.header.id}));
+  append(notices, std::move(superseded));
+  return notices;
+}
+
+}  // namespace
+
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request) {
   MDOF_TRY(FittedSquareness fitted, calculate_squareness(store, request));
   MDOF_CHECK(store_squareness(store, fitted.squareness, request.action));
@@ -292,8 +305,8 @@ Result<FittedSquareness> calculate_squareness(store::Store& store,
                                               const SquarenessRequest& request) {
   MDOF_TRY(RunsOfSquareness of, runs_of_squareness(store, request));
   MDOF_TRY(auto budgets, state_uncertainty(of.fitted, of.a, of.rig_a, of.b, of.rig_b));
-  return FittedSquareness{std::move(of.fitted), std::move(budgets),
-                          algo::inherited_notices({&of.a, &of.b})};
+  MDOF_TRY(Notices notices, squareness_notices(store, of.a, of.b));
+  return FittedSquareness{std::move(of.fitted), std::move(budgets), std::move(notices)};
 }
 
 Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squareness,
@@ -310,8 +323,8 @@ Result<FittedSquareness> stored_squareness(store::Store& store, Squareness squar
     squareness.form_rad = there.form_rad;
   }
   MDOF_TRY(auto budgets, state_uncertainty(squareness, a, rig_a, b, rig_b, at));
-  return FittedSquareness{std::move(squareness), std::move(budgets),
-                          algo::inherited_notices({&a, &b})};
+  MDOF_TRY(Notices notices, squareness_notices(store, a, b));
+  return FittedSquareness{std::move(squareness), std::move(budgets), std::move(notices)};
 }
 
 std::string run_document(const RunMembers& members, const std::string& result_sha256,

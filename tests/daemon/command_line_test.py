@@ -107,8 +107,11 @@ class Record(CommandLine):
         self.assertNotRegex(self.done("runs", "--db", other.database), rf"(?m)^ *{before} ")
         self.assertRegex(self.done("runs", "--all", "--db", other.database),
                          rf"(?m)^ *{before} +X +superseded by {newest['run']} ")
-        _, _, err = mdof("show", before, "--db", other.database)
-        self.assertIn(f"run {newest['run']} supersedes this run", err)
+        for words in (("show",), ("show", "--csv"), ("show", "--json"), ("analyse",), ("analyse", "--json"), ("analyse", "--csv")):
+            _, _, err = mdof(words[0], before, *words[1:], "--db", other.database)
+            self.assertIn(f"run {newest['run']} supersedes run {before}", err)
+        for run, by in ((before, newest["run"]), (newest["run"], None)):
+            self.assertEqual(json.loads(self.done("analyse", run, "--json", "--db", other.database))["superseded_by"], by)
 
 
 class Replay(CommandLine):

@@ -56,12 +56,24 @@ Notices doubtful_notices(const std::vector<Run>& runs) {
   return doubtful_notices(algo::inherited_notices(algo::all_of(runs)));
 }
 
+Result<Notices> superseded_notices(store::Store& store, const std::vector<std::int64_t>& runs) {
+  Notices found;
+  for (const std::int64_t run : runs) {
+    MDOF_TRY(const auto by, store.superseded_by(run));
+    if (by)
+      found.push_back(notice(NoticeCode::made_from_superseded, "", {{"run", run}, {"by", *by}}));
+  }
+  return found;
+}
+
 Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& table) {
   std::vector<Run> runs(table.runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     MDOF_TRY(runs[i], store.run(table.runs[i]));
   }
   Notices found = doubtful_notices(runs);
+  MDOF_TRY(Notices superseded, superseded_notices(store, table.runs));
+  append(found, std::move(superseded));
   if (runs.size() < 2 || is_imported(runs.front().header)) return found;
   MDOF_TRY(Notices uneven, algo::uneven_visits_of(runs));
   append(found, std::move(uneven));

@@ -34,7 +34,9 @@ Notices without_information(Notices notices);
 Notices doubtful_notices(Notices notices);
 // The same of the notices of these runs, and which are partial.
 Notices doubtful_notices(const std::vector<Run>& runs);
-// The same of a stored table's runs, and what they show only together.
+// Which of these runs another one supersedes.
+Result<Notices> superseded_notices(store::Store& store, const std::vector<std::int64_t>& runs);
+// Of a stored table: what is doubtful of its runs, and what they show only together.
 Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& table);
 Result<Judged> judged_table(store::Store& store, const CompensationTable& table);
 

@@ -124,6 +124,8 @@ Result<Notices> doubtful_notices(store::Store& store, const VolumetricTable& tab
   MDOF_TRY(const std::vector<Run> runs, runs_of(store, table));
   append(found, one_sided(table, runs));
   append(found, doubtful_notices(runs));
+  MDOF_TRY(Notices superseded, superseded_notices(store, table.runs));
+  append(found, std::move(superseded));
   for (const Notice& each : table.doubtful)
     if (std::find(found.begin(), found.end(), each) == found.end()) found.push_back(each);
   return found;

@@ -256,6 +256,29 @@ TEST_F(CompensationMethods, ADoubtfulTableInForceIsMarkedInEveryReply) {
   }
 }
 
+TEST_F(CompensationMethods, ATableOrASquarenessOfASupersededRunSaysSoAndTheTableAsks) {
+  const char* const code = R"("code":"made_from_superseded")";
+  add_run('X'), add_run('Y');
+  const auto notices = [&](const char* method, const char* params) {
+    return call(method, params).at("/result/notices");
+  };
+  const char* const runs = R"({"runs":[1]})";
+  const char* const pair = R"({"run_x":1,"run_y":2})";
+  EXPECT_EQ(notices("compensation.build", runs).find(code), std::string::npos);
+  EXPECT_EQ(notices("squareness.fit", pair).find(code), std::string::npos);
+  ASSERT_EQ(call("compensation.table", R"({"table":1})").at("/result/doubtful"), "false");
+  supersedes_ = 1;
+  ASSERT_EQ(add_run('X', "again"), 3);
+  EXPECT_SAID(notices("compensation.build", runs), code);
+  EXPECT_SAID(notices("squareness.fit", pair), code);
+  EXPECT_EQ(notices("compensation.build", R"({"runs":[3]})").find(code), std::string::npos);
+  EXPECT_EQ(call("compensation.table", R"({"table":1})").at("/result/doubtful"), "true");
+  const Answer refused = call("compensation.activate", R"({"table":2})");
+  EXPECT_EQ(refused.code(), rpc::kChanged) << refused.text();
+  EXPECT_SAID(refused.message(), "run 3");
+  EXPECT_EQ(call("compensation.activate", R"({"table":3})").code(), 0);
+}
+
 TEST_F(CompensationMethods, ATableBeyondItsLimitsIsNotBuilt) {
   add_run();
   const Answer refused = call("compensation.build", R"({"runs":[1],"limit_um":0.01})");

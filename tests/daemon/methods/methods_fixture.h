@@ -88,6 +88,7 @@ class MethodsTest : public FedStation {
     run.header.provenance.model = "rigid";
     if (!whole) run.header.state = RunState::partial;
     run.header.simulated = simulated_;
+    run.header.supersedes = supersedes_;
     std::promise<std::int64_t> id;
     EXPECT_TRUE(bench_->keeper->post(
         [&](store::Store& store) { id.set_value(store.add_run(run).value()); }));
@@ -97,7 +98,8 @@ class MethodsTest : public FedStation {
 
   std::unique_ptr<MethodsBench> bench_;
   int runs_ = 0;
-  bool simulated_ = false;    // those that are added from now on
+  bool simulated_ = false;  // those that are added from now on
+  std::optional<std::int64_t> supersedes_;
   std::string recorded_utc_;  // the same: when a recording began; empty: a log without time
 };
 

@@ -27,13 +27,16 @@ std::vector<StraightnessLines> lines_of(const Run& run) {
   return algo::straightness_lines(run.header.moving(), run.points);
 }
 
-std::string analysis_json(const Run& run, const std::vector<std::string>& probes) {
+std::string analysis_json(const Run& run, const std::vector<std::string>& probes,
+                          std::optional<std::int64_t> superseded_by) {
   JsonWriter json;
   json.begin_object()
       .field("run", run.header.id)
       .field("axis", std::string_view(std::string(1, letter(run.header.axis))))
       .field("model", run.header.provenance.model)
-      .field("simulated", run.header.simulated);
+      .field("simulated", run.header.simulated)
+      .key("superseded_by");
+  superseded_by ? json.value(*superseded_by) : json.null();
   write_reference(json, run.header.stated);
   const StatedFigures stated = daemon::figure_budgets(run);
   write_covers(json, stated.budgets);
@@ -54,6 +57,7 @@ Status analyse(const ChosenRun& choice) {
   MDOF_TRY(store::Store store, open_to_read(choice.database));
   MDOF_TRY(const Run run, load_run(store, choice));
   MDOF_CHECK(check_measured(run.header, "an analysis"));
+  MDOF_CHECK(warn_if_superseded(store, run.header.id));
   if (choice.csv) {
     const StatedFigures stated = daemon::figure_budgets(run);
     return write_csv_of(run, are_noise_only(stated.budgets), figures_csv(run, stated), choice);
@@ -62,7 +66,8 @@ Status analyse(const ChosenRun& choice) {
     MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
     std::vector<std::string> probes;
     for (const Probe& probe : rig.probes) probes.push_back(probe.id);
-    return write_line(analysis_json(run, probes));
+    MDOF_TRY(const auto by, store.superseded_by(run.header.id));
+    return write_line(analysis_json(run, probes, by));
   }
   const std::size_t width = terminal_columns();
   const StatedFigures stated = daemon::figure_budgets(run);

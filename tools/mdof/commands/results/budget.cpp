@@ -8,6 +8,7 @@
 #include "daemon/output/charts/run/run_charts.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/results/chosen_run.h"
 #include "tools/mdof/csv/csv_text.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -138,10 +139,7 @@ Status budget(const BudgetCommand& command) {
     if (const std::string approach = daemon::only_approach(run); !approach.empty())
       warn("run " + std::to_string(id) + " has only the " + approach +
            " approach: the figures are valid for this approach, and the reversal error is unknown");
-    MDOF_TRY(const auto by, store.superseded_by(id));
-    if (by)
-      warn("run " + std::to_string(*by) + " supersedes run " + std::to_string(id) +
-           "; see mdof show " + std::to_string(*by));
+    MDOF_CHECK(warn_if_superseded(store, id));
     if (against.empty()) against = daemon::against_decision(store, run);
   }
   const auto decided = command.tolerance

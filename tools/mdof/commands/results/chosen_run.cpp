@@ -30,6 +30,14 @@ Result<Run> load_run(store::Store& store, const ChosenRun& choice) {
   return daemon::run_stated_at(store, id, reference);
 }
 
+Status warn_if_superseded(store::Store& store, std::int64_t run) {
+  MDOF_TRY(const auto by, store.superseded_by(run));
+  if (by)
+    warn("run " + std::to_string(*by) + " supersedes run " + std::to_string(run) +
+         "; see mdof show " + std::to_string(*by));
+  return {};
+}
+
 Status write_csv_of(const Run& run, bool noise_only, const std::string& csv,
                     const ChosenRun& choice) {
   if (run.header.simulated) warn("simulated data: no machine was measured");

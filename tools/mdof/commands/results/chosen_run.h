@@ -21,6 +21,9 @@ void add_chosen_run(CLI::App& command, ChosenRun& choice);
 // With its errors stated at the reference that was chosen.
 Result<Run> load_run(store::Store& store, const ChosenRun& choice);
 
+// A warning to read another run instead.
+Status warn_if_superseded(store::Store& store, std::int64_t run);
+
 // A table of bare numbers, with what people must know of them: lines "# SIMULATED", "# DOUBTFUL"
 // before it, so that the file says it wherever it goes, and notices.
 Status write_csv_of(const Run& run, bool noise_only, const std::string& csv,

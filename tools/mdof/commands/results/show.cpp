@@ -45,6 +45,7 @@ Status show_imported(store::Store& store, Run run, const ChosenRun& choice) {
 Status show_run(const ChosenRun& choice) {
   MDOF_TRY(store::Store store, open_to_read(choice.database));
   MDOF_TRY(const Run run, load_run(store, choice));
+  MDOF_CHECK(warn_if_superseded(store, run.header.id));
   if (is_imported(run.header)) return show_imported(store, run, choice);
   if (choice.csv) {
     const RunUncertainty uncertainty = daemon::uncertainty_of(run);
@@ -58,10 +59,6 @@ Status show_run(const ChosenRun& choice) {
                                                    sha256, actions));
   }
   const std::size_t width = terminal_columns();
-  MDOF_TRY(const auto by, store.superseded_by(run.header.id));
-  if (by)
-    warn("run " + std::to_string(*by) + " supersedes this run; see mdof show " +
-         std::to_string(*by));
   const std::string drift = drift_notice(run, drift_of(run).found, width);
   return write_out(show_text(run, daemon::uncertainty_of(run), sha256, width, choice.all_warnings) +
                    (drift.empty() ? "" : "\n" + drift) + history_text(actions, width));

@@ -48,6 +48,7 @@ struct TablesRequest {
   rpc::ListPage page;
   std::optional<Axis> axis;
   bool volume = false;
+  std::int64_t generation = 0;  // of all active tables
 };
 
 Result<std::string> tables_json(store::Store& store, const TablesRequest& request,
@@ -63,14 +64,15 @@ Result<std::string> tables_json(store::Store& store, const TablesRequest& reques
       items.push_back(table_item(table, generation_of(active, table)));
   }
   JsonWriter json;
-  json.begin_object().field("offset", request.page.offset).key("tables").begin_array();
+  json.begin_object().field("generation", request.generation);
+  json.field("offset", request.page.offset).key("tables").begin_array();
   append_page(json, items, [](const std::string& item) { return item; });
   json.end_array().end_object();
   return json.take();
 }
 
 Result<QueryThread::Work> list_tables(Methods& m, const Params& params) {
-  TablesRequest request{rpc::list_page_of(params, kMaxTablesPage), {}, false};
+  TablesRequest request{rpc::list_page_of(params, kMaxTablesPage), {}, false, m.generation};
   request.volume = params.string("axis") == "volume";
   if (params.has("axis") && !request.volume) {
     MDOF_TRY(request.axis, axis_param(params));
@@ -120,8 +122,8 @@ void add_tables_methods(rpc::MethodTable& table, Methods& m) {
                   {"axis", ParamType::string,
                    "X, Y or Z: list only tables of this axis; volume: list only volumetric tables",
                    false}},
-       .result = "tables: the members of each table without the points, active, generation (0: not "
-                 "active)",
+       .result = "generation (of all active tables); tables: the members of each table without the "
+                 "points, active, generation (0: not active)",
        .example = R"({"axis": "X", "count": 10})",
        .handler = on_query(m, list_tables)});
   table.add(

@@ -94,6 +94,7 @@ TEST_F(CompensationMethods, StoredTablesAreListedAndReadWhetherActiveOrNot) {
   ASSERT_EQ(call("compensation.build", R"({"runs":[1]})").at("/result/table"), "2");
   const Answer list = call("compensation.list", R"({"axis":"X"})");
   ASSERT_EQ(list.size("/result/tables"), 2u) << list.text();
+  EXPECT_EQ(list.at("/result/generation"), generation);
   EXPECT_EQ(list.at("/result/tables/0/table"), "2");
   EXPECT_EQ(list.at("/result/tables/0/active"), "false");
   EXPECT_EQ(list.at("/result/tables/0/generation"), "0");

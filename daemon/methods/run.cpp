@@ -120,6 +120,13 @@ Notices settings_of_devices(const Station& station) {
   return found;
 }
 
+// What is asked of a run that has ended, but whose end is not stored yet.
+Status check_end_is_stored(const Methods& m, std::int64_t run) {
+  const std::string why = m.keeper.why_open(run);
+  if (why.empty()) return {};
+  return fail(ErrorCode::conflict, "run " + std::to_string(run) + " has ended; " + why);
+}
+
 // The probes of a device that several axes have are at one of them at a time.
 Status check_probes_free(const Methods& m, const Station& station) {
   for (const auto& other : m.stations) {
@@ -127,6 +134,7 @@ Status check_probes_free(const Methods& m, const Station& station) {
     if (other.get() == &station || run == 0) continue;
     const std::string device = same_probes(station.config(), other->config());
     if (device.empty()) continue;
+    MDOF_CHECK(check_end_is_stored(m, run));
     return fail(
         ErrorCode::conflict,
         "the probes of device \"" + device + "\" are in use for axis " +
@@ -164,6 +172,7 @@ void start_run(Methods& m, const Params& params, Reply reply) {
 
 void resume_run(Methods& m, const Params& params, Reply reply) {
   const std::int64_t run = params.integer("run");
+  if (auto free = check_end_is_stored(m, run); !free) return reply(tl::unexpected(free.error()));
   const auto header = m.reader.run_header(run);
   if (!header) return reply(tl::unexpected(header.error()));
   const auto station = station_of(m, header->axis);
@@ -176,8 +185,7 @@ void resume_run(Methods& m, const Params& params, Reply reply) {
 
 void stop_run(Methods& m, const Params& params, Reply reply) {
   const std::int64_t id = params.integer("run");
-  if (const std::string why = m.keeper.why_open(id); !why.empty())
-    return reply(fail(ErrorCode::conflict, "run " + std::to_string(id) + " has ended; " + why));
+  if (auto free = check_end_is_stored(m, id); !free) return reply(tl::unexpected(free.error()));
   for (auto& station : m.stations) {
     if (id < 1 || station->run() != id) continue;  // 0: it has none, -1: about to begin
     const bool abort = params.boolean("abort");

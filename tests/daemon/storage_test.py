@@ -252,7 +252,7 @@ class HeldDatabase(Served):
         self.assertEqual((self.axis(client)["run"], self.axis(client)["unstored_run"]), (None, run))
         text = subprocess.run([MDOF, "status", "--socket", self.daemon.socket], capture_output=True, text=True).stdout
         self.assertRegex(text, rf"(?m)^X +{run} \(ended, not stored yet\)")
-        for method, params in (("run.start", {"axis": "X"}), ("run.stop", {"run": run}), ("encoder.set", {"axis": "X", "position_mm": 1})):
+        for method, params in (("run.start", {"axis": "X"}), ("run.stop", {"run": run}), ("run.resume", {"run": run}), ("encoder.set", {"axis": "X", "position_mm": 1})):
             with self.subTest(method=method), self.assertRaisesRegex(RpcError, "has ended; .*not stored yet"):
                 client.call(method, **params)
         self.release(holder)

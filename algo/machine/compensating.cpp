@@ -33,6 +33,19 @@ Jacobian jacobian(const Machine& machine, const Command& at,
   return J;
 }
 
+// How far a command of 1 m takes the nominal tool against the work while all rotary axes are at 0;
+// without the rounding of a difference of places.
+Eigen::Vector3d motion_by_command(const Machine& machine, std::size_t direction) {
+  Command unit{};
+  unit[direction] = 1;
+  Eigen::Vector3d motion = Eigen::Vector3d::Zero();
+  for (const MachineFrame& frame : machine.frames)
+    if (moves_along(frame))
+      motion(static_cast<Eigen::Index>(frame.direction)) +=
+          (frame.carries_work ? -1 : 1) * travel_of(frame, unit);
+  return motion;
+}
+
 // The axis whose command it goes by; 0: none.
 char axis_of(const MachineFrame& frame) {
   if (frame.moves_with != 0) return frame.moves_with;
@@ -76,6 +89,19 @@ Result<CompensatingCommand> compensating_command(const Machine& machine, const C
     for (std::size_t k = 0; k < kBodyErrors; ++k)
       if (values[i].beyond[k]) c.beyond.push_back(error_name(machine.frames[i], k));
   return c;
+}
+
+Command command_at_place(const Machine& machine, const Eigen::Vector3d& place_m) {
+  Command command{};
+  const auto directions = linear_axes(machine);
+  if (directions.empty()) return command;
+  Jacobian J(3, static_cast<Eigen::Index>(directions.size()));
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    J.col(static_cast<Eigen::Index>(i)) = motion_by_command(machine, directions[i]);
+  const Eigen::VectorXd commands = LeastNorm(J).solve(Eigen::VectorXd(place_m));
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    command[directions[i]] = commands[static_cast<Eigen::Index>(i)];
+  return command;
 }
 
 std::vector<ErrorDerivative> derivatives_of_command(const Machine& machine,

@@ -23,6 +23,11 @@ struct CompensatingCommand {
 Result<CompensatingCommand> compensating_command(const Machine& machine, const Command& wanted,
                                                  MachineApproach approach);
 
+// The command at which the nominal tool is at `place_m` in the work's coordinates, measured from
+// where it is when all commands are 0: place / s_k for an axis along X, Y or Z (s_k of
+// schema/rig/correction.h). Rotary axes are at 0, and so is an axis that the chain has not.
+Command command_at_place(const Machine& machine, const Eigen::Vector3d& place_m);
+
 // derivatives() with the place in the commands of X, Y, Z in place of the work's coordinates, in
 // which a turned rotary axis has other directions: what a unit of each error does to the
 // correction, but for its sign. 0 for an axis that the chain has not.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/machine/compensating.h"
 #include "algo/machine/tool_error.h"
 
 namespace mdof::algo {
@@ -83,9 +84,7 @@ MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Ve
   for (const ErrorSource& source : machine.sources)
     causes.budget.push_back(new_cause(source.name, at_m.size()));
   for (std::size_t p = 0; p < at_m.size(); ++p) {
-    Command command{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      command[axis] = at_m[p](static_cast<Eigen::Index>(axis));
+    const Command command = command_at_place(machine, at_m[p]);
     const auto values = values_at(machine, command, MachineApproach::mean);
     const auto all = derivatives(machine, command);
     for (const Known& one : known)

@@ -16,7 +16,8 @@ struct MachineCauses {
   std::vector<std::string> not_measured, no_u, beyond;  // as of ToolError
 };
 
-// Places of the path are commands of X, Y and Z; an axis that the chain has not stays.
+// Places of the path are those of the tool in the work's coordinates, from where it is when all
+// commands are 0; the chain gives the commands (command_at_place()).
 // `with_axes`: the measured errors count; else the sources act on these, too, as designed.
 MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m,
                              bool with_axes = true);

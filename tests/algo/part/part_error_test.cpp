@@ -276,5 +276,47 @@ u_EC0Y_urad = 3
   }
 }
 
+// By hand: X is on the table and goes along + when its command grows, so that the command +10 mm
+// brings the tool to x = -10 mm of the part. There the table is 4 um too far along +X, which leaves
+// the tool 4 um at -X. Y goes with the tool.
+TEST(MachineCauses, ThePathIsInTheCoordinatesOfThePart) {
+  for (const bool is_iso : {false, true}) {
+    const auto machine = parse_machine(std::string(R"(name = "m"
+machine = {chain = "w-X-b-Y-t", travel = { X = ")") +
+                                           (is_iso ? "-" : "+") + R"(" }}
+tool = {point_mm = [200, 0, 100]}
+[[axis]]
+id = "X"
+holds_at_mm = [0, 0, 0]
+point = "standing"
+EXX_um = [[-10, 0], [0, 0], [10, 4]]
+[[axis]]
+id = "Y"
+holds_at_mm = [0, 0, 0]
+point = "moving"
+EYY_um = [[-10, 0], [0, 0], [10, 3]]
+[[source]]
+name = "screw"
+u = 0.5
+unit = "um"
+acts_on = [ { error = "EZX", factor = 1, factor_per_mm = 0.1, of = "X" } ]
+)",
+                                       "m.toml");
+    ASSERT_TRUE(machine) << machine.error().message;
+    const MachineCauses found = machine_causes(*machine, {{-0.01, 0.01, 0}, {0.01, -0.01, 0}});
+    ASSERT_EQ(found.axes.size(), 2U);
+    ASSERT_EQ(found.axes[0].name, "EXX");
+    const std::size_t off = is_iso ? 1 : 0, right = 1 - off;
+    EXPECT_NEAR(found.axes[0].value_m[off](0), -4e-6, 1e-15);
+    EXPECT_EQ(found.axes[0].value_m[right](0), 0);
+    EXPECT_NEAR(found.axes[1].value_m[0](1), 3e-6, 1e-15);
+    EXPECT_EQ(found.axes[1].value_m[1](1), 0);
+    // 1 + 0.1 / mm of the command: 2 at +10 mm, 0 at -10 mm.
+    EXPECT_NEAR(std::abs(found.budget[0].u_m[off](2)), 1e-6, 1e-15);
+    EXPECT_NEAR(found.budget[0].u_m[right](2), 0, 1e-15);
+    EXPECT_TRUE(found.beyond.empty());  // the ends of the path are those of the tables, to the bit
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

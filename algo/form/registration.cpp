@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "algo/form/evidence/shape_evidence.h"
 #include "algo/form/map_figures.h"
 #include "algo/form/surface.h"
 #include "algo/linear_algebra/least_squares.h"
@@ -20,10 +21,15 @@ namespace {
 
 constexpr std::size_t kForSearch = 1500, kForCourse = 50'000, kForFit = 1'000'000;  // pixels
 constexpr double kLeastOverlap = 0.1;                                               // of A's pixels
-constexpr double kSearchOverlap = 0.6;   // of a start that was searched for
-constexpr double kSearchShift = 0.2;     // of the size of A, to each side
-constexpr int kSearchSteps = 10;         // to each side
-constexpr double kSearchTurn_deg = 2;    // a step; five to each side
+constexpr double kSearchOverlap = 0.6;  // of a start that was searched for
+constexpr double kSearchShift = 0.2;    // of the size of A, to each side
+constexpr int kSearchSteps = 10;        // to each side
+constexpr double kSearchTurn_deg = 2;   // a step; five to each side
+// All other turns, by fewer pixels and larger steps; the best of them are fitted.
+constexpr std::size_t kForTurns = 400;
+constexpr int kTurnSteps = 4;  // of the shift, to each side
+constexpr double kTurnStep_deg = 5;
+constexpr std::size_t kTurnsFitted = 6;
 constexpr double kUndetermined = 1e-7;   // share of the slopes that no plane explains
 constexpr double kAlike = 1e-6;          // share of A's mean square: no search is needed
 constexpr double kFitted_pixels = 1e-4;  // the last step
@@ -214,6 +220,32 @@ MapPose searched(const Places& a, const Surface& b) {
   return best;
 }
 
+// The best shift of each turn beyond those of searched(), the best turn first: a part that was laid
+// into the machine the other way round.
+std::vector<MapPose> turned_starts(const Places& a, const Surface& b) {
+  std::vector<std::pair<double, MapPose>> starts;
+  const auto all = static_cast<double>(a.z_m.size());
+  const double step_m = kSearchShift * a.size_m / kTurnSteps;
+  for (double turn_deg = 15; turn_deg < 350; turn_deg += kTurnStep_deg) {
+    std::pair<double, MapPose> best{-1, {}};
+    for (int j = -kTurnSteps; j <= kTurnSteps; ++j)
+      for (int i = -kTurnSteps; i <= kTurnSteps; ++i) {
+        const MapPose pose{i * step_m, j * step_m, turn_deg * std::numbers::pi / 180};
+        const Sums sums = sums_at(a, b, pose, true);
+        if (sums.count < kSearchOverlap * all) continue;
+        const double mean_square = step_of(sums, true).mean_square;
+        if (best.first < 0 || mean_square < best.first) best = {mean_square, pose};
+      }
+    if (best.first >= 0) starts.push_back(best);
+  }
+  std::stable_sort(starts.begin(), starts.end(),
+                   [](const auto& x, const auto& y) { return x.first < y.first; });
+  std::vector<MapPose> poses;
+  for (const auto& [mean_square, pose] : starts)
+    if (poses.size() < kTurnsFitted) poses.push_back(pose);
+  return poses;
+}
+
 MapPose about_origin(const MapPose& about_middle, const Places& a) {
   const Turn turn(about_middle.turn_rad);
   MapPose pose = about_middle;
@@ -231,10 +263,15 @@ Fit registered(const SurfaceMap& a, const Surface& b, double pixel_m, const Plac
   for (const double z : few.z_m) own += z * z / static_cast<double>(few.z_m.size());
   // A start elsewhere has to be much better: the form of both may differ.
   if (fit.overlap < kSearchOverlap || fit.mean_square > kAlike * own) {
-    const Fit other = fitted_from(few, b, searched(few, b), pixel_m, 30);
-    if (other.overlap >= kSearchOverlap &&
-        (fit.overlap < kSearchOverlap || 4 * other.mean_square < fit.mean_square))
-      fit = other;
+    const auto take = [&](const MapPose& start) {
+      const Fit other = fitted_from(few, b, start, pixel_m, 30);
+      if (other.overlap >= kSearchOverlap &&
+          (fit.overlap < kSearchOverlap || 4 * other.mean_square < fit.mean_square))
+        fit = other;
+    };
+    take(searched(few, b));
+    if (fit.overlap < kSearchOverlap || fit.mean_square > kAlike * own)
+      for (const MapPose& start : turned_starts(places_of(flat, kForTurns), b)) take(start);
   }
   if (places.z_m.size() > kForCourse)
     fit = fitted_from(places_of(a, kForCourse), b, fit.pose, pixel_m, 20);
@@ -291,6 +328,9 @@ Result<Comparison> compare(const SurfaceMap& a, const SurfaceMap& b, Register ho
     const Fit fit = registered(a, surface, pixel_m, places);
     result.pose = about_origin(fit.pose, places);
     result.undetermined = fit.undetermined;
+    result.by_noise =
+        std::max(directions_without_shape(a, surface, result.pose), fit.undetermined) -
+        fit.undetermined;
   }
   result.difference = difference_at(a, surface, result.pose);
   MDOF_CHECK(check_overlap(a, b, result.difference.measured()));

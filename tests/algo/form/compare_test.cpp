@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "algo/form/map_figures.h"
 #include "algo/form/registration.h"
@@ -153,6 +154,48 @@ TEST(FormCompare, WhatIsNotToldIsNoneInTheMiddle) {
   EXPECT_NEAR(found->pose.turn_rad / kDeg, 2, 1e-3);
   EXPECT_NEAR(found->pose.shift_x_m, x_mid_m - (c * x_mid_m - s * y_mid_m), 2e-5);
   EXPECT_NEAR(found->pose.shift_y_m, y_mid_m - (s * x_mid_m + c * y_mid_m), 2e-5);
+}
+
+// The other way round in the machine, and any other way. Shifted, too.
+TEST(FormCompare, FindsAnyTurn) {
+  const SurfaceMap a = map_of(bumps);
+  for (const double turn_deg : {180.0, 90.0, -90.0, 133.0, -47.0, 178.0}) {
+    const auto found =
+        compare(a, moved(1e-3, -2e-3, turn_deg, -45e-3, 0.5e-3, 181), Register::rigid);
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_NEAR(std::remainder(found->pose.turn_rad / kDeg - turn_deg, 360), 0, 1e-3) << turn_deg;
+    EXPECT_NEAR(found->pose.shift_x_m, 1e-3, 1e-6);
+    EXPECT_NEAR(found->pose.shift_y_m, -2e-3, 1e-6);
+    EXPECT_LT(found->rms_m, 0.5e-9);
+    EXPECT_EQ(found->undetermined + found->by_noise, 0u);
+  }
+}
+
+SurfaceMap with_noise(SurfaceMap map, unsigned seed, double sd_m) {
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal(0, sd_m);
+  for (double& z : map.z_m) z += normal(engine);
+  return map;
+}
+
+// A plane and a sphere have no place, a cylinder (here along y) and a ridge have a turn alone;
+// their noise has none in common. A real shape under the same noise has all.
+TEST(FormCompare, NoiseTellsNoPlace) {
+  const auto plane = [](double, double) { return 0.0; };
+  const auto ball = [](double x, double y) { return (x * x + y * y) / 2; };
+  const auto cylinder = [](double x, double) { return x * x / 2; };
+  const auto count = [](const auto& shape, unsigned seed) {
+    const auto found = compare(with_noise(map_of(shape), seed, 20e-9),
+                               with_noise(map_of(shape), seed + 100, 20e-9), Register::rigid);
+    EXPECT_TRUE(found);
+    return found->undetermined + found->by_noise;
+  };
+  for (const unsigned seed : {1u, 2u, 3u}) {
+    EXPECT_EQ(count(plane, seed), 3u);
+    EXPECT_EQ(count(ball, seed), 3u);
+    EXPECT_EQ(count(cylinder, seed), 2u);
+    EXPECT_EQ(count(bumps, seed), 0u);
+  }
 }
 
 // Turned about the middle of A, and no shift: the turn alone says that it is not yet fitted.

@@ -10,6 +10,8 @@ namespace {
 
 constexpr int kMostSteps = 50;
 constexpr double kStill_m = 1e-12;
+// Axes that are this near to parallel are parallel: cos 90° is 6e-17, and places are rounded.
+constexpr double kParallel = 1e-9;
 
 using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
@@ -71,7 +73,7 @@ Result<CompensatingCommand> compensating_command(const Machine& machine, const C
   if (directions.empty())
     return bad_input("the chain " + machine.chain.text +
                      " has no linear axis, so there is no commanded position to correct");
-  const LeastNorm inverse(jacobian(machine, wanted, directions));
+  const LeastNorm inverse(jacobian(machine, wanted, directions), kParallel);
   const Eigen::Vector3d target = nominal_tool(machine, wanted).p;
   CompensatingCommand c;
   c.command = wanted;
@@ -104,11 +106,18 @@ Command command_at_place(const Machine& machine, const Eigen::Vector3d& place_m)
   return command;
 }
 
+Eigen::MatrixXd fixed_directions(const Machine& machine, const Command& command) {
+  const auto directions = linear_axes(machine);
+  if (directions.empty()) return Eigen::Matrix3d::Identity();
+  const Eigen::MatrixXd J = jacobian(machine, command, directions);
+  return LeastNorm(J.transpose(), kParallel).null_space();
+}
+
 std::vector<ErrorDerivative> derivatives_of_command(const Machine& machine,
                                                     const Command& command) {
   std::vector<ErrorDerivative> all = derivatives(machine, command);
   const auto directions = linear_axes(machine);
-  const LeastNorm inverse(jacobian(machine, command, directions));
+  const LeastNorm inverse(jacobian(machine, command, directions), kParallel);
   for (ErrorDerivative& d : all) {
     const Eigen::VectorXd step = inverse.solve(Eigen::VectorXd(d.d.head<3>()));
     d.d.head<3>().setZero();
@@ -122,7 +131,7 @@ std::array<double, 3> reversal_of_command(const Machine& machine, const Command&
   std::array<double, 3> sum{};
   const auto directions = linear_axes(machine);
   if (directions.empty()) return sum;
-  const LeastNorm inverse(jacobian(machine, command, directions));
+  const LeastNorm inverse(jacobian(machine, command, directions), kParallel);
   const auto mean = values_at(machine, command, MachineApproach::mean);
   for (const char axis : axes_by_approach(machine)) {
     const auto tool = [&](MachineApproach approach) {

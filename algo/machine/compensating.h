@@ -28,6 +28,11 @@ Result<CompensatingCommand> compensating_command(const Machine& machine, const C
 // schema/rig/correction.h). Rotary axes are at 0, and so is an axis that the chain has not.
 Command command_at_place(const Machine& machine, const Eigen::Vector3d& place_m);
 
+// Directions of the work's coordinates (orthonormal columns) in which no linear axis moves the tool
+// while the rotary axes are where they are: two axes are parallel there, or the chain has fewer
+// than three. No columns: there is none.
+Eigen::MatrixXd fixed_directions(const Machine& machine, const Command& command);
+
 // derivatives() with the place in the commands of X, Y, Z in place of the work's coordinates, in
 // which a turned rotary axis has other directions: what a unit of each error does to the
 // correction, but for its sign. 0 for an axis that the chain has not.

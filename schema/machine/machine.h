@@ -138,6 +138,9 @@ struct Machine {
   bool names_stored_rows() const;  // so that it needs the database
 };
 
+// The axes of the chain alone, without errors; where they are is not known.
+Machine nominal_machine(const Chain& chain);
+
 // Whether its body goes along a line, as a linear axis or with one.
 bool moves_along(const MachineFrame& frame);
 

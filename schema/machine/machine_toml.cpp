@@ -176,7 +176,7 @@ MachineFrame frame_of(const ChainAxis& axis) {
 }
 
 void read_axes(TomlTable& root, Machine& machine) {
-  for (const ChainAxis& axis : machine.chain.axes) machine.frames.push_back(frame_of(axis));
+  machine.frames = nominal_machine(machine.chain).frames;
   std::string read;
   for (TomlTable& table : root.tables("axis")) {
     const std::string id = table.string("id");
@@ -262,6 +262,13 @@ void read_fixed_frames(TomlTable& root, Machine& machine) {
 }
 
 }  // namespace
+
+Machine nominal_machine(const Chain& chain) {
+  Machine machine;
+  machine.chain = chain;
+  for (const ChainAxis& axis : chain.axes) machine.frames.push_back(frame_of(axis));
+  return machine;
+}
 
 Result<Machine> parse_machine(std::string_view text, const std::string& source_name) {
   MDOF_TRY(TomlTable root, TomlTable::parse(text, source_name));

@@ -1,13 +1,16 @@
 #include "daemon/measure/machine/volumetric.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "algo/compensation/residual_limits.h"
+#include "algo/machine/compensating.h"
 #include "daemon/measure/machine/stored_errors.h"
 #include "daemon/paths.h"
+#include "schema/base/number/number_text.h"
 #include "schema/imported/series.h"
 #include "schema/units.h"
 
@@ -52,6 +55,46 @@ Notices left_notices(const VolumetricTable& table, std::size_t k) {
   return left;
 }
 
+// "Z", "0.866 X + 0.5 Z": a direction; its sense says nothing, so its first number is positive.
+std::string direction_text(const Eigen::Vector3d& d) {
+  std::string text;
+  double sense = 0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double x = std::round(d(k) * 1000) / 1000;
+    if (x == 0) continue;
+    if (sense == 0) sense = std::copysign(1, x);
+    if (!text.empty()) text += x * sense > 0 ? " + " : " - ";
+    text += (std::abs(x) == 1 ? "" : plain_number(std::abs(x)) + " ") + "XYZ"[k];
+  }
+  return text;
+}
+
+// A direction of the work in which no axis moves the tool, because where the rotary axes stand two
+// linear axes are parallel. Doubtful as what stays of one command, by the same limit. A machine
+// that has no third axis is no surprise: what stays is stated, as of every table.
+Notices fixed_direction(const VolumetricTable& table) {
+  double largest = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    largest = std::max(largest, std::abs(algo::largest_correction_m(table, k)));
+  const double limit = algo::ResidualLimits{}.of(largest + table.place_left_m, kStepOfTables_m);
+  if (!(table.place_left_m > limit)) return {};
+  const Machine machine = nominal_machine(table.machine);
+  algo::Command at{};
+  std::copy(table.rotary_rad.begin(), table.rotary_rad.end(), at.begin() + 3);
+  const Eigen::MatrixXd fixed = algo::fixed_directions(machine, at);
+  std::vector<std::string> axes, directions;
+  for (const MachineFrame& frame : machine.frames)
+    if (frame.kind == FrameKind::linear) axes.push_back(frame.id);
+  if (static_cast<std::size_t>(fixed.cols()) + axes.size() <= 3) return {};
+  for (const Eigen::Vector3d direction : fixed.colwise())
+    directions.push_back(direction_text(direction));
+  return {notice(NoticeCode::volume_direction_left, "",
+                 {{"axes", names_of(axes)},
+                  {"direction", names_of(directions)},
+                  {"left_um", to_um(table.place_left_m)},
+                  {"limit_um", to_um(limit)}})};
+}
+
 // What the table itself says of its errors.
 Notices own_notices(const VolumetricTable& table) {
   Notices own;
@@ -62,6 +105,7 @@ Notices own_notices(const VolumetricTable& table) {
     own.push_back(
         notice(NoticeCode::volume_beyond_tables, "", {{"errors", names_of(table.beyond_tables)}}));
   for (std::size_t k = 0; k < 3; ++k) append(own, left_notices(table, k));
+  append(own, fixed_direction(table));
   return own;
 }
 

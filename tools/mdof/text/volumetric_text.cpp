@@ -5,6 +5,7 @@
 
 #include "daemon/measure/gate/active_json.h"
 #include "schema/base/json_writer.h"
+#include "schema/base/number/number_text.h"
 #include "schema/units.h"
 #include "schema/volumetric/volumetric_json.h"
 #include "tools/mdof/csv/csv_text.h"
@@ -15,7 +16,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::string_view kAxes = "XYZ";
+constexpr std::string_view kAxes = "XYZ", kRotary = "ABC";
 
 std::string state_text(std::int64_t generation) {
   return generation > 0 ? "active, generation " + std::to_string(generation) : "not active";
@@ -114,13 +115,21 @@ std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
 
 std::string volumetric_csv(const VolumetricTable& t) {
   CsvText csv;
-  csv.cells({"X_mm", "Y_mm", "Z_mm", "correction_X_um", "correction_Y_um", "correction_Z_um",
-             "u_X_um", "u_Y_um", "u_Z_um", "u_common_X_um", "u_common_Y_um", "u_common_Z_um",
-             "u_independent_X_um", "u_independent_Y_um", "u_independent_Z_um", "u_covers"});
+  csv.cells({"X_mm", "Y_mm", "Z_mm"});
+  std::vector<std::string> rotary;  // of all nodes the same
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!t.machine.find(kRotary[k])) continue;
+    csv.cell(std::string(1, kRotary[k]) + "_deg");
+    rotary.push_back(plain_number(to_deg(t.rotary_rad[k]), 9));
+  }
+  csv.cells({"correction_X_um", "correction_Y_um", "correction_Z_um", "u_X_um", "u_Y_um", "u_Z_um",
+             "u_common_X_um", "u_common_Y_um", "u_common_Z_um", "u_independent_X_um",
+             "u_independent_Y_um", "u_independent_Z_um", "u_covers"});
   csv.end_row();
   const std::string covers = covers_text(t);
   for (std::size_t node = 0; node < t.nodes(); ++node) {
     for (const double x : t.command_at(node)) csv.cell(to_mm(x));
+    for (const std::string& at : rotary) csv.cell(at);
     for (const double x : t.correction_m[node]) csv.cell(to_um(x) + 0.0);  // -0 is 0
     for (const Vec3& u : {t.u_m[node], t.u_common_at(node), t.u_independent_at(node)})
       for (const double x : u) csv.cell(to_um(x));

@@ -185,8 +185,8 @@ void write_equipment(Xml& xml, const Rig& rig) {
   xml.close();
 }
 
-void write_decisions(Xml& xml, const ReportRun& run) {
-  for (const auto& [figure, decision] : run.decided) {
+void write_decisions(Xml& xml, const std::vector<report::Decided>& decided) {
+  for (const auto& [figure, decision] : decided) {
     const charts::Key key = charts::split_key(figure);
     const auto shown = [&](double si) {  // to people; the figure itself is above
       return charts::number_text(to_key_unit(si), 4) + " " + key.unit;
@@ -239,7 +239,7 @@ void write_meta_data(Xml& xml, const ReportRun& run) {
   if (const std::string approach = daemon::only_approach(run.results.run); !approach.empty())
     write_declaration(xml, kMetaData, "only measured approach",
                       approach + "; the reversal is unknown");
-  write_decisions(xml, run);
+  write_decisions(xml, run.decided);
   write_notices(xml, run);
   write_declaration(xml, kMetaData, "SHA-256 of the recording", header.provenance.recording_sha256);
   write_declaration(xml, kMetaData, "SHA-256 of the result", run.result_sha256);
@@ -277,7 +277,8 @@ std::string not_declared_text(const Budget& budget) {
              : ". Uncertainties that the rigs do not declare, so that U is too small: " + keys;
 }
 
-void write_squareness(Xml& xml, const charts::SquarenessResults& of) {
+void write_squareness(Xml& xml, const charts::SquarenessResults& of,
+                      const std::vector<report::Decided>& decided) {
   const AxisPair axes = of.squareness.axes;
   xml.open("dcc:measurementResult");
   write_text(xml, "dcc:name",
@@ -291,6 +292,14 @@ void write_squareness(Xml& xml, const charts::SquarenessResults& of) {
   write_figure(xml, of.budget, squareness_name(axes));
   close_result(xml);
   xml.close();
+  std::vector<report::Decided> of_pair;
+  for (const report::Decided& each : decided)
+    if (each.figure == of.budget.figure) of_pair.push_back(each);
+  if (!of_pair.empty()) {
+    xml.open("dcc:measurementMetaData");
+    write_decisions(xml, of_pair);
+    xml.close();
+  }
   xml.close();
 }
 
@@ -315,7 +324,7 @@ void write_measurements(Xml& xml, const Report& report) {
   xml.close();
   for (const ReportRun& run : report.runs) write_run(xml, run);
   for (const auto& pair : report.squareness)
-    if (pair.results) write_squareness(xml, *pair.results);
+    if (pair.results) write_squareness(xml, *pair.results, report.decided);
   xml.close();
 }
 

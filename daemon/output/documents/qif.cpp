@@ -74,26 +74,29 @@ const char* status_of(Conformity conformity) {
                                                  : "INDETERMINATE";
 }
 
+void add_figure(Document& document, MeasuredRun& measured, const Budget& b,
+                Characteristic characteristic, const std::vector<report::Decided>& decided) {
+  Measured of{document.characteristics.size(),
+              to_key_unit(b.value),
+              to_key_unit(b.u),
+              to_key_unit(b.U),
+              b.coverage_factor,
+              {},
+              "",
+              "NOT_ANALYZED"};
+  for (const auto& [figure, decision] : decided)
+    if (figure == b.figure) {
+      characteristic.limit = to_key_unit(decision.limit);
+      of.status = status_of(decision.conformity);
+      of.reason = decision.reason;
+    }
+  document.characteristics.push_back(std::move(characteristic));
+  measured.all.push_back(std::move(of));
+}
+
 void add_figures(Document& document, MeasuredRun& measured) {
-  for (const Budget& b : measured.run->results.figures.budgets) {
-    Measured of{document.characteristics.size(),
-                to_key_unit(b.value),
-                to_key_unit(b.u),
-                to_key_unit(b.U),
-                b.coverage_factor,
-                {},
-                "",
-                "NOT_ANALYZED"};
-    Characteristic characteristic{b.figure, "", {}};
-    for (const auto& [figure, decision] : measured.run->decided)
-      if (figure == b.figure) {
-        characteristic.limit = to_key_unit(decision.limit);
-        of.status = status_of(decision.conformity);
-        of.reason = decision.reason;
-      }
-    document.characteristics.push_back(std::move(characteristic));
-    measured.all.push_back(std::move(of));
-  }
+  for (const Budget& b : measured.run->results.figures.budgets)
+    add_figure(document, measured, b, {b.figure, "", {}}, measured.run->decided);
 }
 
 void add_points(Document& document, MeasuredRun& measured) {
@@ -139,21 +142,13 @@ Document document_of(const Report& report) {
   for (const auto& pair : report.squareness) {
     if (!pair.results) continue;
     const Squareness& s = pair.results->squareness;
-    const Budget& b = pair.results->budget;
     // Of two runs: stated with the last.
-    document.runs.back().all.push_back({document.characteristics.size(),
-                                        to_key_unit(b.value),
-                                        to_key_unit(b.u),
-                                        to_key_unit(b.U),
-                                        b.coverage_factor,
-                                        {},
-                                        "",
-                                        "NOT_ANALYZED"});
-    document.characteristics.push_back(
-        {b.figure,
-         "of runs " + std::to_string(s.run_a) + " and " + std::to_string(s.run_b),
-         {},
-         squareness_sense(s.axes, " deg")});
+    add_figure(document, document.runs.back(), pair.results->budget,
+               {pair.results->budget.figure,
+                "of runs " + std::to_string(s.run_a) + " and " + std::to_string(s.run_b),
+                {},
+                squareness_sense(s.axes, " deg")},
+               report.decided);
   }
   return document;
 }

@@ -71,7 +71,8 @@ void write_title(Html& html, const Report& report) {
     html.element("p", phrase(Phrase::english_texts, language), "quiet");
 }
 
-void write_squareness(Html& html, const charts::SquarenessOfPair& pair, Language language) {
+void write_squareness(Html& html, const charts::SquarenessOfPair& pair,
+                      const std::vector<Decided>& decided, Language language) {
   const std::string a(1, letter(pair.axes.a)), b_axis(1, letter(pair.axes.b));
   html.element("h2", phrase(Phrase::squareness, language, {a, b_axis}));
   if (!pair.results) {
@@ -96,6 +97,13 @@ void write_squareness(Html& html, const charts::SquarenessOfPair& pair, Language
   for (const std::string& key : b.not_declared) keys += (keys.empty() ? "" : ", ") + key;
   if (!keys.empty()) html.element("p", phrase(Phrase::not_declared, language, {keys}));
   html.element("p", phrase(Phrase::at_the_fixture, language), "quiet");
+  std::vector<Decided> of_pair;
+  for (const Decided& each : decided)
+    if (each.figure == b.figure) of_pair.push_back(each);
+  if (!of_pair.empty()) {
+    html.element("h3", of(Phrase::decision));
+    write_decided(html, of_pair, {b}, language);
+  }
   html.figure(charts::squareness_svg(*pair.results, language));
 }
 
@@ -147,7 +155,7 @@ std::string report_html(const Report& report) {
     write_points(html, run, language);
     write_provenance(html, run, language);
   }
-  for (const auto& pair : report.squareness) write_squareness(html, pair, language);
+  for (const auto& pair : report.squareness) write_squareness(html, pair, report.decided, language);
   write_attachments(html, report);
   return html.take(output::code_of(language), phrase(Phrase::report_title, language),
                    !report.head.empty());

@@ -43,6 +43,7 @@ struct Report {
   std::vector<ReportRun> runs;
   std::vector<daemon::Comparison> comparisons;       // before and after, an axis each
   std::vector<charts::SquarenessOfPair> squareness;  // XY, XZ, YZ, where both have one run
+  std::vector<Decided> decided;                      // of squareness that has a tolerance
   std::vector<Attachment> attachments;
   std::string software_version;  // that made the report
   Language language = Language::english;

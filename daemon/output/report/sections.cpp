@@ -239,9 +239,15 @@ void write_decisions(Html& html, const ReportRun& run, Language language) {
     html.element("p", of(Phrase::no_decision));
     return;
   }
+  write_decided(html, run.decided, run.results.figures.budgets, language);
+}
+
+void write_decided(Html& html, const std::vector<Decided>& decided,
+                   const std::vector<Budget>& budgets, Language language) {
+  const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
   std::vector<std::vector<std::string>> rows;
-  for (const auto& [figure, decision] : run.decided) {
-    const Budget* budget = find_budget(run.results.figures.budgets, figure);
+  for (const auto& [figure, decision] : decided) {
+    const Budget* budget = find_budget(budgets, figure);
     const double U = budget ? to_key_unit(budget->U) : std::nan("");
     rows.push_back({charts::split_key(figure).name,
                     budget ? value_text(to_key_unit(budget->value), U) : "–",

@@ -10,6 +10,9 @@ void write_conditions(Html& html, const ReportRun& run, Language language);
 void write_fixture(Html& html, const ReportRun& run, Language language);
 void write_results(Html& html, const ReportRun& run, Language language);
 void write_decisions(Html& html, const ReportRun& run, Language language);
+// The table of the decisions alone.
+void write_decided(Html& html, const std::vector<Decided>& decided,
+                   const std::vector<Budget>& budgets, Language language);
 void write_notices(Html& html, const ReportRun& run, Language language);
 void write_charts(Html& html, const ReportRun& run, Language language);
 void write_points(Html& html, const ReportRun& run, Language language);

@@ -100,21 +100,47 @@ Result<std::vector<daemon::Comparison>> compare_pairs(store::Store& store,
   return found;
 }
 
-// Each tolerance has to be that of a figure of some run: one that decides nothing is a mistake.
+// Why nothing can be decided of any of the two runs; empty: it can be.
+std::string against_both(const report::Report& all, const Squareness& of) {
+  for (const report::ReportRun& run : all.runs) {
+    const std::int64_t id = run.results.run.header.id;
+    if ((id == of.run_a || id == of.run_b) && !run.against_decision.empty())
+      return run.against_decision;
+  }
+  return "";
+}
+
+// False: no pair of runs has it. Why a pair has none is in `why`.
+bool decide_squareness(report::Report& all, const std::string& figure, double tolerance,
+                       std::string& why) {
+  for (const charts::SquarenessOfPair& pair : all.squareness) {
+    if (figure != std::string(squareness_name(pair.axes)) + "_urad") continue;
+    if (!pair.results) {
+      why = pair.reason;
+      return false;
+    }
+    all.decided.push_back({figure, algo::decision(pair.results->budget, from_um(tolerance),
+                                                  against_both(all, pair.results->squareness))});
+    return true;
+  }
+  return false;
+}
+
+// Each tolerance has to be that of a figure of some run, or of a squareness: one that decides
+// nothing is a mistake.
 Status decide(report::Report& all, const std::vector<std::pair<std::string, double>>& tolerances) {
   for (const auto& [figure, tolerance] : tolerances) {
-    bool found = false;
+    std::string why =
+        "no run of the report has this figure with an uncertainty; a report "
+        "without --tolerance lists the figures";
+    bool found = decide_squareness(all, figure, tolerance, why);
     for (report::ReportRun& run : all.runs)
       if (const Budget* budget = find_budget(run.results.figures.budgets, figure)) {
         run.decided.push_back(
             {figure, algo::decision(*budget, from_um(tolerance), run.against_decision)});
         found = true;
       }
-    if (!found)
-      return fail(ErrorCode::usage,
-                  "--tolerance " + figure +
-                      ": no run of the report has this figure with an uncertainty; a report "
-                      "without --tolerance lists the figures");
+    if (!found) return fail(ErrorCode::usage, "--tolerance " + figure + ": " + why);
   }
   return {};
 }
@@ -135,7 +161,7 @@ void add_report_options(CLI::App& command, ReportRequest& request) {
   command
       .add_option("--tolerance", request.tolerances,
                   "Tolerance (largest permitted value) of a figure, in the unit of the figure (ISO "
-                  "14253-1:2017), such as EYX_straightness_um=0.5")
+                  "14253-1:2017), such as EYX_straightness_um=0.5 or EC0Y_urad=20")
       ->type_name("NAME=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -157,10 +183,10 @@ Result<report::Report> report_of_runs(const ReportRequest& request) {
     all.runs.push_back(std::move(run));
   }
   MDOF_TRY(all.facts, facts_of(all.runs, request.set));
-  MDOF_CHECK(decide(all, tolerances));
   std::vector<const charts::StatedResults*> results;
   for (const report::ReportRun& run : all.runs) results.push_back(&run.results);
   all.squareness = squareness_of_runs(store, results);
+  MDOF_CHECK(decide(all, tolerances));
   if (request.before_after) {
     MDOF_TRY(all.comparisons, compare_pairs(store, all.runs, reference));
   }

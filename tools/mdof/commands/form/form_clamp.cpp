@@ -64,7 +64,8 @@ Result<Clamped> clamped(const FormClampCommand& o) {
               "the clamping error of the other pixels is unknown");
   if (!o.thickness_mm) return found;
   const algo::Plate plate{from_mm(*o.thickness_mm), *o.young_GPa * 1e9, *o.poisson};
-  auto stress = algo::plate_stress(found.clamping.clamping, plate, from_mm(o.smooth_mm));
+  // What springs back carries the stress; the plastic part stays without a load.
+  auto stress = algo::plate_stress(found.clamping.elastic, plate, from_mm(o.smooth_mm));
   if (!stress) return in_context("--smooth-mm", std::move(stress.error()));
   found.stress = *stress;
   if (o.yield_MPa) found.is_elastic = found.stress->max_Pa < *o.yield_MPa * kPaPerMPa;
@@ -133,10 +134,10 @@ std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
     text += "plastic deformation that K does not explain: RMS " +
             in_um(*found.clamping.K_unexplained_rms_m) + " µm\n";
   if (!found.stress) return text;
-  text += "largest stress " + fixed(found.stress->max_Pa / kPaPerMPa, 3) +
-          " MPa (von Mises) at x " + in_mm(found.stress->x_m) + " mm, y " +
-          in_mm(found.stress->y_m) + " mm; curvature fitted over squares of " +
-          plain_number(o.smooth_mm) + " mm\n";
+  text += "largest stress of the elastic deformation " +
+          fixed(found.stress->max_Pa / kPaPerMPa, 3) + " MPa (von Mises) at x " +
+          in_mm(found.stress->x_m) + " mm, y " + in_mm(found.stress->y_m) +
+          " mm; curvature fitted over squares of " + plain_number(o.smooth_mm) + " mm\n";
   if (found.is_elastic)
     text += std::string(*found.is_elastic ? "elastic: the largest stress is below"
                                           : "NOT ELASTIC: the largest stress is not below") +

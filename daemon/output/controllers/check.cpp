@@ -161,9 +161,9 @@ Series without_missing(const Series& s) {
 // The constant that the file lacks: the machine's zero is moved by it, which is no error. Beyond
 // the file's ends the controller holds them, also where more was measured.
 double zero_of(const Series& s, const AppliedCorrection& applied, const ExportOptions& options) {
-  if (!options.home_m) return 0;
-  const double held_m =
-      std::clamp(*options.home_m, applied.position_m.front(), applied.position_m.back());
+  const std::optional<double> home_m = options.home_m(applied.along);
+  if (!home_m) return 0;
+  const double held_m = std::clamp(*home_m, applied.position_m.front(), applied.position_m.back());
   return s.factor * mean_error_at(s, held_m);
 }
 

@@ -117,7 +117,7 @@ Result<Series> positioning_of(const CompensationTable& table, std::size_t most,
     return bad_input("table " + std::to_string(table.id) + " has no " + error + ", but " +
                          controller + " stores only this error",
                      Remedy::import_positioning);
-  if (options.home_m)
+  if (!options.homes.empty())
     out.notes.push_back("home_mm has no effect, because " + controller +
                         " contains the errors unchanged");
   return fitted(*along, table.id, most, options, out);

@@ -37,10 +37,21 @@ struct Series {
 };
 
 struct ExportOptions {
-  double tolerance_m = 0;        // points are left out within it; 0: none is. Of angles in rad
-  bool one_approach = false;     // one value for both approaches, though a reversal stays
-  bool cut_range = false;        // the longest range without a missing value, instead of refusing
-  std::optional<double> home_m;  // the correction is 0 there (mean of both approaches)
+  double tolerance_m = 0;     // points are left out within it; 0: none is. Of angles in rad
+  bool one_approach = false;  // one value for both approaches, though a reversal stays
+  bool cut_range = false;     // the longest range without a missing value, instead of refusing
+  // Where the correction of an axis is 0 (mean of both approaches); axis 0: a number for one axis
+  // that was not named. An axis without one is not shifted.
+  struct Home {
+    char axis = 0;
+    double at_m = 0;
+  };
+  std::vector<Home> homes;
+  std::optional<double> home_m(char axis) const {
+    for (const Home& home : homes)
+      if (home.axis == axis) return home.at_m;
+    return {};
+  }
   // What may be left with the correction: no more than this beside the tolerance, of angles in rad,
   // and no more than this share of what there was; a step of the controller's numbers is always.
   double residual_m = algo::ResidualLimits{}.most_m;

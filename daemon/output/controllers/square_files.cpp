@@ -35,7 +35,7 @@ Result<Export> exported(const SquareAxes& axes, const ExportOptions& options, co
                         const std::string& line) {
   Export out;
   if (options.tolerance_m > 0) out.notes.emplace_back("tolerance_um has no effect on an angle");
-  if (options.home_m) out.notes.emplace_back("home_mm has no effect on an angle");
+  if (!options.homes.empty()) out.notes.emplace_back("home_mm has no effect on an angle");
   std::vector<std::string> head = head_of(axes, options);
   head.insert(head.end(), how.begin(), how.end());
   out.files.push_back({name, commented(head, sign) + line + "\n"});

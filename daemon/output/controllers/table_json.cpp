@@ -83,7 +83,7 @@ Result<Export> write_table_json(const std::vector<CompensationTable>& tables,
     for (const Series& s : series_of(table))
       out.written.push_back({s.error, s.position_m.size(), s.position_m.size(), 0});
   }
-  if (options.tolerance_m > 0 || options.cut_range || options.home_m)
+  if (options.tolerance_m > 0 || options.cut_range || !options.homes.empty())
     out.notes.emplace_back(
         "the JSON contains the unchanged table; tolerance_um, cut_range and home_mm have no "
         "effect");

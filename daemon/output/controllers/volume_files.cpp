@@ -103,7 +103,7 @@ std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& 
 void note_options(const ExportOptions& options, Export& out) {
   if (options.tolerance_m > 0)
     out.notes.emplace_back("tolerance_um has no effect, because all nodes are written");
-  if (options.home_m)
+  if (!options.homes.empty())
     out.notes.emplace_back("home_mm has no effect, because the grid is written unchanged");
 }
 

@@ -44,13 +44,13 @@ std::vector<int> joints_of(char axis, const ExportOptions& options) {
 
 // The constant that makes the trim 0 at home; where nobody said where that is, what it is at 0.
 double zero_of(const Series& s, const ExportOptions& options, Export& out) {
-  const double there = s.factor * mean_error_at(s, options.home_m.value_or(0.0));
+  const std::optional<double> home_m = options.home_m(s.along);
+  const double there = s.factor * mean_error_at(s, home_m.value_or(0.0));
   const std::string um = plain_number(to_um(there)) + " um";
-  if (options.home_m) {
-    out.notes.push_back(s.error + ": " + um +
-                        " was subtracted from every trim, so the trim is 0 at home (" +
-                        plain_number(to_mm(*options.home_m)) +
-                        " mm) and the zero of the axis moves by this amount");
+  if (home_m) {
+    out.notes.push_back(
+        s.error + ": " + um + " was subtracted from every trim, so the trim is 0 at home (" +
+        plain_number(to_mm(*home_m)) + " mm) and the zero of the axis moves by this amount");
     return there;
   }
   if (std::abs(there) > 1e-9)

@@ -215,7 +215,7 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
   MDOF_CHECK(check_one_table_an_axis(tables));
   Export out;
   const ExportOptions as_measured = without_tolerance(options, out);
-  if (options.home_m)
+  if (!options.homes.empty())
     out.notes.emplace_back("home_mm has no effect, because CEC contains the errors unchanged");
   std::string head, text;
   std::size_t t = 0;

@@ -37,10 +37,11 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
       ->check(finite_number())
       ->capture_default_str();
   add_limit_options(command, request.limits);
-  auto* home = command.add_option("--home-mm", request.home_mm,
-                                  "Home position of the axis; mdof shifts the table so that the "
-                                  "correction is 0 at this position");
-  home->each([&request](const std::string&) { request.home_given = true; });
+  command
+      .add_option("--home-mm", request.home_mm,
+                  "Home position of each axis, such as X=10,Y=-20, or one number if there is one "
+                  "table; mdof shifts the table so that the correction is 0 at this position")
+      ->type_name("AXIS=MM,…");
   command.add_flag("--cut-range", request.cut_range,
                    "If values are missing, export the longest range without a gap");
   command.add_flag(

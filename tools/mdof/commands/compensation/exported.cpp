@@ -13,6 +13,7 @@
 #include "schema/rig/correction.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/compensation/active_table.h"
+#include "tools/mdof/commands/compensation/home_positions.h"
 #include "tools/mdof/linuxcnc/joint_ramps.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/stored/database.h"
@@ -29,8 +30,8 @@ Status check_request(const ExportRequest& request) {
     return fail(
         ErrorCode::usage,
         "missing option --format NAME; to list the formats, use: mdof compensation export --list");
-  if (!std::isfinite(request.tolerance_um) || !std::isfinite(request.home_mm))
-    return fail(ErrorCode::usage, "--tolerance-um and --home-mm must be finite numbers");
+  if (!std::isfinite(request.tolerance_um))
+    return fail(ErrorCode::usage, "--tolerance-um must be a finite number");
   if (request.tolerance_um > kMostTolerance_um)
     return fail(ErrorCode::usage,
                 "--tolerance-um " + plain_number(request.tolerance_um, 3) +
@@ -228,6 +229,9 @@ Status export_axes(store::Store& store, const ExportRequest& request,
     MDOF_CHECK(take_one_approach(table, request, out));
     tables.push_back(std::move(table));
   }
+  std::string axes;
+  for (const CompensationTable& table : tables) axes += letter(table.axis);
+  if (out.format->takes_home) MDOF_CHECK(give_homes_to(axes, out.options.homes));
   MDOF_TRY(out.files, out.format->axes.write(tables, out.options));
   MDOF_TRY(out.check, controllers::check_export(*out.format, tables, out.files, out.options));
   return {};
@@ -338,7 +342,7 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   out.options.one_approach = request.one_approach;
   MDOF_TRY(const algo::TableLimits limits, request.limits.limits());
   mark_limits(request, limits, out.options.marks);
-  if (request.home_given) out.options.home_m = from_mm(request.home_mm);
+  MDOF_TRY(out.options.homes, home_positions(request.home_mm));
   MDOF_CHECK(take_joints(request, out));
   MDOF_CHECK(take_ramps(request, out));
   MDOF_CHECK(take_siemens_limits(request, out));

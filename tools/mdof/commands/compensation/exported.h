@@ -25,7 +25,8 @@ struct ExportRequest {
   std::string database, format;
   std::vector<std::int64_t> tables;
   std::string squareness;  // its number or "latest"; instead of tables
-  double tolerance_um = 0, home_mm = 0;
+  double tolerance_um = 0;
+  std::string home_mm;  // "10", "X=10,Y=20"; empty: not given
   double residual_um = to_um(algo::ResidualLimits{}.most_m);
   double residual_percent = 100 * algo::ResidualLimits{}.share;
   std::string joints, units = "mm";                    // "Y=1,Y=3"; of LinuxCNC
@@ -34,7 +35,7 @@ struct ExportRequest {
   std::size_t siemens_points = 0, siemens_tables = 0;  // 0: the default
   bool one_approach = false;
   LimitOptions limits;
-  bool home_given = false, cut_range = false, not_in_force = false, unverified_sign = false;
+  bool cut_range = false, not_in_force = false, unverified_sign = false;
   daemon::Consent consent;
 };
 void add_export_options(CLI::App& command, ExportRequest& request);

@@ -1,0 +1,22 @@
+// --home-mm of mdof compensation export and check.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "daemon/output/controllers/export.h"
+#include "schema/base/result.h"
+
+namespace mdof::tools {
+
+using Homes = std::vector<controllers::ExportOptions::Home>;
+
+// "X=10,Y=-20", or one number, whose axis is not known yet. Error: what is neither.
+Result<Homes> home_positions(const std::string& text);
+
+// A number for one axis becomes that of the only table. Errors: a number for several tables; a home
+// of an axis whose table is not among them.
+Status give_homes_to(std::string_view axes, Homes& homes);
+
+}  // namespace mdof::tools

@@ -3,12 +3,15 @@
 #include <numbers>
 
 #include "algo/form/registration.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
+#include "schema/notice/notice_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/form/map_file.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -26,6 +29,12 @@ algo::Register register_from(const std::string& name) {
                            : algo::Register::none;
 }
 
+Notices notices_of(const algo::Comparison& found, const FormCompareCommand& o) {
+  const std::size_t directions = found.undetermined + found.by_noise;
+  if (directions == 0) return {};
+  return {notice(NoticeCode::map_movements_undetermined, o.a, {{"directions", directions}})};
+}
+
 std::string compare_json(const algo::Comparison& found, const FormCompareCommand& o) {
   JsonWriter json;
   json.begin_object()
@@ -39,8 +48,10 @@ std::string compare_json(const algo::Comparison& found, const FormCompareCommand
       .field("turn_deg", found.pose.turn_rad * 180 / std::numbers::pi)
       .field("pixels", static_cast<std::uint64_t>(found.pixels))
       .field("register", o.register_how)
-      .field("undetermined_directions", static_cast<std::uint64_t>(found.undetermined))
-      .end_object();
+      .field("undetermined_directions",
+             static_cast<std::uint64_t>(found.undetermined + found.by_noise));
+  write_notices(json, "notices", notices_of(found, o), words::text);
+  json.end_object();
   return json.take();
 }
 
@@ -61,11 +72,7 @@ Status form_compare(const FormCompareCommand& o) {
   MDOF_TRY(const SurfaceMap a, load_map(o.a, o.maps));
   MDOF_TRY(const SurfaceMap b, load_map(o.b, o.maps));
   MDOF_TRY(const algo::Comparison found, algo::compare(a, b, register_from(o.register_how)));
-  if (found.undetermined > 0)
-    warn(o.a + ": the shape of the surface does not determine " +
-         std::to_string(found.undetermined) +
-         " of the 3 movements in the plane (2 shifts, 1 turn, or combinations of these); mdof does "
-         "not apply the undetermined movements");
+  show_notices(notices_of(found, o));
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
   MDOF_CHECK(plot_maps({{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
   return o.json ? write_line(compare_json(found, o)) : write_out(compare_text(found, o));

@@ -10,14 +10,17 @@
 
 #include "algo/form/spiral_path.h"
 #include "algo/form/turn_spectrum.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
+#include "schema/notice/notice_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/form/map_file.h"
 #include "tools/mdof/commands/form/path_writer.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -154,6 +157,21 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   return found;
 }
 
+// Not where two turns leave a ring between them.
+std::optional<algo::FeedRoughness> roughness_of(const FoundPath& found) {
+  const algo::SpiralRequest& request = found.request;
+  if (!(request.feed_m < 2 * request.tool_radius_m)) return {};
+  return algo::feed_roughness(request.tool_radius_m, request.feed_m);
+}
+
+Notices notices_of(const FoundPath& found) {
+  const algo::SpiralRequest& request = found.request;
+  if (!(request.tool_radius_m > 0) || roughness_of(found)) return {};
+  return {
+      notice(NoticeCode::feed_leaves_rings, "",
+             {{"feed_um", to_um(request.feed_m)}, {"radius_um", to_um(request.tool_radius_m)}})};
+}
+
 std::string path_json(const FoundPath& found, const FormPathCommand& o) {
   JsonWriter json;
   json.begin_object()
@@ -186,9 +204,11 @@ std::string path_json(const FoundPath& found, const FormPathCommand& o) {
       .field("bridged", static_cast<std::uint64_t>(found.counts.bridged))
       .end_object();
   if (found.request.tool_radius_m > 0) {
-    const auto rough = algo::feed_roughness(found.request.tool_radius_m, found.request.feed_m);
-    json.field("Ra_nm", rough.Ra_m * 1e9).field("Rt_nm", rough.Rt_m * 1e9);
+    const auto rough = roughness_of(found);
+    json.field("Ra_nm", rough ? rough->Ra_m * 1e9 : std::nan(""))
+        .field("Rt_nm", rough ? rough->Rt_m * 1e9 : std::nan(""));
   }
+  write_notices(json, "notices", notices_of(found), words::text);
   json.field("out", o.out).end_object();
   return json.take();
 }
@@ -210,17 +230,16 @@ std::string path_text(const FoundPath& found, const FormPathCommand& o) {
     text += "a low-pass filter of " + plain_number(*o.bandwidth_hz) +
             " Hz removes from the path: PV " + in_um(found.left_out->pv) + " µm, RMS " +
             in_um(found.left_out->rms) + " µm\n";
-  if (found.request.tool_radius_m > 0) {
-    const auto rough = algo::feed_roughness(found.request.tool_radius_m, found.request.feed_m);
-    text += "roughness by feed and tool radius: Ra " + plain_number(rough.Ra_m * 1e9) + " nm, Rt " +
-            plain_number(rough.Rt_m * 1e9) + " nm\n";
-  }
+  if (const auto rough = roughness_of(found))
+    text += "roughness by feed and tool radius: Ra " + plain_number(rough->Ra_m * 1e9) +
+            " nm, Rt " + plain_number(rough->Rt_m * 1e9) + " nm\n";
   return text;
 }
 
 Status form_path(const FormPathCommand& o) {
   MDOF_TRY(const SurfaceMap map, load_map(o.map, o.maps));
   MDOF_TRY(const FoundPath found, write_path(o, map));
+  show_notices(notices_of(found));
   MDOF_CHECK(o.json ? write_line(path_json(found, o)) : write_out(path_text(found, o)));
   if (o.bandwidth_hz && found.frequency_hz > *o.bandwidth_hz)
     return fail(ErrorCode::check, o.map + ": the path needs a servo bandwidth of " +

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "algo/part/part_error.h"
+#include "daemon/words/words.h"
+#include "schema/notice/notice_json.h"
 #include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/commands/command.h"
@@ -15,6 +17,7 @@
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
 
@@ -62,6 +65,21 @@ void write_share(JsonWriter& json, const algo::PartShare& share) {
       .field("U_rms_um", to_um(share.U_rms_m));
 }
 
+// Of the path, at which the layer has no value and counts as 0.
+std::uint64_t lacking_points(const LoadedPart& part, const std::string& layer) {
+  for (const Notice& each : part.notices)
+    if (each.code == NoticeCode::map_lacks_points && each.subject == layer)
+      return part.points_off_form_map;
+  return 0;
+}
+
+std::string notices_text(const LoadedPart& part) {
+  std::string text;
+  for (const Notice& each : part.notices)
+    text += wrapped(words::text(each), terminal_columns()) + "\n";
+  return text;
+}
+
 std::string part_json(const FoundPart& found) {
   const LoadedPart& part = found.part;
   JsonWriter json;
@@ -90,7 +108,9 @@ std::string part_json(const FoundPart& found) {
       json.null();
     else
       json.value(layer.compensated_by);
-    json.field("left_um", to_um(found.left.layers[k].rms_m)).end_object();
+    json.field("left_um", to_um(found.left.layers[k].rms_m))
+        .field("points_lacking", lacking_points(part, layer.plan.name))
+        .end_object();
   }
   json.end_array().key("causes").begin_array();
   for (const std::size_t k : found.causes) {
@@ -113,6 +133,7 @@ std::string part_json(const FoundPart& found) {
   write_strings(json, "beyond_tables", part.beyond_tables);
   write_strings(json, "tables_without_slope", part.tables_without_slope);
   json.field("points_off_form_map", static_cast<std::uint64_t>(part.points_off_form_map));
+  write_notices(json, "notices", part.notices, words::text);
   json.end_object();
   return json.take();
 }
@@ -148,7 +169,7 @@ std::string part_text(const FoundPart& found) {
   return text + "\n" + layers.text(terminal_columns()) + "\n" + causes.text(terminal_columns()) +
          "share: contribution of a layer or cause to the sum of all mean square errors\n"
          "residual: RMS of the error that remains after the compensation of the layer\n" +
-         missing_text(part.not_measured, part.no_u, terminal_columns());
+         notices_text(part) + missing_text(part.not_measured, part.no_u, terminal_columns());
 }
 
 Status part(const PartCommand& o) {
@@ -162,6 +183,7 @@ Status part(const PartCommand& o) {
   found.layers = ranked(found.error.layers);
   found.causes = ranked(found.error.causes);
   forget_unknown(found);
+  show_notices(found.part.notices);
   return o.json ? write_line(part_json(found)) : write_out(part_text(found));
 }
 

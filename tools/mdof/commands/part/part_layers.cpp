@@ -103,9 +103,8 @@ Result<algo::PartCause> form_cause(LoadedPart& part, const PartLayer& layer,
     return bad_input(file + ": the map covers no point of the path " + part.plan.path +
                      "; map and path must both use the coordinates of the part");
   if (off > 0)
-    warn(
-        file + ": " + std::to_string(off) +
-        " points of the path are outside the map; mdof takes the spring-back at these points as 0");
+    part.notices.push_back(notice(NoticeCode::map_lacks_points, layer.name,
+                                  {{"lacking", off}, {"points", part.path.at_m.size()}}));
   return cause;
 }
 

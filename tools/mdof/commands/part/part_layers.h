@@ -7,6 +7,7 @@
 #include "algo/part/part_error.h"
 #include "schema/base/result.h"
 #include "schema/machine/machine.h"
+#include "schema/notice/notice.h"
 #include "schema/part/part_plan.h"
 
 namespace mdof::tools {
@@ -29,6 +30,7 @@ struct LoadedPart {
   // slope would be squareness, points of the path that the form map does not cover.
   std::vector<std::string> beyond_tables, tables_without_slope;
   std::size_t points_off_form_map = 0;
+  Notices notices;  // what a layer lacks; its subject is the layer
 };
 
 // Files stand relative to PART.toml; stored tables in the database. What was assumed is also

@@ -9,7 +9,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::string_view kAxes = "XYZ";
+constexpr std::string_view kHomeAxes = "XYZ";
 
 bool read_number(std::string_view text, double& mm) {
   const char* const end = text.data() + text.size();
@@ -34,7 +34,7 @@ Result<Homes> home_positions(const std::string& text) {
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {
     const bool names_axis =
-        word.size() > 2 && kAxes.find(word[0]) != std::string_view::npos && word[1] == '=';
+        word.size() > 2 && kHomeAxes.find(word[0]) != std::string_view::npos && word[1] == '=';
     if (!names_axis || !read_number(std::string_view(word).substr(2), mm))
       return fail(ErrorCode::usage, "--home-mm \"" + word +
                                         "\" must be an axis and its home position in mm, such as "

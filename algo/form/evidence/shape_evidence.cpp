@@ -12,11 +12,11 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostPlaces = 50'000;
-constexpr double kRounding = 1e-7;  // share of the slopes, as in registration.cpp
+constexpr std::size_t kEvidencePlaces = 50'000;
+constexpr double kNoSlope = 1e-7;  // share of the slopes, as in registration.cpp
 // Slopes by noise have the correlation 0 +- 1 / sqrt(places); neighbours share some of it, and the
 // fit looks for the largest.
-constexpr double kSignificant = 8, kAlwaysEnough = 0.5;
+constexpr double kEvidenceNeeded = 8, kEvidenceEnough = 0.5;
 
 using Moves = Eigen::Vector3d;  // what shift x, shift y and turn change of a height
 
@@ -62,7 +62,7 @@ Moves moves(const Eigen::Vector2d& slope, const Eigen::Vector2d& arm) {
 
 Evidence evidence_of(const SurfaceMap& a, const Surface& b, const MapPose& pose) {
   Evidence evidence;
-  const std::size_t every = std::max<std::size_t>(1, a.z_m.size() / kMostPlaces);
+  const std::size_t every = std::max<std::size_t>(1, a.z_m.size() / kEvidencePlaces);
   const double turns = pose.turn_rad / (2 * std::numbers::pi);
   const double c = sine_of_turns(turns + 0.25), s = sine_of_turns(turns);
   const Eigen::Matrix2d turn{{c, -s}, {s, c}};
@@ -95,14 +95,14 @@ std::size_t directions_without_shape(const SurfaceMap& a, const Surface& b, cons
                         common = (evidence.ab + evidence.ab.transpose()) / 2;
   // Each movement in its own scale, then each direction in that of its slopes.
   Eigen::Vector3d scale;
-  const double least = kRounding * kRounding * raw.trace();
+  const double least = kNoSlope * kNoSlope * raw.trace();
   for (Eigen::Index k = 0; k < 3; ++k) scale(k) = raw(k, k) > least ? 1 / std::sqrt(raw(k, k)) : 0;
   const SingularValues found = singular_values(scale.asDiagonal() * all * scale.asDiagonal());
   const double enough =
-      std::min(kAlwaysEnough, kSignificant / std::sqrt(std::max(1.0, evidence.count)));
+      std::min(kEvidenceEnough, kEvidenceNeeded / std::sqrt(std::max(1.0, evidence.count)));
   Eigen::MatrixXd directions(3, 0);
   for (Eigen::Index k = 0; k < 3; ++k) {
-    if (!(found.values(k) > kRounding)) continue;
+    if (!(found.values(k) > kNoSlope)) continue;
     directions.conservativeResize(3, directions.cols() + 1);
     directions.rightCols(1) = scale.cwiseProduct(found.U.col(k)) / std::sqrt(found.values(k));
   }

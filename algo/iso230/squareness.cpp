@@ -65,14 +65,16 @@ struct StraightnessSlope {
 
 double propagated(const std::vector<double>& x, const std::vector<TargetMean>& series,
                   std::size_t named) {
-  double mean = 0, sxx = 0, sum = 0;
+  double mean = 0, sxx = 0, sum = 0, trend = 0;
   for (const double v : x) mean += v / static_cast<double>(x.size());
   for (const double v : x) sxx += (v - mean) * (v - mean);
   for (std::size_t i = 0; i < x.size(); ++i) {
-    const double term = (x[i] - mean) * series[i].u[named] / sxx;
-    sum += term * term;
+    const double by = (x[i] - mean) / sxx, u = series[i].u[named];
+    const double of_trend = series[i].u_trend[named];
+    sum += by * by * (u * u - of_trend * of_trend);
+    trend += by * of_trend;
   }
-  return std::sqrt(sum);
+  return std::sqrt(std::max(0.0, sum) + trend * trend);
 }
 
 // Of each run and target: how far its visits lie off the mean of all runs' visits from that side,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "algo/iso230/line_fit.h"
 #include "algo/sequence/uneven_visits.h"
 
 namespace mdof::algo {
@@ -88,20 +89,30 @@ MeansByTarget one_way(const MovingAxis& moving, const std::vector<MeasuredPoint>
 struct Reversal {
   Errors5 mean{};
   Errors5 u{};  // of one target's reversal taken to be the mean; of one target alone: all of it
+  double position_m = 0;  // mean of the targets
+  Errors5 slope{};        // along the encoder; 0 where the scatter about it makes as much by chance
+  double trend(std::size_t k, double at_m) const { return slope[k] * (at_m - position_m); }
 };
 
 Reversal mean_reversal(const MeansByTarget& forward, const MeansByTarget& reverse) {
   std::vector<Errors5> at_targets;
+  std::vector<double> positions_m;
   for (const auto& [target, f] : forward) {
     const auto r = reverse.find(target);
     if (r == reverse.end()) continue;
+    positions_m.push_back(0.5 * (f.position_m + r->second.position_m));
     Errors5& difference = at_targets.emplace_back();
     for (std::size_t k = 0; k < 5; ++k) difference[k] = f.named[k] - r->second.named[k];
   }
   Reversal out;
   const auto n = static_cast<double>(at_targets.size());
   if (at_targets.empty()) return out;
+  for (const double x : positions_m) out.position_m += x / n;
   for (std::size_t k = 0; k < 5; ++k) {
+    std::vector<double> of_error;
+    for (const Errors5& r : at_targets) of_error.push_back(r[k]);
+    const Line line = can_fit(positions_m) ? least_squares_line(positions_m, of_error) : Line{};
+    if (std::abs(line.slope) > 2 * line.u_slope) out.slope[k] = line.slope;
     double sum = 0, square = 0;
     for (const Errors5& r : at_targets) sum += r[k];
     out.mean[k] = sum / n;
@@ -114,7 +125,8 @@ Reversal mean_reversal(const MeansByTarget& forward, const MeansByTarget& revers
 TargetMean with_reversal(TargetMean one_sided, const Reversal& reversal, int direction) {
   for (std::size_t k = 0; k < 5; ++k) {
     one_sided.named[k] -= 0.5 * direction * reversal.mean[k];
-    one_sided.u[k] = std::hypot(one_sided.u[k], 0.5 * reversal.u[k]);
+    one_sided.u_trend[k] = 0.5 * direction * reversal.trend(k, one_sided.position_m);
+    one_sided.u[k] = std::hypot(one_sided.u[k], 0.5 * reversal.u[k], one_sided.u_trend[k]);
   }
   return one_sided;
 }

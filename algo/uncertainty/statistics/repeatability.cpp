@@ -168,6 +168,22 @@ void add_shared(Repeatability& found, const MovingAxis& moving,
   found.passes_freedom = levels.freedom;
 }
 
+double without_part(double u, double part) {
+  return std::sqrt(std::max(0.0, u * u - part * part));
+}
+
+// Adds the changes of named error k as a part of its own, where there are any.
+void add_alone(std::vector<std::vector<Errors5>>& parts, const std::vector<Errors5>& changes,
+               std::size_t k) {
+  std::vector<Errors5> part(changes.size());
+  bool any = false;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    part[i][k] = changes[i][k];
+    any = any || part[i][k] != 0;
+  }
+  if (any) parts.push_back(std::move(part));
+}
+
 }  // namespace
 
 Repeatability repeatability(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
@@ -179,11 +195,16 @@ Repeatability repeatability(const MovingAxis& moving, const std::vector<Measured
   const bool one_way = visits.has_one_way_only(), uneven = any_run_lacks_visits(counted);
   const WithoutDrift without = uneven ? without_drift_of_runs(counted) : WithoutDrift{};
   const std::map<int, Errors5> variances = visits.variances();
+  std::vector<Errors5> trend;  // by target
   // Of runs that lack visits without their level, which is the shift.
   for (const TargetMean& mean :
        uneven ? target_means(moving, without.points, Approach::both) : means) {
     Errors5& u = found.u.emplace_back(mean.u);
-    if (!one_way && !visits.has_both(mean.target)) continue;
+    trend.push_back(mean.u_trend);
+    if (!one_way && !visits.has_both(mean.target)) {
+      for (std::size_t k = 0; k < kErrorCount; ++k) u[k] = without_part(u[k], mean.u_trend[k]);
+      continue;
+    }
     const Errors5& variance = variances.at(mean.target);
     for (std::size_t k = 0; k < kErrorCount; ++k) u[k] = std::sqrt(variance[k]);
   }
@@ -196,6 +217,7 @@ Repeatability repeatability(const MovingAxis& moving, const std::vector<Measured
   for (std::size_t k = 0; k < kErrorCount; ++k)
     found.u_shift[k] = uneven ? std::abs(level[k]) : std::sqrt(shift[k]);
   if (uneven) add_shared(found, moving, counted);
+  for (std::size_t k = 0; k < kErrorCount; ++k) add_alone(found.together, trend, k);
   if (visits.runs() > 1) found.shift_freedom = visits.runs() - 1;
   return found;
 }

@@ -17,7 +17,8 @@ struct Repeatability {
   double freedom = std::numeric_limits<double>::infinity();
   std::array<bool, kErrorCount> by_scatter{};
   // What is not known of the shifts of runs that lack visits, and what levels of their passes do to
-  // several means together, by independent parts. [part][target]
+  // several means together, by independent parts; and the trend of the reversal, where targets have
+  // one approach. [part][target]
   std::vector<std::vector<Errors5>> together, of_passes;
   double passes_freedom = std::numeric_limits<double>::infinity();
   Errors5 u_visit{};  // of a visit, pooled

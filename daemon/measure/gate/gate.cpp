@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "algo/compensation/compensation.h"
+#include "algo/sequence/uneven_visits.h"
 #include "algo/sequence/usable_runs.h"
 #include "daemon/words/words.h"
 #include "schema/imported/series.h"
@@ -115,6 +116,10 @@ std::string against_decision(store::Store& store, const Run& run) {
   const std::string approach = only_approach(run);
   if (!approach.empty() && !is_imported(run.header))
     return of + " has the " + approach + " approach only, so the reversal is unknown";
+  if (is_imported(run.header)) return "";
+  for (const Notice& n : algo::uneven_visits(run.points))
+    if (n.code == NoticeCode::approaches_mixed || n.code == NoticeCode::target_from_one_side)
+      return of + ": " + words::text(n);
   return "";
 }
 

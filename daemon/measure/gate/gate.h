@@ -45,7 +45,7 @@ bool is_invalid(const RunHeader& run);
 // By the one approach that the run has; "": by both, or by unknown ones.
 const char* only_approach(const Run& run);
 // Why no conformity is decided of its figures, without a full stop; empty: it can be. Invalid,
-// incomplete, superseded, of one approach.
+// incomplete, superseded, of one approach or with targets of one.
 std::string against_decision(store::Store& store, const Run& run);
 
 // `consequence`: "it is not activated". Error (conflict) with the first notice and what to ask

@@ -11,15 +11,20 @@
 #include <string>
 
 #include "algo/compensation/compensation.h"
+#include "algo/iso230/line_fit.h"
 #include "algo/iso230/squareness.h"
 #include "algo/iso230/straightness.h"
 #include "algo/iso230/target_means.h"
+#include "algo/uncertainty/budget/budget.h"
 #include "tests/shown.h"
 
 namespace mdof::algo {
 namespace {
 
 constexpr double kBacklash_m = 1e-6, kDrift_m = 0.3e-6, kSlope = 20e-6, kStep_m = 5e-3;
+
+// A reversal that grows by kGrown_m from target to target.
+constexpr double kGrown_m = 0.2e-6;
 
 struct Visit {
   int run, target, direction;
@@ -259,6 +264,32 @@ TEST(UnevenVisits, ATableRemovesTheSlopeOfTheWholeAxis) {
     if (i > 3) {
       EXPECT_NEAR(cut.reverse[0][i], whole.reverse[0][i], 1e-15);
     }
+  }
+}
+
+// Targets 8 to 13 have one approach, and the reversal is kGrown_m times the target. By hand: the
+// mean of the others is that of target 4, so target i is off by (i - 4)/2 of it; a slope over the
+// 13 targets by sum((i - 7)(i - 4)) / 2 / 182 = 77/182 of it a step.
+TEST(UnevenVisits, TheUncertaintyHoldsWhereTheReversalGrows) {
+  for (const int only : {1, -1}) {
+    mdof::Run x = cut_run(1, [&](const Visit& v) { return v.direction == only || v.target < 8; });
+    for (MeasuredPoint& p : x.points)
+      p.errors.local[0] += 0.5 * p.point.direction * p.target * kGrown_m;
+    const auto means = target_means({Axis::x, {}}, x.points, Approach::both);
+    for (const TargetMean& mean : means) {
+      const double off_m = mean.target < 8 ? 0 : 0.5 * only * (mean.target - 4) * kGrown_m;
+      EXPECT_NEAR(mean.u_trend[0], off_m, 1e-12) << mean.target;
+      EXPECT_GE(mean.u[0], std::abs(off_m)) << mean.target;
+    }
+    const double off_rad = 77.0 / 182 * kGrown_m / kStep_m;
+    const double slope_rad = least_squares_line(own_travels({}, means), column(means, 0)).slope;
+    EXPECT_NEAR(slope_rad, kSlope + only * off_rad, 1e-9);
+    const Squareness s = squareness(x, cut_run(1, kAll, Axis::y), {}).value();
+    EXPECT_GE(s.u_slope_a_rad, off_rad);
+    EXPECT_LE(s.u_slope_a_rad, 1.1 * off_rad);
+    const Budget budget = RunBudgets({}, x).of(slope_figure(Axis::x, 0));
+    EXPECT_GE(budget.u, off_rad);
+    EXPECT_LE(budget.u, 1.1 * off_rad);
   }
 }
 

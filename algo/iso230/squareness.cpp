@@ -184,11 +184,11 @@ Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const Art
   if (!given.angle_error_rad && a && b && *a != *b)
     return contradiction(rig_a, rig_b, kAngle, *a, *b, Remedy::choose_artefact_angle);
   artefact.angle_error_rad = given.angle_error_rad.value_or(a.value_or(b.value_or(0)));
-  const double u_a = rig_a.u_artefact_angle_rad, u_b = rig_b.u_artefact_angle_rad;
-  if (!given.u_rad && u_a > 0 && u_b > 0 && u_a != u_b)
-    return contradiction(rig_a, rig_b, "u_artefact_angle_urad", u_a, u_b,
+  const auto u_a = rig_a.u_artefact_angle_rad, u_b = rig_b.u_artefact_angle_rad;
+  if (!given.u_rad && u_a && u_b && *u_a != *u_b)
+    return contradiction(rig_a, rig_b, "u_artefact_angle_urad", *u_a, *u_b,
                          Remedy::choose_artefact_u);
-  artefact.u_rad = given.u_rad.value_or(std::max(u_a, u_b));
+  artefact.u_rad = given.u_rad ? given.u_rad : u_a ? u_a : u_b;
   MDOF_TRY(const int face_a, side_of_face(rig_a, rig_b.axis));
   MDOF_TRY(const int face_b, side_of_face(rig_b, rig_a.axis));
   artefact.corner = face_a * face_b;
@@ -218,8 +218,9 @@ Result<Squareness> squareness(const Run& run_a, const Run& run_b, const SquareAr
   s.u_slope_b_rad = b.u_slope_rad;
   s.artefact = artefact;
   s.error_rad = squareness_of(s.axes, s.slope_a_rad, s.slope_b_rad, artefact);
+  const double u_rad = artefact.u_rad.value_or(0);
   s.u_error_rad = std::sqrt(s.u_slope_a_rad * s.u_slope_a_rad + s.u_slope_b_rad * s.u_slope_b_rad +
-                            artefact.u_rad * artefact.u_rad);
+                            u_rad * u_rad);
   s.form_rad = std::sqrt(a.line.u_slope * a.line.u_slope + b.line.u_slope * b.line.u_slope);
   s.simulated = run_a.header.simulated || run_b.header.simulated;
   return s;

@@ -164,7 +164,6 @@ Result<FoundSetUp> square_set_up(store::Store& store, SquarenessRequest request)
   MDOF_TRY(const RunsOfSquareness of, runs_of_squareness(store, request));
   MDOF_TRY(Budget budget,
            algo::squareness_budget(of.rig_a, of.a, of.rig_b, of.b, of.fitted.artefact));
-  std::erase(budget.not_declared, "u_artefact_angle_urad");  // the reversal takes the angle out
   return FoundSetUp{{of.fitted.artefact.corner, std::move(budget)},
                     algo::inherited_notices({&of.a, &of.b}),
                     of.fitted.simulated};

@@ -127,11 +127,17 @@ Squareness squareness_from(const Statement& row) {
   s.simulated = row.integer(10) != 0;
   s.created_utc = row.text(11);
   s.form_rad = row.real(12);
-  s.artefact.u_rad = row.real(13);
+  // Rows of older versions have the real number 0 where none was declared.
+  if (row.storage_class(13) == 'i' || row.real(13) > 0) s.artefact.u_rad = row.real(13);
   s.artefact.corner = static_cast<int>(row.integer(14));
   s.axes = {axis_from(row.text(16)).value_or(Axis::x), axis_from(row.text(17)).value_or(Axis::y)};
   if (row.text(15) == "carriage") s.form_rad = std::exchange(s.u_error_rad, kNotKnown);  // schema 2
   return s;
+}
+
+// Nothing declared is NULL, and a declared 0 an integer (squareness_from()).
+Statement& bind_declared(Statement& to, std::optional<double> u) {
+  return u == 0 ? to.bind(std::int64_t{0}) : to.bind(u.value_or(kNotKnown));
 }
 
 }  // namespace
@@ -150,7 +156,8 @@ Result<std::int64_t> Store::add_squareness(const Squareness& s,
   insert.bind(s.slope_a_rad).bind(s.u_slope_a_rad);
   insert.bind(s.slope_b_rad).bind(s.u_slope_b_rad).bind(s.artefact.angle_error_rad);
   insert.bind(std::int64_t{s.simulated}).bind(std::string_view(s.created_utc));
-  insert.bind(s.form_rad).bind(s.artefact.u_rad).bind(std::int64_t{s.artefact.corner});
+  insert.bind(s.form_rad);
+  bind_declared(insert, s.artefact.u_rad).bind(std::int64_t{s.artefact.corner});
   MDOF_CHECK(insert.run());
   const std::int64_t id = connection_.last_insert_rowid();
   MDOF_CHECK(add_link(connection_, Fact::squareness, id));

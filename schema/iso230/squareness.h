@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "schema/axis.h"
@@ -29,7 +30,7 @@ std::size_t straightness_along(Axis of, Axis along);
 // encloses 90° + angle_error_rad.
 struct SquareArtefact {
   double angle_error_rad = 0;
-  double u_rad = 0;  // standard uncertainty
+  std::optional<double> u_rad;  // standard uncertainty; absent: not declared
   // +1: the corner is the one at +a +b or at -a -b, -1: at -a +b or at +a -b; 0: not known
   int corner = 0;
   bool operator==(const SquareArtefact&) const = default;

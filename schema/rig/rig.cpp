@@ -201,8 +201,11 @@ void read_artefact(TomlTable& table, Rig& rig) {
   if (table.has("artefact_angle_error_urad")) {
     rig.artefact_angle_error_rad = from_urad(table.number("artefact_angle_error_urad"));
   }
-  const double u_urad = table.number("u_artefact_angle_urad", 0.0);
-  if (u_urad < 0) table.reject("u_artefact_angle_urad", "must not be negative");
+  if (!table.has("u_artefact_angle_urad")) return;
+  const double u_urad = table.number("u_artefact_angle_urad");
+  if (!(u_urad >= 0 && std::isfinite(u_urad)))
+    table.reject("u_artefact_angle_urad",
+                 "must be a standard uncertainty, a number that is not negative");
   rig.u_artefact_angle_rad = from_urad(u_urad);
 }
 

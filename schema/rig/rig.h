@@ -89,7 +89,7 @@ struct Rig {
   // Of the square: the material encloses 90° + this at the corner of the two faces that the rigs of
   // X and Y look at; with its standard uncertainty.
   std::optional<double> artefact_angle_error_rad;
-  double u_artefact_angle_rad = 0;
+  std::optional<double> u_artefact_angle_rad;  // absent: not declared; 0 is a declaration
   RigUncertainty uncertainty;
   RigExpansion expansion;
   // [drift]: of any probe's readings over a run; more is a warning of the run. m/s.

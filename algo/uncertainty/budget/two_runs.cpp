@@ -103,9 +103,10 @@ BudgetLine artefact_line(const SquareArtefact& artefact, int sign) {
   line.name = {ContributorKind::artefact_angle};
   line.key = "u_artefact_angle_urad";
   line.distribution = to_string(UncertaintyShape::normal);
-  line.value = artefact.u_rad * 1e6;
+  const double u_rad = artefact.u_rad.value_or(0);
+  line.value = u_rad * 1e6;
   line.unit = "µrad";
-  line.contribution = artefact.u_rad * (artefact.corner < 0 ? -sign : sign);
+  line.contribution = u_rad * (artefact.corner < 0 ? -sign : sign);
   return line;
 }
 
@@ -121,9 +122,9 @@ Budget squareness_budget(AxisPair axes, const RunBudgets& along_a, const RunBudg
                  {std::string(1, letter(axes.b)), along_b, slope_along(axes.b, axes.a), factor});
   both.budget().figure = std::string(squareness_name(axes)) + "_urad";
   both.budget().value += sign * artefact.corner * artefact.angle_error_rad;
-  if (artefact.u_rad > 0)
+  if (artefact.u_rad.value_or(0) > 0)
     both.add(artefact_line(artefact, sign), {1});
-  else
+  else if (!artefact.u_rad)
     both.budget().not_declared.emplace_back("u_artefact_angle_urad");
   std::vector<double> values;
   if (request.trials >= 2) values = both.trials(request);

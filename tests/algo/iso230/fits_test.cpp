@@ -194,7 +194,13 @@ TEST(Artefact, IsRefusedWhereTheRigsDifferOrTellNoCorner) {
   EXPECT_DOUBLE_EQ(artefact_of(x, y, {.angle_error_rad = 5e-6, .u_rad = {}})->angle_error_rad,
                    5e-6);
   const auto [same_x, same_y] = rigs_at(15, -15, three, three);
-  EXPECT_DOUBLE_EQ(artefact_of(same_x, same_y, {})->u_rad, 0.5e-6);
+  EXPECT_DOUBLE_EQ(artefact_of(same_x, same_y, {})->u_rad.value(), 0.5e-6);
+  EXPECT_DOUBLE_EQ(artefact_of(same_x, rigs_at(15, -15).second, {})->u_rad.value(), 0.5e-6);
+  const auto [not_known, not_declared] = rigs_at(15, -15);
+  EXPECT_FALSE(artefact_of(not_known, not_declared, {})->u_rad);
+  const auto [zero, of_zero] = rigs_at(15, -15, "u_artefact_angle_urad = 0");
+  EXPECT_EQ(artefact_of(zero, of_zero, {})->u_rad, 0);
+  EXPECT_FALSE(artefact_of(zero, same_y, {}));  // 0 and 0.5
   const auto [at_0, other] = rigs_at(0, -15, three);
   for (const double no_square : {1e302, -0.011, std::nan("")})
     EXPECT_FALSE(artefact_of(same_x, same_y, {.angle_error_rad = no_square, .u_rad = {}}));

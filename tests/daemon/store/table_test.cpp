@@ -27,6 +27,12 @@ TEST_F(StoreTest, KeepsSquareness) {
   s.run_b = 3;  // the axes are those of the runs
   ASSERT_TRUE(store->add_squareness(s));
   EXPECT_EQ(store->squareness_of(1, 3).value().front().axes, (AxisPair{Axis::x, Axis::z}));
+  s.artefact.u_rad = 0;  // declared, which nothing is not
+  ASSERT_TRUE(store->add_squareness(s));
+  EXPECT_EQ(store->list_squareness(0, 1).value().front().artefact.u_rad, 0);
+  s.artefact.u_rad = std::nullopt;
+  ASSERT_TRUE(store->add_squareness(s));
+  EXPECT_EQ(store->list_squareness(0, 1).value().front().artefact.u_rad, std::nullopt);
   EXPECT_EQ(
       store->add_squareness({0, {}, 1, 9, 0, 0, 0, 0, 0, 0, 0, {}, false, "utc"}).error().code,
       ErrorCode::not_found);

@@ -65,9 +65,10 @@ std::string squareness_text(const Squareness& s, const std::vector<Budget>& budg
   table.add(line_row(s.straightness_b() + of_run(s.run_b), lines, &SquarenessLine::slope_b_rad,
                      urad_with_u(s.slope_b_rad, s.u_slope_b_rad)));
   const std::string name = squareness_name(s.axes);
-  const std::string artefact =
-      urad_to_place(squareness_of(s.axes, 0, 0, s.artefact), s.artefact.u_rad);
-  table.add({"artefact", with_u(artefact, urad_to_place(s.artefact.u_rad, s.artefact.u_rad)),
+  const double u_artefact = s.artefact.u_rad.value_or(0);
+  const std::string artefact = urad_to_place(squareness_of(s.axes, 0, 0, s.artefact), u_artefact);
+  table.add({"artefact",
+             s.artefact.u_rad ? with_u(artefact, urad_to_place(u_artefact, u_artefact)) : artefact,
              artefact, artefact});
   table.add(
       line_row(name, lines, &SquarenessLine::error_rad, urad_to_place(s.error_rad, budget.U)));

@@ -1,0 +1,35 @@
+// What is 0 by rounding, by declaration, or because nobody knows it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "algo/uncertainty/budget/budget.h"
+#include "algo/uncertainty/budget/two_runs.h"
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+// Not declared is named as missing; a declared 0 is known to add nothing.
+TEST(Budget, AnArtefactWithoutUIsNotOneThatDeclaresZero) {
+  const Rig x = test::rig_x();
+  Rig y = x;
+  y.axis = Axis::y;
+  const Run run_x = SyntheticRun{.rig = x}.measure();
+  Run run_y = run_x;
+  run_y.header.axis = Axis::y;
+  const auto lacks_u = [&](const std::optional<double>& u_rad) {
+    const SquareArtefact square{.angle_error_rad = 0, .u_rad = u_rad, .corner = -1};
+    const Budget b = squareness_budget(x, run_x, y, run_y, square).value();
+    return std::count(b.not_declared.begin(), b.not_declared.end(), "u_artefact_angle_urad") > 0;
+  };
+  EXPECT_TRUE(lacks_u(std::nullopt));
+  EXPECT_FALSE(lacks_u(0.0));
+  EXPECT_FALSE(lacks_u(0.4e-6));
+}
+
+}  // namespace
+}  // namespace mdof::algo

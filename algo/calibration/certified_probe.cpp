@@ -113,6 +113,12 @@ class CertificateReader {
                      "ask the laboratory for a certificate that states the uncertainty");
   }
 
+  tl::unexpected<Error> zero_uncertainty(long line, const char* what) const {
+    return bad_input(at(line) + "the uncertainty of the " + what +
+                     " is 0 in the certificate, which no calibration attains; ask the laboratory "
+                     "to correct the DCC");
+  }
+
   Status take_sensitivity() {
     const DccQuantity& s = *sensitivities_.front();
     if (sensitivities_.size() > 1) return several("sensitivity", sensitivities_[1]->line, s.line);
@@ -123,6 +129,7 @@ class CertificateReader {
     if (s.value[0] == 0)
       return bad_input(at(s.line) + "the sensitivity is 0; ask the laboratory to correct the DCC");
     if (s.u.empty()) return no_uncertainty(s.line, "sensitivity");
+    if (!(s.u[0] > 0)) return zero_uncertainty(s.line, "sensitivity");
     const double m_per_V = s.unit.is(1, -1) ? s.value[0] : 1 / s.value[0];
     const double um_per_V = to_um(m_per_V);
     MDOF_CHECK(check_scale(s, um_per_V));
@@ -209,7 +216,11 @@ class CertificateReader {
       rows.push_back({read.um[i], table.error ? -error.um[i] : reference.um[i] - read.um[i]});
     MDOF_CHECK(about_zero(rows, r.line));
     const double u_um = largest_u(table, read, error, reference);
-    if (!(u_um > 0)) return no_uncertainty((table.error ? table.error : &r)->line, "table");
+    const bool is_stated = !error.u_um.empty() || !read.u_um.empty() || !reference.u_um.empty();
+    const DccQuantity& certified = table.error ? *table.error : r;
+    if (!(u_um > 0))
+      return is_stated ? zero_uncertainty(certified.line, "table")
+                       : no_uncertainty(certified.line, "table");
     found_.facts.u_linearity_m = from_um(u_um);
     found_.taken.push_back(notice(NoticeCode::certified_linearity, "",
                                   {{"corrections", rows.size()},

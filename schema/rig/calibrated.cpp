@@ -112,8 +112,7 @@ void apply(const CalibratedProbe& found, Probe& probe) {
                                      found.sensitivity_freedom};
   if (found.offset_um) {
     move_offset(calibration, *found.offset_um);
-    if (!probe.uncertainty.calibration.declared())
-      probe.uncertainty.calibration = {found.u_offset_m};
+    if (!probe.uncertainty.calibration.known()) probe.uncertainty.calibration = {found.u_offset_m};
   }
   if (found.linearity.empty()) return;
   calibration.linearity = found.linearity;  // of the offset that the record has
@@ -126,7 +125,7 @@ void keep_valid_values(CalibrationRecord& record, Rig& rig) {
   for (const CalibratedProbe& found : record.probes)
     for (const Probe& probe : rig.probes) {
       if (probe.id != found.id) continue;
-      if (probe.uncertainty.calibration.declared()) record.covariance.erase(zero_name(found.id));
+      if (probe.uncertainty.calibration.known()) record.covariance.erase(zero_name(found.id));
       for (CalibrationRecord& earlier : rig.records)
         for (std::size_t axis = 0; axis < 3; ++axis) {
           if (found.position_m) earlier.covariance.erase(place_name(found.id, axis));
@@ -141,7 +140,7 @@ void apply(CalibrationRecord& record, Rig& rig) {
     for (Probe& probe : rig.probes)
       if (probe.id == found.id) apply(found, probe);
   auto& offset = rig.uncertainty.installation_offset;
-  if (record.u_together_m && offset.u == Vec3{}) offset = {*record.u_together_m};
+  if (record.u_together_m && !offset.known()) offset = {*record.u_together_m};
 }
 
 void apply_certificates(TomlTable& record, Rig& rig) {

@@ -114,6 +114,15 @@ TEST(CalibratedRig, UncertaintiesBelongToWhatWasReplaced) {
 }
 
 // A correction is of the raw reading: with another offset it is found at another t = raw - offset.
+// A declared 0 is a declaration as any other.
+TEST(CalibratedRig, KeepsWhatTheRigDeclaresAsZero) {
+  const Rig rig = with_record("u_calibration_um = 0\n", "[installation]\nu_offset_mm = 0\n");
+  EXPECT_EQ(rig.probes[1].uncertainty.calibration.u, 0);
+  EXPECT_TRUE(rig.probes[1].uncertainty.calibration.known());
+  EXPECT_EQ(rig.uncertainty.installation_offset.u, Vec3{});
+  EXPECT_TRUE(rig.uncertainty.installation_offset.known());
+}
+
 TEST(CalibratedRig, ALinearityMovesWithTheOffset) {
   const Rig table = with_record("offset_um = 1\nlinearity = [[-50, 0.2], [50, -0.1]]\n");
   EXPECT_EQ(table.probes[1].calibration.linearity[0], (std::array<double, 2>{-51.5, 0.2}));

@@ -87,6 +87,7 @@ class TwoSlopes {
         parts.push_back(a.factor * one.parts[p] + b.factor * same->parts[p]);
       BudgetLine line = RunBudgets::line(*one.contributor, parts);
       line.name.runs = {a.name, b.name};
+      line.value = std::max(line.value, RunBudgets::line(*same->contributor, {}).value);
       add(std::move(line), drawn_as(one));
     }
     for (std::size_t i = 0; i < of_b.size(); ++i)

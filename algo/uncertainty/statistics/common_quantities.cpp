@@ -53,9 +53,8 @@ void name_probe_correlations(const Rig& rig, std::vector<Contributor>& list) {
     if (std::find(kOfProbes.begin(), kOfProbes.end(), contributor.key) == kOfProbes.end()) continue;
     for (const Probe& probe : rig.probes)
       if (contributor.name.subject == probe.id)
-        contributor.common_as = contributor_text(contributor.name) + " " +
-                                probe.calibration.certificate + " " +
-                                std::to_string(contributor.declared.u * contributor.to_unit);
+        contributor.common_as =
+            contributor_text(contributor.name) + " " + probe.calibration.certificate;
   }
 }
 

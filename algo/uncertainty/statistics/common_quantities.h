@@ -10,7 +10,8 @@
 namespace mdof::algo {
 
 // Sets Contributor::common_as: the scale, the linearity and the tilt factor of a probe are its own
-// wherever it is clamped; the same id, certificate and uncertainty are the same probe.
+// wherever it is clamped; the same id and certificate are the same probe. Where two rigs declare
+// another u of it, each has its own, of one quantity.
 void name_probe_correlations(const Rig& rig, std::vector<Contributor>& list);
 
 // The plane is one of the rig's.

@@ -212,6 +212,10 @@ TEST(Budget, AProbeOfBothSetUpsIsOneQuantityOfTheSquareness) {
   EXPECT_NEAR(contribution(same, "X and Y, probe D: sensitivity"), -8e-9, 1e-12);
   ASSERT_TRUE(same.trials);
   EXPECT_NEAR(same.trials->u / same.u, 1, 0.02);
+  // Another u in the other rig: 3 and twice 5 nrad, still of one quantity.
+  const Budget other_u = u(scale, "u_sensitivity_ppm = 2000\n", 0);
+  EXPECT_NEAR(other_u.u, 13e-9, 1e-12);
+  EXPECT_NEAR(contribution(other_u, "X and Y, probe D: sensitivity"), -13e-9, 1e-12);
   const Budget two = u(scale + "certificate = \"1\"\n", scale + "certificate = \"2\"\n", 0);
   EXPECT_NEAR(two.u, std::hypot(3e-9, 5e-9), 1e-12);
   EXPECT_NEAR(contribution(two, "Y, probe D: sensitivity"), -5e-9, 1e-12);

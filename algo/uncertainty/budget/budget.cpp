@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::uint64_t kTrialsOfU = 2000;    // U is then right to 2 %
 constexpr std::uint64_t kTrialsOfBlock = 64;  // their shifts stay in the cache
+constexpr double kLeastFirstOrder = 0.01;     // of U: k is then 100
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
@@ -256,8 +257,9 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
     const double U = range.U();
     if (!(U > 0)) continue;
     budget.U = U;
-    // Of deviations that are all equal the range changes as much up as down: no first order.
-    if (!(budget.u > 0)) budget.u = range.root_mean_square();
+    // Of deviations that are all equal the range changes as much up as down: first order has
+    // nothing, or what rounding leaves of it.
+    if (!(budget.u > kLeastFirstOrder * U)) budget.u = range.root_mean_square();
     budget.coverage_factor = budget.U / budget.u;
     budget.U_by_trials = true;
   }

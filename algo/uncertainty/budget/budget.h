@@ -45,8 +45,8 @@ class RunBudgets {
   // the figure, independent from target to target, with the shift that all targets of a pass share
   // (repeatability.h); and, where the variance of the figure by the scatter of the runs' own, s²/n,
   // is more than kRunsScatterMore times that, what it has beyond it. U is k u; of a range it is
-  // that of range_interval.h; where all deviations are equal, so that first order sees nothing, u
-  // is the root mean square of the trials. A figure that is NaN has a budget of NaN.
+  // that of range_interval.h; where all deviations are equal, so that first order sees nothing but
+  // rounding, u is the root mean square of the trials. A figure that is NaN has a budget of NaN.
   Budget of(const Figure& figure) const;
   // Of each; the trials are drawn once for all of them.
   std::vector<Budget> of(const std::vector<Figure>& figures) const;

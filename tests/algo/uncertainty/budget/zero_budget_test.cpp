@@ -13,6 +13,20 @@
 namespace mdof::algo {
 namespace {
 
+// A straight axis: what is left of its line is rounding, so that first order sees rounding alone.
+TEST(Budget, ARangeOfRoundingHasTheUOfItsTrials) {
+  const Rig rig = test::rig_x();
+  SyntheticRun synthetic{.rig = rig, .runs = 1};
+  synthetic.truth = [](double d) { return Errors5{3e-6 * d, 0, 0, 0, 0}; };
+  synthetic.u_reading_m = 10e-9;
+  const Budget b =
+      RunBudgets::create(rig, synthetic.measure())->of(straightness_figure(Axis::x, 0));
+  EXPECT_LT(b.value, 1e-12);
+  EXPECT_GT(b.u, 5e-9);
+  EXPECT_GT(b.coverage_factor, 1);
+  EXPECT_LT(b.coverage_factor, 4);
+}
+
 // Not declared is named as missing; a declared 0 is known to add nothing.
 TEST(Budget, AnArtefactWithoutUIsNotOneThatDeclaresZero) {
   const Rig x = test::rig_x();

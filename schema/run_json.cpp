@@ -82,11 +82,6 @@ double plain(double x) {
   return x + 0.0;
 }
 
-// An uncertainty of nothing at all is one that is not known.
-double known_u(double u) {
-  return u > 0 ? plain(u) : std::nan("");
-}
-
 // Five readings leave no equation over: what the model leaves of them says nothing.
 bool redundant(const MeasuredPoint& p) {
   return std::count_if(p.point.probe_m.begin(), p.point.probe_m.end(),
@@ -218,7 +213,7 @@ void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>&
     json.field("least_squares_um", to_um(f.straightness_least_squares_m))
         .field("end_point_um", to_um(f.straightness_end_point_m))
         .field("slope_least_squares_urad", plain(to_urad(f.slope_least_squares_rad)))
-        .field("u_slope_least_squares_urad", known_u(budget ? to_urad(budget->u) : 0))
+        .field("u_slope_least_squares_urad", budget ? to_urad(budget->u) : std::nan(""))
         .field("form_urad", plain(to_urad(f.form_rad)))
         .field("slope_end_point_urad", plain(to_urad(f.slope_end_point_rad)))
         .field("peak_mm", plain(to_mm(f.peak_position_m)))

@@ -263,8 +263,10 @@ ToolError tool_error(const Machine& machine, const Command& command, MachineAppr
                   {},
                   {}};
   name_missing_errors(machine, all, error);
-  for (double& u : error.u)
-    if (u == 0) u = kNaN;
+  for (std::size_t c = 0; c < 6; ++c)  // 0 where all that counts is declared as 0
+    if (double& u = error.u[static_cast<Eigen::Index>(c)];
+        u == 0 && !(error.no_u[c].empty() && error.not_measured[c].empty()))
+      u = kNaN;
   for (std::size_t i = 0; i < values.size(); ++i)
     for (std::size_t k = 0; k < kBodyErrors; ++k)
       if (values[i].beyond[k]) error.beyond.push_back(error_name(machine.frames[i], k));

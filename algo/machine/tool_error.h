@@ -56,7 +56,7 @@ LinearBound linear_bound(const Machine& machine, const Command& command,
 
 // Everything said of one command.
 struct ToolError {
-  Vector6 exact, linear, u;  // u: NaN where nothing that counts has one
+  Vector6 exact, linear, u;  // u: NaN where it is 0 and something that counts has none
   LinearBound bound;
   // By component: names of errors that were not measured and would count; that have no u.
   std::array<std::vector<std::string>, 6> not_measured, no_u;

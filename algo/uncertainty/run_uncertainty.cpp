@@ -116,11 +116,19 @@ RunUncertainty uncertainty(const Rig& rig, const Run& run, bool is_whole) {
   }
   out.points = points.stated();
   out.visits = points.visits();
+  take_zero_as_unknown(out);
   out.noise_only = is_noise_only(out);
   return out;
 }
 
 }  // namespace
+
+void take_zero_as_unknown(RunUncertainty& uncertainty) {
+  if (uncertainty.not_declared.empty() && uncertainty.why.empty()) return;
+  for (ErrorsUncertainty& point : uncertainty.points)
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      if (point.u[k] == 0) point.u[k] = point.U[k] = kNaN;
+}
 
 RunUncertainty run_uncertainty(const Rig& rig, const Run& run) {
   return uncertainty(rig, run, true);

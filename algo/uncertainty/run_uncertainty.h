@@ -28,6 +28,9 @@ inline constexpr std::size_t kMostPointsOfRepeatability = 20'000;
 // Without the repeatability: of some points of a run, the first among them, where the drift begins.
 RunUncertainty uncertainty_of_stops(const Rig& rig, const Run& part);
 
+// Where not all is declared, u of nothing at all is not known; else it is a declared 0.
+void take_zero_as_unknown(RunUncertainty& uncertainty);
+
 // The same step by step, where the contributors are at hand.
 class PointUncertainties {
  public:

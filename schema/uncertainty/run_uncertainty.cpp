@@ -8,9 +8,12 @@
 namespace mdof {
 namespace {
 
-// An uncertainty of nothing at all is one that is not known.
-double known(double u) {
-  return u > 0 ? u : std::nan("");
+// Noise that no reading shows is not known.
+Errors5 known(const Errors5& u_random) {
+  Errors5 out{};
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    out[k] = u_random[k] > 0 ? u_random[k] : std::nan("");
+  return out;
 }
 
 void write_five(JsonWriter& json, Axis axis, const char* key, const Errors5& values) {
@@ -21,7 +24,7 @@ void write_five(JsonWriter& json, Axis axis, const char* key, const Errors5& val
 
 Errors5 in_key_unit(const Errors5& u) {
   Errors5 out{};
-  for (std::size_t k = 0; k < kErrorCount; ++k) out[k] = known(to_key_unit(u[k]));
+  for (std::size_t k = 0; k < kErrorCount; ++k) out[k] = to_key_unit(u[k]);
   return out;
 }
 
@@ -75,7 +78,7 @@ void write_covers(JsonWriter& json, const RunUncertainty& uncertainty) {
 
 void write_uncertainty(JsonWriter& json, Axis axis, const ErrorsUncertainty& uncertainty) {
   write_five(json, axis, "u", in_key_unit(uncertainty.u));
-  write_five(json, axis, "u_random", in_key_unit(uncertainty.u_random));
+  write_five(json, axis, "u_random", in_key_unit(known(uncertainty.u_random)));
   write_five(json, axis, "U", in_key_unit(uncertainty.U));
   write_five(json, axis, "k", uncertainty.coverage_factor);
   write_five(json, axis, "nu_eff", uncertainty.freedom);

@@ -367,6 +367,9 @@ void complete(Budget& budget) {
   budget.freedom = effective_freedom(parts);
   budget.coverage_factor = coverage_factor(budget.freedom);
   budget.U = budget.coverage_factor * budget.u;
+  // Nothing was found, and what may add something is not declared.
+  if (budget.u == 0 && !budget.not_declared.empty())
+    budget.u = budget.U = budget.coverage_factor = std::numeric_limits<double>::quiet_NaN();
   budget.noise_only = is_noise_only(budget);
 }
 

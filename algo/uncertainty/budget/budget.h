@@ -108,6 +108,7 @@ class RunBudgets {
 BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed);
 
 // What follows from all lines of a budget: u, shares, the largest first, degrees of freedom, k, U.
+// Where they are all 0, u is 0 only if nothing is left undeclared; else it is not known, NaN.
 void complete(Budget& budget);
 
 }  // namespace mdof::algo

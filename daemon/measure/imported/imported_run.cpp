@@ -1,5 +1,7 @@
 #include "daemon/measure/imported/imported_run.h"
 
+#include <cmath>
+
 #include "algo/compensation/imported_table.h"
 #include "daemon/history.h"
 #include "daemon/words/words.h"
@@ -27,7 +29,7 @@ Run with_positioning_notices(Run run) {
 }
 
 Covers covers_of_readings(const Run& run) {
-  const bool is_declared = !run.points.empty() && u_of_deviation(run.points.front()) > 0;
+  const bool is_declared = !run.points.empty() && !std::isnan(u_of_deviation(run.points.front()));
   return {is_declared ? Covered::declared_at_import : Covered::undeclared_at_import,
           Covered::no_repeatability};
 }

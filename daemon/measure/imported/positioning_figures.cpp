@@ -37,10 +37,10 @@ std::vector<ReadingsMean> means_of(const Run& run, int direction) {
   return means;
 }
 
+// NaN: not declared at import; 0 is a declaration.
 double declared_u(const Run& run) {
-  double largest = 0;
-  for (const MeasuredPoint& p : run.points)
-    if (const double u = u_of_deviation(p); u > largest) largest = u;
+  double largest = kNaN;
+  for (const MeasuredPoint& p : run.points) largest = std::fmax(largest, u_of_deviation(p));
   return largest;
 }
 
@@ -128,8 +128,8 @@ void add_figures(const Run& run, StatedFigures& stated) {
 StatedFigures complete(StatedFigures stated, const Run& run) {
   for (Budget& budget : stated.budgets) {
     budget.is_imported = true;
+    if (std::isnan(declared_u(run))) budget.not_declared = {"u_um"};
     complete_or_unknown(budget);
-    if (!(declared_u(run) > 0)) budget.not_declared = {"u_um"};
   }
   return stated;
 }

@@ -310,7 +310,10 @@ Status take_squareness(store::Store& store, Machine& machine, const Squareness& 
   MDOF_TRY(at.a, point_of_slope(*a, stated));
   MDOF_TRY(at.b, point_of_slope(*b, stated));
   MDOF_TRY(const FittedSquareness fitted, stored_squareness(store, stored, at));
-  b->location[about] = {fitted.squareness.error_rad, fitted.squareness.u_error_rad};
+  b->location[about].value = fitted.squareness.error_rad;
+  b->location[about].u = std::nullopt;
+  if (const double u_rad = fitted.squareness.u_error_rad; !std::isnan(u_rad))
+    b->location[about].u = u_rad;
   machine.simulated = machine.simulated || fitted.squareness.simulated;
   append(all.notices, fitted.notices);
   append(all.doubtful, without_information(fitted.notices));

@@ -15,6 +15,7 @@ int decimals_of(double u) {
 }  // namespace
 
 std::string uncertainty_text(double u) {
+  if (u == 0) return "0";
   return u > 0 && std::isfinite(u) ? charts::fixed_text(u, decimals_of(u)) : "–";
 }
 

@@ -82,7 +82,7 @@ void write_squareness(Html& html, const charts::SquarenessOfPair& pair,
   const std::string angle = squareness_name(pair.axes);
   const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
   const Budget& b = pair.results->budget;
-  const bool known = b.u > 0;
+  const bool known = std::isfinite(b.u);
   const double U = to_urad(b.U);
   html.table({of(Phrase::figure), of(Phrase::value), of(Phrase::unit), "u", "U (95 %)", "k"},
              {{angle, value_text(to_urad(pair.results->squareness.error_rad), U), "µrad",

@@ -189,7 +189,7 @@ void write_results(Html& html, const ReportRun& run, Language language) {
   const std::string unknown = of(Phrase::unknown);
   for (const Budget& b : figures.budgets) {
     const double U = to_key_unit(b.U), u = to_key_unit(b.u);
-    const bool known = b.u > 0 && std::isfinite(b.u);
+    const bool known = std::isfinite(b.u);
     const std::string U_text = known ? uncertainty_text(U) : unknown;
     rows.push_back(
         {charts::split_key(b.figure).name, value_text(to_key_unit(b.value), U),

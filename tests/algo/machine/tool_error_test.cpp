@@ -50,6 +50,21 @@ TEST(MachineModel, LinearIsWithinItsBound) {
   EXPECT_GT(closest, 0.02);  // the bound says something
 }
 
+// u is 0 where all that counts is declared as 0, and unknown where something is not declared.
+TEST(MachineModel, ADeclaredZeroIsAKnownU) {
+  Machine machine = test::RandomMachines(9).machine("XYZ", 0, 0, 0.3);
+  for (MachineFrame& frame : machine.frames) {
+    for (ErrorFunction& error : frame.error) error = {{}, {0}, {}, {0}, {}};
+    for (LocationError& error : frame.location)
+      if (error.value) error.u = 0;
+  }
+  const Command command = test::RandomMachines(9).command(0.3);
+  EXPECT_EQ(tool_error(machine, command, MachineApproach::mean).u[0], 0);
+  machine.frames[1].error[0].u.clear();
+  machine.frames[2].error[0].u.clear();
+  EXPECT_TRUE(std::isnan(tool_error(machine, command, MachineApproach::mean).u[0]));
+}
+
 // One error at a time: the slope of the full product, by differences of fourth order at several
 // distances (their error is h^4/30 by rounding/h), is the derivative. Bar: 1e-9 of its size.
 TEST(MachineModel, DerivativesAreThoseOfTheProduct) {

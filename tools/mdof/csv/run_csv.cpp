@@ -10,8 +10,8 @@
 namespace mdof::tools {
 namespace {
 
-// Points without noise have no uncertainty: the cell stays empty.
-double known_u(double u) {
+// Noise that no reading shows is not known: the cell stays empty.
+double known_noise(double u) {
   return u > 0 ? to_key_unit(u) : kNaN;
 }
 
@@ -23,8 +23,9 @@ void add_point(CsvText& csv, const MovingAxis& moving, const MeasuredPoint& p,
   csv.cell(static_cast<long long>(p.run)).cell(static_cast<long long>(p.point.direction));
   csv.cell(to_mm(p.point.position_m));
   for (const double error : named) csv.cell(valid ? to_key_unit(error) : kNaN);
-  for (const Errors5& five : {uncertainty.u, uncertainty.u_random, uncertainty.U})
-    for (const double u : five) csv.cell(known_u(u));
+  for (const double u : uncertainty.u) csv.cell(to_key_unit(u));
+  for (const double u : uncertainty.u_random) csv.cell(known_noise(u));
+  for (const double U : uncertainty.U) csv.cell(to_key_unit(U));
   csv.cell(static_cast<long long>(p.point.samples)).cell(to_string(p.point.flags));
   csv.cell(valid ? "" : p.errors.reason);
   csv.cells({covers_text(of_run), joined(of_run.not_declared, " ")}).end_row();
@@ -50,7 +51,8 @@ namespace {
 void add_uncertainty(CsvText& csv, const StatedFigures& figures, const std::string& approach,
                      const std::string& figure) {
   const Budget* budget = approach == "mean" ? find_budget(figures.budgets, figure) : nullptr;
-  csv.cell(budget ? known_u(budget->u) : kNaN).cell(budget ? known_u(budget->U) : kNaN);
+  csv.cell(budget ? to_key_unit(budget->u) : kNaN);
+  csv.cell(budget ? to_key_unit(budget->U) : kNaN);
 }
 
 void add_covers(CsvText& csv, const StatedFigures& figures) {

@@ -55,9 +55,9 @@ std::string flags_of(const MeasuredPoint& p) {
   return flags + (flags.empty() ? "" : " ") + "unsolved: " + p.errors.reason;
 }
 
-// No noise is known: so is no uncertainty.
+// `u`: NaN where it is not known.
 std::string value_with_u(double value, double u, bool angle, double column = 0) {
-  if (u > 0) return angle ? urad_with_u(value, u, column) : um_with_u(value, u, column);
+  if (u >= 0) return angle ? urad_with_u(value, u, column) : um_with_u(value, u, column);
   return angle ? in_urad(value) : in_um(value);
 }
 
@@ -193,7 +193,7 @@ std::string straightness_text(const std::vector<StraightnessFigure>& figures,
     const Budget* budget = budget_of_slope(budgets, f);
     table.add({f.error_key.substr(0, 3), f.approach, in_um(f.straightness_least_squares_m),
                in_um(f.straightness_end_point_m),
-               value_with_u(f.slope_least_squares_rad, budget ? budget->u : 0, true),
+               value_with_u(f.slope_least_squares_rad, budget ? budget->u : kNaN, true),
                in_urad(f.form_rad), in_urad(f.slope_end_point_rad), in_mm(f.peak_position_m),
                in_mm(f.valley_position_m)});
   }

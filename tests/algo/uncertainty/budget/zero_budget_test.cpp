@@ -45,5 +45,19 @@ TEST(Budget, AnArtefactWithoutUIsNotOneThatDeclaresZero) {
   EXPECT_FALSE(lacks_u(0.4e-6));
 }
 
+// u of nothing at all is 0 only where nothing is left undeclared.
+TEST(Budget, UOfNothingIsUnknownWhereSomethingIsNotDeclared) {
+  Budget budget;
+  budget.lines.resize(1);
+  complete(budget);
+  EXPECT_EQ(budget.u, 0);
+  EXPECT_EQ(budget.U, 0);
+  budget.not_declared = {"u_um_per_h"};
+  complete(budget);
+  EXPECT_TRUE(std::isnan(budget.u));
+  EXPECT_TRUE(std::isnan(budget.U));
+  EXPECT_TRUE(std::isnan(budget.coverage_factor));
+}
+
 }  // namespace
 }  // namespace mdof::algo

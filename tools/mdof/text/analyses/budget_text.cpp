@@ -57,7 +57,7 @@ std::string head_of(const Budget& b) {
 
 // The largest one without which U would be smaller, and by how much.
 std::string improve_text(const Budget& b) {
-  if (b.lines.empty() || b.u == 0) return "";
+  if (b.lines.empty() || !(b.u > 0)) return "";
   const BudgetLine& first = b.lines.front();
   const double without = b.U * std::sqrt(std::max(0.0, 1 - first.share));
   return "Improve first: " + contributor_text(first.name) + ", " + percent(first.share) +

@@ -1,6 +1,7 @@
 #include "schema/compensation_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "schema/base/canonical.h"
@@ -47,7 +48,20 @@ std::string table_sha256(const CompensationTable& t) {
   return sha256_hex(bytes);
 }
 
+namespace {
+
+// No target was read twice by the same approach.
+bool has_single_readings(const PositioningErrors& along) {
+  const auto unknown = [](double u_random) { return std::isnan(u_random); };
+  return std::all_of(along.u_forward.begin(), along.u_forward.end(), unknown) &&
+         std::all_of(along.u_reverse.begin(), along.u_reverse.end(), unknown);
+}
+
+}  // namespace
+
 Covers covers(const CompensationTable& table) {
+  if (table.has_positioning() && table.has_declared() && has_single_readings(table.positioning))
+    return {Covered::declared_at_import, Covered::no_repeatability};
   if (table.has_positioning())
     return {table.has_declared() ? Covered::repeatability_import : Covered::repeatability_only};
   if (!table.noise_only()) return {Covered::noise_repeatability_rigs};

@@ -66,6 +66,14 @@ struct CompensationTable {
     return has_declared() ? std::hypot(u_random[named][row], u_declared[named][row])
                           : u_random[named][row];
   }
+  // The same of positioning. One reading a target shows no repeatability: its u is what was
+  // declared.
+  double u_of_positioning(bool of_forward, std::size_t row) const {
+    const double value = (of_forward ? positioning.forward : positioning.reverse)[row];
+    const double u_random = (of_forward ? positioning.u_forward : positioning.u_reverse)[row];
+    if (!has_declared() || std::isnan(value)) return u_random;
+    return std::hypot(std::isnan(u_random) ? 0 : u_random, positioning.u_declared[row]);
+  }
 };
 
 // SHA-256 of what the table says, whatever words show it. Bytes hashed (i, d, s:

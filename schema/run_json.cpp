@@ -45,6 +45,7 @@ void write_corrections(JsonWriter& json, const CompensationTable& t) {
 
 // What a table holds of an approach.
 struct Side {
+  bool is_forward;
   const std::array<std::vector<double>, 5>&values, &u;
   const std::vector<double>&along, &u_along;
 };
@@ -65,8 +66,7 @@ void write_side(JsonWriter& json, const CompensationTable& t, const Side& side, 
   write_along(along(side.along));
   json.key("u").begin_object();
   write_five([&](std::size_t k) { return t.u_of(side.u, k, row); });
-  write_along(t.has_declared() ? std::hypot(along(side.u_along), along(t.positioning.u_declared))
-                               : along(side.u_along));
+  write_along(t.has_positioning() ? t.u_of_positioning(side.is_forward, row) : std::nan(""));
   json.end_object();
   if (t.has_declared()) {
     json.key("u_random").begin_object();
@@ -308,11 +308,11 @@ std::string with_notices(std::string json, const Notices& notices, NoticeWords w
 void write_table_row(JsonWriter& json, const CompensationTable& t, std::size_t row) {
   json.begin_object().field("position_mm", to_mm(t.position_m[row]));
   json.key("forward");
-  write_side(json, t, {t.forward, t.u_forward, t.positioning.forward, t.positioning.u_forward},
-             row);
+  write_side(json, t,
+             {true, t.forward, t.u_forward, t.positioning.forward, t.positioning.u_forward}, row);
   json.key("reverse");
-  write_side(json, t, {t.reverse, t.u_reverse, t.positioning.reverse, t.positioning.u_reverse},
-             row);
+  write_side(json, t,
+             {false, t.reverse, t.u_reverse, t.positioning.reverse, t.positioning.u_reverse}, row);
   json.end_object();
 }
 

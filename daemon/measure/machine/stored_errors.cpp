@@ -131,9 +131,9 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
     }
     const PositioningErrors& along = table.positioning;
     const std::vector<double> noise = larger(along.u_forward, along.u_reverse);
-    std::vector<double> u = noise;  // of one reading a target nothing but what is declared
-    for (std::size_t i = 0; table.has_declared() && i < u.size(); ++i)
-      u[i] = std::hypot(std::isnan(u[i]) ? 0 : u[i], along.u_declared[i]);
+    std::vector<double> u;
+    for (std::size_t i = 0; i < noise.size(); ++i)
+      u.push_back(std::fmax(table.u_of_positioning(true, i), table.u_of_positioning(false, i)));
     // Its errors are those of the place in the controller's coordinates; the body's are along +.
     const double body = frame.against_command ? -1 : 1;
     return take(frame, frame.direction,

@@ -17,12 +17,12 @@ namespace {
 using Columns = std::array<std::vector<double>, 5>;
 
 // Of positioning alone: no other error was measured.
-std::string positioning_text(const CompensationTable& t, const std::vector<double>& values,
-                             const std::vector<double>& u) {
+std::string positioning_text(const CompensationTable& t, bool is_forward) {
+  const auto& values = is_forward ? t.positioning.forward : t.positioning.reverse;
   TextTable out({"position/mm", error_label(positioning_name(t.axis) + "_um")});
-  std::vector<double> all = u;
-  for (std::size_t i = 0; t.has_declared() && i < all.size(); ++i)
-    all[i] = std::hypot(u[i], t.positioning.u_declared[i]);
+  std::vector<double> all;
+  for (std::size_t i = 0; i < t.position_m.size(); ++i)
+    all.push_back(t.u_of_positioning(is_forward, i));
   for (std::size_t i = 0; i < t.position_m.size(); ++i)
     out.add({in_mm(t.position_m[i]), um_with_u(values[i], all[i], column_u(all))});
   return out.text(terminal_columns());
@@ -92,7 +92,6 @@ std::string table_document(const CompensationTable& t, std::int64_t generation, 
 }
 
 std::string table_of_positioning_text(const CompensationTable& t) {
-  const PositioningErrors& along = t.positioning;
   return simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) +
                      ", positioning errors from the imported runs " + runs_of(t.runs) + ", " +
@@ -105,8 +104,7 @@ std::string table_of_positioning_text(const CompensationTable& t) {
                      to_string(kTablePositioningSense) + ")",
                  terminal_columns()) +
          "\n" + corrections_text(t, terminal_columns()) + "\nforward\n" +
-         positioning_text(t, along.forward, along.u_forward) + "\nreverse\n" +
-         positioning_text(t, along.reverse, along.u_reverse) +
+         positioning_text(t, true) + "\nreverse\n" + positioning_text(t, false) +
          wrapped("± is the standard uncertainty u. It contains " + covers_text(t),
                  terminal_columns()) +
          "\n";

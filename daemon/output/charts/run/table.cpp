@@ -74,9 +74,9 @@ std::vector<TableSeries> series_of_table(const CompensationTable& table, Languag
   TableSeries series;
   series.key = positioning_name(table.axis) + "_um";
   for (const bool forward : {true, false}) {
-    std::vector<double> u = forward ? p.u_forward : p.u_reverse;
-    if (table.has_declared())
-      for (std::size_t i = 0; i < u.size(); ++i) u[i] = std::hypot(u[i], p.u_declared[i]);
+    std::vector<double> u;
+    for (std::size_t i = 0; i < table.position_m.size(); ++i)
+      u.push_back(table.u_of_positioning(forward, i));
     add_marks(series.marks, table, forward ? 1 : -1, forward ? p.forward : p.reverse, u);
   }
   series.correction = correction_line(-1, std::string(1, letter(table.axis)), "", language);

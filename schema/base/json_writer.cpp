@@ -107,7 +107,7 @@ JsonWriter& JsonWriter::key(std::string_view name) {
 JsonWriter& JsonWriter::value(double x) {
   if (!std::isfinite(x)) return null();
   separate();
-  append_number(text_, x);
+  append_number(text_, x + 0.0);  // -0 is 0
   return *this;
 }
 

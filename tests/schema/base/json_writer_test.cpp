@@ -32,6 +32,11 @@ TEST(JsonWriter, WritesIntegersInFull) {
   EXPECT_EQ(json.text(), "[-9223372036854775808,18446744073709551615]");
 }
 
+TEST(JsonWriter, WritesMinusZeroAsZero) {
+  EXPECT_EQ(JsonWriter().value(-0.0).take(), "0");
+  EXPECT_EQ(JsonWriter().value(0.0).take(), "0");
+}
+
 TEST(JsonWriter, WritesDoublesThatReadBackToTheSameBits) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 100'000; ++i) {

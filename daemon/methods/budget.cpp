@@ -116,7 +116,9 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                   reference},
        .result = "figures: for each result before, after and change (|after| - |before|), each "
                  "with value, u, u_random, nu_eff, k, U (95 %); effect: reduced, increased, not "
-                 "shown (the change is smaller than its U) or unknown (U is unknown); points "
+                 "shown (the change is smaller than its U), changed (the same, but "
+                 "change_at_targets, the change of the error over the targets or of the slope with "
+                 "its sign, is larger than both U together) or unknown (U is unknown); points "
                  "(targets of both runs): position_mm, and before, after, U_before and U_after of "
                  "each error (forward, reverse and reversal); notices: other differences between "
                  "the runs, and the notices of both runs. For two imported runs of positioning "

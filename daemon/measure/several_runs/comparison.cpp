@@ -6,6 +6,7 @@
 
 #include "daemon/measure/imported/imported_run.h"
 #include "daemon/measure/imported/positioning_figures.h"
+#include "daemon/measure/several_runs/change_at_targets.h"
 #include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/base/json_writer.h"
@@ -23,8 +24,22 @@ namespace {
 
 constexpr double kSameEnd_m = 1e-4;
 
+// What both runs share adds where the sign has changed, so that u is the sum of both.
+void add_shared(Budget& change, double u_before, double u_after) {
+  const double freedom = change.freedom, k = change.coverage_factor;
+  BudgetLine shared;
+  shared.name = {ContributorKind::shared_by_runs};
+  shared.distribution = "normal";
+  shared.contribution = std::sqrt(2 * u_before * u_after);
+  change.lines.push_back(shared);
+  algo::complete(change);
+  change.freedom = freedom;  // that of the runs
+  change.coverage_factor = k;
+  change.U = k * change.u;
+}
+
 ComparedFigure compared(const Budget& before, const Budget& after) {
-  ComparedFigure figure{before, after, {}, Effect::not_shown};
+  ComparedFigure figure{before, after, {}, kNaN, Effect::not_shown};
   Budget& change = figure.change;
   change.figure = before.figure;
   change.value = std::abs(after.value) - std::abs(before.value);
@@ -51,10 +66,7 @@ ComparedFigure compared(const Budget& before, const Budget& after) {
     return figure;
   }
   algo::complete(change);
-  if (before.value * after.value < 0) {  // what both runs share adds
-    change.u = before.u + after.u;
-    change.U = change.coverage_factor * change.u;
-  }
+  if (before.value * after.value < 0) add_shared(change, before.u, after.u);
   // A range of noisy means is biased upwards, which first order does not know.
   if (before.U_by_trials || after.U_by_trials) {
     change.U = std::max(change.U, std::hypot(before.U, after.U));
@@ -115,6 +127,14 @@ Status add_figures(Comparison& found, const std::vector<Budget>& before,
                    " cannot be compared, because no figure has a value in both runs");
 }
 
+void add_change_at_targets(Comparison& found) {
+  for (ComparedFigure& figure : found.figures) {
+    figure.at_targets = change_at_targets(figure.before, figure.after, found.points);
+    if (figure.effect == Effect::not_shown && figure.at_targets > figure.before.U + figure.after.U)
+      figure.effect = Effect::changed;
+  }
+}
+
 // Both are positioning that was imported.
 Status check_positioning(const Run& before, const Run& after) {
   for (const Run* run : {&before, &after}) {
@@ -150,6 +170,7 @@ Result<Comparison> compare_positioning(store::Store& store, const Run& before, c
                               : positioning_figures;
   MDOF_CHECK(add_figures(found, figures_of(before).budgets, figures_of(after).budgets));
   found.points = compared_points(a, b);
+  add_change_at_targets(found);
   if (found.points.points.empty())
     found.why_no_points = "the runs have no target in common (within 0.1 mm)";
   return found;
@@ -182,6 +203,8 @@ const char* to_string(Effect effect) {
       return "reduced";
     case Effect::increased:
       return "increased";
+    case Effect::changed:
+      return "changed";
     case Effect::unknown:
       return "unknown";
     case Effect::not_shown:
@@ -215,6 +238,7 @@ Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& re
   found.simulated = first.simulated || second.simulated;
   MDOF_CHECK(add_figures(found, first.budgets, second.budgets));
   add_points(store, before, after, request.reference, found);
+  add_change_at_targets(found);
   for (Notice& notice : second.notices) found.notices.push_back(std::move(notice));
   return found;
 }
@@ -244,7 +268,9 @@ std::string comparison_json(const Comparison& c) {
       write_stated_members(json, *budget);
       json.end_object();
     }
-    json.field("effect", to_string(figure.effect)).end_object();
+    json.field("change_at_targets", to_key_unit(figure.at_targets))
+        .field("effect", to_string(figure.effect))
+        .end_object();
   }
   json.end_object();
   write_compared_points(json, c.points);

@@ -6,6 +6,7 @@
 
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/several_runs/compared_points.h"
+#include "schema/sample.h"
 
 namespace mdof::daemon {
 
@@ -13,9 +14,10 @@ enum class Effect {
   reduced,
   increased,
   not_shown,  // the change is within its U
+  changed,    // that of the size is, but not that at the targets
   unknown,    // its U is not known
 };
-const char* to_string(Effect effect);  // "reduced", "increased", "not shown", "unknown"
+const char* to_string(Effect effect);  // "reduced", "increased", "not shown", "changed", "unknown"
 
 struct ComparedFigure {
   Budget before, after;
@@ -24,6 +26,8 @@ struct ComparedFigure {
   // that u is too large rather than too small. Where the sign has changed it adds, and u is the
   // sum.
   Budget change;
+  // change_at_targets(); more than both U together is more than noise makes of it by chance.
+  double at_targets = kNaN;
   Effect effect = Effect::not_shown;
 };
 

@@ -14,6 +14,7 @@ using output::phrase;
 Phrase effect_phrase(daemon::Effect effect) {
   return effect == daemon::Effect::reduced     ? Phrase::effect_reduced
          : effect == daemon::Effect::increased ? Phrase::effect_increased
+         : effect == daemon::Effect::changed   ? Phrase::effect_changed
          : effect == daemon::Effect::unknown   ? Phrase::unknown
                                                : Phrase::effect_not_shown;
 }

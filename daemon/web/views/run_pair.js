@@ -40,9 +40,9 @@ function pairCharts(key, a, b) {
     h("p", {}, gap.size === 0 ? "The runs have no target in common." : `Largest difference between the means of the runs (only approaches that both runs have): ${short(largest)} ${unit}`))};
 }
 
-const effects = {reduced: "▼ reduced", increased: "▲ increased", "not shown": "● not shown"};
+const effects = {reduced: "▼ reduced", increased: "▲ increased", "not shown": "● not shown", changed: "◆ changed in sign or shape"};
 
-const figures = (found, first, second) => table(`Results of run ${first} (before) and run ${second} (after). “not shown”: the change is smaller than its U`,
+const figures = (found, first, second) => table(`Results of run ${first} (before) and run ${second} (after). “not shown”: the change is smaller than its U; “changed”: so is that of the size, but the sign or the shape is not the same`,
   [["result"], [`run ${first}`, "w"], [`run ${second}`, "w"], ["change of |value|", "w"], ["effect", "w"]],
   Object.entries(found.figures).map(([key, f]) => [titleOf(key), measured(f.before, unitOf(key), {with_k: false}), measured(f.after, unitOf(key), {with_k: false}),
     measured(f.change, unitOf(key), {with_k: false}), effects[f.effect] ?? f.effect]));

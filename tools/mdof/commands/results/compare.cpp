@@ -36,6 +36,11 @@ std::string with_U(const Budget& budget) {
 // "reduced, to 1/9.8": the factor only where what is left is seen.
 std::string effect_text(const daemon::ComparedFigure& figure) {
   std::string text = daemon::to_string(figure.effect);
+  if (figure.effect == daemon::Effect::changed)
+    return text + " by " +
+           (figure.before.figure.ends_with("_um")
+                ? um_to_place(figure.at_targets, figure.change.U) + " µm"
+                : urad_to_place(figure.at_targets, figure.change.U) + " µrad");
   if (figure.effect != daemon::Effect::reduced) return text;
   const double left = std::abs(figure.after.value), before = std::abs(figure.before.value);
   return left > figure.after.U ? text + " to 1/" + fixed(before / left, 1)
@@ -80,7 +85,9 @@ std::string comparison_text(const daemon::Comparison& c) {
                      ". The change is |after| - |before|. U of the change treats the runs as "
                      "independent. Uncertainties that both runs share cancel, so this U tends to "
                      "be too large. Where the sign of a figure has changed, they add, and u of the "
-                     "change is the sum of both.",
+                     "change is the sum of both. \"changed\": the size is the same within U, but "
+                     "the sign or the "
+                     "shape is not.",
                  terminal_columns()) +
          "\n";
 }

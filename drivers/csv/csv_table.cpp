@@ -1,9 +1,11 @@
 #include "drivers/csv/csv_table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "drivers/csv/csv_rows.h"
+#include "schema/base/toml/toml_reader.h"
 
 namespace mdof::drivers {
 namespace {
@@ -48,6 +50,45 @@ std::vector<std::string> with_those_there(const CsvHeader& header, std::vector<s
                     [&](const std::string& column) { return stem_of(column) == stem_of(name); }))
       names.push_back(name);
   return names;
+}
+
+std::string folded(const std::string& name) {
+  std::string text;
+  for (const char c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+// Whether `column` is `name` in other letters: "Direction", "runs", "dirction". A short name, and
+// one with a capital letter (EYX_um), has neighbours that mean something else.
+bool is_meant(const std::string& column, const std::string& name) {
+  constexpr std::size_t kLongName = 5;
+  const std::string is = folded(column), wanted = folded(name);
+  if (is == wanted || is == wanted + "s") return true;
+  const bool plain =
+      std::none_of(name.begin(), name.end(), [](unsigned char c) { return std::isupper(c) != 0; });
+  return plain && wanted.size() > kLongName && edit_distance(is, wanted) <= 1;
+}
+
+// An optional column whose name is written in another way would be lost in silence.
+Status check_not_misspelt(const CsvHeader& header, const std::vector<std::string>& names,
+                          const std::vector<std::string>& optional) {
+  const auto is_read = [&](const std::string& column) {
+    return std::find(names.begin(), names.end(), column) != names.end() ||
+           std::find(optional.begin(), optional.end(), column) != optional.end();
+  };
+  for (const std::string& name : optional) {
+    if (std::find(header.columns.begin(), header.columns.end(), name) != header.columns.end())
+      continue;
+    for (const std::string& column : header.columns)
+      if (!is_read(column) && is_meant(column, name))
+        return bad_input(header.source + ":" + std::to_string(header.lines) + ": column " + column +
+                         " is not read: the name of this column is " + name +
+                         "; rename the column to " + name +
+                         " if it contains these values, or delete it");
+  }
+  return {};
 }
 
 void put_optional_in_order(CsvTable& table, const std::vector<std::string>& wanted,
@@ -112,6 +153,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   table.header_line = header.lines;
   table.simulated = header.says_simulated();
   table.noise_only = header.says_noise_only();
+  MDOF_CHECK(check_not_misspelt(header, names, optional));
   const auto wanted = with_those_there(header, names, optional);
   MDOF_TRY(const auto channels, channels_of(header, wanted));
   table.columns.resize(wanted.size());

@@ -25,9 +25,10 @@ struct CsvTable {
 
 // The columns `names` of `path` ("-": standard input), plain or gzip, in any order among others;
 // those of `optional` where they are there with a value in any row. Errors name file, line, column
-// and remedy: what CsvRows refuses; no column of that name; a cell without a value; a line that is
-// none; more rows than `most_rows`. `descriptor`: of the file where it is open already
-// (byte_source.h), -1: not.
+// and remedy: what CsvRows refuses; no column of that name; one that has the name of an optional
+// column but for its case or one letter ("Direction"), where that is not there; a cell without a
+// value; a line that is none; more rows than `most_rows`. `descriptor`: of the file where it is
+// open already (byte_source.h), -1: not.
 inline constexpr std::size_t kMostTableRows = 10'000'000;  // all are in memory at once
 Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& names,
                                 const std::vector<std::string>& optional = {},

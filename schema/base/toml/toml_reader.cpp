@@ -39,9 +39,6 @@ struct TomlTable::Node {
   }
 };
 
-namespace {
-
-// Letters to add, to leave out, to change, and neighbours to swap ("slove").
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> two_before, before(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -57,6 +54,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   }
   return row[b.size()];
 }
+
+namespace {
 
 std::optional<double> as_number(const toml::node& node) {
   if (const auto* x = node.as_floating_point()) return x->get();

@@ -57,6 +57,9 @@ class TomlTable {
   std::shared_ptr<Node> node_;
 };
 
+// Letters to add, to leave out, to change, and neighbours to swap ("slove").
+std::size_t edit_distance(std::string_view a, std::string_view b);
+
 // The candidate with the smallest edit distance to `word`; empty if none is near.
 std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates);
 

@@ -1,12 +1,12 @@
 # embed_sql(FOLDER OUTPUT): writes OUTPUT, a source file for schema/sql/sql.h with the texts of
-# FOLDER/NNN_*.sql (migrations, in order) and of schema/recording/recording.sql as raw strings. Runs
-# again when one of them changes.
+# FOLDER/NNN_*.sql and FOLDER/*/NNN_*.sql (migrations, in the order of their numbers) and of
+# schema/recording/recording.sql as raw strings. Runs again when one of them changes.
 function(embed_sql folder output)
   set(recording_file ${PROJECT_SOURCE_DIR}/schema/recording/recording.sql)
-  file(GLOB files CONFIGURE_DEPENDS ${folder}/*.sql)
+  file(GLOB files CONFIGURE_DEPENDS ${folder}/*.sql ${folder}/*/*.sql)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${files} ${recording_file})
-  file(GLOB migrations ${folder}/[0-9][0-9][0-9]_*.sql)
-  list(SORT migrations)
+  file(GLOB migrations ${folder}/[0-9][0-9][0-9]_*.sql ${folder}/*/[0-9][0-9][0-9]_*.sql)
+  list(SORT migrations COMPARE FILE_BASENAME)
   foreach(file ${migrations})
     get_filename_component(name ${file} NAME)
     string(REGEX MATCH "^0*([0-9]+)_" unused ${name})

@@ -88,12 +88,11 @@ bool redundant(const MeasuredPoint& p) {
                        [](double m) { return std::isfinite(m); }) > kErrorCount;
 }
 
-// The scans of a CSV log are not numbered: nobody knows of one that it is missing.
+}  // namespace
+
 bool lost_is_known(const RunHeader& h) {
   return (h.provenance.recording_kind != "csv" && !is_imported(h)) || h.scans_lost > 0;
 }
-
-}  // namespace
 
 void write_strings(JsonWriter& json, const char* key, const std::vector<std::string>& texts) {
   json.key(key).begin_array();

@@ -18,6 +18,10 @@ namespace mdof {
 void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& point,
                  const ErrorsUncertainty& uncertainty);
 
+// The scans of a CSV log are not numbered, and an imported run has none: nobody knows of one that
+// it is missing.
+bool lost_is_known(const RunHeader& header);
+
 // "key": ["text", ...] of an open object.
 void write_strings(JsonWriter& json, const char* key, const std::vector<std::string>& texts);
 

@@ -43,10 +43,8 @@ std::string datum_of(const Options& options) {
   return options ? datum_text(options->datum) : "";
 }
 
-// The scans of a CSV log have no number: whether some are lost is not known.
 std::string lost_of(const RunHeader& h) {
-  const bool unknown = h.provenance.recording_kind == "csv" && h.scans_lost == 0;
-  return unknown ? "lost: unknown" : "lost: " + std::to_string(h.scans_lost);
+  return "lost: " + (lost_is_known(h) ? std::to_string(h.scans_lost) : "unknown");
 }
 
 std::string flags_of(const MeasuredPoint& p) {

@@ -40,7 +40,7 @@ Covers covers(const std::vector<Budget>& budgets) {
   Covers found = covers(best == budgets.end() ? budgets.front() : *best);
   const auto is_unknown = [](const Budget& b) { return b.is_imported && std::isnan(b.u); };
   if (std::any_of(budgets.begin(), budgets.end(), is_unknown))
-    found.push_back(Covered::unknown_with_one_reading);
+    found.push_back(Covered::unknown_without_repeatability);
   return found;
 }
 

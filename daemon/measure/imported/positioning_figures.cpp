@@ -22,6 +22,17 @@ struct ReadingsMean {
   double value = 0, u_random = kNaN, freedom = 0;
 };
 
+// NaN: the repeatability is not known. Readings that are equal show only that their spread is below
+// the resolution of the instrument, which the file does not say.
+double u_of_mean(const std::vector<double>& readings, double mean) {
+  const auto [low, high] = std::minmax_element(readings.begin(), readings.end());
+  if (*low == *high) return kNaN;
+  const auto n = static_cast<double>(readings.size());
+  double square = 0;
+  for (const double v : readings) square += (v - mean) * (v - mean);
+  return std::sqrt(square / (n - 1) / n);
+}
+
 std::vector<ReadingsMean> means_of(const Run& run, int direction) {
   std::map<int, std::vector<double>> readings;
   for (const MeasuredPoint& p : run.points)
@@ -29,10 +40,9 @@ std::vector<ReadingsMean> means_of(const Run& run, int direction) {
   std::vector<ReadingsMean> means;
   for (const auto& [target, values] : readings) {
     const auto n = static_cast<double>(values.size());
-    double sum = 0, square = 0;
+    double sum = 0;
     for (const double v : values) sum += v;
-    for (const double v : values) square += (v - sum / n) * (v - sum / n);
-    means.push_back({target, sum / n, n > 1 ? std::sqrt(square / (n - 1) / n) : kNaN, n - 1});
+    means.push_back({target, sum / n, u_of_mean(values, sum / n), n - 1});
   }
   return means;
 }

@@ -13,7 +13,8 @@ namespace mdof::daemon {
 // means of all readings, "EXX_range_um". `why`: what is left out. All are sizes, so that the sense
 // of the deviations does not change them.
 //
-// U of a range is that of the difference of its two ends; NaN where a target has one reading. What
+// U of a range is that of the difference of its two ends; NaN where a target has one reading, or
+// only equal ones. What
 // the run declares is common to the two approaches of a target, and so cancels between them.
 StatedFigures positioning_figures(const Run& run);
 // As if no reading said its approach: what can be compared with a run whose readings do not.

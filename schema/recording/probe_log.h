@@ -14,8 +14,8 @@
 // seconds alone.
 //
 // A table may have the columns of words of mdof's own documents (u_covers, u_not_declared, flags,
-// reason), which are not read and may be quoted; and positioning_sense with "command" or "body",
-// which is read as kCommandSense or kBodySense.
+// reason, travel), which are not read and may be quoted; and positioning_sense with "command" or
+// "body", which is read as kCommandSense or kBodySense.
 #pragma once
 
 #include <cstddef>

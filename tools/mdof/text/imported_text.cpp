@@ -4,6 +4,7 @@
 
 #include "daemon/measure/imported/imported_run.h"
 #include "schema/imported/series.h"
+#include "schema/recording/probe_log.h"
 #include "schema/recording/run_options.h"
 #include "schema/units.h"
 #include "tools/mdof/csv/csv_text.h"
@@ -30,13 +31,19 @@ std::string sense_text(const Run& run) {
 std::string imported_csv(const Run& run) {
   const std::string key = error_of_imported(run.header).key();
   const std::string covers = covers_text(daemon::covers_of_readings(run));
+  const ImportedSense stated = run_options(run.header).imported;
+  const std::string travel = !stated.against_command ? "" : *stated.against_command ? "-" : "+";
   CsvText csv;
-  csv.cells({"target", "run", "direction", "position_mm", key, "u_" + key, "u_covers"}).end_row();
+  csv.cells({"target", "run", "direction", "position_mm", key, "u_" + key});
+  if (is_positioning(run)) csv.cell(kSenseColumn).cell("travel");
+  csv.cell("u_covers").end_row();
   for (const MeasuredPoint& p : run.points) {
     csv.cell(std::to_string(p.target)).cell(std::to_string(p.run));
     csv.cell(p.point.direction == 0 ? std::string() : std::to_string(p.point.direction));
     csv.cell(to_mm(p.point.position_m)).cell(to_key_unit(deviation(p)));
-    csv.cell(to_key_unit(u_of_deviation(p))).cells({covers}).end_row();
+    csv.cell(to_key_unit(u_of_deviation(p)));
+    if (is_positioning(run)) csv.cell(to_string(stated.sense)).cell(travel);
+    csv.cell(covers).end_row();
   }
   return csv.take();
 }

@@ -5,12 +5,26 @@
 #include "daemon/output/charts/analysis/analysis_charts.h"
 #include "daemon/output/charts/run/points.h"
 #include "schema/imported/series.h"
+#include "schema/recording/run_options.h"
 
 namespace mdof::charts {
 
 using output::Language;
 using output::Phrase;
 using output::phrase;
+
+namespace {
+
+// By their keys, as JSON and CSV have them: a chart without them does not say its signs.
+std::string sense_of(const RunHeader& run) {
+  if (run.provenance.model != positioning_name(run.axis)) return "";
+  const ImportedSense stated = run_options(run).imported;
+  return std::string(", positioning_sense: ") + to_string(stated.sense) +
+         (stated.against_command ? std::string(", travel: ") + (*stated.against_command ? "-" : "+")
+                                 : "");
+}
+
+}  // namespace
 
 RunCharts charts_of_imported(const Run& run, Language language) {
   RunCharts all;
@@ -27,7 +41,7 @@ RunCharts charts_of_imported(const Run& run, Language language) {
         name + ": the means of ISO 230-2 cannot be calculated: " + figures.error().message);
   PositioningPicture picture;
   picture.title = title_of_run(run.header, phrase(Phrase::positioning_of_run, language), language);
-  picture.about = about_run(run.header, language);
+  picture.about = about_run(run.header, language) + sense_of(run.header);
   picture.warnings = daemon::marks_of(run, language);
   picture.series = {std::move(series)};
   all.charts.push_back({name + "-" + error.name + ".svg", positioning_svg(picture, language)});

@@ -176,7 +176,10 @@ void write_sides(JsonWriter& json, const RunHeader& h) {
 void write_header_members(JsonWriter& json, const RunHeader& h, NoticeWords words) {
   const std::string axis(1, letter(h.axis));
   json.field("run", h.id).field("axis", axis).field("model", h.provenance.model);
-  write_reference(json, h.stated);
+  if (is_imported(h))
+    json.key("reference").null().key("reference_mm").null();
+  else
+    write_reference(json, h.stated);
   write_sides(json, h);
   json.field("state", to_string(h.state))
       .field("simulated", h.simulated)

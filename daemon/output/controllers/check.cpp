@@ -121,7 +121,7 @@ class Trial {
       for (int k = 0; k <= kBetween; ++k) {
         const double a = series_.position_m[i], b = series_.position_m[i + 1];
         const double place = a + (b - a) * k / kBetween;
-        if (place >= first && place <= last) x.push_back(place);
+        if (place >= first - kRounding_m && place <= last + kRounding_m) x.push_back(place);
       }
     return x;
   }

@@ -144,7 +144,8 @@ struct Format {
   AxisFiles axes;       // one of the three, or axes and a volume
   VolumeFiles volume;
   SquareFiles square;
-  bool takes_joints = false;  // ExportOptions::joints, inch and ramps
+  bool takes_joints = false;     // ExportOptions::joints, inch and ramps
+  bool both_approaches = false;  // has a value for each, so that it also corrects the reversal
 };
 
 // In the order of the help.

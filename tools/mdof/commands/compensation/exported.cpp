@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/imported/positioning_figures.h"
 #include "daemon/measure/machine/stored_errors.h"
 #include "daemon/measure/machine/volumetric.h"
 #include "schema/base/number/number_text.h"
@@ -206,6 +207,23 @@ Status take_one_approach(CompensationTable& table, const ExportRequest& request,
   return take(positioning_name(table.axis), table.positioning.forward, table.positioning.reverse);
 }
 
+// Its columns of both approaches are then the same: the controller takes them for a reversal of 0.
+Status mark_unknown_approach(store::Store& store, const CompensationTable& table,
+                             ExportedTables& out) {
+  if (!table.has_positioning() || !out.format->both_approaches) return {};
+  for (const std::int64_t id : table.runs) {
+    MDOF_TRY(const Run run, store.run(id));
+    if (!daemon::has_unknown_approach(run)) continue;
+    out.options.marks.push_back(
+        "APPROACH NOT STATED: readings of run " + std::to_string(id) + ", of which table " +
+        std::to_string(table.id) +
+        " is made, do not state their approach, so both approaches have the same values; a "
+        "reversal error is not corrected, and a controller that uses this table may ignore its "
+        "own backlash compensation (LinuxCNC ignores BACKLASH)");
+  }
+  return {};
+}
+
 Result<std::int64_t> squareness_number(const std::string& word) {
   std::int64_t number = 0;
   const char* const end = word.data() + word.size();
@@ -227,6 +245,7 @@ Status export_axes(store::Store& store, const ExportRequest& request,
     MDOF_CHECK(judge_table(store, table, request, out));
     MDOF_CHECK(algo::check_limits(table, limits));
     MDOF_CHECK(take_one_approach(table, request, out));
+    MDOF_CHECK(mark_unknown_approach(store, table, out));
     tables.push_back(std::move(table));
   }
   std::string axes;

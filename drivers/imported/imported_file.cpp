@@ -58,26 +58,26 @@ Result<ImportedSeries> series_of_csv(const std::string& path, bool angle, int de
 }
 
 Result<ImportedSeries> read(const std::string& path, const std::string& text,
-                            const std::string& format, const std::string& source, bool angle,
-                            int descriptor) {
-  if (angle && format != "csv")
+                            const std::string& format, const std::string& source,
+                            const AskedError& error, int descriptor) {
+  if (error.angle && format != "csv")
     return fail(ErrorCode::usage,
                 "angles can be imported only from a CSV file with the columns position_mm and "
                 "deviation_urad");
-  if (format == "rtl") return parse_rtl(text, source);
+  if (format == "rtl") return parse_rtl(text, source, error.is_stated);
   return format == "iso230-2" ? series_of_positioning(path, descriptor)
-                              : series_of_csv(path, angle, descriptor);
+                              : series_of_csv(path, error.angle, descriptor);
 }
 
 }  // namespace
 
 Result<ImportedSeries> read_imported_file(const std::string& path, const std::string& asked,
-                                          bool angle, int descriptor) {
+                                          const AskedError& error, int descriptor) {
   MDOF_TRY(const std::string text,
            read_text_file(descriptor < 0 ? path : "/proc/self/fd/" + std::to_string(descriptor)));
   const std::string format = asked.empty() ? format_of(text) : asked;
   const std::string source = std::filesystem::path(path).filename().string();
-  MDOF_TRY(ImportedSeries series, read(path, text, format, source, angle, descriptor));
+  MDOF_TRY(ImportedSeries series, read(path, text, format, source, error, descriptor));
   if (series.readings.empty()) return bad_input(source + ": has no readings");
   series.format = format;
   series.source = source;

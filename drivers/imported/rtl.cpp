@@ -21,6 +21,10 @@ constexpr const char* kConvertAngles =
     "but the scale of angles in these files is not public; convert the file to CSV with columns "
     "position_mm,deviation_urad, and import the CSV file as the measured error, such as EBX";
 
+constexpr const char* kNotPositioning =
+    ", not of positioning; state at the import which error was measured, such as EYX (or EXX if it "
+    "is positioning after all)";
+
 std::string utf8_from_latin1(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -66,7 +70,8 @@ std::pair<std::string_view, std::string_view> key_and_value(std::string_view lin
 
 class Rtl {
  public:
-  explicit Rtl(const std::string& source) : source_(source) {
+  Rtl(const std::string& source, bool error_is_stated)
+      : source_(source), error_is_stated_(error_is_stated) {
     series_.format = "rtl";
     series_.source = source;
   }
@@ -122,7 +127,7 @@ class Rtl {
 
   Status take_about(std::string_view line) {
     const auto [key, value] = key_and_value(line);
-    // The program that wrote the file: "Linear", "Angular", "Rotary".
+    // The program that wrote the file: "Linear", "Angular", "Rotary", "Straightness".
     if (key == "File type" || key == "Owner") MDOF_CHECK(check_linear(key, value));
     if (!value.empty())
       series_.about.push_back(utf8_from_latin1(key) + ": " + utf8_from_latin1(value));
@@ -134,6 +139,10 @@ class Rtl {
       if (contains_word(value, angle))
         return wrong(std::string(key) + " \"" + utf8_from_latin1(value) +
                      "\" means that the file contains angles, " + kConvertAngles);
+    for (const char* const other : {"straight", "flat", "square"})
+      if (!error_is_stated_ && contains_word(value, other))
+        return wrong(std::string(key) + " \"" + utf8_from_latin1(value) +
+                     "\" means that the file contains errors of another kind" + kNotPositioning);
     return {};
   }
 
@@ -255,6 +264,7 @@ class Rtl {
   }
 
   std::string source_, section_;
+  bool error_is_stated_;
   std::uint64_t line_ = 0;
   bool in_targets_ = false, in_deviations_ = false;
   std::size_t target_count_ = 0, run_count_ = 0, last_run_ = 0, last_target_ = 0;
@@ -265,10 +275,18 @@ class Rtl {
 
 }  // namespace
 
-Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& source) {
-  if (source.size() >= 4 && contains_word(source.substr(source.size() - 4), ".rta"))
+Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& source,
+                                 bool error_is_stated) {
+  const std::string_view name = source;
+  const std::string_view ending = name.size() < 4 ? "" : name.substr(name.size() - 4);
+  if (contains_word(ending, ".rta"))
     return bad_input(source + ": an .rta file contains angles, " + kConvertAngles);
-  Rtl rtl(source);
+  // The family has a letter for each kind of test: l is linear.
+  if (!error_is_stated && contains_word(ending.substr(0, 3), ".rt") &&
+      !contains_word(ending, ".rtl"))
+    return bad_input(source + ": a file that ends in " + std::string(ending) +
+                     " contains a test of another kind" + kNotPositioning);
+  Rtl rtl(source, error_is_stated);
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
     MDOF_CHECK(rtl.take(text.substr(0, end)));

@@ -130,7 +130,8 @@ Result<Run> imported_run(const ImportRequest& request) {
                                       positioning_name(request.axis) + "); leave both out for " +
                                       error.name);
   MDOF_TRY(const ImportedSeries series,
-           drivers::read_imported_file(request.file, request.format, error.angle, request.opened));
+           drivers::read_imported_file(request.file, request.format,
+                                       {error.angle, !request.error.empty()}, request.opened));
   Run run;
   RunHeader& header = run.header;
   header.axis = request.axis;

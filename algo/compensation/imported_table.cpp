@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "schema/base/number/number_text.h"
+#include "schema/iso230/targets.h"
 #include "schema/recording/run_options.h"
 #include "schema/sample.h"
 #include "schema/units.h"
@@ -11,20 +12,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kSamePosition_m = 1e-7;
-
-std::vector<double> distinct(std::vector<double> x) {
-  std::sort(x.begin(), x.end());
-  std::vector<double> out;
-  for (const double at : x)
-    if (out.empty() || at - out.back() > kSamePosition_m) out.push_back(at);
-  return out;
-}
-
 std::vector<double> targets_of(const Run& run) {
   std::vector<double> positions;
   for (const MeasuredPoint& p : run.points) positions.push_back(p.target_m);
-  return distinct(std::move(positions));
+  return distinct_targets(std::move(positions));
 }
 
 std::string name_of(const Run& run) {
@@ -94,7 +85,7 @@ Result<std::vector<std::vector<double>>> readings_of(const std::vector<Run>& run
     const Run& run = runs[r];
     for (const MeasuredPoint& p : run.points) {
       const std::size_t i = target_at(grid, p.target_m);
-      if (std::abs(grid[i] - p.target_m) > kSamePosition_m)
+      if (std::abs(grid[i] - p.target_m) > kSameTarget_m)
         return bad_input(
             name_of(run) + " has a target at " + plain_number(to_mm(p.target_m), 9) + " mm, but " +
             name_of(runs.front()) +
@@ -143,15 +134,7 @@ void set_declared(CompensationTable& table, double u) {
 std::vector<double> imported_targets(const std::vector<ImportedReading>& readings) {
   std::vector<double> positions;
   for (const ImportedReading& r : readings) positions.push_back(r.position_m);
-  return distinct(std::move(positions));
-}
-
-std::size_t target_at(const std::vector<double>& targets, double position_m) {
-  const auto above = std::lower_bound(targets.begin(), targets.end(), position_m);
-  if (above == targets.begin()) return 0;
-  const auto below = above - 1;
-  const bool take_above = above != targets.end() && *above - position_m < position_m - *below;
-  return static_cast<std::size_t>((take_above ? above : below) - targets.begin());
+  return distinct_targets(std::move(positions));
 }
 
 Status check_travel(const RunHeader& run, bool against_command) {

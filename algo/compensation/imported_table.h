@@ -12,10 +12,8 @@
 
 namespace mdof::algo {
 
-// The different positions, ascending; those within 0.1 µm are one.
+// distinct_targets() of their positions.
 std::vector<double> imported_targets(const std::vector<ImportedReading>& readings);
-// The nearest of them.
-std::size_t target_at(const std::vector<double>& targets, double position_m);
 
 // The mean deviation at each target by approach, as measured: no line is taken from it. A reading
 // whose approach was not said counts for both. u: s/√n of the repeats (n - 1); NaN where there is

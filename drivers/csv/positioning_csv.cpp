@@ -3,9 +3,12 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "drivers/csv/csv_table.h"
 #include "schema/base/number/number_text.h"
+#include "schema/iso230/targets.h"
 #include "schema/units.h"
 
 namespace mdof::drivers {
@@ -41,6 +44,12 @@ Status check_new(const CsvTable& table, std::size_t row, const PositioningReadin
                    "; use the run numbers 1, 2, 3 ... or delete one line");
 }
 
+std::vector<double> targets_of(const CsvTable& table) {
+  std::vector<double> positions_m;
+  for (const double mm : table.columns[kTarget]) positions_m.push_back(from_mm(mm));
+  return distinct_targets(std::move(positions_m));
+}
+
 // A word where the direction must be: what to write instead.
 Error with_remedy(Error error) {
   if (error.message.find(": column direction: \"") != std::string::npos)
@@ -56,9 +65,11 @@ Result<PositioningCsv> read_positioning_csv(const std::string& path, std::size_t
       read_csv_table(path, {"target_mm", "direction", "run", "deviation_um"}, {}, most, descriptor);
   if (!table) return tl::unexpected(with_remedy(std::move(table.error())));
   PositioningCsv csv{table->source, table->simulated, {}};
+  const std::vector<double> targets_m = targets_of(*table);
   Seen seen;
   for (std::size_t row = 0; row < table->rows(); ++row) {
-    MDOF_TRY(const PositioningReading reading, reading_of(*table, row));
+    MDOF_TRY(PositioningReading reading, reading_of(*table, row));
+    reading.target_m = targets_m[target_at(targets_m, reading.target_m)];
     MDOF_CHECK(check_new(*table, row, reading, seen));
     csv.readings.push_back(reading);
   }

@@ -12,6 +12,7 @@
 #include "drivers/imported/imported_file.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
+#include "schema/iso230/targets.h"
 #include "schema/sample.h"
 #include "schema/units.h"
 
@@ -50,7 +51,7 @@ std::string options_json(const ImportRequest& request, const ImportedError& erro
 MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targets,
                        const std::optional<double>& u_si, const ImportedError& error) {
   MeasuredPoint p;
-  const std::size_t target = algo::target_at(targets, r.position_m);
+  const std::size_t target = target_at(targets, r.position_m);
   p.target = static_cast<int>(target) + 1;
   p.target_m = targets[target];
   p.run = r.run;
@@ -93,7 +94,7 @@ Status check_readings(const ImportedSeries& series, const ImportRequest& request
     std::vector<double> sum(targets.size(), 0.0), n(targets.size(), 0.0), mean;
     for (const ImportedReading& r : series.readings) {
       if (r.direction != direction) continue;
-      const std::size_t at = algo::target_at(targets, r.position_m);
+      const std::size_t at = target_at(targets, r.position_m);
       sum[at] += r.deviation;
       n[at] += 1;
     }

@@ -9,6 +9,7 @@
 #include "algo/uncertainty/coverage.h"
 #include "daemon/measure/imported/positioning_figures.h"
 #include "schema/imported/series.h"
+#include "schema/iso230/targets.h"
 #include "schema/sample.h"
 #include "schema/units.h"
 
@@ -41,7 +42,7 @@ Counts counts_of(const TabledRun& of) {
   Counts counts{std::vector<double>(rows), std::vector<double>(rows),
                 is_imported(of.run.header) && has_unknown_approach(of.run)};
   for (const MeasuredPoint& p : of.run.points) {
-    const std::size_t row = algo::target_at(of.table.position_m, p.target_m);
+    const std::size_t row = target_at(of.table.position_m, p.target_m);
     if (p.point.direction >= 0) ++counts.forward[row];
     if (p.point.direction <= 0) ++counts.reverse[row];
   }
@@ -98,7 +99,7 @@ ComparedPoints compared_points(const TabledRun& before, const TabledRun& after) 
   for (std::size_t row = 0; row < before.table.position_m.size(); ++row) {
     ComparedPoint point;
     point.position_m = before.table.position_m[row];
-    const std::size_t other = algo::target_at(places, point.position_m);
+    const std::size_t other = target_at(places, point.position_m);
     if (std::abs(places[other] - point.position_m) > kSameTarget_m) continue;
     for (std::size_t error = 0; error < compared.errors.size(); ++error) {
       const auto a = sides_at(before, counts_before, error, row),

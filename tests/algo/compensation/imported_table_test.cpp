@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "schema/iso230/targets.h"
+
 namespace mdof::algo {
 namespace {
 

@@ -7,7 +7,7 @@ export async function units(page) {
     const {lineAt} = await import("/views/run_detail.js");
     const {difference, differenceOfRuns} = await import("/views/run_pair.js");
     const {valueAt, changeOfCorrection, statedDifferently} = await import("/views/compensation.js");
-    const {expected} = await import("/views/capture.js");
+    const {expected, targetsFrom} = await import("/views/capture.js");
     const {rowsOf, means, passes} = await import("/charts.js");
     const {squarenessPicture} = await import("/pictures.js");
     const {controlSeries, verdict: control} = await import("/views/run_trend.js");
@@ -47,6 +47,7 @@ export async function units(page) {
       twice: passes([[0, 1], [0, 2], [5, 3]].map(([x, k]) => ({run: 1, direction: null, target_mm: x, k})), "k").map((one) => [one.label, one.points.length, one.marks]),
       difference: [...difference(new Map([[0, 3], [5, 4]]), new Map([[0.004, 1], [7, 0]]))],
       between: [valueAt(points, "forward", "k", 5), valueAt(points, "forward", "k", 10), valueAt(points, "forward", "k", 11), valueAt(points, "forward", "k", -1)],
+      targets: ["0 12.5\n25;30, 35,", "0,10", "0 0,5", "0 ten", ""].map((text) => { try { return targetsFrom(text); } catch (error) { return error.message.split(" ")[1]; } }),
       expected: [expected({from_mm: 0, to_mm: 30, interval_mm: 5, repeats: 5}), expected({targets_mm: [1, 2], repeats: 0}), expected({from_mm: 0, to_mm: 1, interval_mm: 0})],
       rows: rowsOf([{points: [[1, 0, 1, 2], [0, 0, 0, 0]]}, {points: [[1, 4, 5, 6], [2, 0, null, 0]]}]),
       // Both approaches count alike, however often each was passed.
@@ -89,6 +90,7 @@ export async function units(page) {
   assert.deepEqual(found.ranges, ["Last second: −1.23 to 37.00 µm", "Last second: no reading"]);
   assert.deepEqual(found.difference, [[0, 2]]);
   assert.deepEqual(found.between, [2, 3, null, null]);
+  assert.deepEqual(found.targets, [[0, 12.5, 25, 30, 35], '"0,10"', '"0,5"', '"ten"', []]);
   assert.deepEqual(found.expected, [{targets: 7, points: 70}, {targets: 2, points: null}, null]);
   assert.deepEqual(found.rows, [[0, [0, 0, 0], [null, null, null]], [1, [0, 1, 2], [4, 5, 6]]]);
   assert.deepEqual(found.means, [[0, 4]]);

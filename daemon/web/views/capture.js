@@ -8,14 +8,23 @@ import {kResumable} from "./run_detail.js";
 
 const number = (form, key) => form.get(key) === "" || form.get(key) === null ? undefined : Number(form.get(key));
 
-// The parameters of run.start from the form; what was left empty is left out.
+// A comma between digits is a decimal sign to some readers and a separator to others.
+export function targetsFrom(text) {
+  return text.split(/[\s;]+/).map((word) => word.replace(/,$/, "")).filter(Boolean).map((word) => {
+    if (word.includes(",")) throw new Error(`target "${word}" may be one number or several; write a point in decimals and a space between targets`);
+    if (!Number.isFinite(Number(word))) throw new Error(`target "${word}" is not a number; write targets in mm, such as 0 12.5 25`);
+    return Number(word);
+  });
+}
+
+// The parameters of run.start from the form; what was left empty is left out. Throws where targets are not clear.
 export function request(form) {
   const params = {axis: form.get("axis"), note: form.get("note") || undefined, repeats: number(form, "repeats"),
     scale_period_um: number(form, "scale_period_um")};
   if (form.get("kind") === "even")
     for (const key of ["from_mm", "to_mm", "interval_mm", "jitter_mm", "seed"]) params[key] = number(form, key);
   if (form.get("kind") === "list")
-    params.targets_mm = form.get("targets_mm").split(/[\s;]+/).filter(Boolean).map((x) => Number(x.replace(",", ".")));
+    params.targets_mm = targetsFrom(form.get("targets_mm"));
   if (form.get("kind") === "free") params.repeats = undefined;
   return params;
 }
@@ -42,7 +51,7 @@ class Wizard {
       field("From/mm", input("from_mm", 0)), field("To/mm", input("to_mm", 30)), field("Interval/mm", input("interval_mm", 10)),
       field("Jitter/mm", input("jitter_mm", 0, {min: 0}), "largest random shift of a target; random shifts reveal periodic errors"),
       field("Seed of the jitter", input("seed", 1, {min: 0, step: 1})));
-    this.list = field("Targets/mm", h("textarea", {name: "targets_mm", rows: 2}), "in ascending order, separated by spaces");
+    this.list = field("Targets/mm", h("textarea", {name: "targets_mm", rows: 2}), "in ascending order, separated by spaces; decimals with a point");
     this.repeats = field("Repeats", input("repeats", 5, {min: 0, max: 10000, step: 1}),
       "passes in each direction; the axis must overrun both ends. 0: the run ends when you stop it");
     this.kind = select(kKinds, "even", () => this.show(), {name: "kind"});
@@ -63,7 +72,14 @@ class Wizard {
     this.even.hidden = kind !== "even";
     this.list.hidden = kind !== "list";
     this.repeats.hidden = kind === "free";
-    const form = new FormData(this.element), missing = emptyFields(form), count = expected(request(form));
+    const form = new FormData(this.element), missing = emptyFields(form);
+    let count;
+    try {
+      count = expected(request(form));
+    } catch (error) {
+      setText(this.preview, error.message);
+      return;
+    }
     setText(this.preview, kind === "free" ? "mdofd finds the targets from the stops; the run ends when you stop it."
       : missing.length ? `Enter a value for ${missing.join(", ")}.` : count === null ? "Enter values for From, To and Interval; Interval must be above 0."
       : `${count.targets} targets` + (count.points ? `, ${count.points} points expected: each target forward and in reverse.` : "; the run ends when you stop it."));

@@ -183,9 +183,8 @@ std::string file_text(const std::string& head, const std::string& tables) {
   return std::string(kHead) + "\n" + head +
          "; AX1, AX2, AX3 are assumed to be the machine axes X, Y, Z. Load this file with\n"
          "; MD32710 = 0. Then set MD32710 = 1 for each output axis and SD41300 = 1 for each\n"
-         "; table, and reset the control. The input axes must be referenced.\n"
-         "CHANDATA(1)\n" +
-         tables + "M17\n";
+         "; table, and reset the control. The input axes must be referenced.\n" +
+         kMetricOnly + "CHANDATA(1)\n" + tables + "M17\n";
 }
 
 // Unless the limit of the control is stated, that of an 828D is a note.

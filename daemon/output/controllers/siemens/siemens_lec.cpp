@@ -59,8 +59,8 @@ std::string lec_text(const CompensationTable& table, const Series& s, const Equa
     text += "; " + line + "\n";
   text += "; " + axis + " is assumed to be the machine axis " + s.along +
           ".\n; Load this file with MD32700 = 0. Then set MD32700 = 1 and reset the control.\n"
-          "; The axis must be referenced.\n"
-          "CHANDATA(1)\n";
+          "; The axis must be referenced.\n" +
+          kMetricOnly + "CHANDATA(1)\n";
   for (std::size_t i = 0; i < e.forward.size(); ++i)
     text += "$AA_ENC_COMP[0," + std::to_string(i) + "," + axis +
             "]=" + fixed(to_mm(e.forward[i]), 6) + "\n";

@@ -32,5 +32,8 @@ ExportOptions without_tolerance(const ExportOptions& options, Export& out);
 
 // "AX1" of X.
 std::string siemens_axis(char axis);
+// The values of LEC and CEC are in the basic system of the control, whatever G70 or G71 say.
+inline constexpr const char* kMetricOnly =
+    "; The basic system of the control must be metric (MD10240 = 1): the values are in mm.\n";
 
 }  // namespace mdof::controllers

@@ -76,12 +76,16 @@ Status import(ImportCommand command) {
   MDOF_TRY(command.request.limits, command.limits.limits());
   MDOF_TRY(Run run, import_and_store(command));
   show_notices(run.header.notices, true);
-  if (run.header.provenance.model == positioning_name(run.header.axis) && command.sense.empty())
+  const bool positioning = run.header.provenance.model == positioning_name(run.header.axis);
+  if (positioning && command.sense.empty())
     say(run.header.provenance.model +
         " is read as actual minus commanded position in the coordinates of the controller (the "
         "default of the format). If the errors in the file are positive in the + direction of "
         "the machine axis, set --sense body");
-  say("stored; build a compensation table with: mdof compensation build " +
+  // Of other errors the reference point is not known, so they make no table.
+  say(std::string("stored; ") +
+      (positioning ? "build a compensation table with: mdof compensation build "
+                   : "show the run with: mdof show ") +
       std::to_string(run.header.id));
   if (command.json) return write_line(stored_json(run));
   run.header.notices.clear();  // shown already

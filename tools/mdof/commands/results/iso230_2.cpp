@@ -121,8 +121,11 @@ Status iso230_of_run(const Iso230Command& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
   MDOF_TRY(const Run run, daemon::run_stated_at(store, id, reference));
-  MDOF_CHECK(
-      check_measured(run.header, "--run (for imported data, give the file and leave out --run)"));
+  if (is_imported(run.header))
+    return bad_input(
+        "run " + std::to_string(id) + " was imported from " + run.header.provenance.recording_path +
+        ", and --run takes measured or replayed runs; give this file in place of --run "
+        "if it is a CSV with the columns target_mm,direction,run,deviation_um");
   MDOF_TRY(const RunPositioning found,
            run_positioning(run, command.of_run, from_mm(command.scale_period_mm)));
   show_notices(found.notices, command.all_warnings);

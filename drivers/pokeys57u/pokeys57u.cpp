@@ -168,8 +168,9 @@ Status PoKeys57u::check_enabled(const Frame& options) const {
   return {};
 }
 
-// The device's milliseconds since power-on: where they stay behind, it was without power, and its
-// counts began at 0.
+// The device's milliseconds since power-on: where they are not as many as passed for the host, it
+// was without power, and its counts began at 0. Modulo 2^32, a restart after more than 24.9 days
+// looks as if the device were ahead.
 Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
   MDOF_TRY(const auto reply, exchange(request(kTick)));
   if (!reply) return std::nullopt;
@@ -180,7 +181,8 @@ Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
   const double passed_ms = std::chrono::duration<double, std::milli>(now.at - before->at).count();
   const auto behind = static_cast<std::int32_t>(
       before->ms + static_cast<std::uint32_t>(std::llround(passed_ms)) - now.ms);
-  if (behind < kTickSlack_ms + passed_ms * kTickDrift) return reply->span;
+  if (std::abs(static_cast<double>(behind)) < kTickSlack_ms + passed_ms * kTickDrift)
+    return reply->span;
   zero_problem_ = "the PoKeys lost power, and its encoders restarted at 0";
   for (Counter& counter : counters_) {
     counter = {};

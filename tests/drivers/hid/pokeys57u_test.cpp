@@ -202,6 +202,26 @@ TEST_F(PoKeys57uOnHid, PowerThatWasLostMakesItSuspectOverReopens) {
   EXPECT_NE(driver.info().datum_lost.find("lost power"), std::string::npos);
 }
 
+// The tick has 32 bits of milliseconds: half of it are 24.9 days, all of it 49.7. The count is 0
+// before and after, so that only the tick shows it.
+TEST_F(PoKeys57uOnHid, PowerThatWasLostIsSeenAfterAnyUptime) {
+  for (const std::int64_t days : {1, 20, 27, 45}) {
+    SimulatedPokeys57u old(still, {.uptime_ms = days * 86'400'000, .count_offset = -1000});
+    ASSERT_NO_FATAL_FAILURE(bus->plug(0, old));
+    PoKeys57u reader(settings_of());
+    ASSERT_TRUE(reader.open());
+    got = collect(reader, 5);
+    EXPECT_EQ(got.first_quality(4), Quality::good) << days;
+    bus->change([&] { old.set_faults({.restart_at = 0}); });
+    ASSERT_TRUE(reader.open());
+    got = collect(reader, 5);
+    EXPECT_EQ(got.first_quality(4), Quality::suspect) << days;
+    EXPECT_NE(reader.info().datum_lost, "") << days;
+    bus.reset();
+    bus.emplace();
+  }
+}
+
 TEST_F(PoKeys57uOnHid, UnpluggedIsAnErrorAndReplugAnOpening) {
   run_with({.unplug_at = 5}, 100);
   EXPECT_NE(got.error.find("the device is plugged in"), std::string::npos) << got.error;

@@ -63,7 +63,6 @@ DeviceInfo ModbusDriver::info() const {
 
 Status ModbusDriver::open() {
   client_.reset();
-  readings_.reset();
   failing_ = false;
   auto client = connect();
   if (!client) return in_context(who(), client.error());

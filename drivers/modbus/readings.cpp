@@ -80,10 +80,6 @@ const std::vector<Reading>& Readings::read() {
   return readings_;
 }
 
-void Readings::reset() {
-  for (Counter& counter : counters_) counter.unwrap.reset();
-}
-
 // A missing value says nothing of the count.
 Reading Readings::read(Counter& counter) {
   const Value& value = counter.value;

@@ -32,7 +32,8 @@ struct Reading {
 };
 
 // The values of a profile that are in use, with the status bits that concern them. Keeps the count
-// of wrapping counters. Thread-bound.
+// of wrapping counters, also while the device is away: it moves by less than half a ring meanwhile.
+// Thread-bound.
 class Readings {
  public:
   struct Use {
@@ -46,7 +47,6 @@ class Readings {
   std::span<std::uint16_t> registers(std::size_t block) { return registers_[block]; }
   // Of each use, from the registers as they are; once a poll.
   const std::vector<Reading>& read();
-  void reset();  // counters start anew
 
  private:
   struct Counter {

@@ -240,6 +240,21 @@ TEST(ModbusDriver, ASmaxCountsOnBelowZero) {
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], -300.0);
 }
 
+// By hand: at -5 counts of 100 um the ring of 13 bits reads 8187.
+TEST(ModbusDriver, ASmaxThatIsOpenedAgainBelowZeroStaysWhereItIs) {
+  Smax smax;
+  smax.position = 5;
+  ASSERT_TRUE(smax.driver->open());
+  EXPECT_EQ(one_scan(*smax.driver).value[0][0], 500.0);
+  smax.position = -5;
+  EXPECT_EQ(one_scan(*smax.driver).value[0][0], -500.0);
+  ASSERT_TRUE(smax.driver->open());
+  EXPECT_EQ(one_scan(*smax.driver).value[0][0], -500.0);
+  smax.position = -7;  // while it was away
+  ASSERT_TRUE(smax.driver->open());
+  EXPECT_EQ(one_scan(*smax.driver).value[0][0], -700.0);
+}
+
 TEST(ModbusDriver, ASmaxsAlarmsAreWhatItsReadingsAreWorth) {
   struct Case {
     int address;

@@ -11,6 +11,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kLeastRatio = 0.5, kMostRatio = 2;  // of two scales that are one probe's
+constexpr double kSameScale = 3;                     // u
 constexpr const char* kMeasured = "basic_measuredValue";
 constexpr const char* kReference = "basic_referenceValue";
 constexpr const char* kError = "basic_measurementError";
@@ -42,6 +43,28 @@ Table table_of(const std::vector<DccQuantity>& list) {
 
 std::string number(double x) {
   return plain_number(x, 6);
+}
+
+using Rows = std::vector<std::array<double, 2>>;  // um: reading, correction
+
+double half_span_um(const Rows& rows) {
+  const auto [least, most] = std::minmax_element(rows.begin(), rows.end());
+  return ((*most)[0] - (*least)[0]) / 2;
+}
+
+// Whether the corrections grow with the readings by so much: by the ends of the table or by its
+// least-squares line, as a laboratory may define a sensitivity by either.
+bool contains_scale(const Rows& rows, double scale_1, double within_1) {
+  const auto [least, most] = std::minmax_element(rows.begin(), rows.end());
+  const double by_ends = ((*most)[1] - (*least)[1]) / ((*most)[0] - (*least)[0]);
+  double r = 0, c = 0, rr = 0, rc = 0;
+  for (const auto& row : rows) r += row[0], c += row[1];
+  const auto n = static_cast<double>(rows.size());
+  for (const auto& row : rows) {
+    rr += (row[0] - r / n) * (row[0] - r / n);
+    rc += (row[0] - r / n) * (row[1] - c / n);
+  }
+  return std::min(std::abs(by_ends - scale_1), std::abs(rc / rr - scale_1)) <= within_1;
 }
 
 class CertificateReader {
@@ -214,13 +237,14 @@ class CertificateReader {
     auto& rows = found_.probe.linearity;
     for (std::size_t i = 0; i < read.um.size(); ++i)
       rows.push_back({read.um[i], table.error ? -error.um[i] : reference.um[i] - read.um[i]});
-    MDOF_CHECK(about_zero(rows, r.line));
     const double u_um = largest_u(table, read, error, reference);
     const bool is_stated = !error.u_um.empty() || !read.u_um.empty() || !reference.u_um.empty();
     const DccQuantity& certified = table.error ? *table.error : r;
     if (!(u_um > 0))
       return is_stated ? zero_uncertainty(certified.line, "table")
                        : no_uncertainty(certified.line, "table");
+    if (found_.probe.um_per_V && half_span_um(rows) > 0) MDOF_CHECK(match_scale(r, u_um, rows));
+    MDOF_CHECK(about_zero(rows, r.line));
     found_.facts.u_linearity_m = from_um(u_um);
     found_.taken.push_back(notice(NoticeCode::certified_linearity, "",
                                   {{"corrections", rows.size()},
@@ -257,8 +281,35 @@ class CertificateReader {
     return {};
   }
 
+  // The new um_per_V must not correct a second time what the table corrects. Readings of a table
+  // that contains the change of um_per_V were read with that of the rig.
+  Status match_scale(const DccQuantity& read, double u_um, Rows& rows) {
+    const CalibratedProbe& probe = found_.probe;
+    const double within_1 =
+        kSameScale * std::hypot(probe.u_sensitivity_1, u_um / half_span_um(rows));
+    if (contains_scale(rows, 0, within_1)) return {};
+    const auto& of_rig = own_.calibration.um_per_V;
+    const double ratio = of_rig ? *probe.um_per_V / *of_rig : 1;
+    if (!read.unit.is(1, 0) || !of_rig || !contains_scale(rows, ratio - 1, within_1))
+      return bad_input(
+          at(read.line) + "the corrections of the table contain another sensitivity than the " +
+          number(*probe.um_per_V) +
+          " um/V of the certificate, so both together would correct the " +
+          "scale twice; set um_per_V of probe \"" + own_.id + "\" in " + rig_.source +
+          (of_rig ? " (" + number(*of_rig) + ")" : "") +
+          " to the value with which the laboratory has read the table, or choose one result of " +
+          "the certificate: " + names_);
+    for (auto& [reading, correction] : rows) {
+      correction += reading * (1 - ratio);
+      reading *= ratio;
+    }
+    found_.taken.push_back(notice(NoticeCode::certified_readings_converted, "",
+                                  {{"from_um_per_V", *of_rig}, {"um_per_V", *probe.um_per_V}}));
+    return {};
+  }
+
   // Rows by t = reading - offset, ascending, 0 at t = 0.
-  Status about_zero(std::vector<std::array<double, 2>>& rows, long line) const {
+  Status about_zero(Rows& rows, long line) const {
     const double offset_um = found_.probe.offset_um.value_or(own_.calibration.offset_um);
     for (auto& row : rows) row[0] -= offset_um;
     std::sort(rows.begin(), rows.end());

@@ -230,6 +230,31 @@ TEST(CertifiedProbe, TableOfVoltsByTheScaleOfTheCertificate) {
   EXPECT_TRUE(found->not_taken.empty());
 }
 
+// 0.0499 V/um with u = 0.02 %; a table in um at -80, 0 and 80 um with u = 6 nm, read with 20 um/V:
+// 3.992 V is 79.84 um by that and 80 um by the certificate, which leaves no correction.
+TEST(CertifiedProbe, AScaleIsCorrectedOnce) {
+  const DccQuantity s = quantity({}, {1e6, -1, 1}, {0.0499e6}, {10}, 17);
+  const auto found = [&](std::optional<double> um_per_V, double read_um) {
+    return of_b(rig_of(um_per_V, 0),
+                certificate({s}, {{measured(kMetre, {-read_um * 1e-6, 0, read_um * 1e-6}),
+                                   reference(kMetre, {-80e-6, 0, 80e-6}, {6e-9, 5e-9, 6e-9})}}));
+  };
+  const auto read_with_rig = found(20, 79.84);
+  ASSERT_TRUE(read_with_rig) << read_with_rig.error().message;
+  EXPECT_NEAR(read_with_rig->probe.um_per_V.value(), 1 / 0.0499, 1e-9);
+  expect_rows(read_with_rig->probe.linearity, {{-80, 0}, {0, 0}, {80, 0}});
+  EXPECT_TRUE(has(read_with_rig->taken, {"certified_readings_converted from_um_per_V=20 "}));
+  // Read with the certificate's own: within 3 u (48 nm at 80 um) nothing is converted.
+  const auto read_with_own = found(20, 79.97);
+  ASSERT_TRUE(read_with_own) << read_with_own.error().message;
+  expect_rows(read_with_own->probe.linearity, {{-79.97, -0.03}, {0, 0}, {79.97, 0.03}});
+  EXPECT_FALSE(has(read_with_own->taken, {"certified_readings_converted"}));
+  // By neither.
+  for (const std::optional<double> um_per_V : {std::optional<double>(), {20.04}, {20.1}})
+    EXPECT_TRUE(refused(found(um_per_V, 79.84), {"c.xml:31: ", "scale twice", "\"B\" in r.toml"}));
+  EXPECT_TRUE(refused(found(20, 79.7), {"c.xml:31: ", "20.0401 um/V", "\"as found\""}));
+}
+
 // Reference values in the place of errors: corrections of 2, -3 and 1 µm at -19, 0 and 41 µm.
 TEST(CertifiedProbe, TableOfReferenceValuesByHand) {
   const std::vector<double> read = {41e-6, -19e-6, 0.5e-6}, x = {42e-6, -17e-6, -2.5e-6};
@@ -331,7 +356,7 @@ TEST(CertifiedProbe, OneOfSeveralResults) {
   c.results[1].name = "as left";
   c.results[1].ref_types = {"x_more", "basic_asLeft"};
   c.results[1].lists[0][0].line = 131;
-  c.results[1].lists[0][1].value = {0.3e-6, 0.7e-6};
+  c.results[1].lists[0][1].value = {0.3e-6, 0.35e-6};
   c.results[1].quantities = {sensitivity()};
   const Rig rig = rig_of(40, 4);
   EXPECT_TRUE(refused(of_b(rig, c),

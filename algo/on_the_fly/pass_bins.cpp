@@ -6,6 +6,7 @@
 #include "algo/on_the_fly/bin_fit.h"
 #include "algo/plausibility/resolution.h"
 #include "algo/points/flags.h"
+#include "algo/points/over_range.h"
 
 namespace mdof::algo {
 namespace {
@@ -153,7 +154,8 @@ class Binning {
     const double step_m = probes_.step_m[probe];
     const double coarse_m = std::max(kCoarseShare * probes_.range_m[probe], kCoarseSteps * step_m);
     const BinFit found = fit_bin(place_, reading_, coarse_m, scratch_);
-    const bool lost = usable_rows < kFewestOfBin || 2 * usable_rows < n;
+    const bool lost =
+        usable_rows < kFewestOfBin || 2 * usable_rows < n || is_saturated(over_range, n);
     const bool few = found.used < kFewestOfBin || !std::isfinite(found.value);
     if (over_range > 0) add_flag(bin.point, Flag::saturated, id);
     if (lost || few) add_flag(bin.point, lost ? Flag::lost : Flag::slow, id);
@@ -161,7 +163,8 @@ class Binning {
     if (found.rejected > 0) add_flag(bin.point, Flag::spike, id);
     const bool good = !lost && !few;
     bin.point.probe_m.push_back(good ? found.value : kNaN);
-    bin.point.probe_u_m.push_back(good ? with_resolution(found.u, found.sd, step_m) : kNaN);
+    const double u_m = with_resolution(found.u, found.sd, step_m);
+    bin.point.probe_u_m.push_back(good ? with_over_range(u_m, found.sd, over_range, n) : kNaN);
     bin.point.probe_sd_m.push_back(good ? found.sd : kNaN);
     bin.slope.push_back(good ? found.slope / half_m_ : kNaN);
   }

@@ -29,7 +29,7 @@ Plausibility plausibility(const RunToJudge& run);
 Notices visit_notices(const RunToJudge& run);
 Notices unit_notices(const Rig& rig, const Plausibility& figures);
 // A probe that reads the same while others change, an encoder that stands still while probes
-// change.
+// change, a probe that has no value where it was beyond its range.
 Notices signal_notices(const RunToJudge& run);
 
 // Whether a travel (m) can be one in the encoder's unit.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "algo/plausibility/plausibility.h"
+#include "algo/points/flags.h"
 #include "algo/points/median.h"
 #include "schema/units.h"
 
@@ -122,12 +123,28 @@ void note_frozen_encoder(const RunToJudge& run, Notices& out) {
   }
 }
 
+// Points in which a probe has no value because it was beyond its range.
+void note_saturated_probes(const RunToJudge& run, Notices& out) {
+  const auto& points = run.sequence.points;
+  for (const Probe& probe : run.rig.probes) {
+    const auto lost = std::count_if(points.begin(), points.end(), [&](const MeasuredPoint& p) {
+      return has_flag(p.point, Flag::saturated, probe.id) &&
+             has_flag(p.point, Flag::lost, probe.id);
+    });
+    if (lost > 0)
+      out.push_back(
+          notice(NoticeCode::probe_beyond_range, probe.id,
+                 {{"points", lost}, {"of", points.size()}, {"range_um", to_um(probe.range_m)}}));
+  }
+}
+
 }  // namespace
 
 Notices signal_notices(const RunToJudge& run) {
   Notices out;
   note_insensitive_probes(run, out);
   note_frozen_encoder(run, out);
+  note_saturated_probes(run, out);
   return out;
 }
 

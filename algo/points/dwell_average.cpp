@@ -4,6 +4,7 @@
 
 #include "algo/points/dwell.h"
 #include "algo/points/flags.h"
+#include "algo/points/over_range.h"
 #include "algo/points/robust_mean.h"
 
 namespace mdof::algo {
@@ -68,7 +69,8 @@ void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size
   const std::span<const double> readings = own_readings(probe, from, to, usable_rows, over_range);
   const std::string& id = probe_ids_[probe];
   if (over_range > 0) add_flag(point, Flag::saturated, id);
-  const bool lost = usable_rows < kMinScans || 2 * usable_rows < to - from;
+  const bool lost =
+      usable_rows < kMinScans || 2 * usable_rows < to - from || is_saturated(over_range, to - from);
   if (!lost && readings.size() < kMinScans) add_flag(point, Flag::slow, id);
   if (lost) add_flag(point, Flag::lost, id);
   if (lost || readings.size() < kMinScans) {
@@ -84,7 +86,8 @@ void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size
   if (mean.rejected > 0) add_flag(point, Flag::spike, id);
   watch_.take_stop(probe, mean, step);
   point.probe_m.push_back(mean.mean);
-  point.probe_u_m.push_back(with_resolution(mean.u, mean.sd, step));
+  const double u_m = with_resolution(mean.u, mean.sd, step);
+  point.probe_u_m.push_back(with_over_range(u_m, mean.sd, over_range, to - from));
   point.probe_sd_m.push_back(mean.sd);
 }
 

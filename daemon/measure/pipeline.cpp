@@ -205,7 +205,8 @@ Status Pipeline::judge_dead_probes(Notices& notices) const {
                                       {{"range_um", to_um(rig_.probes[k].range_m)}})
                              : notice(NoticeCode::probe_dead, id);
     if (needed) return bad_input(words::text(why));
-    notices.push_back(std::move(why));
+    if (why.code != NoticeCode::probe_saturated)  // probe_beyond_range says it of every run
+      notices.push_back(std::move(why));
   }
   return {};
 }

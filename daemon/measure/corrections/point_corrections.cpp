@@ -189,6 +189,9 @@ std::string cause_of(const Point& point) {
   if (const auto frozen = channel_of(point, Flag::frozen))
     return "probe " + *frozen + " no longer changes; ";
   if (const auto closed = channel_of(point, Flag::gap_closed)) return closed_gap_text(*closed);
+  for (const PointFlag& flag : point.flags)
+    if (flag.flag == Flag::lost && algo::has_flag(point, Flag::saturated, flag.channel))
+      return "probe " + flag.channel + " is at the end of its range; ";
   if (algo::has_flag(point, Flag::no_air)) return "the ambient conditions are unknown; ";
   return "";
 }

@@ -165,6 +165,11 @@ TEST(PassBins, FitOwnReadingsAlone) {
   frames.probe_m[0][481] = std::nan("");
   found = found_in(frames, 1);
   EXPECT_EQ(to_string(found.bins[0].point.flags), "saturated:A missing:A");
+  EXPECT_FALSE(std::isnan(found.bins[0].point.probe_m[0]));
+  frames.probe_quality[0][490] = Quality::over_range;  // two of 101
+  found = found_in(frames, 1);
+  EXPECT_EQ(to_string(found.bins[0].point.flags), "saturated:A lost:A");
+  EXPECT_TRUE(std::isnan(found.bins[0].point.probe_m[0]));
   for (std::size_t i = 460; i < 530; ++i) frames.probe_m[0][i] = std::nan("");
   found = found_in(frames, 1);
   EXPECT_EQ(to_string(found.bins[0].point.flags.back()), "lost:A");

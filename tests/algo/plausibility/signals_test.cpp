@@ -24,6 +24,7 @@ Rig rig_of(std::size_t probes) {
   for (std::size_t k = 0; k < probes; ++k) {
     Probe probe;
     probe.id = std::string(1, static_cast<char>('A' + k));
+    probe.range_m = 200e-6;
     rig.probes.push_back(probe);
   }
   return rig;
@@ -109,6 +110,16 @@ TEST(Signals, TheOthersMustMove) {
     before.points[3].point.probe_m[2] -= 0.7 * step_m;
     EXPECT_EQ(said(before).size(), step_m > 37e-9 ? 1u : 0u) << step_m;
   }
+}
+
+TEST(Signals, AProbeThatIsLostBeyondItsRangeIsNamed) {
+  Sequence sequence = stops_of(5, 12);
+  for (const std::size_t i : {2u, 3u, 7u})
+    sequence.points[i].point.flags = {{Flag::saturated, "B"}, {Flag::lost, "B"}};
+  sequence.points[4].point.flags = {{Flag::saturated, "B"}, {Flag::lost, "C"}};
+  const auto found = said(sequence);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(shown(found[0]), "probe_beyond_range B points=3 of=12 range_um=200");
 }
 
 TEST(Signals, AStopWithoutAValueCountsForNothing) {

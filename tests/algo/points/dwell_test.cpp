@@ -180,7 +180,7 @@ TEST(Dwell, FlagsGapsSpikesSaturationAndLoss) {
   };
   f.probe_m[0][inside(1, 20)] += 25e-6;
   f.probe_quality[0].assign(f.size(), Quality::good);
-  for (std::size_t i = 0; i < 20; ++i) f.probe_quality[0][inside(2, 30 + i)] = Quality::over_range;
+  f.probe_quality[0][inside(2, 30)] = Quality::over_range;
   for (std::size_t i = 0; i < 400; ++i) {
     f.probe_quality[0][inside(3, i)] = Quality::missing;
     f.probe_m[0][inside(3, i)] = kNaN;

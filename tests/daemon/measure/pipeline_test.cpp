@@ -148,6 +148,20 @@ TEST(Pipeline, AProbeThatIsMissingAtOneStopCostsThatPointAlone) {
   EXPECT_TRUE(algo::has_flag(lost.point, Flag::lost, "C")) << lost.point.flags.size();
 }
 
+// What stays inside the range of a probe that vibrates across its end is not its mean.
+TEST(Pipeline, AProbeThatTouchesTheEndOfItsRangeIsNoReading) {
+  const auto run = measured(both_ways(), [](SampleBlock& block) {
+    for (std::size_t i = begin_of_stop(2); i < begin_of_stop(2) + kStand; i += 10)
+      block.value[kC][i] = 105;
+  });
+  ASSERT_TRUE(run) << run.error().message;
+  ASSERT_EQ(run->points.size(), 10u);
+  EXPECT_TRUE(std::isnan(run->points[2].point.probe_m[2]));
+  EXPECT_FALSE(run->points[2].errors.valid);
+  EXPECT_SAYS(run->points[2].errors.reason, "probe C is at the end of its range");
+  EXPECT_SAYS(all_notices(*run), "probe_beyond_range C points=1 of=10 range_um=200\n");
+}
+
 TEST(Pipeline, AFewMissingReadingsOfAStopCostNoPoint) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
     lose(block, kC, begin_of_stop(2) + 200, begin_of_stop(2) + 220);

@@ -216,15 +216,26 @@ tl::unexpected<Error> CsvStream::ended(const Error& why) {
 
 void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
   const bool own_times = clock() != nullptr;
-  if (own_times) take_device_times(rows, received_ns);
-  const bool old = !own_times && last_received_ns_ > 0 && rows.size() > 1 &&
+  const std::int64_t since_ns = std::max(last_received_ns_, received_ns - kTogether_ns);
+  own_times ? take_device_times(rows, received_ns) : spread(rows, since_ns, received_ns);
+  const bool old = !own_times && rows.size() > 1 && last_received_ns_ > 0 &&
                    received_ns - last_received_ns_ > kTogether_ns;
   last_received_ns_ = received_ns;
   for (auto& row : rows) {
-    last_time_ns_ = std::max(own_times ? row.time_ns : received_ns, last_time_ns_ + 1);
+    last_time_ns_ = std::max(row.time_ns, last_time_ns_ + 1);
     const bool newest = &row == &rows.back();
     rows_.push_back({last_time_ns_, std::move(row.values), row.lost, old && !newest});
   }
+}
+
+// Rows that arrive together, as of a serial adapter that sends every 16 ms, were made one after the
+// other since the arrival before.
+void CsvStream::spread(std::vector<CsvStreamRow>& rows, std::int64_t since_ns,
+                       std::int64_t received_ns) {
+  const auto n = static_cast<std::int64_t>(rows.size());
+  for (std::int64_t i = 0; i < n; ++i)
+    rows[static_cast<std::size_t>(i)].time_ns =
+        received_ns - (received_ns - since_ns) / n * (n - 1 - i);
 }
 
 // Device times become the host's; each start of the script is a clock of its own.

@@ -35,8 +35,8 @@ struct CsvStreamOptions {
 };
 
 // Thread-bound. With time_s the times are the device's own, by DeviceClock; without it those of
-// arrival, and rows that came together after 50 ms of nothing are suspect: their true times are
-// not known so well.
+// arrival. Rows that came together are then spread evenly over the time since the arrival before,
+// at most 50 ms. After more than that they are suspect: their true times are not known so well.
 class CsvStream final : public Driver {
  public:
   CsvStream(std::string name, CsvStreamOptions options);
@@ -70,6 +70,8 @@ class CsvStream final : public Driver {
   Status fetch(std::chrono::milliseconds timeout);
   tl::unexpected<Error> ended(const Error& why);
   void take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns);
+  static void spread(std::vector<CsvStreamRow>& rows, std::int64_t since_ns,
+                     std::int64_t received_ns);
   void take_device_times(std::vector<CsvStreamRow>& rows, std::int64_t received_ns);
   Status check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t received_ns);
   Status check_silence() const;

@@ -242,6 +242,27 @@ TEST(CsvStream, RowsThatWaitedTogetherAreSuspect) {
   EXPECT_GT(all.time_ns[1] - all.time_ns[0], 100'000'000);
 }
 
+// Each burst ends with its arrival. One after a pause of this computer is suspect, and passed over.
+TEST(CsvStream, RowsOfABurstAreSpreadBackToTheBurstBefore) {
+  constexpr std::size_t kBursts = 25, kRows = 8;
+  CsvStream stream("probe", command("echo A_um; for i in $(seq 25); do printf "
+                                    "'1\n2\n3\n4\n5\n6\n7\n8\n'; sleep 0.016; done; sleep 5"));
+  ASSERT_TRUE(stream.open());
+  const Collected all = collect(stream, kBursts * kRows);
+  ASSERT_EQ(all.time_ns.size(), kBursts * kRows);
+  expect_growing(all.time_ns);
+  std::size_t spread = 0;
+  for (std::size_t i = 2 * kRows - 1; i < all.time_ns.size(); i += kRows) {
+    if (all.first_quality(i - 1) != Quality::good) continue;
+    ++spread;
+    const std::int64_t passed_ns = all.time_ns[i] - all.time_ns[i - kRows];
+    for (std::size_t k = i - kRows + 1; k <= i; ++k)
+      EXPECT_NEAR(static_cast<double>(all.time_ns[k] - all.time_ns[k - 1]),
+                  static_cast<double>(passed_ns) / kRows, 1e3);
+  }
+  EXPECT_GT(spread, 0u);
+}
+
 TEST(CsvStream, EmptyFieldsAreMissingAndSimulatedIsSaid) {
   CsvStream stream("probe", command("printf '# simulated\\nA_um,B_um\\n,2\\n'; sleep 5"));
   ASSERT_TRUE(stream.open());

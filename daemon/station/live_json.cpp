@@ -20,6 +20,7 @@ void write_clock(JsonWriter& json, const std::optional<drivers::ClockState>& clo
 }
 
 std::string device_json(const DeviceStatus& s) {
+  const double rate_hz = s.info.rate_hz > 0 ? s.info.rate_hz : s.measured_hz;
   JsonWriter json;
   json.begin_object()
       .field("device", s.info.name)
@@ -27,7 +28,7 @@ std::string device_json(const DeviceStatus& s) {
       .field("description", s.info.description)
       .field("state", s.state)
       .field("simulated", s.info.simulated)
-      .field("rate_hz", s.info.rate_hz)
+      .field("rate_hz", rate_hz > 0 ? rate_hz : kNaN)
       .field("scans", s.scans)
       .field("scans_lost", s.lost)
       .field("blocks_dropped", s.dropped)

@@ -15,7 +15,8 @@ namespace mdof::daemon {
 
 // {"drift_ppm", "jitter_ms", "settled", "steps"}, or null.
 void write_clock(JsonWriter& json, const std::optional<drivers::ClockState>& clock);
-// One device as device.list gives it, without its axis.
+// One device as device.list gives it, without its axis. "rate_hz": as the device states it, else as
+// measured, null where not known yet.
 std::string device_json(const DeviceStatus& status);
 // An array of them.
 std::string devices_json(const std::vector<DeviceStatus>& devices);

@@ -95,7 +95,7 @@ Status open_and_read(const drivers::DriverSpec& device, double for_s, const Stop
   Status read = read_for(*driver, for_s, stop, finding);
   const drivers::DeviceInfo info = driver->info();
   finding.description = info.description;
-  finding.stated_rate_hz = info.rate_hz;
+  if (info.rate_hz > 0) finding.stated_rate_hz = info.rate_hz;
   finding.clock = info.clock;
   return read;
 }
@@ -121,8 +121,9 @@ std::string finding_text(const DeviceFinding& f) {
   if (!f.error.empty()) text += "  ERROR: " + f.error + "\n";
   if (f.scans == 0) return text + "\n";
   text += "  " + std::to_string(f.scans) + " scans, " + fixed(f.rate_hz, 2) +
-          " per second (stated " + fixed(f.stated_rate_hz, 2) + "), " + std::to_string(f.lost) +
-          " lost\n";
+          " per second (stated " +
+          (std::isnan(f.stated_rate_hz) ? "none" : fixed(f.stated_rate_hz, 2)) + "), " +
+          std::to_string(f.lost) + " lost\n";
   if (f.clock)
     text += "  clock " + std::string(f.clock->settled ? "" : "(not settled) ") + "drift " +
             fixed(f.clock->drift_ppm, 1) + " ppm, jitter " +

@@ -19,7 +19,8 @@ struct ChannelFinding {
 
 struct DeviceFinding {
   std::string name, driver, description, error;
-  double stated_rate_hz = 0, rate_hz = 0;  // scans a second, as it says and as they came
+  // Scans a second, as it says (NaN: it does not) and as they came.
+  double stated_rate_hz = kNaN, rate_hz = 0;
   std::uint64_t scans = 0, lost = 0;
   std::vector<ChannelFinding> channels;
   std::optional<drivers::ClockState> clock;

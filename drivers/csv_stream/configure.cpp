@@ -69,6 +69,7 @@ CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
   // Longer, and the watchdog would take the thread for dead.
   options.start = read_seconds(table, "start_s", options.start, 5);
   options.silence = read_seconds(table, "silence_s", options.silence, 3600);
+  options.absolute = table.boolean("absolute", false);
   const std::int64_t bad_lines = table.integer("bad_lines", 100);
   if (bad_lines < 0 || bad_lines > 10'000) table.reject("bad_lines", "must be from 0 to 10000");
   options.bad_lines = static_cast<std::size_t>(bad_lines);

@@ -19,6 +19,10 @@ constexpr std::int64_t kTogether_ns = 50'000'000;     // rows behind such a paus
 constexpr std::int64_t kPaceOver_ns = 2'000'000'000;  // time_s is compared with the host's over it
 constexpr std::size_t kMostScans = 4096;              // of a block
 
+constexpr const char* kDatumLost =
+    "the source was started or connected again, and may now count from another position (if it "
+    "never does, set absolute = true for this device)";
+
 std::string describe_source(const CsvStreamOptions& options) {
   if (options.server) return "tcp://" + options.server->text();
   if (!options.fifo.empty()) return "fifo:" + options.fifo;
@@ -41,6 +45,7 @@ CsvStream::CsvStream(std::string name, CsvStreamOptions options)
 
 DeviceInfo CsvStream::info() const {
   DeviceInfo info{name_, "csv_stream", "CSV rows of " + source_, {}, 0, false, {}};
+  if (datum_lost_) info.datum_lost = kDatumLost;
   if (!protocol_ || !protocol_->header()) return info;
   info.channels = protocol_->header()->channels;
   info.simulated = protocol_->header()->says_simulated();
@@ -61,7 +66,13 @@ Notices CsvStream::notices() const {
   return all;
 }
 
+void CsvStream::trust_count() {
+  datum_set_ = true;
+  datum_lost_ = false;
+}
+
 Status CsvStream::open() {
+  start_again();
   rows_.clear();
   status_ = {};
   clock_.reset();
@@ -169,9 +180,17 @@ Result<ReadState> CsvStream::read(SampleBlock& block, milliseconds timeout) {
     const Row& row = rows_.front();
     block.lost += row.lost;
     add_scan(block, row.time_ns, row.values, row.suspect ? Quality::suspect : good);
+    if (row.unplaced) mark_unplaced(block);
     rows_.pop_front();
   }
   return ReadState::more;
+}
+
+// The encoder's value of the last scan.
+void CsvStream::mark_unplaced(SampleBlock& block) {
+  for (std::size_t c = 0; c < block.channels.size(); ++c)
+    if (block.channels[c].id == kEncoderChannel)
+      block.quality[c].back() = std::max(block.quality[c].back(), Quality::suspect);
 }
 
 // What comes within `timeout` goes to rows_; an error is for when they are given out.
@@ -224,7 +243,8 @@ void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) 
   for (auto& row : rows) {
     last_time_ns_ = std::max(row.time_ns, last_time_ns_ + 1);
     const bool newest = &row == &rows.back();
-    rows_.push_back({last_time_ns_, std::move(row.values), row.lost, old && !newest});
+    if (row.restarted) start_again();
+    rows_.push_back({last_time_ns_, std::move(row.values), row.lost, old && !newest, datum_lost_});
   }
 }
 

@@ -30,6 +30,7 @@ struct CsvStreamOptions {
   std::chrono::milliseconds silence{2000};
   std::size_t bad_lines = 100;        // of 10,000
   std::vector<std::string> expected;  // ids: one column at least must be of these
+  bool absolute = false;  // a position means the same place after the source was started again
   // Whether the rig can make lengths of what the header names. Empty: it is not asked.
   std::function<Status(const std::vector<Channel>&)> check_units;
 };
@@ -37,6 +38,8 @@ struct CsvStreamOptions {
 // Thread-bound. With time_s the times are the device's own, by DeviceClock; without it those of
 // arrival. Rows that came together are then spread evenly over the time since the arrival before,
 // at most 50 ms. After more than that they are suspect: their true times are not known so well.
+// A script may count positions from where it was started: a datum that somebody has set is lost
+// when the source is opened, or sends its header, again.
 class CsvStream final : public Driver {
  public:
   CsvStream(std::string name, CsvStreamOptions options);
@@ -47,6 +50,8 @@ class CsvStream final : public Driver {
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 
+  void trust_count() override;
+
   std::uint64_t bad_lines() const { return protocol_ ? protocol_->bad_lines() : 0; }  // since open
   Notices notices() const;
 
@@ -55,7 +60,7 @@ class CsvStream final : public Driver {
     std::int64_t time_ns;  // host's
     std::vector<double> values;
     std::uint64_t lost;
-    bool suspect;
+    bool suspect, unplaced;  // unplaced: the encoder alone is suspect
   };
   struct TimePair {
     std::int64_t device_ns, host_ns;
@@ -70,6 +75,8 @@ class CsvStream final : public Driver {
   Status fetch(std::chrono::milliseconds timeout);
   tl::unexpected<Error> ended(const Error& why);
   void take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns);
+  static void mark_unplaced(SampleBlock& block);
+  void start_again() { datum_lost_ = datum_lost_ || (datum_set_ && !options_.absolute); }
   static void spread(std::vector<CsvStreamRow>& rows, std::int64_t since_ns,
                      std::int64_t received_ns);
   void take_device_times(std::vector<CsvStreamRow>& rows, std::int64_t received_ns);
@@ -82,9 +89,10 @@ class CsvStream final : public Driver {
   std::optional<ByteStream> stream_;
   bool waits_for_writer_ = false;  // a FIFO that nobody has written to yet
   std::optional<CsvStreamProtocol> protocol_;
-  DeviceClock clock_{1.0};      // ticks of time_s are nanoseconds
-  std::deque<Row> rows_;        // received, not yet given out
-  Status status_;               // what to say once rows_ is empty
+  DeviceClock clock_{1.0};  // ticks of time_s are nanoseconds
+  std::deque<Row> rows_;    // received, not yet given out
+  Status status_;           // what to say once rows_ is empty
+  bool datum_set_ = false, datum_lost_ = false;
   bool in_first_line_ = false;  // of a serial line, which may have begun in the middle of it
   std::optional<TimePair> pace_from_;
   std::int64_t last_row_ns_ = 0, last_received_ns_ = 0, last_time_ns_ = 0;

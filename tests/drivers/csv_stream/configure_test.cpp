@@ -23,7 +23,7 @@ std::string refusal(const std::string& toml) {
 TEST(CsvStreamConfiguration, KeysAndTheirErrors) {
   EXPECT_EQ(refusal("source = \"tcp://127.0.0.1:9000\"\nsilence_s = 10\nstart_s = 5"), "accepted");
   EXPECT_EQ(refusal("source = \"fifo:/run/probe\"\nbad_lines = 0"), "accepted");
-  EXPECT_EQ(refusal("command = [\"python3\", \"p.py\"]"), "accepted");
+  EXPECT_EQ(refusal("command = [\"python3\", \"p.py\"]\nabsolute = true"), "accepted");
   EXPECT_EQ(refusal("source = \"serial:/dev/ttyUSB0\"\nbaud = 9600\nparity = \"even\"\nstop_bits = "
                     "2\nheader = \"A_um,encoder_mm\""),
             "accepted");

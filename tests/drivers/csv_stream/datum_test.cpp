@@ -1,0 +1,75 @@
+// Whether a position that somebody has set outlasts a new start of the script.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/csv_stream/csv_stream.h"
+#include "tests/drivers/collect.h"
+#include "tests/drivers/csv_stream/csv_stream_options.h"
+
+namespace mdof::drivers {
+namespace {
+
+CsvStream counting(const std::string& then, bool absolute = false) {
+  CsvStreamOptions options = options_for_test();
+  options.command = {"sh", "-c", "printf 'encoder_mm,A_um\\n0,1\\n'; " + then};
+  options.absolute = absolute;
+  return {"script", options};
+}
+
+// The quality of the next scan's encoder; the probe is good.
+Quality encoder_of_next(CsvStream& stream) {
+  const Collected one = collect(stream, 1);
+  EXPECT_EQ(one.quality.at(0).at(1), Quality::good) << one.error;
+  return one.first_quality(0);
+}
+
+TEST(CsvStreamDatum, APositionThatWasSetIsLostWithANewStart) {
+  CsvStream stream = counting("sleep 60");
+  for (int start = 0; start < 2; ++start) {  // nothing was set: the script's own positions
+    ASSERT_TRUE(stream.open());
+    EXPECT_EQ(encoder_of_next(stream), Quality::good);
+    EXPECT_EQ(stream.info().datum_lost, "");
+  }
+  stream.trust_count();
+  EXPECT_EQ(stream.info().datum_lost, "");
+  for (int start = 0; start < 2; ++start) {
+    ASSERT_TRUE(stream.open());
+    EXPECT_EQ(encoder_of_next(stream), Quality::suspect);
+    EXPECT_NE(stream.info().datum_lost.find("absolute = true"), std::string::npos);
+  }
+  stream.trust_count();
+  EXPECT_EQ(stream.info().datum_lost, "");
+}
+
+TEST(CsvStreamDatum, APositionThatIsAbsoluteStays) {
+  CsvStream stream = counting("sleep 60", true);
+  ASSERT_TRUE(stream.open());
+  stream.trust_count();
+  ASSERT_TRUE(stream.open());
+  EXPECT_EQ(encoder_of_next(stream), Quality::good);
+  EXPECT_EQ(stream.info().datum_lost, "");
+}
+
+// As of a board that was reset while its line stayed open.
+TEST(CsvStreamDatum, AHeaderThatComesAgainIsANewStart) {
+  const auto go = std::filesystem::temp_directory_path() /
+                  ("mdof_csv_stream_datum_test." + std::to_string(::getpid()));
+  CsvStream stream =
+      counting("until [ -e " + go.string() +
+               " ]; do sleep 0.01; done; printf 'encoder_mm,A_um\\n0,1\\n'; sleep 60");
+  ASSERT_TRUE(stream.open());
+  EXPECT_EQ(encoder_of_next(stream), Quality::good);
+  stream.trust_count();
+  std::ofstream(go) << "go";
+  EXPECT_EQ(encoder_of_next(stream), Quality::suspect);
+  EXPECT_NE(stream.info().datum_lost, "");
+  stream.trust_count();
+  EXPECT_EQ(stream.info().datum_lost, "");
+  std::filesystem::remove(go);
+}
+
+}  // namespace
+}  // namespace mdof::drivers

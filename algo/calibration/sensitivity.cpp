@@ -7,6 +7,7 @@
 #include "algo/iso230/line_fit.h"
 #include "algo/model/fixture.h"
 #include "schema/base/number/number_text.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -127,6 +128,19 @@ Status check(const Probe& probe, const Line& line) {
   return fail(ErrorCode::check, wrong + "; check um_per_V in the rig and the unit of the encoder");
 }
 
+// Beyond the calibrated places the correction goes on as the line does: a rig would hold that of
+// the last place, and a sensitivity is wrong everywhere. `slope`: of the correction.
+void extend_to_range(const Probe& probe, double slope, SensitivityCalibration& found) {
+  const auto [low_um, high_um] = readings_of_range(probe);
+  auto& table = found.linearity;
+  const auto [first_um, first_correction_um] = table.front();
+  const auto [last_um, last_correction_um] = table.back();
+  if (low_um < first_um)
+    table.insert(table.begin(), {low_um, first_correction_um + slope * (low_um - first_um)});
+  if (high_um > last_um)
+    table.push_back({high_um, last_correction_um + slope * (high_um - last_um)});
+}
+
 // Where the probe is in volts its scale takes the sensitivity; the rest is a table.
 void propose(const Probe& probe, const std::vector<Reading>& places, const Line& line,
              SensitivityCalibration& found) {
@@ -141,6 +155,8 @@ void propose(const Probe& probe, const std::vector<Reading>& places, const Line&
     found.linearity.push_back({sign * to_um(read_m), sign * to_um(place.true_m + zero_m - read_m)});
   }
   std::sort(found.linearity.begin(), found.linearity.end());
+  found.calibrated_um = {found.linearity.front()[0], found.linearity.back()[0]};
+  if (!c.um_per_V) extend_to_range(probe, 1 / line.slope - 1, found);
 }
 
 }  // namespace

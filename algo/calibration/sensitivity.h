@@ -3,7 +3,9 @@
 //
 // With n the normal of the probe's plane and e the axis, a travel x is the displacement
 // z = x (n·e)/(n·u) along the probe's direction u. Reading = a + g z by least squares; a correction
-// is true - reading, and 0 on the line where the reading is 0: the zero stays what it is.
+// is true - reading, and 0 on the line where the reading is 0: the zero stays what it is. Without a
+// scale of volts the sensitivity is in the corrections, too: beyond the places they go on with the
+// slope 1/g - 1 of the line up to the ends of the range.
 //
 // u of g is the larger of two: what the noise of the stops and the declared [encoder] u_um make of
 // it, the encoder's error being one at each place however often it is visited; and what the line

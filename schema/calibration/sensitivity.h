@@ -25,7 +25,8 @@ struct SensitivityCalibration {
   std::optional<double> um_per_V;
   double offset_um = 0;
   std::vector<std::array<double, 2>> linearity;
-  std::vector<std::string> not_seen;  // what is not in u, one sentence each
+  std::array<double, 2> calibrated_um{};  // t of the first and the last place
+  std::vector<std::string> not_seen;      // what is not in u, one sentence each
 };
 
 }  // namespace mdof

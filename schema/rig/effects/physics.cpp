@@ -73,16 +73,6 @@ std::optional<DeclaredAir> read_air(TomlTable& root) {
   return air;
 }
 
-// Readings t = raw - offset at the ends of the probe's range, µm.
-std::array<double, 2> readings_of_range(const Probe& probe) {
-  const Calibration& c = probe.calibration;
-  const double range_um = to_um(probe.range_m);
-  std::array<double, 2> raw{-range_um / 2, range_um / 2};
-  if (c.reads_gap) raw = {0, range_um};
-  if (c.valid_um) raw = *c.valid_um;
-  return {raw[0] - c.offset_um, raw[1] - c.offset_um};
-}
-
 bool rises(const Calibration& c, const std::array<double, 2>& range) {
   std::vector<double> at;
   for (int i = 0; i <= kLooks; ++i) at.push_back(range[0] + (range[1] - range[0]) * i / kLooks);
@@ -199,6 +189,15 @@ void read_physics(TomlTable& table, Rig& rig) {
   check_needs(table, tables, rig, physics);
   if (!physics.linearity.value_or(true)) leave_linearity_out(rig, physics);
   if (says_anything(physics)) rig.physics = std::make_shared<const RigPhysics>(std::move(physics));
+}
+
+std::array<double, 2> readings_of_range(const Probe& probe) {
+  const Calibration& c = probe.calibration;
+  const double range_um = to_um(probe.range_m);
+  std::array<double, 2> raw{-range_um / 2, range_um / 2};
+  if (c.reads_gap) raw = {0, range_um};
+  if (c.valid_um) raw = *c.valid_um;
+  return {raw[0] - c.offset_um, raw[1] - c.offset_um};
 }
 
 double linearity_um(const Calibration& c, double reading_um) {

@@ -24,6 +24,7 @@ namespace mdof {
 
 struct Rig;
 struct Calibration;
+struct Probe;
 
 // Of air, what its permittivity depends on: degrees Celsius, kPa, % relative humidity.
 inline constexpr std::size_t kAirQuantities = 3;
@@ -88,5 +89,8 @@ std::vector<std::string> columns_of_air(const Rig& rig);
 
 // What the calibration adds to a reading (Calibration in rig.h), µm; the ends of a table are held.
 double linearity_um(const Calibration& calibration, double reading_um);
+
+// Readings t = raw - offset at the ends of the probe's range, µm.
+std::array<double, 2> readings_of_range(const Probe& probe);
 
 }  // namespace mdof

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "algo/uncertainty/coverage.h"
+#include "schema/rig/effects/physics.h"
 #include "schema/units.h"
 #include "tests/algo/rigs.h"
 
@@ -110,6 +111,7 @@ TEST(Sensitivity, TheProposedTableMakesReadingsTrue) {
       double zero_um = std::nan("");
       std::size_t k = 0;
       for (const auto& [t_um, correction_um] : found->linearity) {
+        if (t_um < found->calibrated_um[0] || t_um > found->calibrated_um[1]) continue;
         // Back to the raw number, then by the rig as it is proposed.
         const double displacement_um = sign * (t_um + correction_um);
         const auto i = sign > 0 ? k : 10 - k;
@@ -123,6 +125,28 @@ TEST(Sensitivity, TheProposedTableMakesReadingsTrue) {
       }
       EXPECT_EQ(k, 11U);
     }
+}
+
+// Steps of +-12 um say what the probe reads anywhere in its range: raw = 100 +- (5 + 1.02 z).
+TEST(Sensitivity, TheTableOfAProbeWithoutScaleHoldsOverItsRange) {
+  for (const double sign : {1.0, -1.0}) {
+    const Rig rig = test::rig_x_with("A", std::string("reads = ") +
+                                              (sign > 0 ? "\"displacement\"" : "\"gap\"") +
+                                              "\noffset_um = 100\nvalid_um = [-40, 250]\n");
+    const auto found =
+        fit_sensitivity(rig, kA, along_z([](double z) { return 5e-6 + 1.02 * z; }, 7, 12e-6));
+    ASSERT_TRUE(found) << found.error().message;
+    EXPECT_NEAR(found->calibrated_um[0], sign * 5 - 1.02 * 12, 1e-9);
+    EXPECT_NEAR(found->calibrated_um[1], sign * 5 + 1.02 * 12, 1e-9);
+    Calibration as_proposed;
+    as_proposed.linearity = found->linearity;
+    for (const double raw_um : {-40.0, 10.0, 100.0, 103.0, 180.0, 250.0}) {
+      const double t_um = raw_um - 100;  // away from where the raw number is 100, by 1.02
+      EXPECT_NEAR(t_um + linearity_um(as_proposed, t_um), t_um / 1.02, 1e-9) << raw_um;
+    }
+    EXPECT_NEAR(found->linearity.front()[0], -140, 1e-12);
+    EXPECT_NEAR(found->linearity.back()[0], 150, 1e-12);
+  }
 }
 
 TEST(Sensitivity, WhatCannotBeIsRefused) {
@@ -148,9 +172,10 @@ TEST(Sensitivity, TheTableOfAStraightProbeCorrectsNothing) {
   const auto found = fit_sensitivity(
       test::rig_x(), kA, along_z([&](double z) { return 3e-6 + z + (k++ % 2 ? 1e-15 : 0); }));
   ASSERT_TRUE(found) << found.error().message;
-  ASSERT_EQ(found->linearity.size(), 11u);
-  for (std::size_t i = 0; i < 11; ++i) {
-    EXPECT_NEAR(found->linearity[i][0], 3 - 80 + 16.0 * static_cast<double>(i), 1e-6);
+  ASSERT_EQ(found->linearity.size(), 13u);  // and the ends of the range
+  for (std::size_t i = 0; i < 13; ++i) {
+    const double at_um = i == 0 ? -100 : i == 12 ? 100 : 3 - 80 + 16.0 * static_cast<double>(i - 1);
+    EXPECT_NEAR(found->linearity[i][0], at_um, 1e-6);
     EXPECT_NEAR(found->linearity[i][1], 0, 1e-6);
   }
   EXPECT_NEAR(found->from_m, -77e-6, 1e-12);

@@ -79,6 +79,8 @@ std::string probe_text(const CalibratedProbe& probe) {
     text += line("offset_um", *probe.offset_um) + line("u_offset_um", to_um(probe.u_offset_m));
   if (probe.um_per_V) text += line("um_per_V", *probe.um_per_V);
   if (!probe.linearity.empty()) text += table_of(probe.linearity);
+  if (const auto& stretch = probe.calibrated_um)
+    text += list("calibrated_um", {(*stretch)[0], (*stretch)[1]});
   if (probe.u_sensitivity_1 > 0) text += line("u_sensitivity_ppm", probe.u_sensitivity_1 * 1e6);
   if (std::isfinite(probe.sensitivity_freedom))
     text += line("sensitivity_dof", probe.sensitivity_freedom);
@@ -144,6 +146,15 @@ std::string read_day(TomlTable& table, const char* key) {
   return day;
 }
 
+void read_stretch(TomlTable& table, CalibratedProbe& probe) {
+  if (!table.has("calibrated_um")) return;
+  const std::vector<double> ends = table.numbers("calibrated_um");
+  if (ends.size() == 2 && ends[0] < ends[1])
+    probe.calibrated_um = {ends[0], ends[1]};
+  else
+    table.reject("calibrated_um", "must be two readings [from, to] in increasing order");
+}
+
 CalibratedProbe read_probe(TomlTable& table) {
   CalibratedProbe probe;
   probe.id = table.string("id");
@@ -177,6 +188,7 @@ CalibratedProbe read_probe(TomlTable& table) {
     }
     probe.linearity.push_back({row[0], row[1]});
   }
+  read_stretch(table, probe);
   if (table.has("u_sensitivity_ppm"))
     probe.u_sensitivity_1 = read_u(table, "u_sensitivity_ppm") / 1e6;
   if (table.has("sensitivity_dof")) {

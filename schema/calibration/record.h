@@ -34,6 +34,8 @@ struct CalibratedProbe {
   double u_offset_m = 0;
   std::optional<double> um_per_V;
   std::vector<std::array<double, 2>> linearity;  // as in the rig
+  // Readings, as in the first column of `linearity`, between which the probe was calibrated.
+  std::optional<std::array<double, 2>> calibrated_um;
   double u_sensitivity_1 = 0;
   double sensitivity_freedom = std::numeric_limits<double>::infinity();  // degrees of freedom
 };

@@ -91,6 +91,8 @@ void move_offset(Calibration& calibration, double offset_um) {
   const double by_um = offset_um - calibration.offset_um;
   calibration.offset_um = offset_um;
   for (auto& [reading_um, correction_um] : calibration.linearity) reading_um -= by_um;
+  if (auto& stretch = calibration.calibrated_um)
+    *stretch = {(*stretch)[0] - by_um, (*stretch)[1] - by_um};
   auto& c = calibration.polynomial_um;  // p(t + by), by Horner's rule for each coefficient
   for (std::size_t i = 0; i + 1 < c.size(); ++i)
     for (std::size_t j = c.size() - 1; j-- > i;) c[j] += by_um * c[j + 1];
@@ -114,9 +116,13 @@ void apply(const CalibratedProbe& found, Probe& probe) {
     move_offset(calibration, *found.offset_um);
     if (!probe.uncertainty.calibration.known()) probe.uncertainty.calibration = {found.u_offset_m};
   }
+  // Of the offset that the record has.
+  if (found.calibrated_um) calibration.calibrated_um = found.calibrated_um;
   if (found.linearity.empty()) return;
-  calibration.linearity = found.linearity;  // of the offset that the record has
+  calibration.linearity = found.linearity;
   calibration.polynomial_um.clear();
+  if (!found.calibrated_um)  // of a certificate, of an older version
+    calibration.calibrated_um = {found.linearity.front()[0], found.linearity.back()[0]};
 }
 
 // What takes the place of what an earlier record found, and the zeros that the rig declares, have

@@ -33,7 +33,9 @@ struct Calibration {
       linearity;                      // [reading_um, correction_um], ascending; ends held
   std::vector<double> polynomial_um;  // instead: correction in µm, Σ c_i (reading_um)^i
   std::optional<std::array<double, 2>>
-      valid_um;             // raw_um from, to; default: from range_um and `reads`
+      valid_um;  // raw_um from, to; default: from range_um and `reads`
+  // t between which a calibration record has calibrated the probe; none: not known.
+  std::optional<std::array<double, 2>> calibrated_um = std::nullopt;
   std::string certificate;  // number of the calibration certificate
   std::string laboratory;   // that issued it
   std::string calibrated;   // YYYY-MM-DD

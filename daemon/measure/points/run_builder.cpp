@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "algo/iso230/straightness.h"
+#include "algo/plausibility/calibrated_stretch.h"
 #include "algo/plausibility/map_cover.h"
 #include "algo/plausibility/visit_step.h"
 #include "daemon/measure/completeness.h"
@@ -52,6 +53,7 @@ void RunBuilder::add_plausibility(const SolvedPoints& points, Run& run) const {
   append(notices, algo::visit_notices(whole));
   append(notices, algo::unit_notices(rig_, *run.plausibility));
   append(notices, algo::map_notices(rig_, solver_.fixture(), points.sequence.points));
+  append(notices, algo::stretch_notices(rig_, points.sequence.points));
 }
 
 Run RunBuilder::build(SolvedPoints points) const {

@@ -136,6 +136,43 @@ TEST(CalibratedRig, ALinearityMovesWithTheOffset) {
                 p({0.5, 0.01, 0.002, -0.0001}, raw - 1), 1e-12);
 }
 
+TEST(CalibratedRig, KnowsWhereAProbeWasCalibrated) {
+  CalibrationRecord record = mounting();
+  record.probes[0].linearity = {{-50, 0.2}, {50, -0.1}};
+  record.probes[0].calibrated_um = {-12.5, 1.0 / 3};
+  record.probes[2].linearity = {{-50, 0.2}, {50, -0.1}};  // by an older version
+  const auto with = [](const std::string& text) {
+    return parse_rig(rig_text() + text.substr(text.find(kRecordHead)), "rig.toml");
+  };
+  const auto rig = with(record_text(record));
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_EQ(rig->probes[0].calibration.calibrated_um, (std::array{-12.5, 1.0 / 3}));
+  EXPECT_FALSE(rig->probes[1].calibration.calibrated_um);
+  EXPECT_EQ(rig->probes[2].calibration.calibrated_um, (std::array{-50.0, 50.0}));
+  record.probes[0].calibrated_um = {1, 1};
+  const auto refused = with(record_text(record));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("calibrated_um"), std::string::npos);
+}
+
+// A later mounting finds another zero: the same raw readings are then at another t.
+TEST(CalibratedRig, ACalibratedStretchMovesWithTheOffset) {
+  CalibrationRecord sensitivity = mounting();
+  sensitivity.kind = "sensitivity";
+  sensitivity.probes = {CalibratedProbe{}};
+  sensitivity.probes[0].id = "B";
+  sensitivity.probes[0].linearity = {{-50, 0.2}, {50, -0.1}};
+  sensitivity.probes[0].calibrated_um = {-20, 30};
+  sensitivity.covariance = {};
+  const std::string first = record_text(sensitivity), second = record_text(mounting());
+  const auto rig =
+      parse_rig("calibration = [\"s.toml\", \"m.toml\"]\n" + test::rig_x_toml() +
+                    first.substr(first.find(kRecordHead)) + second.substr(second.find(kRecordHead)),
+                "rig.toml");
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_EQ(rig->probes[1].calibration.calibrated_um, (std::array{-22.5, 27.5}));
+}
+
 // What a laboratory's certificate states. The record's table is of the record's own offset.
 TEST(CalibratedRig, TakesACertificate) {
   CalibrationRecord record;

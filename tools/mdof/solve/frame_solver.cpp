@@ -24,7 +24,11 @@ Result<FrameSolver> FrameSolver::create(const Rig& rig, Model model,
 }
 
 FrameSolver::FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels)
-    : rig_(rig), solver_(std::move(solver)), calibrator_(rig), channels_(std::move(channels)) {
+    : rig_(rig),
+      solver_(std::move(solver)),
+      calibrator_(rig),
+      channels_(std::move(channels)),
+      spans_(rig.probes.size()) {
   encoder_ = index_of(channels_, kEncoderChannel);
   for (const Probe& probe : rig.probes) probes_.push_back(index_of(channels_, probe.id));
   for (std::size_t q = 0; q < kAirQuantities; ++q)
@@ -37,6 +41,7 @@ Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {
   raw.quality.clear();
   MDOF_CHECK(calibrator_.apply(raw));
   count_over_range(raw);
+  note_readings(raw);
   out.encoder_m = raw.value[encoder_];
   for (auto& column : out.local) column.resize(raw.scans());
   solver_.small_angle() && !corrects() ? solve_columns(raw, out) : solve_singly(raw, out);
@@ -154,6 +159,12 @@ void FrameSolver::note_travel(double travel_m) {
 Notices FrameSolver::map_notices(const Rig& rig) const {
   if (!travels_m_) return {};
   return algo::map_notices(rig, solver_.fixture(), (*travels_m_)[0], (*travels_m_)[1]);
+}
+
+void FrameSolver::note_readings(const SampleBlock& block) {
+  for (std::size_t p = 0; p < probes_.size(); ++p)
+    if (rig_.probes[p].calibration.calibrated_um)
+      for (const double reading_m : block.value[probes_[p]]) algo::widen(spans_[p], reading_m);
 }
 
 void FrameSolver::count_over_range(const SampleBlock& block) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "algo/model/solver.h"
+#include "algo/plausibility/calibrated_stretch.h"
 #include "algo/probe_physics/reading_correction.h"
 #include "daemon/measure/corrections/point_corrections.h"
 #include "drivers/calibration.h"
@@ -45,6 +46,8 @@ class FrameSolver {
   Notices correction_notices() const;
   // Height maps of the rig that end before the rows do.
   Notices map_notices(const Rig& rig) const;
+  // Probes that read where their record has not calibrated them.
+  Notices stretch_notices() const { return algo::stretch_notices(rig_, spans_); }
 
  private:
   FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels);
@@ -59,6 +62,7 @@ class FrameSolver {
   void solve_singly(const SampleBlock& block, SolvedRows& out);
   void note_travel(double travel_m);
   void count_over_range(const SampleBlock& block);
+  void note_readings(const SampleBlock& block);
   bool has_missing(const SampleBlock& block, std::size_t row) const;
 
   Rig rig_;
@@ -72,7 +76,8 @@ class FrameSolver {
   daemon::LargestChange tilt_, dielectric_;
   std::uint64_t rows_ = 0, over_range_ = 0, without_reading_ = 0, unsolved_ = 0;
   std::string why_unsolved_;
-  std::optional<std::array<double, 2>> travels_m_;  // least and most d solved one by one
+  std::optional<std::array<double, 2>> travels_m_;       // least and most d solved one by one
+  std::vector<std::optional<algo::ReadingSpan>> spans_;  // of probes with a calibrated stretch
 };
 
 }  // namespace mdof::tools

@@ -44,6 +44,8 @@ std::string json_of(const SensitivityCalibration& found, const CalibrationRecord
   json.field("offset_um", found.offset_um).key("linearity").begin_array();
   for (const auto& [reading_um, correction_um] : found.linearity)
     json.begin_array().value(reading_um).value(correction_um).end_array();
+  json.end_array().key("calibrated_um").begin_array();
+  for (const double reading_um : found.calibrated_um) json.value(reading_um);
   json.end_array()
       .field("u_covers",
              covers_text(Covers{rig_declares ? Covered::noise_rig : Covered::noise_only}))
@@ -84,6 +86,7 @@ CalibratedProbe as_record(const SensitivityCalibration& found, const Probe& prob
   kept.id = found.id;
   kept.um_per_V = found.um_per_V;
   kept.linearity = found.linearity;
+  kept.calibrated_um = found.calibrated_um;
   kept.u_sensitivity_1 = found.u_sensitivity_1;
   kept.sensitivity_freedom = found.freedom;
   if (!found.um_per_V) return kept;

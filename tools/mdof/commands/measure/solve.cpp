@@ -74,6 +74,7 @@ Status solve(const SolveCommand& command) {
   MDOF_CHECK(out.finish());
   warn_of_missing(*frames, solver);
   show_notices(solver.map_notices(rig), true);
+  show_notices(solver.stretch_notices(), true);
   show_notices(solver.correction_notices(), true);
   return judge(solver);
 }

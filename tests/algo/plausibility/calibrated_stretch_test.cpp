@@ -1,0 +1,60 @@
+// Readings where nobody has calibrated the probe.
+#include "algo/plausibility/calibrated_stretch.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/algo/rigs.h"
+#include "tests/shown.h"
+
+namespace mdof::algo {
+namespace {
+
+// B is calibrated from t = -10 to 30 um and counts 5 % too much.
+Rig calibrated(bool gap = false) {
+  Rig rig = test::rig_x();
+  Calibration& c = rig.probes[1].calibration;
+  c.calibrated_um = {-10, 30};
+  c.linearity = {{-100, 5}, {100, -5}};
+  c.reads_gap = gap;
+  return rig;
+}
+
+MeasuredPoint point(double reading_m, bool valid = true) {
+  MeasuredPoint p;
+  p.point.probe_m = {90e-6, reading_m, 90e-6, 90e-6, 90e-6};
+  p.errors.valid = valid;
+  return p;
+}
+
+TEST(CalibratedStretch, ReadingsBeyondItAreNamed) {
+  const auto said = stretch_notices(calibrated(), {point(-20e-6), point(40e-6), point(5e-6)});
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].severity, Severity::doubtful);
+  // The ends as displacements: 0.95 of -10 and 30 um.
+  EXPECT_EQ(test::shown(said),
+            "beyond_calibration B from_um=-20 to_um=40 calibrated_from_um=-9.5 "
+            "calibrated_to_um=28.5\n");
+  // A gap grows as the target recedes.
+  EXPECT_EQ(test::shown(stretch_notices(calibrated(true), {point(0), point(40e-6)})),
+            "beyond_calibration B from_um=0 to_um=40 calibrated_from_um=-28.5 "
+            "calibrated_to_um=9.5\n");
+}
+
+TEST(CalibratedStretch, ATenthBeyondItIsLetPass) {
+  // 3.8 um of 38 um.
+  EXPECT_TRUE(stretch_notices(calibrated(), {point(-13.2e-6), point(32.2e-6)}).empty());
+  EXPECT_EQ(stretch_notices(calibrated(), {point(-13.4e-6)}).size(), 1U);
+  EXPECT_EQ(stretch_notices(calibrated(), {point(32.4e-6)}).size(), 1U);
+}
+
+TEST(CalibratedStretch, NothingIsSaidOfWhatHasNoReadingsOrNoRecord) {
+  EXPECT_TRUE(stretch_notices(test::rig_x(), {point(90e-6)}).empty());
+  EXPECT_TRUE(stretch_notices(calibrated(), {point(90e-6, false)}).empty());
+  EXPECT_TRUE(stretch_notices(calibrated(), {point(std::nan(""))}).empty());
+  EXPECT_TRUE(stretch_notices(calibrated(), std::vector<MeasuredPoint>()).empty());
+}
+
+}  // namespace
+}  // namespace mdof::algo

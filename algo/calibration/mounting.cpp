@@ -8,8 +8,8 @@
 #include "algo/calibration/mounting_view.h"
 #include "algo/linear_algebra/least_squares.h"
 #include "algo/linear_algebra/spectra.h"
-#include "algo/uncertainty/chi_square.h"
 #include "schema/base/number/number_text.h"
+#include "schema/uncertainty/chi_square_limit.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -18,6 +18,10 @@ namespace {
 constexpr int kMaxIterations = 40;
 constexpr double kStepDone = 1e-7;  // in units of what is not known before
 constexpr double kRankTolerance = 1e-9;
+// Root mean square of residuals over their uncertainties. Noise that is stated too small does not
+// make them as large; what does bends all readings in the same way, and Birge's factor covers
+// nothing of it.
+constexpr double kMostMisfit = 20;
 constexpr double kFarthest_m = 1e-3;  // from the rig's place: no clamping by hand is as bad
 
 // The least-squares solution in the clampings' unknowns alone.
@@ -268,6 +272,20 @@ Status check_places(const Rig& rig, const MountingFit& fit) {
   return {};
 }
 
+Status check_misfit(const Rig& rig, const MountingCalibration& found) {
+  if (found.explained) return {};
+  const double misfit = std::sqrt(found.chi_square / found.freedom);
+  if (misfit <= kMostMisfit) return {};
+  return fail(ErrorCode::check,
+              rig.source + ": the readings differ from those of any mounting by " +
+                  plain_number(misfit, 3) + " times their uncertainty, root mean square (limit " +
+                  plain_number(kMostMisfit) +
+                  "); calibrate the sensitivities of the probes first, or declare "
+                  "u_sensitivity_ppm; check that the target is flat and did not move in its clamp, "
+                  "and that the axes are straight",
+              Remedy::calibrate_sensitivity);
+}
+
 Status check_seen(const MountingFit& fit) {
   const auto& probes = fit.found.probes;
   if (std::any_of(probes.begin(), probes.end(), [](const auto& p) { return p.position_seen; }))
@@ -293,6 +311,7 @@ Result<MountingFit> fit_mounting(const Rig& rig, const std::vector<Clamping>& cl
   MountingFit result = fit.result(rig, clampings);
   MDOF_CHECK(check_seen(result));
   MDOF_CHECK(check_places(rig, result));
+  MDOF_CHECK(check_misfit(rig, result.found));
   return result;
 }
 

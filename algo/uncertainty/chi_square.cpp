@@ -16,9 +16,6 @@
 namespace mdof::algo {
 namespace {
 
-// χ² at 1 - 1e-6 for 1, 2 ... degrees of freedom.
-constexpr std::array<double, 11> kLimits = {23.928, 27.631, 30.665, 33.377, 35.888, 38.258,
-                                            40.522, 42.701, 44.811, 46.863, 48.866};
 constexpr double kLinearity = 1e-4;   // of the range
 constexpr double kLever_m = 0.02;     // that makes an angle a length
 constexpr double kLeastPart = 1e-11;  // of the largest variance: less is rounding
@@ -37,12 +34,6 @@ double square_distance(const Errors5& a, const Errors5& b) {
 }
 
 }  // namespace
-
-double chi_square_limit(int freedom) {
-  const auto k = static_cast<std::size_t>(std::max(freedom, 1)) - 1;
-  // Beyond the table a straight line, above the true value.
-  return k < kLimits.size() ? kLimits[k] : kLimits.back() + 2.1 * static_cast<double>(k - 10);
-}
 
 bool Agreement::explained() const {
   return freedom <= 0 || chi_square <= chi_square_limit(freedom);

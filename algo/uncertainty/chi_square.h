@@ -11,6 +11,7 @@
 #include "schema/notice/notice.h"
 #include "schema/point.h"
 #include "schema/rig/rig.h"
+#include "schema/uncertainty/chi_square_limit.h"
 
 namespace mdof::algo {
 
@@ -19,9 +20,6 @@ struct Agreement {
   double chi_square = 0;  // sum of (what the model leaves / u)²
   bool explained() const;
 };
-
-// Value that χ² exceeds by chance once in a million points.
-double chi_square_limit(int freedom);
 
 // `u_m` of each reading, not 0; `errors` as the rigid model has solved them, those of the carriage.
 Agreement agreement(const Solver& solver, double travel_m, const std::vector<double>& readings_m,

@@ -6,6 +6,7 @@
 
 #include "schema/base/files.h"
 #include "schema/calibration/certificate_facts.h"
+#include "schema/uncertainty/chi_square_limit.h"
 #include "schema/units.h"
 
 namespace mdof {
@@ -213,13 +214,28 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
   }
 }
 
+namespace {
+
+// As the file has it, which may be any number.
+int freedom_of(const CalibrationRecord& record) {
+  return static_cast<int>(std::clamp<std::int64_t>(record.freedom, 0, 1'000'000));
+}
+
+}  // namespace
+
 Notices calibration_notices(const Rig& rig) {
   Notices notices;
-  for (const CalibrationRecord& record : rig.records)
+  for (const CalibrationRecord& record : rig.records) {
     notices.push_back(notice(record.kind == "mounting" ? NoticeCode::positions_calibrated
                                                        : NoticeCode::sensitivity_calibrated,
                              record.id,
                              {{"date", record.date}, {"valid_until", record.valid_until}}));
+    const double limit = chi_square_limit(freedom_of(record));
+    if (record.freedom <= 0 || record.chi_square <= limit) continue;
+    notices.push_back(
+        notice(NoticeCode::mounting_not_explained, record.id,
+               {{"chi_square", record.chi_square}, {"freedom", record.freedom}, {"limit", limit}}));
+  }
   return notices;
 }
 

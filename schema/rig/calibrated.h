@@ -25,7 +25,8 @@ Result<std::string> load_rig_text(const std::filesystem::path& file);
 // `u_calibration_um` are taken only where the rig does not declare them.
 void apply_records(TomlTable& table, std::string_view text, Rig& rig);
 
-// What results of such a rig say of it, one notice a record; none for other rigs.
+// What results of such a rig say of it, one notice a record, and one more where the record's
+// residuals are larger than its readings' uncertainties explain; none for other rigs.
 Notices calibration_notices(const Rig& rig);
 // The same of a stored rig; none for a text that is no rig.
 Notices calibration_notices(std::string_view rig_text);

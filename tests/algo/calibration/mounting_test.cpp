@@ -171,6 +171,22 @@ TEST(Mounting, ResidualsThatNothingExplainsWidenTheUncertainties) {
   EXPECT_NEAR(stated.covariance(0, 0) / right.covariance(0, 0), 1, 0.3);
 }
 
+// A probe that is 1 % off without a word in the rig: about 0.1 um of 10 nm of noise.
+TEST(Mounting, AMisfitThatNoFactorCoversIsRefused) {
+  const auto refused = [](double scale, double noise_m, const std::string& declared) {
+    std::mt19937_64 rng(8);
+    TiltedTarget target(rng, kPlace_m, 0, 3e-6);
+    target.probes[0].scale = scale;
+    target.noise_m = noise_m;
+    target.clamp(6, kTilt_rad, rng);
+    const auto fit = fit_mounting(rig_with(kDeclared + declared), target.logs(rng));
+    return fit ? Remedy::none : fit.error().remedy;
+  };
+  EXPECT_EQ(refused(1.01, 1e-9, ""), Remedy::calibrate_sensitivity);
+  EXPECT_EQ(refused(1.01, 1e-9, "u_sensitivity_ppm = 10000\n"), Remedy::none);
+  EXPECT_EQ(refused(1.0001, 1e-9, ""), Remedy::none) << "widened";
+}
+
 TEST(Mounting, WhatTheClampingsDoNotShowIsNotMadeUp) {
   std::mt19937_64 rng(6);
   TiltedTarget target(rng, kPlace_m, 0, 3e-6);

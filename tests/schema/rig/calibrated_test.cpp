@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "schema/calibration/certificate_facts.h"
 #include "schema/rig/effects/physics.h"
@@ -171,6 +172,26 @@ TEST(CalibratedRig, ACalibratedStretchMovesWithTheOffset) {
                 "rig.toml");
   ASSERT_TRUE(rig) << rig.error().message;
   EXPECT_EQ(rig->probes[1].calibration.calibrated_um, (std::array{-22.5, 27.5}));
+}
+
+// The 1e-6 limits of chi-square: 38.26 for 6 degrees of freedom (tables), 1 in a million.
+TEST(CalibratedRig, AMountingThatDoesNotExplainItsReadingsIsDoubtful) {
+  const auto said = [](double chi_square, std::int64_t freedom) {
+    CalibrationRecord record = mounting();
+    record.chi_square = chi_square;
+    record.freedom = freedom;
+    const std::string text = record_text(record);
+    const auto rig = parse_rig(rig_text() + text.substr(text.find(kRecordHead)), "rig.toml");
+    return rig ? calibration_notices(*rig) : Notices();
+  };
+  EXPECT_EQ(said(38.2, 6).size(), 1U);
+  EXPECT_EQ(said(1e9, 0).size(), 1U) << "nothing was left to test";
+  const Notices notices = said(38.3, 6);
+  ASSERT_EQ(notices.size(), 2U);
+  EXPECT_EQ(notices[1].code, NoticeCode::mounting_not_explained);
+  EXPECT_EQ(notices[1].severity, Severity::doubtful);
+  EXPECT_EQ(notices[1].subject, notices[0].subject);
+  EXPECT_EQ(said(1e300, std::numeric_limits<std::int64_t>::max()).size(), 2U);
 }
 
 // What a laboratory's certificate states. The record's table is of the record's own offset.

@@ -148,9 +148,11 @@ Status calibrate(const MountingCommand& command) {
   const MountingCalibration& found = fit.found;
   if (!found.explained)
     warn(
-        "chi-square is larger than expected from the noise of the readings (possible causes: "
-        "target not flat, target moved in its clamp, axis not straight); the uncertainties are "
-        "increased accordingly");
+        "chi-square is larger than expected from the noise of the readings (possible causes: wrong "
+        "sensitivity of a probe whose u_sensitivity_ppm the rig does not declare, target not flat, "
+        "target moved in its clamp, axis not straight); the uncertainties are increased, but they "
+        "do not cover an error that all clampings have in common, and runs with this record are "
+        "doubtful");
   fill(record, found, rig, sources.files);
   if (!command.record.out.empty())
     MDOF_CHECK(write_record(command.record.out, record_text(record)));

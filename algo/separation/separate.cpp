@@ -12,9 +12,10 @@
 #include "algo/separation/grid.h"
 #include "algo/separation/request_check.h"
 #include "algo/separation/unseen.h"
-#include "algo/uncertainty/chi_square.h"
+#include "algo/uncertainty/coverage.h"
 #include "schema/base/number/number_text.h"
 #include "schema/uncertainty/budget.h"
+#include "schema/uncertainty/chi_square_limit.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
@@ -124,21 +125,32 @@ MatrixXd unseen_part(const MatrixXd& null, Index from, Index count) {
   return svd.U.leftCols(rank);
 }
 
+// u of each reading, by which u of the results is made, and how many degrees of freedom it has.
+struct ReadingUncertainty {
+  VectorXd u;
+  double freedom = std::numeric_limits<double>::infinity();
+};
+
 SeenSeries seen_part(const Equations& e, const Solution& solution, Index from,
-                     const std::vector<double>& places_m, const VectorXd& u_reading,
+                     const std::vector<double>& places_m, const ReadingUncertainty& reading,
                      const std::vector<double>& periods_m) {
   const Index count = in(places_m.size());
   const MatrixXd unseen = unseen_part(solution.null, from, count);
   const MatrixXd all = solution.from_readings.middleRows(from, count);
   const MatrixXd from_readings = all - unseen * (unseen.transpose() * all);
   const VectorXd seen = from_readings * e.errors;
-  const VectorXd square = (from_readings * u_reading.asDiagonal()).rowwise().squaredNorm() +
-                          (from_readings * e.declared).rowwise().squaredNorm();
+  const VectorXd scatter = (from_readings * reading.u.asDiagonal()).rowwise().squaredNorm();
+  const VectorXd square = scatter + (from_readings * e.declared).rowwise().squaredNorm();
   const VectorXd u = square.cwiseSqrt();
   SeenSeries series;
   series.place_m = places_m;
   series.seen_m.assign(seen.begin(), seen.end());
   series.u_m.assign(u.begin(), u.end());
+  for (Index i = 0; i < count; ++i) {
+    const double freedom = effective_freedom(square(i), fourth_by(scatter(i), reading.freedom));
+    series.freedom.push_back(std::isfinite(u(i)) ? freedom : std::nan(""));
+    series.k.push_back(std::isfinite(u(i)) ? coverage_factor(freedom) : std::nan(""));
+  }
   series.unseen = named_shapes(places_m, unseen, periods_m);
   return series;
 }
@@ -165,8 +177,7 @@ std::string declared_text(const Separation& result, const Equations& e) {
              : "";
 }
 
-// u of each reading, by which u of the results is made.
-VectorXd judge(const Equations& e, const Solution& solution, Separation& result) {
+ReadingUncertainty judge(const Equations& e, const Solution& solution, Separation& result) {
   const VectorXd left = e.errors - e.A * (solution.from_readings * e.errors);
   const std::size_t freedom = result.freedom();
   if (freedom > 0) result.residual_m = std::sqrt(left.squaredNorm() / static_cast<double>(freedom));
@@ -176,7 +187,7 @@ VectorXd judge(const Equations& e, const Solution& solution, Separation& result)
     if (freedom > 0 && chi_square > chi_square_limit(static_cast<int>(freedom)))
       result.notices.push_back(notice(NoticeCode::set_ups_contradict, "",
                                       {{"chi_square", chi_square}, {"freedom", freedom}}));
-    return e.u;
+    return {e.u};
   }
   result.u_reason =
       freedom > 0
@@ -184,7 +195,7 @@ VectorXd judge(const Equations& e, const Solution& solution, Separation& result)
                 declared_text(result, e) + "; not every reading has a u above 0"
           : "unknown: not every reading has a u above 0, and the fit has no degrees of freedom to "
             "estimate u; give the standard uncertainty of the readings (u_um)";
-  return VectorXd::Constant(e.u.size(), result.residual_m);
+  return {VectorXd::Constant(e.u.size(), result.residual_m), static_cast<double>(freedom)};
 }
 
 // Of two set-ups that look the same way, by how much one is shifted against the other: what comes
@@ -221,7 +232,7 @@ Result<Separation> separate(const SeparationRequest& request) {
   result.unknowns = static_cast<std::size_t>(e.A.cols());
   result.rank = static_cast<std::size_t>(solution.rank);
   result.noise_only = request.u_is_noise && e.declared.cols() == 0;
-  const VectorXd u = judge(e, solution, result);
+  const ReadingUncertainty u = judge(e, solution, result);
   const auto periods =
       hidden_periods(returns_of(request.set_ups, e.grid.step_m), e.grid.step_m, request.match_m);
   result.machine = seen_part(e, solution, 0, e.grid.position_m, u, periods);

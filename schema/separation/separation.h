@@ -30,7 +30,9 @@ struct UnseenShape {
 struct SeenSeries {
   std::vector<double> place_m;  // ascending
   std::vector<double> seen_m;
-  std::vector<double> u_m;  // standard uncertainty of what is seen; NaN: not known
+  std::vector<double> u_m;      // standard uncertainty of what is seen; NaN: not known
+  std::vector<double> freedom;  // effective degrees of freedom of u; NaN: u is not known
+  std::vector<double> k;        // of U = k u, 95 % of Student's t; NaN: u is not known
   std::vector<UnseenShape> unseen;
 
   // No more than offset and slope are missing, which are how the target was clamped.
@@ -39,6 +41,7 @@ struct SeenSeries {
       if (shape.name != "offset" && shape.name != "slope") return false;
     return true;
   }
+  double U_m(std::size_t i) const { return k[i] * u_m[i]; }
   double zone_m() const;  // peak to valley; NaN without places
 };
 

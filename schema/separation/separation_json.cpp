@@ -1,5 +1,7 @@
 #include "schema/separation/separation_json.h"
 
+#include <cmath>
+
 #include "schema/base/json_writer.h"
 #include "schema/units.h"
 
@@ -34,10 +36,21 @@ void write_series(JsonWriter& json, const SeenSeries& series, const char* place,
     series.whole() ? json.value(to_um(series.seen_m[i])) : json.null();
     json.field("seen_um", to_um(series.seen_m[i]))
         .field("u_um", to_um(series.u_m[i]))
-        .field("U_um", kSeparationCoverage * to_um(series.u_m[i]))
+        .field("U_um", to_um(series.U_m(i)))
+        .field("k", series.k[i])
+        .field("nu_eff", series.freedom[i])
         .end_object();
   }
   json.end_array().end_object();
+}
+
+// NaN: not all places have the same.
+double common(const Separation& fit, std::vector<double> SeenSeries::*of) {
+  const double first = (fit.machine.*of).empty() ? std::nan("") : (fit.machine.*of).front();
+  for (const SeenSeries* series : {&fit.machine, &fit.target})
+    for (const double x : series->*of)
+      if (x != first) return std::nan("");
+  return first;
 }
 
 void write_fit(JsonWriter& json, const Separation& fit) {
@@ -46,7 +59,8 @@ void write_fit(JsonWriter& json, const Separation& fit) {
       .field("rank", static_cast<std::uint64_t>(fit.rank))
       .field("freedom", static_cast<std::uint64_t>(fit.freedom()))
       .field("residual_um", to_um(fit.residual_m))
-      .field("k", kSeparationCoverage)
+      .field("k", common(fit, &SeenSeries::k))
+      .field("nu_eff", common(fit, &SeenSeries::freedom))
       .field("u_from", fit.u_reason)
       .field("u_covers", fit.u_reason)
       .field("noise_only", fit.noise_only)

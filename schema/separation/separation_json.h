@@ -7,11 +7,11 @@
 
 namespace mdof {
 
-inline constexpr double kSeparationCoverage = 2;  // k of U, about 95 %
-
 // {"method", "surface", "axis", "error", "set_ups": [...], "machine": {...}, "target": {...}, ...}
 // In both series "seen_um" is what the readings determine, and "EYX_um" or "height_um" the same
-// where no more than offset and slope is unseen, else null.
+// where no more than offset and slope is unseen, else null. "k" and "nu_eff" (null: infinite) of
+// each place; beside them those that all places have, else null. Where u is not known, U, k and
+// nu_eff are null, and "u_from" says why.
 std::string separation_json(const SeparationRecord& record);
 
 // What is in no u of a separation, for people.

@@ -1,5 +1,6 @@
 #include "tools/mdof/text/analyses/separation_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -40,14 +41,26 @@ std::string series_text(const std::string& title, const std::string& place,
   TextTable table({place, value + (series.whole() ? "" : ", determined part"), "U/µm"});
   const double u_m = column_u(series.u_m);
   for (std::size_t i = 0; i < series.place_m.size(); ++i) {
-    const double U_m = kSeparationCoverage * series.u_m[i];
+    const double U_m = series.U_m(i);
     table.add({in_mm(series.place_m[i]), um_with_u(series.seen_m[i], series.u_m[i], u_m),
-               um_to_place(U_m, u_m > 0 ? kSeparationCoverage * u_m : U_m)});
+               um_to_place(U_m, u_m > 0 ? series.k[i] * u_m : U_m)});
   }
   return title +
          (series.whole() ? ", peak to valley " : ", peak to valley of the determined part ") +
          in_um(series.zone_m()) + " µm\nnot determined and not included: " + unseen_text(series) +
          "\n" + table.text(width);
+}
+
+// "U (k = 4.3) is the expanded uncertainty. "; nothing where U is not known.
+std::string expanded_text(const Separation& fit) {
+  std::vector<double> k = fit.machine.k;
+  k.insert(k.end(), fit.target.k.begin(), fit.target.k.end());
+  if (k.empty() || !std::all_of(k.begin(), k.end(), [](double x) { return std::isfinite(x); }))
+    return "";
+  const auto [least, most] = std::minmax_element(k.begin(), k.end());
+  const std::string from = plain_number(*least, 3), to = plain_number(*most, 3);
+  return "U (k = " + from + (from == to ? "" : " to " + to) +
+         ", 95 %) is the expanded uncertainty. ";
 }
 
 std::string fit_text(const Separation& fit) {
@@ -123,22 +136,22 @@ std::string separation_text(const SeparationRecord& record, std::size_t width) {
                          " surface along " + along(record) + " in set-up 1",
                      "place/mm", "height/µm", r.target, width) +
          "\n" +
-         wrapped("± is the standard uncertainty u (" + r.u_reason +
-                     "). U (k = 2) is the expanded uncertainty. u does not include: " +
-                     not_in_separation_u(),
+         wrapped("± is the standard uncertainty u (" + r.u_reason + "). " + expanded_text(r) +
+                     "u does not include: " + not_in_separation_u(),
                  width) +
          "\n";
 }
 
 std::string separation_csv(const SeparationRecord& record) {
   CsvText csv;
-  csv.cells({"series", "place_mm", "seen_um", "u_um", "U_um", "whole", "u_covers"});
+  csv.cells({"series", "place_mm", "seen_um", "u_um", "U_um", "whole", "u_covers", "k", "nu_eff"});
   csv.end_row();
   const auto add = [&](std::string_view name, const SeenSeries& series) {
     for (std::size_t i = 0; i < series.place_m.size(); ++i) {
       csv.cell(name).cell(to_mm(series.place_m[i])).cell(to_um(series.seen_m[i]));
-      csv.cell(to_um(series.u_m[i])).cell(kSeparationCoverage * to_um(series.u_m[i]));
+      csv.cell(to_um(series.u_m[i])).cell(to_um(series.U_m(i)));
       csv.cell(series.whole() ? 1LL : 0LL).cells({record.result.u_reason});
+      csv.cell(series.k[i]).cell(series.freedom[i]);
       csv.end_row();
     }
   };

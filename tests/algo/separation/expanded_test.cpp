@@ -1,0 +1,84 @@
+// k and U of a separation. Machine and target are straight, so that what is found is its noise.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algo/separation/separate.h"
+#include "schema/base/random.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr double kNoise_m = 10e-9;
+
+double normal(std::uint32_t trial, std::uint32_t set_up, std::uint32_t i) {
+  const auto words = philox({i, set_up, trial, 0}, 7);
+  return gaussian(uniform(words[0], words[1]));
+}
+
+// Three set-ups, the second shifted by a step, the third turned over: n - 3 degrees of freedom.
+SeparationRequest noise_only(std::uint32_t n, std::uint32_t trial) {
+  SeparationRequest request;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    auto& set_up = request.set_ups.emplace_back();
+    if (k == 1) set_up.shift_m = 5e-3;
+    if (k == 2) set_up.turn.height_sign = -1;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      set_up.position_m.push_back(5e-3 * i);
+      set_up.error_m.push_back(kNoise_m * normal(trial, k, i));
+    }
+  }
+  return request;
+}
+
+// How many of 3,000 intervals hold the truth, which is 0.
+TEST(SeparationExpanded, UHoldsTheTruthByStudentsT) {
+  constexpr std::uint32_t kTrials = 3000;
+  for (const std::uint32_t n : {4U, 6U}) {
+    int held = 0, held_by_two = 0;
+    for (std::uint32_t trial = 0; trial < kTrials; ++trial) {
+      const auto found = separate(noise_only(n, trial));
+      ASSERT_TRUE(found) << found.error().message;
+      ASSERT_EQ(found->freedom(), n - 3);
+      EXPECT_EQ(found->machine.freedom[1], n - 3);
+      const double off_m = std::abs(found->machine.seen_m[1]);
+      held += off_m <= found->machine.U_m(1);
+      held_by_two += off_m <= 2 * found->machine.u_m[1];
+    }
+    // 95 % and three standard deviations of 3,000.
+    EXPECT_NEAR(100.0 * held / kTrials, 95, 1.2) << n;
+    EXPECT_LT(100.0 * held_by_two / kTrials, 88) << n;
+  }
+}
+
+// 12.71 and 1.960 of GUM's table G.2; between them the degrees of freedom are those of G.2b.
+TEST(SeparationExpanded, WhatIsDeclaredHasInfinitelyManyDegreesOfFreedom) {
+  auto request = noise_only(4, 1);
+  const auto scatter = separate(request).value();
+  EXPECT_NEAR(scatter.machine.k[1], 12.71, 0.01);
+  EXPECT_NEAR(scatter.machine.U_m(1), 12.71 * scatter.machine.u_m[1],
+              1e-3 * scatter.machine.U_m(1));
+  for (auto& set_up : request.set_ups) set_up.declared = {{"", {0, 30e-9, 0, 0}}};
+  const auto both = separate(request).value();
+  // u^4 / (u_s^4 / 1) of the scatter u_s alone.
+  const double ratio = both.machine.u_m[1] / scatter.machine.u_m[1];
+  EXPECT_GT(ratio, 1);
+  EXPECT_NEAR(both.machine.freedom[1] / std::pow(ratio, 4), 1, 1e-9);
+  for (auto& set_up : request.set_ups) set_up.u_m.assign(4, kNoise_m);
+  const auto known = separate(request).value();
+  EXPECT_NEAR(known.machine.k[1], 1.960, 1e-3);
+  EXPECT_TRUE(std::isinf(known.machine.freedom[1]));
+}
+
+TEST(SeparationExpanded, WithoutUAndFreedomThereIsNoFactor) {
+  auto request = noise_only(6, 1);
+  request.set_ups.erase(request.set_ups.begin() + 1);
+  const auto found = separate(request).value();
+  EXPECT_EQ(found.freedom(), 0U);
+  for (const double x :
+       {found.machine.u_m[0], found.machine.k[0], found.machine.freedom[0], found.target.U_m(0)})
+    EXPECT_TRUE(std::isnan(x));
+}
+
+}  // namespace
+}  // namespace mdof::algo

@@ -8,6 +8,7 @@
 
 #include "algo/linear_algebra/least_squares.h"
 #include "algo/points/flags.h"
+#include "algo/points/median.h"
 #include "algo/sensitivity/plan/functions.h"
 #include "algo/uncertainty/statistics/visit_scatter.h"
 #include "schema/units.h"
@@ -99,6 +100,16 @@ double left_by_smooth(const AtPlaces& at, const ProbeVisits& visits, const Eigen
   return (y - columns * LeastNorm(columns).solve(y)).squaredNorm();
 }
 
+// Median of u² over the visits: that of a visit during which the reading steps is the step's own.
+double usual_u2(const ProbeVisits& visits, std::size_t probe) {
+  std::vector<double> all;
+  for (const MeasuredPoint* p : visits) {
+    const double u = p->point.probe_u_m[probe];
+    if (u > 0) all.push_back(u * u);
+  }
+  return all.empty() ? 0 : median_of(std::move(all));
+}
+
 // Found by the dwells already.
 bool stepped_before(const ProbeVisits& visits, const std::string& id) {
   return std::any_of(visits.begin(), visits.end(),
@@ -138,13 +149,11 @@ std::vector<VisitStep> visit_steps(const Rig& rig, const std::vector<MeasuredPoi
         static_cast<double>(visits.size()) - static_cast<double>(at.places()) - 2;
     if (freedom < kFewestFreedom) continue;
     Eigen::VectorXd y(static_cast<Eigen::Index>(visits.size()));
-    double noise2 = kLeastStep_m * kLeastStep_m / (kStepsOfScatter * kStepsOfScatter);
-    for (std::size_t i = 0; i < visits.size(); ++i) {
+    for (std::size_t i = 0; i < visits.size(); ++i)
       y(static_cast<Eigen::Index>(i)) = visits[i]->point.probe_m[k];
-      const double u = visits[i]->point.probe_u_m[k];
-      if (u > 0) noise2 = std::max(noise2, u * u);
-    }
     y = at.centred(y);
+    const double noise2 =
+        std::max(std::pow(kLeastStep_m / kStepsOfScatter, 2), usual_u2(visits, k));
     const Jump jump = largest_jump(at, y);
     const double sd2 = std::max((y.squaredNorm() - jump.explains) / freedom, noise2);
     if (std::abs(jump.size) < kStepsOfScatter * std::sqrt(sd2)) continue;

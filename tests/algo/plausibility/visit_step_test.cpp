@@ -70,6 +70,21 @@ TEST(VisitStep, NamesTheProbeAndTheVisit) {
   EXPECT_NE(shown(said[0]).find(" run=2 target=12 approach=reverse"), std::string::npos);
 }
 
+// On the fly a visit is a bin: where the probe steps in its middle, that bin's u is of the order of
+// the step itself.
+TEST(VisitStep, IsFoundWhereItFallsIntoAVisit) {
+  const Rig rig = test::rig_x();
+  for (const int at : {15, 40, 70}) {
+    auto points = repeated_log(7, [=](int n) { return n > at ? 300e-9 : n == at ? 150e-9 : 0.0; });
+    points[static_cast<std::size_t>(at)].point.probe_u_m[4] = 120e-9;
+    const auto steps = visit_steps(rig, points);
+    ASSERT_EQ(steps.size(), 1U) << at;
+    EXPECT_EQ(steps[0].probe, 4U);
+    EXPECT_NEAR(static_cast<double>(steps[0].point), at, 1);
+    EXPECT_NEAR(steps[0].size_m, 300e-9, 20e-9);
+  }
+}
+
 TEST(VisitStep, ProbesThatStepTogetherAreOneNoticeEach) {
   auto points = repeated_log(9, [](int n) { return n >= 30 ? 300e-9 : 0; });
   for (std::size_t n = 30; n < points.size(); ++n) points[n].point.probe_m[1] -= 400e-9;

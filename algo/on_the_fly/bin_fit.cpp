@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kReject = 8.0, kMadToSd = 1.4826;
+constexpr double kReject = 8.0, kTimesAlone = 12.0, kMadToSd = 1.4826;
 constexpr std::size_t kNeighbours = 5;
 constexpr double kEnds = 0.5;  // whose neighbours stand on one side, and differ by the bend as well
 constexpr std::size_t kUnknowns = 3;
@@ -69,6 +69,40 @@ Parabola parabola(std::span<const double> x, std::span<const double> y) {
           (c02 * t[0] + c12 * t[1] + c22 * t[2]) / determinant, c00 / determinant};
 }
 
+// The slope of the halves through the median: half of the readings may be spikes.
+Parabola robust_line(std::span<const double> place, std::span<const double> reading) {
+  Parabola line;
+  line.slope = robust_slope(place, reading);
+  std::vector<double> level(reading.begin(), reading.end());
+  for (std::size_t i = 0; i < level.size(); ++i) level[i] -= line.slope * place[i];
+  line.value = median_of(std::move(level));
+  return line;
+}
+
+double rejection_limit(std::vector<double> deviations, double coarse) {
+  for (double& size : deviations) size = std::abs(size);
+  return std::max(coarse, kReject * kMadToSd * median_of(std::move(deviations)));
+}
+
+// Leaves out what is farther than the limit from this curve. `alone`: no neighbours have shown
+// spikes, so that far more is asked for, and nothing is left out that lasts to an end, as a step.
+void keep_near(const Parabola& curve, double coarse, bool alone, std::vector<double>& x,
+               std::vector<double>& y) {
+  std::vector<double> left(y);
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] -= curve.at(x[i]);
+  const double limit = (alone ? kTimesAlone : 1) * rejection_limit(left, coarse);
+  const auto is_far = [&](double of) { return std::abs(of) > limit; };
+  if (alone && (is_far(left.front()) || is_far(left.back()))) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    if (is_far(left[i])) continue;
+    x[kept] = x[i];
+    y[kept++] = y[i];
+  }
+  x.resize(kept);
+  y.resize(kept);
+}
+
 // What a cubic adds to the slope at the target, of what the parabola leaves of readings that are
 // even over the bin: the slope of a line through a wave is too small.
 double cubic_slope(std::span<const double> x, std::span<const double> left) {
@@ -90,9 +124,7 @@ BinFit fit_bin(std::span<const double> place, std::span<const double> reading, d
   fit.used = reading.size();
   if (fit.used < kFewestOfBin) return fit;
   const std::vector<double> deviations = deviations_of(place, reading);
-  std::vector<double> sizes(deviations);
-  for (double& size : sizes) size = std::abs(size);
-  const double limit = std::max(coarse, kReject * kMadToSd * median_of(std::move(sizes)));
+  const double limit = rejection_limit(deviations, coarse);
   std::vector<double> x;
   scratch.clear();
   for (std::size_t i = 0; i < reading.size(); ++i) {
@@ -100,6 +132,11 @@ BinFit fit_bin(std::span<const double> place, std::span<const double> reading, d
     x.push_back(place[i]);
     scratch.push_back(reading[i]);
   }
+  // Where most of five neighbours are spikes, their median is one, and none of these was left out.
+  const bool alone = x.size() == reading.size();
+  if (x.size() >= kFewestOfBin) keep_near(robust_line(place, reading), coarse, alone, x, scratch);
+  if (x.size() < reading.size() && x.size() >= kFewestOfBin)
+    keep_near(parabola(x, scratch), coarse, false, x, scratch);
   fit.used = x.size();
   fit.rejected = reading.size() - x.size();
   if (fit.used < kFewestOfBin) return fit;

@@ -23,10 +23,12 @@ inline constexpr std::size_t kFewestOfBin = 8;  // readings
 // 1 % where L is 2.5 w.
 //
 // Spikes are left out first: readings further than 8 robust standard deviations, and than `coarse`,
-// from the median of their five neighbours along the way. u: as mean_uncertainty(), for readings
-// that are not independent, times what the parabola has more than a mean (1.5 where the readings
-// are even over the bin). It covers what changes within the bin; a vibration of fewer than two
-// periods in it looks like form. `used` below kFewestOfBin: nothing is fitted.
+// from the median of their five neighbours along the way. Where there are any, also those as far
+// from a line through the medians of the halves, and then from the parabola; where there are none,
+// those inside the bin that are twelve times farther from that line. u: as mean_uncertainty(), for
+// readings that are not independent, times what the parabola has more than a mean (1.5 where the
+// readings are even over the bin). It covers what changes within the bin; a vibration of fewer than
+// two periods in it looks like form. `used` below kFewestOfBin: nothing is fitted.
 BinFit fit_bin(std::span<const double> place, std::span<const double> reading, double coarse,
                std::vector<double>& scratch);
 

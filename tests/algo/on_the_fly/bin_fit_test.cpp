@@ -49,6 +49,43 @@ TEST(BinFit, LeavesSpikesOut) {
   }
 }
 
+// Three of five neighbours: their median is a spike. What is left is the fit without them.
+TEST(BinFit, LeavesSpikesOutThatStandTogether) {
+  const auto wave = [](double x) { return 1e-6 * x + 3e-7 * x * x; };
+  for (const double height_m : {50e-6, -50e-6})
+    for (const std::vector<std::size_t>& at : {std::vector<std::size_t>{10, 11, 13},
+                                               {3, 5, 6, 20},
+                                               {0, 1, 2, 20},
+                                               {17, 37, 38, 39},
+                                               {20, 21, 22}}) {
+      std::mt19937_64 random(3);
+      BinReadings bin(40, wave), without(40, wave);
+      for (std::size_t i = 0; i < 40; ++i)
+        bin.reading[i] += 4e-9 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5);
+      without.reading = bin.reading;
+      for (auto i = at.rbegin(); i != at.rend(); ++i) {
+        bin.reading[*i] += height_m;
+        without.reading.erase(without.reading.begin() + static_cast<std::ptrdiff_t>(*i));
+        without.place.erase(without.place.begin() + static_cast<std::ptrdiff_t>(*i));
+      }
+      const auto found = bin.fit();
+      EXPECT_LE(found.used, 40 - at.size());
+      EXPECT_GE(found.used, 40 - 2 * at.size());
+      EXPECT_NEAR(found.value, without.fit().value, 1e-9) << height_m << " at " << at[0];
+      EXPECT_LT(found.sd, 2e-9);
+    }
+}
+
+// A step, and a form that a line is far from, are no spikes.
+TEST(BinFit, LeavesNothingOutOfAStep) {
+  for (const double from : {-0.8, -0.5, 0.0, 0.5, 0.8}) {
+    BinReadings bin(40, [=](double x) { return x > from ? 3e-7 : 0; });
+    EXPECT_EQ(bin.fit().rejected, 0U) << from;
+  }
+  BinReadings bend(40, [](double x) { return 2e-7 * x * x * x * x; });
+  EXPECT_EQ(bend.fit().rejected, 0U);
+}
+
 TEST(BinFit, StatesTheScatterOfItsValue) {
   std::mt19937_64 random(5);
   double square = 0, u_square = 0;

@@ -130,8 +130,12 @@ Result<PlanAxis> PlanAxis::create(const StudyPlan& plan, const Rig& rig, const s
   if (rig.sides != Sides{})
     return bad_input(
         plan.source + ": a plan needs a rig with moves = \"target\" and travel = \"+\", but " +
-        rig.source + " has other values. Use a copy of the rig without these two keys; " +
-        "the size of the effects of rig errors does not depend on these keys");
+        rig.source + " has other values. Use a copy of the rig without these two keys" +
+        (rig.sides.target_travel_m(1) < 0
+             ? ", and negate travel_mm of the plan: the target of this rig moves against the "
+               "encoder, and the effects of rig errors depend on where the target is"
+             : "; the size of the effects of rig errors is the same, because the target of this "
+               "rig moves with the encoder"));
   MDOF_CHECK(check_forward(plan, solver->fixture()));
   const std::size_t positions = series ? plan.series_positions : 0;
   MDOF_TRY(PlanDraws draws, PlanDraws::create(plan, rig, prefix, 1 + positions, causes));

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "algo/sensitivity/plan/experiment.h"
+#include "tests/algo/rigs.h"
 #include "tests/algo/sensitivity/plan_text.h"
 
 namespace mdof::algo {
@@ -164,6 +167,30 @@ TEST(PlanRules, EachNoiseHasItsOwnScale) {
       EXPECT_NEAR(only_B[j], 3 * alone[j], 1e-9 + 1e-4 * std::abs(alone[j])) << output << j;
     }
   }
+}
+
+// The target of two of these rigs moves against the encoder: their travel is the plan's negated.
+TEST(PlanRules, ARigThatMovesOtherwiseIsToldHowToBeReplaced) {
+  const std::string folder = ::testing::TempDir() + "mdof_plan_rules_test";
+  std::filesystem::create_directories(folder);
+  const auto says = [&](const std::string& keys) {
+    std::ofstream(folder + "/rig.toml") << keys << test::rig_x_toml();
+    const auto plan = parse_study_plan(
+        "name = \"t\"\nrig = \"rig.toml\"\n[truth]\ntravel_mm = [0, 60]\nEAX_urad = [1]\n",
+        folder + "/plan.toml");
+    EXPECT_TRUE(plan) << (plan ? "" : plan.error().message);
+    const auto experiment = make_plan_experiment(plan.value());
+    return experiment ? "" : experiment.error().message;
+  };
+  const auto negates = [](const std::string& why) {
+    EXPECT_NE(why.find("moves = \"target\""), std::string::npos) << why;
+    return why.find("negate travel_mm") != std::string::npos;
+  };
+  EXPECT_TRUE(negates(says("travel = \"-\"\n")));
+  EXPECT_TRUE(negates(says("moves = \"fixture\"\n")));
+  EXPECT_FALSE(negates(says("moves = \"fixture\"\ntravel = \"-\"\n")));
+  EXPECT_EQ(says(""), "");
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -140,9 +140,11 @@ Status OnTheFly::explain_nothing() const {
     passed_s += ns_to_s(pass.end_ns - pass.begin_ns);
     bins += pass.left_out.size();
   }
-  if (dense || count_left_out(passes_, BinFault::too_few) > 0) {
-    const double speed_m_s = way_m / passed_s, rate_hz = 1 / summary_.period_s;
-    const double needed_m = static_cast<double>(kFewestOfBin + 1) * speed_m_s / rate_hz;
+  const double speed_m_s = way_m / passed_s, rate_hz = 1 / summary_.period_s;
+  const double needed_m = static_cast<double>(kFewestOfBin + 1) * speed_m_s / rate_hz;
+  // Where the axis stops between the bins it passes them fast, and larger ones have the stops in.
+  const bool too_small = needed_m > grid_.bin_m();
+  if (too_small && (dense || count_left_out(passes_, BinFault::too_few) > 0)) {
     return bad_input("at " + mm_s(speed_m_s) + " and " + plain_number(rate_hz) + " Hz a bin of " +
                          plain_number(to_mm(grid_.bin_m())) + " mm has " +
                          plain_number(grid_.bin_m() / speed_m_s * rate_hz, 3) +

@@ -177,6 +177,25 @@ TEST(OnTheFlyRun, ExplainsWhyThereIsNoPoint) {
   expect_in(dense.error().message, "and 1000 Hz a bin of 0.02 mm has ");
 }
 
+// Stops of 0.5 s between the bins, and 1 mm in 5 ms from one to the next: five scans a bin, but a
+// mean speed of 2 mm/s, at which a bin of 1 mm would have 500.
+TEST(OnTheFlyRun, ALogWithStopsNeedsNoLargerBins) {
+  FrameBlock frames = empty_frames(1);
+  for (std::int64_t ms = 0; ms < 20 * 505; ++ms) {
+    const std::int64_t stop = ms / 505, moving_ms = std::max<std::int64_t>(ms % 505 - 500, 0);
+    frames.time_ns.push_back(kFirst_ns + ms * 1'000'000);
+    frames.encoder_m.push_back(
+        1e-3 * (static_cast<double>(stop) + 0.5 + 0.2 * static_cast<double>(moving_ms)));
+    frames.probe_m[0].push_back(ms % 2 == 0 ? 1e-9 : -1e-9);
+  }
+  OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
+  ASSERT_TRUE(run.push(frames));
+  run.flush();
+  const Status why = run.explain_nothing();
+  ASSERT_FALSE(why);
+  EXPECT_EQ(why.error().remedy, Remedy::replay_with_stops) << why.error().message;
+}
+
 // Readings in steps of 0.5 µm, which stay for some rows: u is that of a rectangle, 0.5/√12.
 TEST(OnTheFlyRun, LearnsTheResolutionOfTheProbe) {
   const MotionLog log;

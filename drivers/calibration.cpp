@@ -105,6 +105,18 @@ Status reject_encoder(const SampleBlock& block, const Channel& encoder, const st
 
 }  // namespace
 
+// The driver has turned the volts into a length by a scale of its own.
+Notices unused_scales(const Rig& rig, const std::vector<Channel>& channels) {
+  Notices found;
+  for (const Channel& channel : channels)
+    for (const Probe& probe : rig.probes)
+      if (channel.id == probe.id && channel.unit != Unit::volt &&
+          !probe.calibration.scale_record.empty())
+        found.push_back(notice(NoticeCode::scale_not_used, probe.id,
+                               {{"record", probe.calibration.scale_record}}));
+  return found;
+}
+
 Calibrator::Calibrator(const Rig& rig)
     : encoder_um_per_V_(rig.encoder_um_per_V), rig_source_(rig.source) {
   for (const auto& probe : rig.probes) probes_.emplace(probe.id, probe);

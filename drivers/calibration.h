@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "schema/base/result.h"
+#include "schema/notice/notice.h"
 #include "schema/rig/rig.h"
 #include "schema/sample.h"
 
@@ -20,6 +21,10 @@ double displacement_m(const Calibration& calibration, double raw_um);
 // Displacements along `measures` in m between which a reading of the probe is not at the end of its
 // range, the lower one first.
 std::array<double, 2> displacement_window_m(const Probe& probe);
+
+// One for each probe of these channels whose calibration record states um_per_V and that gives a
+// length: its sensitivity is then that of the amplifier, and u is that of the record.
+Notices unused_scales(const Rig& rig, const std::vector<Channel>& channels);
 
 // Reentrant; holds a copy of what it needs of the rig.
 class Calibrator {

@@ -24,6 +24,15 @@ Status check_log(ReplayLog& log, Axis axis, const Rig& rig) {
   return check_channels(log.path(), log.driver().info().channels, rig);
 }
 
+// check_channels() has found all of them.
+std::vector<Unit> units_of(const std::vector<Channel>& channels, const Rig& rig) {
+  std::vector<Unit> units;
+  for (const Probe& probe : rig.probes)
+    for (const Channel& channel : channels)
+      if (channel.id == probe.id) units.push_back(channel.unit);
+  return units;
+}
+
 void leave_out(Point& stop, const Rig& rig) {
   for (std::size_t k = 0; k < rig.probes.size(); ++k)
     for (const Flag fault : {Flag::saturated, Flag::frozen, Flag::step})
@@ -47,6 +56,7 @@ Result<LogStops> read_stops(const std::string& path, Axis axis, const Rig& rig) 
   algo::Aligner aligner(options, ids);
   algo::DwellDetector dwell({}, ids, ranges_m);
   LogStops found;
+  found.units = units_of(log.driver().info().channels, rig);
   FrameBlock frames;
   const auto take = [&] {
     dwell.push(frames, found.stops);

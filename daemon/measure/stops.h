@@ -8,11 +8,13 @@
 #include "schema/notice/notice.h"
 #include "schema/point.h"
 #include "schema/rig/rig.h"
+#include "schema/sample.h"
 
 namespace mdof::daemon {
 
 struct LogStops {
   std::vector<Point> stops;  // probes in the order of the rig; those not to be used are NaN
+  std::vector<Unit> units;   // in which the log has the probes
   std::string sha256;        // of the log
   std::string started_utc;   // of a recording, else empty
   Notices notices;

@@ -13,6 +13,7 @@
 #include "daemon/station/station.h"
 #include "daemon/store/result_hash.h"
 #include "daemon/words/error_text.h"
+#include "drivers/calibration.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/thread_start.h"
 #include "schema/rig/calibrated.h"
@@ -324,6 +325,8 @@ void Station::finish(RunState state, Notices why, const drivers::SourceInfo& sou
   append(notices, open->troubles.summary());
   append(notices, overdue_calibrations(config_.rig, utc_now()));
   append(notices, calibration_notices(config_.rig));
+  for (const auto& device : devices())
+    append(notices, drivers::unused_scales(config_.rig, device.info.channels));
   append(notices, doubtful_values(config_.rig));
   append(notices, std::move(why));
   if (open->blocks_not_recorded > 0)

@@ -99,7 +99,7 @@ void move_offset(Calibration& calibration, double offset_um) {
     for (std::size_t j = c.size() - 1; j-- > i;) c[j] += by_um * c[j + 1];
 }
 
-void apply(const CalibratedProbe& found, Probe& probe) {
+void apply(const std::string& record, const CalibratedProbe& found, Probe& probe) {
   Calibration& calibration = probe.calibration;
   if (found.position_m) {
     probe.position_m = *found.position_m;
@@ -109,7 +109,10 @@ void apply(const CalibratedProbe& found, Probe& probe) {
     probe.direction = *found.direction;
     probe.uncertainty.direction = {found.u_direction_rad};
   }
-  if (found.um_per_V) calibration.um_per_V = found.um_per_V;
+  if (found.um_per_V) {
+    calibration.um_per_V = found.um_per_V;
+    calibration.scale_record = record;
+  }
   if (found.u_sensitivity_1 > 0)
     probe.uncertainty.sensitivity = {found.u_sensitivity_1, UncertaintyShape::normal,
                                      found.sensitivity_freedom};
@@ -145,7 +148,7 @@ void apply(CalibrationRecord& record, Rig& rig) {
   keep_valid_values(record, rig);
   for (const CalibratedProbe& found : record.probes)
     for (Probe& probe : rig.probes)
-      if (probe.id == found.id) apply(found, probe);
+      if (probe.id == found.id) apply(record.id, found, probe);
   auto& offset = rig.uncertainty.installation_offset;
   if (record.u_together_m && !offset.known()) offset = {*record.u_together_m};
 }

@@ -28,6 +28,7 @@ namespace mdof {
 struct Calibration {
   bool reads_gap = false;          // reads = "gap": the raw number grows as the target recedes
   std::optional<double> um_per_V;  // needed where the log has volts
+  std::string scale_record;        // id of the calibration record that um_per_V is taken from
   double offset_um = 0;            // raw reading at the nominal surface
   std::vector<std::array<double, 2>>
       linearity;                      // [reading_um, correction_um], ascending; ends held

@@ -1,5 +1,6 @@
 // What calibration makes of values that are missing, and of positions in other units.
 #include "drivers/calibration.h"
+#include "tests/shown.h"
 
 #include <gtest/gtest.h>
 
@@ -53,6 +54,23 @@ TEST(Calibration, TheEndsOfARangeAreDisplacementsTheLowerOneFirst) {
   expect("offset_um = 10\n", -109.95, 89.95);
   expect("reads = \"gap\"\noffset_um = 120\n", 120 - 199.9, 120 - 0.1);
   expect("valid_um = [-50, 80]\n", -50, 80);
+}
+
+// A laboratory's um_per_V says nothing of a reading that the amplifier has turned into a length;
+// one that the rig itself states is for the logs that are in volts.
+TEST(Calibration, ALengthDoesNotUseTheScaleOfARecord) {
+  Rig rig = rig_with("um_per_V = 20\n");
+  EXPECT_TRUE(unused_scales(rig, {{"A", Unit::um}}).empty());
+  rig.probes[0].calibration.scale_record = "sensitivity-7";
+  EXPECT_TRUE(unused_scales(rig, {{"A", Unit::volt}, {"B", Unit::um}}).empty());
+  for (const Unit unit : {Unit::um, Unit::mm}) {
+    const Notices said = unused_scales(rig, {{"B", Unit::volt}, {"A", unit}});
+    ASSERT_EQ(said.size(), 1U);
+    EXPECT_EQ(said[0].code, NoticeCode::scale_not_used);
+    EXPECT_EQ(said[0].severity, Severity::doubtful);
+    EXPECT_EQ(said[0].subject, "A");
+    EXPECT_EQ(test::shown(said[0]), "scale_not_used A record=sensitivity-7");
+  }
 }
 
 TEST(Calibration, TakesThePositionInVoltsByTheScaleOfTheRig) {

@@ -8,6 +8,7 @@
 #include "daemon/measure/replay/on_the_fly_run.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
+#include "drivers/calibration.h"
 #include "schema/rig/calibrated.h"
 #include "schema/rig/check/rig_check.h"
 
@@ -228,6 +229,7 @@ Result<Run> replay(ReplayLog& log, const Rig& rig, const PipelineOptions& option
   const std::string day = log.started_utc().empty() ? utc_now() : log.started_utc();
   append(run->header.notices, overdue_calibrations(rig, day));
   append(run->header.notices, calibration_notices(rig));
+  append(run->header.notices, drivers::unused_scales(rig, log.driver().info().channels));
   append(run->header.notices, doubtful_values(rig));
   return run;
 }

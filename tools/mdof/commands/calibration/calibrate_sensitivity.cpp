@@ -107,6 +107,7 @@ Status calibrate(const SensitivityCommand& command) {
   MDOF_TRY(const Axis axis, algo::approaching_axis(rig, *at));
   MDOF_TRY(const auto log, daemon::read_stops(command.log, axis, rig));
   show_notices(log.notices, true);
+  if (log.units[*at] != Unit::volt) calibration.um_per_V.reset();  // not used for a length
   const double own = axis == rig.axis ? rig.sides.target_travel_m(1) : 1;
   algo::Traverse traverse{axis, {}};
   for (const Point& stop : log.stops)

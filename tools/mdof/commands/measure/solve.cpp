@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/replay/replay.h"
+#include "drivers/calibration.h"
 #include "drivers/csv/csv_rows.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
@@ -73,6 +74,7 @@ Status solve(const SolveCommand& command) {
   MDOF_CHECK(solve_rows(*frames, solver, out));
   MDOF_CHECK(out.finish());
   warn_of_missing(*frames, solver);
+  show_notices(drivers::unused_scales(rig, header.channels), true);
   show_notices(solver.map_notices(rig), true);
   show_notices(solver.stretch_notices(), true);
   show_notices(solver.correction_notices(), true);

@@ -28,8 +28,9 @@ Plausibility plausibility(const RunToJudge& run);
 // None: nothing looks wrong. Of many alike the first ones and their number.
 Notices visit_notices(const RunToJudge& run);
 Notices unit_notices(const Rig& rig, const Plausibility& figures);
-// A probe that reads the same while others change, an encoder that stands still while probes
-// change, a probe that has no value where it was beyond its range.
+// A probe that reads the same while others change, one that gives its extreme reading without
+// noise in three or more stops, one that has no value where it was beyond its range, an encoder
+// that stands still while probes change.
 Notices signal_notices(const RunToJudge& run);
 
 // Whether a travel (m) can be one in the encoder's unit.

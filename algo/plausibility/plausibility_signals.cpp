@@ -15,6 +15,8 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kFewestSame = 6, kFewestPlaces = 3;
+constexpr std::size_t kFewestClipped = 3;
+constexpr double kExact_m = 1e-14;          // means of equal numbers are equal to their rounding
 constexpr double kWithinNoise = 8;          // of u of a stop's mean
 constexpr double kOthersMove = 50;          // times what the dead one may
 constexpr double kRestless = 30;            // times the usual sd in stops
@@ -97,6 +99,27 @@ void note_insensitive_probes(const RunToJudge& run, Notices& out) {
   }
 }
 
+// An amplifier that is at the end of its output gives the same number throughout a stop, which is
+// the largest or the least of the run; any other stop has noise.
+void note_clipped_probes(const RunToJudge& run, Notices& out) {
+  for (std::size_t k = 0; k < run.rig.probes.size(); ++k) {
+    const Stops stops = with_value(run.sequence.points, k);
+    double low_m = HUGE_VAL, high_m = -HUGE_VAL;
+    Stretch same;
+    for (const MeasuredPoint* p : stops) {
+      low_m = std::min(low_m, p->point.probe_m[k]);
+      high_m = std::max(high_m, p->point.probe_m[k]);
+      if (k < p->point.probe_sd_m.size() && p->point.probe_sd_m[k] <= kExact_m) same.take(*p, k);
+    }
+    const bool at_end = same.low_m <= low_m + kExact_m || same.high_m >= high_m - kExact_m;
+    if (same.stops < kFewestClipped || same.stops == stops.size() || !at_end ||
+        same.range_m() > kExact_m)
+      continue;
+    out.push_back(notice(NoticeCode::probe_clipped, run.rig.probes[k].id,
+                         {{"stops", same.stops}, {"reading_um", to_um(same.high_m)}}));
+  }
+}
+
 // A stop in which most probes change as they only do while the axis moves.
 void note_frozen_encoder(const RunToJudge& run, Notices& out) {
   const auto& points = run.sequence.points;
@@ -143,6 +166,7 @@ void note_saturated_probes(const RunToJudge& run, Notices& out) {
 Notices signal_notices(const RunToJudge& run) {
   Notices out;
   note_insensitive_probes(run, out);
+  note_clipped_probes(run, out);
   note_frozen_encoder(run, out);
   note_saturated_probes(run, out);
   return out;

@@ -72,6 +72,40 @@ TEST(Signals, AProbeThatNeverMovesIsNamed) {
   EXPECT_EQ(shown(found[0]), "probe_insensitive C stops=12 from_s=0 reading_um=3");
 }
 
+// Probe B ends at 7.5 um; three stops there at different times, or at its lowest reading.
+TEST(Signals, AnAmplifierAtTheEndOfItsOutputIsNamed) {
+  const auto clipped = [](const std::vector<std::size_t>& at, double reading_m, int n = 12) {
+    Sequence sequence = stops_of(5, n);
+    for (MeasuredPoint& p : sequence.points) p.point.probe_m[1] = 7e-6 * std::sin(p.target * 1.3);
+    for (const std::size_t i : at) {
+      sequence.points[i].point.probe_m[1] = reading_m;
+      sequence.points[i].point.probe_sd_m[1] = 0;
+    }
+    return said(sequence);
+  };
+  for (const double reading_m : {7.5e-6, -7.5e-6}) {
+    const auto found = clipped({2, 5, 9}, reading_m);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].severity, Severity::doubtful);
+    EXPECT_EQ(shown(found[0]), std::string("probe_clipped B stops=3 reading_um=") +
+                                   (reading_m > 0 ? "7.5" : "-7.5"));
+  }
+  EXPECT_TRUE(clipped({2, 9}, 7.5e-6).empty());
+  EXPECT_TRUE(clipped({2, 5, 9}, 1e-6).empty()) << "others read beyond";
+  EXPECT_TRUE(clipped({0, 1, 2}, 7.5e-6, 3).empty()) << "no stop has noise";
+}
+
+// Whose resolution is above its noise: stops without scatter are nothing special.
+TEST(Signals, AProbeOfCoarseResolutionIsNotClipped) {
+  Sequence sequence = stops_of(5, 12);
+  for (std::size_t i = 0; i < 12; ++i) {
+    sequence.points[i].point.probe_m[1] =
+        1e-6 * std::round(3 * std::sin(1.3 * static_cast<double>(i)));
+    if (i % 3 != 0) sequence.points[i].point.probe_sd_m[1] = 0;
+  }
+  EXPECT_TRUE(said(sequence).empty());
+}
+
 TEST(Signals, AProbeThatDiesIsNamedWithItsTime) {
   const auto found = said(with_dead_probe(12, 5));  // it was at 0 to 4 um before
   ASSERT_EQ(found.size(), 1u);

@@ -24,6 +24,12 @@ void append(std::vector<StopLeftOut>& to, std::vector<StopLeftOut> more) {
   std::move(more.begin(), more.end(), std::back_inserter(to));
 }
 
+// Where a log begins with the axis at rest off its targets, nobody meant that stop.
+NoticeCode reason_off_targets(const std::vector<Point>& points, const Point& stop) {
+  const bool parked = &stop == &points.front() && stop.direction == 0;
+  return parked ? NoticeCode::stop_parked_at_start : NoticeCode::stop_near_no_target;
+}
+
 void place(const std::vector<Point>& points, const SequenceOptions& options, Sequence& sequence) {
   const bool nominal = !options.targets_m.empty();
   sequence.targets_m = nominal ? options.targets_m : targets_of_stops(points);
@@ -31,7 +37,7 @@ void place(const std::vector<Point>& points, const SequenceOptions& options, Seq
     const std::size_t t = nearest_target(sequence.targets_m, p.position_m);
     if (nominal && std::abs(sequence.targets_m[t] - p.position_m) > options.target_window_m) {
       sequence.left_out.push_back(
-          {p.position_m, p.begin_ns, to_string(NoticeCode::stop_near_no_target)});
+          {p.position_m, p.begin_ns, to_string(reason_off_targets(points, p))});
       continue;
     }
     MeasuredPoint m;

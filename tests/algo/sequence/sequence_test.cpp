@@ -316,8 +316,15 @@ TEST(Cycle, GivenTargetsLeaveOtherStopsOut) {
   m.standard(2);
   SequenceOptions options;
   options.targets_m = m.targets;
-  const Sequence s = check(m, options);
+  Sequence s = check(m, options);
   EXPECT_EQ(s.left_out.size(), 1u);
+  EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_parked_at_start)) << test::shown(s.notices);
+  EXPECT_FALSE(test::has(s.notices, NoticeCode::stop_near_no_target));
+  // Later, and where it came to on its own, a stop off the targets is one of another target.
+  m.move_to(-20e-3);
+  m.wait(1);
+  s = check(m, options);
+  EXPECT_EQ(s.left_out.size(), 2u);
   EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_near_no_target)) << test::shown(s.notices);
 }
 

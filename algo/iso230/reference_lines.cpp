@@ -90,8 +90,9 @@ Result<ReferenceLines> reference_lines(std::span<const double> positions_m,
   lines.positions = count_positions(series.x);
   if (lines.positions < 3)
     return bad_input(std::to_string(lines.readings) + " readings at " +
-                     std::to_string(lines.positions) +
-                     " different positions, but straightness needs at least three positions; "
+                     (lines.positions == 1 ? "only one position"
+                                           : std::to_string(lines.positions) + " positions") +
+                     ", but straightness needs at least three positions; "
                      "measure at more positions");
   lines.first_m = series.x.front();
   lines.last_m = series.x.back();

@@ -147,8 +147,9 @@ TEST(ReferenceLines, RefuseWhatHasNoLine) {
   };
   EXPECT_NE(refused({}, {}).find("0 readings"), std::string::npos);
   EXPECT_NE(refused({1}, {2}).find("at least three"), std::string::npos);
-  EXPECT_NE(refused({1, 2}, {2, 3}).find("2 different positions"), std::string::npos);
-  EXPECT_NE(refused({5, 5, 5, 5}, {1, 2, 3, 4}).find("1 different positions"), std::string::npos);
+  EXPECT_NE(refused({1, 2}, {2, 3}).find("2 readings at 2 positions"), std::string::npos);
+  EXPECT_NE(refused({5, 5, 5, 5}, {1, 2, 3, 4}).find("4 readings at only one position"),
+            std::string::npos);
   EXPECT_EQ(refused({1, 2, 3}, {2, 3, 5}), "");
   constexpr double kHuge = 1e300, kNot = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {kHuge, -kHuge, kNot, std::numeric_limits<double>::infinity()}) {

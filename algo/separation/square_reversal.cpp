@@ -1,8 +1,8 @@
 #include "algo/separation/square_reversal.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "algo/uncertainty/coverage.h"
@@ -10,8 +10,12 @@
 namespace mdof::algo {
 namespace {
 
+// What u has beside noise, and degrees of freedom, where they are more than rounding.
+constexpr double kLeastPart = 1e-12, kMostFreedom = 1e15;
+
 double declared(const Budget& b) {
-  return std::sqrt(std::max(0.0, b.u * b.u - b.u_random * b.u_random));
+  const double square = b.u * b.u - b.u_random * b.u_random;
+  return square > kLeastPart * b.u * b.u ? std::sqrt(square) : 0;
 }
 
 Status check_corners(int first, int second) {
@@ -43,6 +47,7 @@ Result<SquareReversal> square_reversal(const SquareSetUp& first, const SquareSet
   out.u_rad = std::hypot(out.u_random_rad, out.u_declared_rad);
   const std::array<UncertaintyPart, 2> parts = {{{a.u / 2, a.freedom}, {b.u / 2, b.freedom}}};
   out.freedom = effective_freedom(parts);
+  if (out.freedom > kMostFreedom) out.freedom = std::numeric_limits<double>::infinity();
   out.coverage_factor = coverage_factor(out.freedom);
   out.U_rad = out.coverage_factor * out.u_rad;
   out.noise_only = a.noise_only && b.noise_only;

@@ -40,6 +40,17 @@ TEST(SquareReversalByHand, DegreesOfFreedomAdd) {
   EXPECT_NEAR(uneven.freedom, 45. * 45 / (36. * 36 / 5 + 81. / 20), 1e-9);
 }
 
+// u a last bit above u_random, and repeatability of 1e-13 of u: nothing is declared, and the
+// degrees of freedom are as good as infinite.
+TEST(SquareReversalByHand, RoundingIsNothing) {
+  SquareSetUp a = set_up(1, 1, 3, 0, 5e52), b = set_up(-1, 1, 3, 0, 5e52);
+  a.budget.u = std::nextafter(a.budget.u_random, 1);
+  const auto found = square_reversal(a, b).value();
+  EXPECT_EQ(found.u_declared_rad, 0);
+  EXPECT_TRUE(std::isinf(found.freedom));
+  EXPECT_NEAR(found.coverage_factor, 1.960, 1e-3);
+}
+
 TEST(SquareReversalByHand, RefusesCornersThatTellNothing) {
   EXPECT_NE(square_reversal(set_up(0, 1, 1, 1, 5), set_up(1, 1, 1, 1, 5))
                 .error()

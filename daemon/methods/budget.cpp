@@ -89,9 +89,6 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param reference{"reference", ParamType::string,
                              "reference point of the errors: fixture, carriage or tool", false,
                              "\"fixture\""};
-  const std::string result =
-      "figures: for each result its value, u, u_random, nu_eff (null: infinite), k, U (95 %), "
-      "not_declared, and the contributors, largest first";
   table.add(
       {.name = "run.budget",
        .summary =
@@ -104,7 +101,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                   {"at_mm", ParamType::number,
                    "position of the error; mdofd uses the nearest target", false},
                   reference},
-       .result = result,
+       .members = "budgets",
        .example = R"({"run": 1, "figure": "EYX_straightness_um"})",
        .handler = on_query(m, run_budget)});
   table.add(
@@ -114,15 +111,13 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
        .params = {{"before", ParamType::integer, "id of the run before the compensation", true},
                   {"after", ParamType::integer, "id of the run after the compensation", true},
                   reference},
-       .result = "figures: for each result before, after and change (|after| - |before|), each "
-                 "with value, u, u_random, nu_eff, k, U (95 %); effect: reduced, increased, not "
-                 "shown (the change is smaller than its U), changed (the same, but "
-                 "change_at_targets, the change of the error over the targets or of the slope with "
-                 "its sign, is larger than both U together) or unknown (U is unknown); points "
-                 "(targets of both runs): position_mm, and before, after, U_before and U_after of "
-                 "each error (forward, reverse and reversal); notices: other differences between "
-                 "the runs, and the notices of both runs. For two imported runs of positioning "
-                 "errors, the figures are E, E_forward, E_reverse and B (ISO 230-2)",
+       .result = "two imported runs of positioning errors have the figures E, E_forward, E_reverse "
+                 "and B of ISO 230-2; the notices also name other differences between the runs",
+       .members = "{axis, before: integer, after: integer, ...reference?, coverage, simulated, "
+                  "...covers, figures: {{figure}: {before: stated, after: stated, change: stated, "
+                  "effect, change_at_targets}}, points: [{position_mm: number, forward: "
+                  "compared_errors, reverse: "
+                  "compared_errors, reversal: compared_errors}], points_reason?, ...notices}",
        .example = R"({"before": 1, "after": 2})",
        .handler = on_query(m, compare)});
   table.add(
@@ -142,12 +137,9 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                    {.least = algo::kFewestOfBaseline, .most = 100'000}},
                   {"mixed", ParamType::boolean,
                    "also use runs with other rigs, models or evaluation options", false, "false"}},
-       .result = "figures: for each result the values in the order of time (each with runs, "
-                 "started_utc, value, u, u_random, the limits low and high, and signal); centre, "
-                 "sigma and baseline of the chart (null, null and 0 if there are too few values "
-                 "for limits); moved: null, or the first runs after a change of the result "
-                 "(since_runs), the size of the change (by) and its standard uncertainty (u_by); "
-                 "u_covers (what u contains), u_not_declared, left_out, notices",
+       .members = "{reference, figures: {{figure}?: {values: [{runs: [integer], started_utc, "
+                  "value, u, u_random, low, high, signal}], centre, sigma, baseline, moved: "
+                  "{since_runs, by, u_by}, ...covers, left_out: [string], ...notices}}}",
        .example = R"({"figure": "EYX_straightness_um"})",
        .handler = on_query(m, trend)});
   table.add({.name = "squareness.budget",
@@ -155,7 +147,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                  "Calculates the uncertainty budget of the squareness of two axes (EC0Y, EB0Z or "
                  "EA0Z) from a run along each axis. The rigs state the angle of the artefact.",
              .params = squareness_params(),
-             .result = result,
+             .members = "budgets",
              .example = R"({"run_x": 1, "run_y": 2})",
              .handler = on_query(m, squareness_budget)});
   table.add(
@@ -168,9 +160,10 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
                    "id of the run that is compared with run_a; both runs are along the same axis",
                    true},
                   {"partial", ParamType::boolean, "also accept partial runs", false, "false"}},
-       .result = "parallelism: for both straightness errors and each reference line, angle_urad = "
-                 "slope of run_b - slope of run_a; from_mm, to_mm: the common travel; " +
-                 result,
+       .members =
+           "{axis, run_a, run_b, ...reference, from_mm, to_mm, simulated, parallelism: "
+           "{E{linear}{axis}: {end_point: parallel_line, least_squares: parallel_line, "
+           "minimum_zone: parallel_line}}, ...covers, figures: {{figure}: budget}, ...notices}",
        .example = R"({"run_a": 1, "run_b": 2})",
        .handler = on_query(m, parallelism)});
 }

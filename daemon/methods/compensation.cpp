@@ -266,8 +266,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
              .summary =
                  "Builds a table of one axis from runs and stores the table without activating it.",
              .params = std::move(build_params),
-             .result = "table, axis, range, reference, sense and sign of the correction, sha256, "
-                       "simulated, doubtful, notices",
+             .members = "{...active_table, active, ...notices}",
              .example = R"({"runs": [1]})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});
@@ -282,8 +281,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                    "false"},
                   expected,
                   reason},
-       .result =
-           "table, generation, changed (false: the table was already active), simulated, doubtful",
+       .members = "{table, generation, changed, simulated, doubtful}",
        .example = R"({"table": 1})",
        .writes = true,
        .approves = true,
@@ -293,7 +291,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
        .summary =
            "Deactivates the active table of one axis, or of the volume. Other tables stay active.",
        .params = {axis, expected, reason},
-       .result = "axis, generation, changed (false: no table was active)",
+       .members = "{axis, generation, changed}",
        .example = R"({"axis": "X"})",
        .writes = true,
        .approves = true,
@@ -301,9 +299,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "compensation.status",
              .summary = "Lists the active tables by axis, with the generation (a number that "
                         "increases with each change of an active table).",
-             .result = "generation; axes: for each active table its number, runs, range, sense, "
-                       "simulated, doubtful, activated_by, activated_utc; volume: the same members "
-                       "of the volumetric table, or null",
+             .members = "{generation, axes: {{axis}?: {...active_table, ...activated}}, volume: "
+                        "{...active_volume, ...activated}}",
              .handler = [&m](const Params&) -> Result<std::string> { return status(m); }});
   table.add(
       {.name = "compensation.grid",
@@ -320,10 +317,10 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
                    "for the volume: also return the two parts of u of each node, u_common (causes "
                    "that all nodes have in common) and u_independent",
                    false, "false"}},
-       .result =
-           "members of the table, doubtful, generation, points. Points of an axis: errors (actual "
-           "- nominal) in um and urad. Points of the volume: X, Y, Z in mm, three corrections and "
-           "three u in um; with u_parts also three u_common and three u_independent",
+       .result = "points of the volume: X, Y, Z in mm, three corrections and three u in um; with "
+                 "u_parts also three u_common and three u_independent",
+       .members =
+           "{...active_table, ...table_points}|{...active_volume, offset, points: [[number|null]]}",
        .example = R"({"axis": "X", "offset": 0, "count": 20})",
        .handler = [&m](const Params& p) { return grid(m, p); }});
   table.add(
@@ -342,10 +339,13 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
             {"Z_mm", ParamType::number, "for the volume: commanded position of Z; see X_mm", false},
             {"direction", ParamType::integer, "1: forward, -1: reverse, 0: mean of both", false,
              "0"}},
-       .result = "For an axis: error (um, urad), correction (to be added to the command; "
-                 "null with correction_reason if the sign is unknown), u, inside (true: this "
-                 "approach was measured at this position), simulated, doubtful, generation. "
-                 "For the volume: correction, u, u_common and u_independent by axis",
+       .result = "the first form is of an axis, the second of the volume",
+       .members =
+           "{axis, position_mm: number, direction: integer, ...reference, sense, error: errors, "
+           "correction: errors, correction_reason, u: errors, u_interpolation: errors, ...covers, "
+           "inside, simulated, doubtful, table, generation}|{axis, {linear}_mm, rotary: rotary, "
+           "correction: by_axis, u: by_axis, u_common: by_axis, u_independent: by_axis, u_covers, "
+           "not_declared, not_measured, inside, approach, simulated, doubtful, table, generation}",
        .example = R"({"axis": "X", "position_mm": 12.5, "direction": 1})",
        .handler = [&m](const Params& p) { return at(m, p); }});
 }

@@ -58,8 +58,7 @@ void add_encoder_methods(rpc::MethodTable& table, Methods& m) {
                          true,
                          {},
                          {.least = -kFarthest_mm, .most = kFarthest_mm}}},
-             .result = "axis, device, position_mm, offset_mm (added to the position that the "
-                       "device shows), utc",
+             .members = "{axis, device, position_mm: number, offset_mm, utc}",
              .example = R"({"axis": "X", "position_mm": 12.5})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) { set_encoder(m, p, std::move(r)); }});

@@ -59,9 +59,7 @@ void add_health_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.health",
              .summary = "Returns the free disk space, the size of the database and of the newest "
                         "recording, and the connected clients.",
-             .result =
-                 "free_bytes of the disk with the recordings; database_bytes; newest_recording: "
-                 "run and bytes; clients: one text for each client. Unknown values are null",
+             .members = "{free_bytes, database_bytes, newest_recording: {run, bytes}, clients}",
              .handler = on_query(m, health)});
 }
 

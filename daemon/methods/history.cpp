@@ -29,15 +29,14 @@ Result<QueryThread::Work> list_history(Methods&, const Params& params) {
 }  // namespace
 
 void add_history_methods(rpc::MethodTable& table, Methods& m) {
-  table.add(
-      {.name = "history.list",
-       .summary = "Lists recorded actions on runs, squareness, tables and encoders (who, what, "
-                  "when), newest first, in pages.",
-       .params = {offset_param(), count_param(kMaxActionsPage)},
-       .result = "total, history: \"deed\" (name of the action, such as run.start), \"of\" and "
-                 "\"id\" (object of the action), utc, uid, gid, pid, user, detail (if any)",
-       .example = R"({"offset": 0, "count": 20})",
-       .handler = on_query(m, list_history)});
+  table.add({.name = "history.list",
+             .summary =
+                 "Lists recorded actions on runs, squareness, tables and encoders (who, what, "
+                 "when), newest first, in pages.",
+             .params = {offset_param(), count_param(kMaxActionsPage)},
+             .members = "{total, offset, history: [action]}",
+             .example = R"({"offset": 0, "count": 20})",
+             .handler = on_query(m, list_history)});
 }
 
 }  // namespace mdof::daemon

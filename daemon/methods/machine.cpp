@@ -125,10 +125,8 @@ void add_machine_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Calculates the error of the tool relative to the workpiece at a commanded "
                         "position of a machine, with u. Nothing is stored.",
              .params = params,
-             .result = "error (actual - nominal, without linearisation): x_um, y_um, z_um, a_urad, "
-                       "b_urad, c_urad; u of x, y and z (linearised); not_measured: errors that "
-                       "were not measured; beyond_tables: errors whose table does not reach this "
-                       "position; notices of the stored runs that the machine file names",
+             .members = "{machine, simulated, error: tool_error, u: {{small}_um}, u_reason?, "
+                        "not_measured, u_not_declared, noise_only, beyond_tables, ...notices}",
              .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
                         R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
                         R"(EXX_um = 2\nu_EXX_um = 0.1\n", "X_mm": 10})",

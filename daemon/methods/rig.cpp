@@ -80,12 +80,11 @@ void add_rig_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Returns the configured fixture of an axis: probes, their ranges and their "
                         "calibrations.",
              .params = {{"axis", ParamType::string, "X, Y or Z", true}},
-             .result = "axis, rig, moves, travel, chain; probes: position_mm and direction in the "
-                       "fixture's frame, reads (displacement or gap), range_um, low_um and high_um "
-                       "(displacements at the ends of the range), certificate, laboratory, "
-                       "calibrated, due; records: the calibration records of the rig; "
-                       "u_not_declared (the uncertainties that the rig does not declare); notices "
-                       "of overdue calibrations",
+             .result = "the notices name overdue calibrations",
+             .members = "{axis, rig, moves, travel, chain: string, probes: [{id: string, "
+                        "position_mm: [number], direction: [number], reads, range_um, low_um, "
+                        "high_um, certificate, laboratory, calibrated, due}], records: [{id: "
+                        "string, kind, date, valid_until}], u_not_declared, ...notices}",
              .example = R"({"axis": "X"})",
              .handler = [&m](const Params& p) { return get_rig(m, p); }});
 }

@@ -322,8 +322,9 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              "0",
              {.least = 0, .most = 10'000}},
             {"note", ParamType::string, "free text, stored with the run", false, "\"\""}},
-       .result = "run, axis, targets_mm, notices. mdofd replies after it has stored the run on the "
-                 "disk and the measurement has begun",
+       .result =
+           "mdofd replies after it has stored the run on the disk and the measurement has begun",
+       .members = "started_run",
        .example = R"({"axis": "X", "note": "after scraping"})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { start_run(m, p, std::move(r)); }});
@@ -331,7 +332,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Continues a run that ended early. The new run begins with the recorded "
                         "samples of the old run and supersedes the old run.",
              .params = {run},
-             .result = "the same members as the result of run.start",
+             .members = "started_run",
              .example = R"({"run": 1})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) { resume_run(m, p, std::move(r)); }});
@@ -339,11 +340,9 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "run.stop",
        .summary = "Ends a run that is under way, and evaluates the run.",
        .params = {run, {"abort", ParamType::boolean, "mark the run as aborted", false, "false"}},
-       .result =
-           "run: id of the evaluated run. If mdofd renumbered the targets at the end, this "
-           "is a new run that supersedes the stopped run. axis, state, supersedes and notices "
-           "of the evaluated run; state and notices are null if the stored run cannot be "
-           "read",
+       .result = "if mdofd renumbered the targets at the end, this is a new run that supersedes "
+                 "the stopped run",
+       .members = "{run, axis, state: string|null, supersedes, notices: [notice]|null}",
        .example = R"({"run": 1})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { stop_run(m, p, std::move(r)); }});
@@ -352,28 +351,23 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .params = {offset,
                         count_param(kMaxRunsPage),
                         {"axis", ParamType::string, "list only runs of this axis", false}},
-             .result = "total; runs: header and provenance of each run. state: open (under way), "
-                       "complete, partial, aborted, failed, or ended (the run has ended, but mdofd "
-                       "cannot store the end yet: see its notices and storage of server.info)",
+             .members = "{total, offset, runs: [{...run_header, shortened?}]}",
              .example = R"({"offset": 0, "count": 10})",
              .handler = on_query(m, list_runs)});
   table.add({.name = "run.get",
              .summary = "Returns a run without its points: header, provenance, straightness, "
                         "angles, plausibility, and who started and stopped the run.",
              .params = {run, reference},
-             .result =
-                 "the run; straightness in um, slopes and angles in urad; uncertainty of each "
-                 "result (for imported positioning errors: E and B of ISO 230-2, or the range if "
-                 "the approach of a reading is unknown); straightness_lines; result_sha256; n_ij "
-                 "(number of visits to each target) is null if the list is too long for a reply",
+             .result = "a run of another instrument has the figures E and B of ISO 230-2, or the "
+                       "range of its values",
+             .members = "measured_run|imported_run",
              .example = R"({"run": 1})",
              .handler = on_query(m, get_run)});
   table.add({.name = "run.points",
              .summary = "Returns the points of a run in the order of measurement, in pages.",
              .params = {run, offset, count_param(kMaxPointsPage), reference},
-             .result = "total; u_covers (what u contains); points: position_mm, five errors in um "
-                       "and urad, u, u_random, U, k, nu_eff (null: infinite), flags; for an "
-                       "imported run: position_mm, the imported error, u",
+             .members = "{run, axis, total, offset, ...reference, ...covers, points: "
+                        "[point]}|{run, axis, total, offset, ...covers, points: [imported_point]}",
              .example = R"({"run": 1, "offset": 0, "count": 20})",
              .handler = on_query(
                  m, [pages = std::make_shared<RunPages>()](Methods&, const Params& params) {

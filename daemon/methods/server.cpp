@@ -237,17 +237,21 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.info",
              .summary = "Returns the version, the uptime, the axes and the generation (a number "
                         "that increases with each change of an active table).",
-             .result =
-                 "identity of the daemon; http: url of the web page and path of its token file, or "
-                 "null; chain: link and sha256 of the newest entry in the chain of hashes, for a "
-                 "later check of the database; axes: devices, run under way, unstored_run (a run "
-                 "that has ended, but waits for storage), datum of the encoder "
-                 "(absolute, none, configured, set or index), offset_mm, note",
+             .result = "link and sha256 of \"chain\" serve for a later check of the database",
+             .members =
+                 "{server, version, protocol, started_utc, uptime_s, database, generation, "
+                 "store_jobs_dropped, store_points_dropped, calls_refused, storage, "
+                 "storage_reason, chain: {link, sha256}, http: {url, token_file}, axes: [{axis, "
+                 "rig, simulated, devices: [string], run, unstored_run, encoder: {datum, "
+                 "offset_mm, note}}]}",
              .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add(
       {.name = "device.list",
        .summary = "Lists the devices with axis, state, last error, channels and numbers of scans.",
-       .result = "devices",
+       .members =
+           "{devices: [{axis, device, driver, description, state, simulated, rate_hz, scans, "
+           "scans_lost, blocks_dropped, reopened, error: string, last_error, mended_utc, trouble, "
+           "clock: {drift_ppm, jitter_ms, settled, steps}, channels: [{id: string, unit}]}]}",
        .handler = [&m](const Params&) -> Result<std::string> { return device_list(m); }});
   table.add(
       {.name = "live.subscribe",
@@ -263,13 +267,13 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
                    "100",
                    {.least = 20, .most = 3'600'000}},
                   {"events", ParamType::boolean, "also send run.event", false, "true"}},
-       .result = "the settings of the subscription",
+       .members = "{subscribed, interval_ms}",
        .example = R"({"interval_ms": 200})",
        .subscribes = true,
        .handler = [](const Params& params) { return subscribe(params); }});
   table.add({.name = "live.unsubscribe",
              .summary = "Ends both subscriptions of this connection.",
-             .result = "an empty object",
+             .members = "{}",
              .subscribes = true,
              .handler = [](const Params& params) -> Result<std::string> {
                MDOF_CHECK(params.caller().unsubscribe(kLiveTopic));

@@ -77,10 +77,14 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
                   "the squareness with its standard uncertainty. X and Y give EC0Y, X and Z give "
                   "EB0Z, Y and Z give EA0Z. An identical result is stored only once.",
        .params = std::move(fit),
-       .result = "EC0Y_urad, u_EC0Y_urad (combined standard uncertainty) and U_EC0Y_urad (expanded "
-                 "uncertainty, 95 %), or the same for EB0Z or EA0Z; form_urad (residual "
-                 "straightness of both axes) and the slopes of both axes, at the fixture; sense; "
-                 "notices; lines (the squareness for each kind of reference line)",
+       .result = "squareness and slopes are stated at the fixture",
+       .members =
+           "{squareness, run_{small}, E{angular}0{axis}_urad, u_E{angular}0{axis}_urad, "
+           "u_random_E{angular}0{axis}_urad, U_E{angular}0{axis}_urad, k, nu_eff, ...covers, "
+           "form_urad, reference, slope_E{linear}{axis}_urad, u_slope_E{linear}{axis}_urad, "
+           "artefact_angle_error_urad, u_artefact_angle_urad, artefact_corner, ...stated_figures, "
+           "slopes_over, sense, simulated, created_utc, ...notices, lines: {end_point: "
+           "squareness_line, least_squares: squareness_line, minimum_zone: squareness_line}}",
        .example = R"({"run_x": 1, "run_y": 2})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { squareness(m, p, std::move(r)); }});

@@ -122,8 +122,10 @@ void add_tables_methods(rpc::MethodTable& table, Methods& m) {
                   {"axis", ParamType::string,
                    "X, Y or Z: list only tables of this axis; volume: list only volumetric tables",
                    false}},
-       .result = "generation (of all active tables); tables: the members of each table without the "
-                 "points, active, generation (0: not active)",
+       .result = "tables without their points",
+       .members =
+           "{offset, generation, tables: [{...table, active, generation}|{...volume_table, active, "
+           "generation}]}",
        .example = R"({"axis": "X", "count": 10})",
        .handler = on_query(m, list_tables)});
   table.add(
@@ -132,7 +134,7 @@ void add_tables_methods(rpc::MethodTable& table, Methods& m) {
        .params = {{"table", ParamType::integer, "id of the table", true},
                   rpc::offset_param(),
                   rpc::count_param(kMaxRowsPage)},
-       .result = "the same members as the result of compensation.grid, and \"active\"",
+       .members = "{...active_table, active, ...table_points}",
        .example = R"({"table": 1, "offset": 0, "count": 20})",
        .handler = on_query(m, get_table)});
 }

@@ -249,8 +249,7 @@ void add_volume_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Builds a table of corrections over a plane or a volume from the measured "
                         "errors of a machine, and stores the table without activating it.",
              .params = std::move(params),
-             .result = "table, machine, commanded positions of the nodes, interpolation, residual "
-                       "errors, not_measured, simulated, doubtful, notices",
+             .members = "{...active_volume, active, ...notices}",
              .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-Y-t\"}\n)"
                         R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
                         R"(range_mm = [0, 10]\nEXX_um = 2\n[[axis]]\nid = \"Y\"\n)"

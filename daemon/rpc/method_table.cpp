@@ -5,12 +5,16 @@
 
 #include "schema/base/json_page.h"
 #include "schema/base/toml/toml_reader.h"
+#include "schema/field/shape.h"
 
 namespace mdof::rpc {
 namespace {
 
 constexpr std::size_t kEnvelopeBytes =
-    512;  // of the JSON-RPC reply around the document, id included
+    512;                               // of the JSON-RPC reply around the document, id included
+constexpr std::size_t kEndBytes = 64;  // what comes after the methods
+constexpr const char* kLeftOut =
+    R"({"description":"the schema does not fit into max_bytes; give a larger max_bytes"})";
 
 // As JSON Schema names them; the bytes of a text are no fewer than its characters.
 void write_bounds(JsonWriter& json, const Param& param) {
@@ -36,37 +40,38 @@ std::string describe(const Param& param) {
 }
 
 // "x-example-params", since an OpenRPC example pairing needs a result, which depends on the data.
-std::string describe(const Method& method) {
+std::string describe(const Method& method, const std::string& schema) {
   JsonWriter json;
   json.begin_object().field("name", method.name).field("summary", method.summary);
   json.field("paramStructure", "either").key("params").begin_array();
   for (const Param& param : method.params) json.raw(describe(param));
   json.end_array().key("result").begin_object().field("name", "result");
-  json.field("description", method.result).key("schema").raw(method.result_schema).end_object();
+  if (!method.result.empty()) json.field("description", method.result);
+  json.key("schema").raw(schema).end_object();
   json.field("x-writes", method.writes).key("x-example-params").raw(method.example);
   json.end_object();
   return json.take();
 }
 
 Method discover_method(const MethodTable& table) {
-  return {.name = "rpc.discover",
-          .summary = "Describes all methods in an OpenRPC 1.2.6 document.",
-          .params = {{"offset", ParamType::integer, "index of the first method on this page", false,
-                      "0"},
-                     {"max_bytes", ParamType::integer,
-                      "limit of the reply line in bytes, from 4096 to 49152", false, "49152"}},
-          .result = "the OpenRPC document; x-next-offset is present if another page follows",
-          .result_schema = R"({"type":"object"})",
-          .example = R"({"offset":0})",
-          .handler = [&table](const Params& params) -> Result<std::string> {
-            const std::int64_t offset = params.integer("offset");
-            const std::int64_t bytes = params.integer("max_bytes", 49152);
-            if (offset < 0) return fail(ErrorCode::usage, "offset: must not be negative");
-            if (bytes < 4096 || bytes > 49152)
-              return fail(ErrorCode::usage, "max_bytes: must be from 4096 to 49152");
-            return table.openrpc(static_cast<std::size_t>(offset),
-                                 static_cast<std::size_t>(bytes) - kEnvelopeBytes);
-          }};
+  return {
+      .name = "rpc.discover",
+      .summary = "Describes all methods in an OpenRPC 1.2.6 document.",
+      .params = {{"offset", ParamType::integer, "index of the first method on this page", false,
+                  "0"},
+                 {"max_bytes", ParamType::integer,
+                  "limit of the reply line in bytes, from 4096 to 49152", false, "49152"}},
+      .members = "{openrpc, info: {title, version}, x-total, methods: [object], x-next-offset?}",
+      .example = R"({"offset":0})",
+      .handler = [&table](const Params& params) -> Result<std::string> {
+        const std::int64_t offset = params.integer("offset");
+        const std::int64_t bytes = params.integer("max_bytes", 49152);
+        if (offset < 0) return fail(ErrorCode::usage, "offset: must not be negative");
+        if (bytes < 4096 || bytes > 49152)
+          return fail(ErrorCode::usage, "max_bytes: must be from 4096 to 49152");
+        return table.openrpc(static_cast<std::size_t>(offset),
+                             static_cast<std::size_t>(bytes) - kEnvelopeBytes);
+      }};
 }
 
 }  // namespace
@@ -112,6 +117,12 @@ std::string MethodTable::nearest(std::string_view name) const {
   return nearest_of(name, names);
 }
 
+const std::string& MethodTable::schema_of(const Method& method) const {
+  std::string& schema = schemas_[method.name];
+  if (schema.empty()) schema = method.members.empty() ? "{}" : json_schema(method.members);
+  return schema;
+}
+
 std::string MethodTable::openrpc(std::size_t offset, std::size_t max_bytes) const {
   JsonWriter json;
   json.begin_object().field("openrpc", "1.2.6").key("info").begin_object();
@@ -121,7 +132,11 @@ std::string MethodTable::openrpc(std::size_t offset, std::size_t max_bytes) cons
   for (const auto& [name, method] : methods_) left.push_back(&method);
   left.erase(left.begin(),
              left.begin() + static_cast<std::ptrdiff_t>(std::min(offset, left.size())));
-  const auto text = [](const Method* method) { return describe(*method); };
+  const std::size_t room = max_bytes - std::min(max_bytes, json.text().size() + kEndBytes);
+  const auto text = [&](const Method* method) {
+    std::string whole = describe(*method, schema_of(*method));
+    return whole.size() <= room ? whole : describe(*method, kLeftOut);
+  };
   const std::size_t end = offset + append_page(json, left, text, max_bytes);
   json.end_array();
   if (end < methods_.size()) json.field("x-next-offset", static_cast<std::uint64_t>(end));

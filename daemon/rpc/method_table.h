@@ -43,16 +43,16 @@ struct Method {
   std::string name;     // "run.list"
   std::string summary;  // one sentence
   std::vector<Param> params = {};
-  std::string result;                // what comes back, with units
-  std::string result_schema = "{}";  // JSON Schema of it
-  std::string example = "{}";        // params by name
-  bool writes = false;               // changes something: refused where a client may only read
-  bool subscribes = false;           // needs a connection that stays
-  bool approves = false;  // only for the group of ServerOptions::approvers, if there is one
+  std::string result = {};        // a sentence about it, beyond what its members say
+  std::string_view members = {};  // its shape, as schema/field/shape.h reads it; empty: any value
+  std::string example = "{}";     // params by name
+  bool writes = false;            // changes something: refused where a client may only read
+  bool subscribes = false;        // needs a connection that stays
+  bool approves = false;          // only for the group of ServerOptions::approvers, if there is one
   std::variant<SyncHandler, AsyncHandler> handler;
 };
 
-// Built once, then only read; must outlive the server and stay where it is.
+// Built once, then only read, by one thread; must outlive the server and stay where it is.
 class MethodTable {
  public:
   // What rpc.discover says of the whole; the table brings that method itself.
@@ -60,7 +60,7 @@ class MethodTable {
   MethodTable(const MethodTable&) = delete;
   MethodTable& operator=(const MethodTable&) = delete;
 
-  // A name twice, or an example or schema that is not JSON, is a bug.
+  // A name twice, or an example that is not JSON, is a bug.
   void add(Method method);
 
   const Method* find(std::string_view name) const;
@@ -68,11 +68,15 @@ class MethodTable {
   const std::map<std::string, Method, std::less<>>& methods() const { return methods_; }
 
   // The OpenRPC 1.2.6 document from the method at `offset` on, as many as fit into `max_bytes`:
-  // "x-total" is the number of methods, "x-next-offset" is there when some are left.
+  // "x-total" is the number of methods, "x-next-offset" is there when some are left. A method alone
+  // that does not fit is described without the schema of its result, and says so.
   std::string openrpc(std::size_t offset, std::size_t max_bytes) const;
 
  private:
+  const std::string& schema_of(const Method& method) const;
+
   std::string title_, version_;
+  mutable std::map<std::string, std::string> schemas_;  // of results, made when first asked for
   std::map<std::string, Method, std::less<>> methods_;
 };
 

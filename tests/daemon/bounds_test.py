@@ -11,19 +11,11 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from mdofd import Client, Daemon, RpcError, simulator  # noqa: E402
+from result_schemas import methods  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 USAGE = -32602
 LONG = 60_000  # bytes of a value that still fits into a request line
-
-
-def methods(client):
-    offset, found = 0, []
-    while offset is not None:
-        page = client.call("rpc.discover", offset=offset)
-        found += page["methods"]
-        offset = page.get("x-next-offset")
-    return found
 
 
 def beyond(schema):

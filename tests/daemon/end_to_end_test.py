@@ -18,6 +18,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from mdofd import DATA, Client, Daemon, RpcError, notice_lines, replay, simulator  # noqa: E402
+from result_schemas import methods  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 TARGETS = [0, 2, 4.1, 6.2]
@@ -249,12 +250,7 @@ class EndToEnd(unittest.TestCase):
                 self.client.call(method, **params)
 
     def test_discovery_lists_every_method_with_a_working_example(self):
-        methods, offset = [], 0
-        while offset is not None:
-            page = self.client.call("rpc.discover", offset=offset)
-            methods += page["methods"]
-            offset = page.get("x-next-offset")
-        names = [m["name"] for m in methods]
+        names = [m["name"] for m in methods(self.client)]
         for name in ("server.info device.list live.subscribe run.start run.stop run.list run.get "
                      "run.points squareness.fit compensation.build compensation.activate "
                      "compensation.status compensation.grid compensation.at rpc.discover").split():

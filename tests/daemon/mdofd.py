@@ -1,12 +1,14 @@
 """A daemon under test: starts mdofd with a configuration in a folder of its own and talks to it.
 
-Standard library only. Messages of JSON-RPC are lines; notifications are kept apart from answers."""
+Messages of JSON-RPC are lines; notifications are kept apart from answers. In a unittest each result is checked against the
+schema that rpc.discover gives of it; otherwise (benchmarks, a virtual machine) this needs the standard library alone."""
 import gzip
 import json
 import os
 import signal
 import socket
 import subprocess
+import sys
 import time
 
 DATA = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "data")
@@ -76,6 +78,8 @@ class RpcError(Exception):
 
 
 class Client:
+    schemas = None  # of the results of the mdofd under test
+
     def __init__(self, path, timeout_s=30):
         self.socket = socket.socket(socket.AF_UNIX)
         self.socket.settimeout(timeout_s)
@@ -94,6 +98,8 @@ class Client:
             if reply.get("id") == self.id:
                 if "error" in reply:
                     raise RpcError(reply["error"])
+                wrong = self.schemas.wrong(method, reply["result"]) if self.schemas else []
+                assert not wrong, "a result is not as rpc.discover describes it: " + "\n".join(wrong)
                 return reply["result"]
             self.notes.append(reply)
 
@@ -144,6 +150,9 @@ class Daemon:
             try:
                 client = Client(self.socket)
                 client.call("server.info")
+                if Client.schemas is None and "unittest" in sys.modules and not self.environment:
+                    from result_schemas import Schemas
+                    Client.schemas = Schemas(client)
                 return client
             except OSError:
                 if self.process.poll() is not None:

@@ -183,22 +183,25 @@ std::vector<rpc::Param> import_params() {
 }  // namespace
 
 void add_files_methods(rpc::MethodTable& table, Methods& m) {
-  table.add({.name = "run.replay",
-             .summary = "Replays a log or a recording and stores the result as a run. mdofd "
-                        "replays one file at a time.",
-             .params = replay_params(),
-             .result = "run: the id of the new run. mdofd replies after it has stored the run, "
-                       "which takes a long time for a long log",
-             .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
-             .writes = true,
-             .handler = [&m](const Params& p, Reply r) {
-               store_run(m, p, read_replay_request(p), replayed, "run.replay", std::move(r));
-             }});
+  table.add(
+      {.name = "run.replay",
+       .summary = "Replays a log or a recording and stores the result as a run. mdofd "
+                  "replays one file at a time.",
+       .params = replay_params(),
+       .result =
+           "mdofd replies after it has stored the run, which takes a long time for a long log",
+       .members = "{run}",
+       .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
+       .writes = true,
+       .handler = [&m](const Params& p, Reply r) {
+         store_run(m, p, read_replay_request(p), replayed, "run.replay", std::move(r));
+       }});
   table.add({.name = "run.import",
              .summary = "Imports a file with the readings of another instrument and stores the "
                         "readings as a run.",
              .params = import_params(),
-             .result = "run: the id of the new run. mdofd replies after it has stored the run",
+             .result = "mdofd replies after it has stored the run",
+             .members = "{run}",
              .example = R"({"path": "/var/lib/mdof/laser_X.rtl", "axis": "X", "u_um": 0.3})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) {

@@ -17,6 +17,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from mdofd import DATA, RIG, Client, Daemon, recorded_again, simulator  # noqa: E402
+from result_schemas import methods  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 ROOT = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", ".."))
@@ -133,7 +134,7 @@ class OneQuantity(unittest.TestCase):
         cls.documents, cls.csvs, cls.texts, cls.replies = {}, {}, {}, {}
         cls.run_commands()
         client = cls.daemon.start()
-        cls.discovered = {m["name"] for m in client.call("rpc.discover")["methods"]}
+        cls.discovered = {m["name"] for m in methods(client)}
         cls.call_methods(client)
         cls.notes = cls.collected()
 

@@ -12,6 +12,7 @@ import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from mdofd import DATA, RIG, Daemon, recorded_again, simulator  # noqa: E402
+from result_schemas import methods  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 PAGED = "a reply has at most 48 KiB: points come in pages, by a method of their own"
@@ -116,8 +117,7 @@ class SameDocument(unittest.TestCase):
             self.assertEqual(len(differences({"a": [1, {"b": None}]}, other)), 1, other)
 
     def test_every_method_is_known_here(self):
-        methods = {m["name"] for m in self.client.call("rpc.discover")["methods"]}
-        self.assertEqual(methods, {method for method, *_ in SAME} | OTHERS.keys())
+        self.assertEqual({m["name"] for m in methods(self.client)}, {method for method, *_ in SAME} | OTHERS.keys())
 
     def test_the_sense_stays_with_a_long_text(self):
         text = os.path.join(self.folder, "long.rtl")  # what it says of itself is longer than a reply

@@ -14,6 +14,7 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from mdofd import RIG, Client, Daemon, simulator, write_log  # noqa: E402
+from result_schemas import methods  # noqa: E402
 
 INTERNAL = -32603
 TOGETHER = 32  # requests that are sent before the first answer is read
@@ -130,7 +131,7 @@ class Bench:
         table = client.call("compensation.build", runs=[runs[0]])["table"]
         client.call("compensation.activate", table=table, despite_warnings=True)
         volume = client.call("compensation.build_volume", machine=MACHINE, axes="XY", step_mm=5, incomplete=True)["table"]
-        self.methods = client.call("rpc.discover")["methods"]
+        self.methods = methods(client)
         # What there is, so that the methods have something to do.
         self.world = {"run": runs + [99], "runs": [[r] for r in runs] + [runs], "run_x": runs, "run_y": runs, "run_z": [99], "run_a": runs,
                       "before": runs, "after": runs,

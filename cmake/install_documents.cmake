@@ -2,6 +2,7 @@
 # mdofd runs as it is, with simulated axes. (The programs themselves, units and rules: in their folders.)
 install(FILES tools/mdof/mdof.1 tools/mdof_simulate/mdof-simulate.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES daemon/mdofd.toml.5 DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
+install(FILES tools/mdof/mdof-fields.7 DESTINATION ${CMAKE_INSTALL_MANDIR}/man7)
 install(FILES daemon/mdofd.8 DESTINATION ${CMAKE_INSTALL_MANDIR}/man8)
 install(FILES README.md ARCHITECTURE.md CONTRIBUTING.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES drivers/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME drivers.md)

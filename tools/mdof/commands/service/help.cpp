@@ -1,15 +1,30 @@
-// mdof help [COMMAND]: the same as mdof [COMMAND] --help.
+// mdof help [COMMAND]: the same as mdof [COMMAND] --help; mdof help fields: the names in results.
 #include <CLI/CLI.hpp>
 #include <memory>
 
 #include "tools/mdof/commands/command.h"
+#include "tools/mdof/commands/service/field_list.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
 
 namespace mdof::tools {
 namespace {
 
+Status help_fields(const std::vector<std::string>& words) {
+  if (words.size() == 1) {
+    const auto width = out_is_terminal() ? std::optional(terminal_columns()) : std::nullopt;
+    return write_out(field_list(width));
+  }
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    MDOF_TRY(const std::string text, field_text(words[i]));
+    MDOF_CHECK(write_out(text));
+  }
+  return {};
+}
+
 // App::help() prints that of the command that was called: of this one.
 Status help(CLI::App* app, const std::vector<std::string>& words) {
+  if (!words.empty() && words.front() == "fields") return help_fields(words);
   std::string name = app->get_name();
   for (const std::string& word : words) {
     const auto found =
@@ -27,8 +42,10 @@ Status help(CLI::App* app, const std::vector<std::string>& words) {
 Action declare_help(CLI::App& command) {
   const auto words = std::make_shared<std::vector<std::string>>();
   command
-      .add_option("COMMAND", *words,
-                  "Name of a command, such as \"replay\" or \"compensation export\"")
+      .add_option(
+          "COMMAND", *words,
+          "Name of a command, such as \"replay\" or \"compensation export\"; or \"fields\", "
+          "and names of members and columns, to explain these")
       ->type_name("");
   return [app = command.get_parent(), words] { return help(app, *words); };
 }
@@ -38,7 +55,11 @@ Action declare_help(CLI::App& command) {
 Command help_command() {
   return {.name = "help",
           .summary = "Print the help of mdof or of a command",
-          .footer = "Example:\n  mdof help compensation export",
+          .footer =
+              "Examples:\n"
+              "  mdof help compensation export\n"
+              "  mdof help fields                 list the members and columns of results\n"
+              "  mdof help fields EYX_um nu_eff",
           .declare = declare_help,
           .reads_all_options = true};
 }

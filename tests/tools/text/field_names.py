@@ -1,0 +1,35 @@
+"""The names of members and columns that mdof explains: the rows of mdof help fields."""
+import functools
+import re
+import subprocess
+
+GROUPS = {"linear": "[XYZ]", "angular": "[ABC]", "axis": "[XYZABC]", "small": "[xyz]", "approach": "(forward|reverse|mean)",
+          "probe": "[A-Z][0-9]*", "number": "[0-9][0-9.]*"}
+
+
+@functools.lru_cache
+def rows(mdof):
+    """[(name, type, meaning)] in the order in which mdof prints them."""
+    text = subprocess.run([mdof, "help", "fields"], capture_output=True, text=True, check=True).stdout
+    return [tuple(re.split(" {2,}", line.strip(), maxsplit=2)) for line in text.split("---\n", 1)[1].splitlines()]
+
+
+@functools.lru_cache
+def patterns(mdof):
+    named = [re.split(r"\{(\w+)\}", name) for name, _, _ in rows(mdof)]
+    plain = [parts for parts in named if not {"field", "figure"} & set(parts[1::2])]
+    before_a_name = [parts[0] for parts in named if parts[1:2] == ["field"]]
+    return ([re.compile("".join(GROUPS[p] if i % 2 else re.escape(p) for i, p in enumerate(parts))) for parts in plain],
+            before_a_name)
+
+
+def is_known(mdof, name):
+    plain, before_a_name = patterns(mdof)
+    return (any(p.fullmatch(name) for p in plain) or
+            any(name.startswith(b) and is_known(mdof, name[len(b):]) for b in before_a_name))
+
+
+def unknown_columns(mdof, csv):
+    """Of the head of a CSV: names that no row explains."""
+    head = next((line for line in csv.splitlines() if line and not line.startswith("#")), "")
+    return [name for name in head.split(",") if name and not is_known(mdof, name)]

@@ -1,0 +1,55 @@
+#include "tools/mdof/commands/service/field_list.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "schema/base/toml/toml_reader.h"
+#include "schema/field/field.h"
+#include "tools/mdof/text/text_table.h"
+
+namespace mdof::tools {
+namespace {
+
+constexpr const char* kHead =
+    "Members of replies of mdofd and of the same documents of mdof; columns of CSV. A name ends in "
+    "its unit. In names, {linear} is X, Y or Z; {angular} is A, B or C; {axis} is X, Y, Z, A, B or "
+    "C; {small} is x, y or z; {approach} is forward, reverse or mean; {probe} is the id of a "
+    "probe; {number} is a number; {figure} is the name of a result; {field} is another name of "
+    "this list. Types are those of JSON; [number] is an array of numbers, a|b is a or b.";
+
+std::string type_text(const Field& row) {
+  return std::string(row.type) + (row.null.empty() ? "" : "|null");
+}
+
+std::string meaning_text(const Field& row, const std::string& meaning) {
+  return meaning + (row.null.empty() ? "" : "; null: " + std::string(row.null));
+}
+
+}  // namespace
+
+std::string field_list(std::optional<std::size_t> width) {
+  std::vector<const Field*> rows;
+  for (const Field& row : fields()) rows.push_back(&row);
+  std::sort(rows.begin(), rows.end(),
+            [](const Field* a, const Field* b) { return a->name < b->name; });
+  TextTable table({"name", "type", "meaning"});
+  for (const Field* row : rows)
+    table.add(
+        {std::string(row->name), type_text(*row), meaning_text(*row, std::string(row->meaning))});
+  return wrapped(kHead, 80) + "\n\n" + (width ? table.text(*width) : table.text());
+}
+
+Result<std::string> field_text(const std::string& name) {
+  if (const auto found = find_field(name))
+    return name + ": " + type_text(*found->row) + "\n" +
+           wrapped(meaning_text(*found->row, found->meaning), 80) + "\n";
+  std::vector<std::string> names;
+  for (const Field& row : fields()) names.emplace_back(row.name);
+  const std::string nearest = nearest_of(name, names);
+  return fail(ErrorCode::usage,
+              "help: unknown field \"" + name + "\"" +
+                  (nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)") +
+                  "; to list the fields, use: mdof help fields");
+}
+
+}  // namespace mdof::tools

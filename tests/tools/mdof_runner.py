@@ -6,6 +6,10 @@ import pathlib
 import resource
 import signal
 import subprocess
+import sys
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "text"))
+from field_names import unknown_columns  # noqa: E402
 
 MDOF = os.environ["MDOF"]
 MAKE_RECORDING = os.environ.get("MDOF_MAKE_RECORDING", "")
@@ -18,10 +22,15 @@ def notice_lines(document):
 
 
 def run(*arguments, stdin=None, env=None):
-    """(exit code, standard output, standard error)."""
+    """(exit code, standard output, standard error). Each column of a CSV has to be one that mdof explains."""
     done = subprocess.run([MDOF, *map(str, arguments)], input=stdin, capture_output=True,
                           timeout=600, env={**os.environ, **(env or {})})
-    return done.returncode, done.stdout.decode(), done.stderr.decode()
+    out = done.stdout.decode()
+    if done.returncode == 0 and "--json" not in arguments and "--help" not in arguments and (
+            "--csv" in arguments or arguments[:1] == ("solve",)):
+        unknown = unknown_columns(MDOF, out)
+        assert not unknown, f"columns without a row in schema/field/names: {unknown}"
+    return done.returncode, out, done.stderr.decode()
 
 
 def run_on_full_disk(*arguments, free_bytes):

@@ -146,19 +146,105 @@ bool half_a_cell(const VolumetricTable& table, std::size_t node, unsigned half, 
   return true;
 }
 
+// Where an error that goes with the command of an axis leaves the straight line between two nodes
+// most, of each error and cell: at one of its own positions, as it is straight between these.
+std::vector<std::vector<double>> bends_along(const Machine& machine, std::size_t axis,
+                                             const std::vector<double>& nodes) {
+  std::vector<std::vector<double>> bends(nodes.size());
+  const auto add = [&](const std::vector<double>& position, const std::vector<double>& values) {
+    const auto at = [&](double x) {
+      const TablePlace place = place_of(position, x);
+      return values[place.cell] +
+             (values[std::min(place.cell + 1, values.size() - 1)] - values[place.cell]) *
+                 place.part;
+    };
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+      const double from = at(nodes[i]), to = at(nodes[i + 1]);
+      double most = 0, where = 0;
+      for (std::size_t p = 0; p < position.size(); ++p) {
+        const double part = (position[p] - nodes[i]) / (nodes[i + 1] - nodes[i]);
+        if (!(part > 0 && part < 1)) continue;
+        const double off = std::abs(values[p] - (from + (to - from) * part));
+        if (off > most) most = off, where = position[p];
+      }
+      if (most > 0) bends[i].push_back(where);
+    }
+  };
+  for (const MachineFrame& frame : machine.frames)
+    if (frame.id == name_of(axis) || frame.moves_with == kAxes[axis])
+      for (const ErrorFunction& f : frame.error)
+        for (const auto* values : {&f.forward, &f.reverse})
+          if (!f.position.empty() && !values->empty()) add(f.position, *values);
+  for (auto& of_cell : bends) {
+    std::sort(of_cell.begin(), of_cell.end());
+    of_cell.erase(std::unique(of_cell.begin(), of_cell.end()), of_cell.end());
+  }
+  return bends;
+}
+
+// How far the corrections at places of the cell behind each node leave the straight lines between
+// nodes: in the middle of its edges, faces and of itself, and where an error bends along an edge.
+// The bends of several axes may meet, so that what they leave is added.
+class Interpolation {
+ public:
+  Interpolation(VolumetricTable& table, const Machine& machine, const VolumetricRequest& request)
+      : table_(table), machine_(machine), request_(request) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      bends_[axis] = bends_along(machine, axis, table.command_m[axis]);
+  }
+
+  Status find(std::size_t node) {
+    Vec3 middle{};
+    for (unsigned half = 1; half < 8; ++half) {
+      if (!half_a_cell(table_, node, half, middle)) continue;
+      MDOF_TRY(const Vec3 left, left_at(middle));
+      take(left);
+    }
+    Vec3 sum{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      MDOF_TRY(const Vec3 left, left_along(node, axis));
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += left[k];
+    }
+    take(sum);
+    return {};
+  }
+
+ private:
+  void take(const Vec3& left) {
+    for (std::size_t k = 0; k < 3; ++k)
+      table_.interpolation_m[k] = std::max(table_.interpolation_m[k], left[k]);
+  }
+  Result<Vec3> left_at(const Vec3& command_m) const {
+    MDOF_TRY(const CorrectedPlace place, CorrectedPlace::at(machine_, request_, command_m));
+    const Vec3 there = place.correction_m(),
+               straight = volumetric_at(table_, command_m).correction_m;
+    Vec3 left{};
+    for (std::size_t k = 0; k < 3; ++k) left[k] = std::abs(there[k] - straight[k]);
+    return left;
+  }
+  Result<Vec3> left_along(std::size_t node, std::size_t axis) const {
+    Vec3 most{};
+    Vec3 command_m = table_.command_at(node);
+    const auto& nodes = table_.command_m[axis];
+    const auto here = std::lower_bound(nodes.begin(), nodes.end(), command_m[axis]);
+    for (const double bend : bends_[axis][static_cast<std::size_t>(here - nodes.begin())]) {
+      command_m[axis] = bend;
+      MDOF_TRY(const Vec3 left, left_at(command_m));
+      for (std::size_t k = 0; k < 3; ++k) most[k] = std::max(most[k], left[k]);
+    }
+    return most;
+  }
+
+  VolumetricTable& table_;
+  const Machine& machine_;
+  const VolumetricRequest& request_;
+  std::array<std::vector<std::vector<double>>, 3> bends_;  // by cell of an axis
+};
+
 Status find_interpolation(VolumetricTable& table, const Machine& machine,
                           const VolumetricRequest& request) {
-  Vec3 middle{};
-  for (std::size_t node = 0; node < table.nodes(); ++node) {
-    for (unsigned half = 1; half < 8; ++half) {
-      if (!half_a_cell(table, node, half, middle)) continue;
-      MDOF_TRY(const CorrectedPlace place, CorrectedPlace::at(machine, request, middle));
-      const Vec3 there = place.correction_m(), straight = volumetric_at(table, middle).correction_m;
-      for (std::size_t k = 0; k < 3; ++k)
-        table.interpolation_m[k] =
-            std::max(table.interpolation_m[k], std::abs(there[k] - straight[k]));
-    }
-  }
+  Interpolation interpolation(table, machine, request);
+  for (std::size_t node = 0; node < table.nodes(); ++node) MDOF_CHECK(interpolation.find(node));
   return {};
 }
 

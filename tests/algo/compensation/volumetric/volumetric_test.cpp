@@ -52,6 +52,22 @@ VolumetricTable built(const Machine& m, const VolumetricRequest& request = {}) {
   return *table;
 }
 
+// A screw of 10 mm pitch, read each 2.5 mm: nodes each 10 mm see nothing of it. The middles of the
+// cells see nothing either. Y has one bend of its own, 1 mm from a node, which adds to that.
+TEST(Volumetric, WhatBendsBetweenNodesIsLeft) {
+  std::string exx = "EXX_um = [", exy = "EXY_um = [[0, 0], [1, 0.9], [40, 0]]";
+  for (int quarter = 0; quarter <= 16; ++quarter)
+    exx += "[" + std::to_string(2.5 * quarter) + ", " +
+           std::to_string(std::array{0, 10, 0, -10}[static_cast<std::size_t>(quarter % 4)]) + "], ";
+  VolumetricRequest request;
+  request.step_m = 10e-3;
+  const VolumetricTable t = built(machine("w-b-X-Y-Z-t", exx + "]", exy), request);
+  EXPECT_NEAR(largest_correction_m(t, 0), 0.69e-6, 0.01e-6);  // of EXY at Y = 10 mm
+  // 0.9 um less what the line from 0 to 30/39 of 0.9 um has at a tenth of the cell.
+  EXPECT_NEAR(t.interpolation_m[0], (10 + 0.9 - 0.09 * 30 / 39) * 1e-6, 1e-9);
+  EXPECT_NEAR(t.interpolation_m[1], 0, 1e-12);
+}
+
 TEST(Volumetric, AnErrorOfTheToolIsTakenAwayAndOneOfTheWorkIsAdded) {
   // EXX = 2 µm at 40 mm: the body goes too far. Of the tool, the command is 2 µm less; of the work,
   // whose command grows against the tool's place, the same body again goes too far: 2 µm less, too.

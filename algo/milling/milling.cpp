@@ -86,8 +86,10 @@ Result<WearOffset> wear_offset(const DeclaredMillingPlan& declared) {
   double square = 0;
   for (const auto& [input, u] : declared.u) {
     MillingPlan higher = declared.plan, lower = declared.plan;
+    const bool is_angle = input->member == &MillingPlan::runout_angle_rad;  // others: 0 or more
     higher.*(input->member) += u;
-    lower.*(input->member) = std::max(lower.*(input->member) - u, 0.0);
+    lower.*(input->member) -= u;
+    if (!is_angle) lower.*(input->member) = std::max(lower.*(input->member), 0.0);
     const double width = higher.*(input->member) - lower.*(input->member);
     MDOF_TRY(const double above, mean_offset_m(higher));
     MDOF_TRY(const double below, mean_offset_m(lower));

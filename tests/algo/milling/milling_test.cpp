@@ -282,5 +282,21 @@ TEST(WearOffset, PartsStayWhereTheyCanAndAreInOrder) {
               std::hypot(offset.parts[0].contribution_m, offset.parts[1].contribution_m), 1e-15);
 }
 
+TEST(WearOffset, AnAngleIsThatOfAWholeTurnLess) {
+  const auto u_of = [](double angle_deg) {
+    DeclaredMillingPlan declared{preset(), {}};
+    declared.plan.steps_per_turn = 720;
+    declared.plan.runout_m = 1e-6;
+    declared.plan.runout_angle_rad = angle_deg * M_PI / 180;
+    for (const MillingInput& input : milling_inputs())
+      if (std::string(input.key) == "angle_deg") declared.u.emplace_back(&input, M_PI / 36);
+    return wear_offset(declared)->u_m;
+  };
+  for (const double angle_deg : {-90.0, -45.0, -120.0}) {
+    EXPECT_NEAR(u_of(angle_deg), u_of(angle_deg + 360), 1e-12) << angle_deg;
+    EXPECT_GT(u_of(angle_deg), 1e-9) << angle_deg;
+  }
+}
+
 }  // namespace
 }  // namespace mdof::algo

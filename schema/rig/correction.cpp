@@ -1,5 +1,7 @@
 #include "schema/rig/correction.h"
 
+#include <algorithm>
+
 namespace mdof {
 namespace {
 
@@ -23,6 +25,24 @@ std::string gap_of_point(const ChainAxis& measured, Axis axis, Sides sides, Refe
          to_string(reference) +
          " holds for a point of the work, not for the tool; if the fixture is in the spindle, "
          "correct moves in the rig, else build a table with the reference \"carriage\"";
+}
+
+// Why the correction turns with a rotary axis between the two; empty: it does not.
+std::string gap_of_rotary(const Chain& chain, const ChainAxis& measured,
+                          const ChainAxis& correcting) {
+  const auto [first, last] = std::minmax(&measured, &correcting);
+  for (const ChainAxis* between = first + 1; between < last; ++between) {
+    const bool is_rotary = between->letter < 'D';
+    const char direction =
+        correcting.letter < 'D' ? correcting.letter - 'A' + 'X' : correcting.letter;
+    if (!is_rotary || between->letter - 'A' + 'X' == direction) continue;
+    const std::string rotary(1, between->letter);
+    return "the rotary axis " + rotary + " lies between axis " + measured.letter + " and axis " +
+           correcting.letter + " in the chain " + chain.text +
+           ", so the direction of the correction turns with " + rotary +
+           "; build a volumetric table for the position of " + rotary;
+  }
+  return "";
 }
 
 }  // namespace
@@ -53,7 +73,8 @@ CorrectionSigns correction_signs(const Chain& chain, Axis axis, Sides sides, Ref
     } else if (!measured || !correcting) {
       signs.gap[k] = "the chain " + chain.text + " has no axis " + (measured ? by : letter(axis));
     } else {
-      if (!error_names(axis)[k].angle)
+      signs.gap[k] = gap_of_rotary(chain, *measured, *correcting);
+      if (signs.gap[k].empty() && !error_names(axis)[k].angle)
         signs.gap[k] = gap_of_point(*measured, axis, sides, reference);
       if (signs.gap[k].empty())
         signs.factor[k] = -sign_of_error(*measured) * sign_of_command(*correcting);

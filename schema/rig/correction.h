@@ -32,8 +32,10 @@ struct CorrectionSigns {
   std::array<int, 5> factor{};     // by named error of the axis: c = factor * E; 0: none
   std::array<std::string, 5> gap;  // why there is none
 };
-// Straightness has one only where the point that it is stated at goes with the tool: a point of the
-// fixture, or, where the fixture is on the side of the work, the carriage.
+// An error has one only where no rotary axis between the measured axis and the correcting one turns
+// the direction of the correction. Straightness has one only where the point that it is stated at
+// goes with the tool: a point of the fixture, or, where the fixture is on the side of the work, the
+// carriage.
 CorrectionSigns correction_signs(const Chain& chain, Axis axis, Sides sides, Reference reference);
 
 // The axis whose command takes the correction of a named error: 'Y' for EYX, 'A' for EAX.

@@ -55,6 +55,14 @@ Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
   return points;
 }
 
+double mean_at(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  const Reference shares = value_at(x, at);
+  double mean = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (shares[i] != 0) mean += shares[i] * y[i];
+  return mean;
+}
+
 // What is subtracted from each named error: a line for straightness, the start for angles.
 std::array<Line, 5> references(Axis axis, const std::vector<TargetMean>& mean,
                                const TableOptions& options) {
@@ -63,7 +71,7 @@ std::array<Line, 5> references(Axis axis, const std::vector<TargetMean>& mean,
   for (std::size_t k = 0; k < 5; ++k) {
     const auto y = column(mean, k);
     if (error_names(axis)[k].angle) {
-      lines[k].intercept = y.front();
+      lines[k].intercept = mean_at(x, y, options.angles_zero_m.value_or(x.front()));
     } else if (options.remove_slope) {
       lines[k] = least_squares_line(x, y);
     }
@@ -196,12 +204,14 @@ Result<TableOfMeans> table_of_means(const std::vector<Run>& measured, const Tabl
   return out;
 }
 
-std::array<std::vector<Reference>, kErrorCount> references_of(const CompensationTable& table) {
+std::array<std::vector<Reference>, kErrorCount> references_of(const CompensationTable& table,
+                                                              const TableOptions& options) {
   const std::size_t n = table.position_m.size();
+  const double zero_m = options.angles_zero_m.value_or(table.position_m.front());
   std::array<std::vector<Reference>, kErrorCount> all;
   for (std::size_t k = 0; k < kErrorCount; ++k)
     for (const double at_m : table.position_m)
-      all[k].push_back(error_names(table.axis)[k].angle ? start(n)
+      all[k].push_back(error_names(table.axis)[k].angle ? value_at(table.position_m, zero_m)
                        : table.slope_removed            ? line_at(table.position_m, at_m)
                                                         : as_measured(n));
   return all;
@@ -210,7 +220,7 @@ std::array<std::vector<Reference>, kErrorCount> references_of(const Compensation
 Result<CompensationTable> build_table(const std::vector<Run>& measured,
                                       const TableOptions& options) {
   MDOF_TRY(TableOfMeans of, table_of_means(measured, options));
-  const auto what = references_of(of.table);
+  const auto what = references_of(of.table, options);
   const MovingAxis moving{of.table.axis, of.table.sides};
   of.table.u_forward = table_uncertainty(moving, of.points, of.grid, Approach::forward, what);
   of.table.u_reverse = table_uncertainty(moving, of.points, of.grid, Approach::reverse, what);

@@ -1,6 +1,7 @@
 // Runs -> one-axis compensation table, and the table's value at a position.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "algo/iso230/target_means.h"
@@ -12,7 +13,7 @@
 namespace mdof::algo {
 
 // Mean errors at each target over all runs given (one axis, the same targets), forward and reverse
-// apart; angles referred to the first target of the mean of both approaches, straightness to its
+// apart; angles referred to the mean of both approaches at the first target, straightness to its
 // least-squares line (`remove_slope`: the slope belongs to squareness) or as measured. Targets of
 // different runs are one where they lie within 2 % of the smallest step, else it is an error.
 // Straightness holds at `stated`. Errors as of check_usable(), too.
@@ -21,6 +22,9 @@ struct TableOptions {
   bool take_partial = false;
   StatedAt stated;
   Chain machine;
+  // Where the mean of both approaches of an angle is 0, on the straight line between two targets,
+  // the ends held; none: at the first target.
+  std::optional<double> angles_zero_m = std::nullopt;
 };
 Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableOptions& options);
 // The same without u, and what it is made of.
@@ -30,10 +34,10 @@ struct TableOfMeans {
   std::vector<TargetMean> grid;       // of both approaches
 };
 Result<TableOfMeans> table_of_means(const std::vector<Run>& runs, const TableOptions& options);
-// What the values of a table refer to, as shares of the means at its positions: of each named error
-// and position the share of each position.
+// What the values of a table of these options refer to, as shares of the means at its positions: of
+// each named error and position the share of each position.
 std::array<std::vector<std::vector<double>>, kErrorCount> references_of(
-    const CompensationTable& table);
+    const CompensationTable& table, const TableOptions& options);
 // What their table makes up for, as uneven_visits(), of all runs together, counted on from one to
 // the next. Errors: other targets.
 Result<Notices> uneven_visits_of(const std::vector<Run>& runs);

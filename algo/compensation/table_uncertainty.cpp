@@ -157,9 +157,16 @@ Reference as_measured(std::size_t targets) {
   return Reference(targets, 0.0);
 }
 
-Reference start(std::size_t targets) {
-  Reference shares(targets, 0.0);
-  if (targets > 0) shares.front() = 1;
+Reference value_at(const std::vector<double>& x, double at) {
+  Reference shares(x.size(), 0.0);
+  const auto above = std::upper_bound(x.begin(), x.end(), at);
+  if (above == x.begin() || above == x.end()) {
+    shares[above == x.begin() ? 0 : x.size() - 1] = 1;
+    return shares;
+  }
+  const auto i = static_cast<std::size_t>(above - x.begin());
+  shares[i] = (at - x[i - 1]) / (x[i] - x[i - 1]);
+  shares[i - 1] = 1 - shares[i];
   return shares;
 }
 

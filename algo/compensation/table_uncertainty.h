@@ -11,8 +11,9 @@ namespace mdof::algo {
 
 // What a value refers to: a share of the mean of both approaches at each target.
 using Reference = std::vector<double>;
-Reference as_measured(std::size_t targets);                  // nothing
-Reference start(std::size_t targets);                        // the first target
+Reference as_measured(std::size_t targets);  // nothing
+// The value at a place between two targets, on the straight line; beyond them that of the end.
+Reference value_at(const std::vector<double>& x, double at);
 Reference line_at(const std::vector<double>& x, double at);  // the least-squares line
 
 // [named error][target] of one approach; NaN where it was not visited. `references`: of each named

@@ -23,27 +23,58 @@ double value_at(const ErrorFunction& f, const TablePlace& place, MachineApproach
 
 using Matrix6 = Eigen::Matrix<double, kBodyErrors, kBodyErrors>;
 
-// Root of a covariance: L Lᵀ. A pivot that rounding leaves of nothing is nothing.
+// Root of a covariance: L Lᵀ. A pivot that rounding leaves of nothing is nothing, and no part is
+// larger than what is left of its variance, should rounding have made the matrix indefinite.
 Matrix6 root_of(const Matrix6& covariance) {
   constexpr double kNothing = 1e-12;  // of the variance
   Matrix6 L = Matrix6::Zero();
+  const auto left = [&](Eigen::Index k, Eigen::Index q) {
+    return covariance(k, k) - L.row(k).head(q).squaredNorm();
+  };
   for (Eigen::Index q = 0; q < L.rows(); ++q) {
-    const double pivot = covariance(q, q) - L.row(q).head(q).squaredNorm();
+    const double pivot = left(q, q);
     if (!(pivot > kNothing * covariance(q, q))) continue;
     L(q, q) = std::sqrt(pivot);
-    for (Eigen::Index k = q + 1; k < L.rows(); ++k)
-      L(k, q) = (covariance(k, q) - L.row(k).head(q).dot(L.row(q).head(q))) / L(q, q);
+    for (Eigen::Index k = q + 1; k < L.rows(); ++k) {
+      const double most = std::sqrt(std::max(0.0, left(k, q)));
+      const double part = (covariance(k, q) - L.row(k).head(q).dot(L.row(q).head(q))) / L(q, q);
+      L(k, q) = std::clamp(part, -most, most);
+    }
   }
   return L;
 }
 
+Matrix6 matrix_of(const Covariance6& covariance) {
+  Matrix6 matrix;
+  for (std::size_t k = 0; k < kBodyErrors; ++k)
+    for (std::size_t l = 0; l < kBodyErrors; ++l)
+      matrix(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) = covariance[k][l];
+  return matrix;
+}
+
+// The covariance between two positions: a mean of theirs, whose variances are made those that
+// `u_between` gives of two standard uncertainties.
+template <class UBetween>
+Matrix6 between(const std::vector<Covariance6>& by_position, const TablePlace& place,
+                UBetween u_between) {
+  const Matrix6 low = matrix_of(by_position[place.cell]);
+  if (place.part == 0) return low;
+  const Matrix6 high = matrix_of(by_position[place.cell + 1]);
+  if (place.part == 1) return high;
+  const Matrix6 mean = low + (high - low) * place.part;
+  Eigen::Matrix<double, kBodyErrors, 1> scale;
+  for (Eigen::Index k = 0; k < scale.rows(); ++k)
+    scale(k) = mean(k, k) > 0
+                   ? u_between(std::sqrt(low(k, k)), std::sqrt(high(k, k))) / std::sqrt(mean(k, k))
+                   : 0;
+  return scale.asDiagonal() * mean * scale.asDiagonal();
+}
+
 using SharedErrors = std::vector<std::array<double, kBodyErrors>>;
 
-SharedErrors shared_at(const ErrorCorrelation& correlation, double at) {
+SharedErrors shared_at(const ErrorCovariance& covariance, const TablePlace& place) {
   SharedErrors all;
-  if (correlation.shared.empty()) return all;
-  const TablePlace place = place_of(correlation.position, at);
-  for (const SharedPart& part : correlation.shared) {
+  for (const SharedPart& part : covariance.shared) {
     const auto& low = part.at[place.cell];
     const auto& high = part.at[std::min(place.cell + 1, part.at.size() - 1)];
     auto& here = all.emplace_back();
@@ -53,24 +84,41 @@ SharedErrors shared_at(const ErrorCorrelation& correlation, double at) {
   return all;
 }
 
-// Without the shared parts.
-Matrix6 parts_of(const ErrorCorrelation& correlation, double at,
-                 const std::array<double, kBodyErrors>& u, const SharedErrors& shared) {
-  if (correlation.at.empty())
-    return Matrix6(Eigen::Map<const Eigen::Matrix<double, kBodyErrors, 1>>(u.data()).asDiagonal());
-  const TablePlace place = place_of(correlation.position, at);
-  const auto& low = correlation.at[place.cell];
-  const auto& high = correlation.at[std::min(place.cell + 1, correlation.at.size() - 1)];
-  Matrix6 covariance;
-  for (std::size_t k = 0; k < kBodyErrors; ++k)
-    for (std::size_t l = 0; l < kBodyErrors; ++l)
-      covariance(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) =
-          u[k] * u[l] * (low[k][l] + (high[k][l] - low[k][l]) * place.part);
-  for (const auto& part : shared) {
-    const Eigen::Map<const Eigen::Matrix<double, kBodyErrors, 1>> by(part.data());
-    covariance -= by * by.transpose();
+// What a straight line between two positions may miss.
+double u_interpolation(const ErrorFunction& f, const TablePlace& place, double at) {
+  if (place.cell >= f.curvature.size() || place.beyond) return 0;
+  return 0.5 * (at - f.position[place.cell]) * (f.position[place.cell + 1] - at) *
+         f.curvature[place.cell];
+}
+
+double squared(double x) {
+  return x * x;
+}
+
+// u of the errors of the body, as FrameValues has it.
+void set_uncertainty(const MachineFrame& frame, double at, FrameValues& v) {
+  const ErrorCovariance& known = frame.covariance;
+  Matrix6 all = Matrix6::Zero(), noise = Matrix6::Zero();
+  if (!known.position.empty()) {
+    const TablePlace place = place_of(known.position, at);
+    const auto larger = [](double a, double b) { return std::max(a, b); };
+    const auto linear = [&](double a, double b) { return a + (b - a) * place.part; };
+    all = between(known.noise, place, larger) + between(known.declared, place, larger);
+    noise = between(known.noise, place, linear);
+    v.shared = shared_at(known, place);
   }
-  return root_of(covariance);
+  for (std::size_t k = 0; k < kBodyErrors; ++k) {
+    const ErrorFunction& f = frame.error[k];
+    const TablePlace place = place_of(f.position, at);
+    const auto kk = static_cast<Eigen::Index>(k);
+    if (!known.has[k]) {
+      all(kk, kk) = squared(value_at(f.u, place));
+      noise(kk, kk) = squared(value_at(f.u_independent, place));
+    }
+    if (!f.u.empty()) all(kk, kk) += squared(u_interpolation(f, place, at));
+  }
+  v.u_parts = root_of(all);
+  v.noise_parts = root_of(noise);
 }
 
 // Of the line of an axis; of angles, by the rotations one after the other.
@@ -117,22 +165,17 @@ double travel_of(const MachineFrame& frame, const Command& command) {
 
 FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach) {
   FrameValues v;
-  std::array<double, kBodyErrors> u_noise{};
   const double at = command_of(frame, command);
   v.travel = travel_of(frame, command);
   for (std::size_t k = 0; k < kBodyErrors; ++k) {
     const ErrorFunction& f = frame.error[k];
     const TablePlace place = place_of(f.position, at);
     v.error[k] = value_at(f, place, approach);
-    v.u_error[k] = value_at(f.u, place);
     v.beyond[k] = f.known() && place.beyond;
     v.location[k] = frame.location[k].value.value_or(0);
     v.u_location[k] = frame.location[k].u.value_or(0);
-    u_noise[k] = value_at(f.u_independent, place);
   }
-  v.shared = shared_at(frame.correlation, at);
-  v.u_parts = parts_of(frame.correlation, at, v.u_error, v.shared);
-  v.noise_parts = parts_of(frame.noise_correlation, at, u_noise, {});
+  set_uncertainty(frame, at, v);
   return v;
 }
 

@@ -19,11 +19,11 @@ struct FrameValues {
   double travel = 0;                             // of the body along + of its axis, m or rad
   std::array<double, kBodyErrors> error{};       // 0 where it is not measured
   std::array<double, kBodyErrors> location{};    // the same
-  std::array<double, kBodyErrors> u_error{};     // 0 where it is not declared
-  std::array<double, kBodyErrors> u_location{};  // the same
+  std::array<double, kBodyErrors> u_location{};  // 0 where it is not declared
   // u of the errors of the body as independent parts: what one standard uncertainty of part q does
-  // to error k is (k, q); lower triangle, the diagonal of u_error where none are correlated. Beside
-  // them `shared`: parts that other frames have too, by number.
+  // to error k is (k, q); lower triangle, a diagonal where none are correlated. Between positions
+  // it is the larger of theirs and what a straight line misses. Beside them `shared`: parts that
+  // other frames have too, by number.
   Eigen::Matrix<double, kBodyErrors, kBodyErrors> u_parts =
       Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
   std::vector<std::array<double, kBodyErrors>> shared;

@@ -154,7 +154,7 @@ GridVariances::GridVariances(const Machine& machine, const GridPlan& plan)
       first_part_(parts_of_range(plan.first_m)),
       second_part_(parts_of_range(plan.second_m)) {
   for (const MachineFrame& frame : machine.frames)
-    shared_ = std::max(shared_, frame.correlation.shared.size());
+    shared_ = std::max(shared_, frame.covariance.shared.size());
   for (std::size_t i = 0; i < plan.first_m.size(); ++i) {
     of_first_.push_back(parabola(plan.command(i, 0), plan.second, plan.second_m, true));
     shared_of_first_.push_back(lines(plan.command(i, 0), plan.second, plan.second_m, true));

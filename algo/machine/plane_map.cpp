@@ -79,7 +79,14 @@ Result<std::array<double, 2>> range_of(const MachineFrame& frame) {
 
 Machine without_angles(Machine machine) {
   for (MachineFrame& frame : machine.frames)
-    for (std::size_t k = 3; k < kBodyErrors; ++k) frame.error[k] = {{}, {0}, {}, {0}, {}};
+    for (std::size_t k = 3; k < kBodyErrors; ++k) {
+      frame.error[k] = {{}, {0}, {}, {0}, {}};
+      for (auto* by_position : {&frame.covariance.noise, &frame.covariance.declared})
+        for (Covariance6& at : *by_position)
+          for (std::size_t l = 0; l < kBodyErrors; ++l) at[k][l] = at[l][k] = 0;
+      for (SharedPart& part : frame.covariance.shared)
+        for (auto& at : part.at) at[k] = 0;
+    }
   return machine;
 }
 

@@ -67,8 +67,7 @@ void add_shared(const Machine& machine, const std::vector<ErrorDerivative>& all,
     const auto& shared = values[d.frame].shared;
     for (std::size_t s = 0; s < shared.size() && !d.of_line; ++s) {
       if (causes.axes.size() <= first + s)
-        causes.axes.push_back(
-            new_cause(machine.frames[d.frame].correlation.shared[s].name, points));
+        causes.axes.push_back(new_cause(machine.frames[d.frame].covariance.shared[s].name, points));
       causes.axes[first + s].u_m[p] += d.d.head<3>() * shared[s][d.k];
     }
   }

@@ -29,24 +29,31 @@ struct ErrorFunction {
   std::string file;              // where it stands, as MACHINE.toml names it; empty: here
   // The part of u that is independent from position to position, as noise; empty: none is known.
   std::vector<double> u_independent{};
+  // Of each interval, 1/m or rad/m²: what u adds between two positions, as a straight line misses
+  // the error there: ½ (x - x_i) (x_{i+1} - x) curvature; empty: none.
+  std::vector<double> curvature{};
 
   bool known() const { return !forward.empty(); }
 };
 
 // What one standard uncertainty of a quantity, which the errors of other bodies have too, does to
-// the six errors of a body. [position of ErrorCorrelation]
+// the six errors of a body; linear between the positions. [position of ErrorCovariance]
 struct SharedPart {
   std::string name;  // "probe A: sensitivity"
   std::vector<std::array<double, kBodyErrors>> at;
 };
 
-// Coefficients of correlation of the errors of a body that one set of probes has shown, by the
-// command, linear between the positions. Empty: each error is independent of the others.
-struct ErrorCorrelation {
-  std::vector<double> position;  // m or rad, strictly increasing
-  std::vector<std::array<std::array<double, kBodyErrors>, kBodyErrors>> at;
-  // Part of it: number p is the same quantity in all frames that have any.
-  std::vector<SharedPart> shared;
+using Covariance6 = std::array<std::array<double, kBodyErrors>, kBodyErrors>;
+
+// Covariance of the errors of a body that one set of probes has shown, by the command: the sum of
+// `noise`, `declared` and the squares of `shared`. Each is kept apart, so that none is found as the
+// difference of two large ones.
+struct ErrorCovariance {
+  std::vector<double> position;         // m or rad, strictly increasing; empty: nothing is known
+  std::array<bool, kBodyErrors> has{};  // the errors it is of; each other has its own u alone
+  std::vector<Covariance6> noise;       // independent from position to position
+  std::vector<Covariance6> declared;    // without `shared`
+  std::vector<SharedPart> shared;       // number p is the same quantity in all frames that have any
 };
 
 // Of where the line of an axis lies: a squareness, a place of a rotary axis.
@@ -86,8 +93,7 @@ struct MachineFrame {
   double ratio = 0;
   std::array<ErrorFunction, kBodyErrors> error;
   std::array<LocationError, kBodyErrors> location;
-  ErrorCorrelation correlation;                // of the errors of the body
-  ErrorCorrelation noise_correlation;          // of the parts u_independent
+  ErrorCovariance covariance;                  // of the errors of the body
   std::optional<std::array<double, 2>> range;  // of the command that is used, m or rad
   // Where a linear axis stood while the others were measured: its angles of stored runs and tables
   // are 0 there, as what they were there is in the squareness of the others. m; none: 0 is assumed.

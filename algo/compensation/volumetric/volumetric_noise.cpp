@@ -8,7 +8,7 @@
 namespace mdof::algo {
 namespace {
 
-using Covariance6 = Eigen::Matrix<double, kBodyErrors, kBodyErrors>;
+using Matrix6 = Eigen::Matrix<double, kBodyErrors, kBodyErrors>;
 using EffectOnTool = Eigen::Matrix<double, 3, kBodyErrors>;
 
 // The other two axes of an axis, in the order X, Y, Z.
@@ -40,8 +40,7 @@ AffineEffect effect_of(const Machine& machine, std::size_t frame, Command comman
 }
 
 // By component of the tool: (a.of[0] + a.of[1] p + a.of[2] q) covariance (b.of[0] + …)ᵀ.
-std::array<AxisNoise::SquareForm, 3> square_forms(const AffineEffect& a,
-                                                  const Covariance6& covariance,
+std::array<AxisNoise::SquareForm, 3> square_forms(const AffineEffect& a, const Matrix6& covariance,
                                                   const AffineEffect& b) {
   std::array<AxisNoise::SquareForm, 3> forms{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -60,36 +59,28 @@ double weight_of(const TablePlace& place, std::size_t target) {
   return target == place.cell + 1 ? place.part : 0;
 }
 
-double correlation_at(const ErrorCorrelation& correlation, double at, std::size_t k,
-                      std::size_t l) {
-  if (k == l) return 1;
-  if (correlation.at.empty()) return 0;
-  const TablePlace place = place_of(correlation.position, at);
-  const auto& low = correlation.at[place.cell];
-  const auto& high = correlation.at[std::min(place.cell + 1, correlation.at.size() - 1)];
-  return low[k][l] + (high[k][l] - low[k][l]) * place.part;
-}
-
 // Of the noise of error k at one command with that of error l at another: what both have of the
 // same targets.
 double covariance_of(const MachineFrame& frame, std::size_t k, std::size_t l, double at,
                      double there) {
-  const ErrorFunction &f = frame.error[k], &g = frame.error[l];
-  if (f.u_independent.empty() || g.u_independent.empty() || f.position != g.position) return 0;
-  const TablePlace here = place_of(f.position, at), next = place_of(g.position, there);
+  const ErrorCovariance& known = frame.covariance;
+  const ErrorFunction& f = frame.error[k];
+  const bool together = known.has[k] && known.has[l];
+  if (!together && (k != l || f.u_independent.empty())) return 0;
+  const std::vector<double>& targets = together ? known.position : f.position;
+  const TablePlace here = place_of(targets, at), next = place_of(targets, there);
   double sum = 0;
-  for (std::size_t t = here.cell; t < std::min(here.cell + 2, f.u_independent.size()); ++t) {
+  for (std::size_t t = here.cell;
+       t < std::min(here.cell + 2, std::max<std::size_t>(targets.size(), 1)); ++t) {
     const double weights = weight_of(here, t) * weight_of(next, t);
-    if (weights == 0) continue;
-    const double target = f.position.empty() ? at : f.position[t];
-    sum += weights * f.u_independent[t] * g.u_independent[t] *
-           correlation_at(frame.noise_correlation, target, k, l);
+    if (weights != 0)
+      sum += weights * (together ? known.noise[t][k][l] : f.u_independent[t] * f.u_independent[t]);
   }
   return sum;
 }
 
-Covariance6 covariance_between(const MachineFrame& frame, double at, double there) {
-  Covariance6 all;
+Matrix6 covariance_between(const MachineFrame& frame, double at, double there) {
+  Matrix6 all;
   for (std::size_t k = 0; k < kBodyErrors; ++k)
     for (std::size_t l = 0; l < kBodyErrors; ++l)
       all(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) =
@@ -106,7 +97,7 @@ std::vector<AxisNoise> noise_of_axis(const Machine& machine, std::size_t frame,
   for (std::size_t i = 0; i < commands_m.size(); ++i) {
     command[of.direction] = commands_m[i];
     const AffineEffect effect = effect_of(machine, frame, command, of.direction);
-    const Covariance6& parts = values_at(of, command, approach).noise_parts;
+    const Matrix6& parts = values_at(of, command, approach).noise_parts;
     if (before)
       noise.back().with_next =
           square_forms(*before, covariance_between(of, commands_m[i - 1], commands_m[i]), effect);

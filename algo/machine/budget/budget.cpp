@@ -58,7 +58,7 @@ void add_shared(BudgetModel& model) {
     for (std::size_t i = 0; i < model.values.size(); ++i) {
       const FrameValues& v = model.values[i];
       if (p >= v.shared.size()) continue;
-      cause.name = model.machine.frames[i].correlation.shared[p].name + ", shared by the axes";
+      cause.name = model.machine.frames[i].covariance.shared[p].name + ", shared by the axes";
       for (std::size_t k = 0; k < kBodyErrors; ++k)
         if (v.shared[p][k] != 0) cause.effects.push_back({i, k, false, v.shared[p][k]});
     }
@@ -178,7 +178,7 @@ Result<BudgetModel> budget_model(const Machine& machine, const Command& at,
   if (stage == BudgetStage::designed)
     for (MachineFrame& frame : model.machine.frames) {
       frame.error = {};
-      frame.correlation = {};
+      frame.covariance = {};
       frame.location = {};
     }
   model.values = values_at(model.machine, at, approach);

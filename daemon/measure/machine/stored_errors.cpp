@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "algo/compensation/error_correlation.h"
+#include "algo/compensation/error_covariance.h"
 #include "algo/compensation/imported_table.h"
 #include "algo/compensation/shared_quantities.h"
 #include "daemon/measure/evaluation.h"
@@ -85,20 +85,25 @@ struct TakenTables {
   Notices doubtful;
 };
 
-// The correlation of its errors, by the runs that it was built from.
-Status take_correlation(store::Store& store, MachineFrame& frame, const CompensationTable& table,
-                        TakenTables& taken) {
-  algo::BuiltFrom of{table, {}, {}, {table.slope_removed, true, table.stated, table.machine}};
+// The covariance of its errors, by the runs that it was built from, with the angles 0 where the
+// axis stood when the others were measured.
+Status take_covariance(store::Store& store, MachineFrame& frame, const CompensationTable& table,
+                       double zero_m, TakenTables& taken) {
+  algo::BuiltFrom of{{}, {}, {}, {table.slope_removed, true, table.stated, table.machine, zero_m}};
   for (const std::int64_t id : table.runs) {
     MDOF_TRY(Run run, store.run(id));
     MDOF_TRY(Rig rig, rig_of(run.header));
     of.runs.push_back(std::move(run));
     of.rigs.push_back(std::move(rig));
   }
-  const auto all = algo::error_correlations(table, of.rigs, of.runs, of.options);
-  if (!all) return {};  // as what the rigs declare: building the table has said why
-  frame.correlation = correlation_of(table, all->combined);
-  frame.noise_correlation = correlation_of(table, all->noise);
+  MDOF_TRY(of.table, algo::build_table(of.runs, of.options));
+  const auto all = algo::error_covariances(of.table, of.rigs, of.runs, of.options);
+  if (!all || of.table.position_m != table.position_m) {
+    // As what the rigs declare: building the table has said why.
+    for (std::size_t k = 3; k < kBodyErrors; ++k) bound_angle_u(frame.error[k], zero_m);
+    return {};
+  }
+  set_covariance(frame, of.table, *all);
   taken.frames.push_back(&frame);
   taken.built_from.push_back(std::move(of));
   return {};
@@ -109,15 +114,9 @@ void take_shared(const TakenTables& taken) {
   const auto parts = algo::shared_quantities(taken.built_from);
   if (!parts) return;  // as what the rigs declare: building the table has said why
   for (const algo::SharedQuantity& part : *parts)
-    for (std::size_t t = 0; t < taken.frames.size(); ++t) {
-      SharedPart& shared = taken.frames[t]->correlation.shared.emplace_back();
-      shared.name = contributor_text(part.name);
-      for (const Errors5& named : part.by_table[t]) {
-        auto& at = shared.at.emplace_back();
-        for (std::size_t k = 0; k < kErrorCount; ++k)
-          at[body_error_of(taken.built_from[t].table, k)] = named[k];
-      }
-    }
+    for (std::size_t t = 0; t < taken.frames.size(); ++t)
+      add_shared(*taken.frames[t], taken.built_from[t].table, contributor_text(part.name),
+                 part.by_table[t]);
 }
 
 Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
@@ -158,7 +157,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
     if (error_names(table.axis)[named].angle) refer_angle(function, zero_m);
     MDOF_CHECK(take(frame, body_error_of(table, named), std::move(function)));
   }
-  return take_correlation(store, frame, table, taken);
+  return take_covariance(store, frame, table, zero_m, taken);
 }
 
 void add_new(const std::vector<std::int64_t>& from, std::vector<std::int64_t>& to) {

@@ -1,8 +1,11 @@
 #include "daemon/measure/machine/table_functions.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
+#include "algo/compensation/between_targets.h"
+#include "algo/compensation/table_uncertainty.h"
 #include "schema/sample.h"
 
 namespace mdof::daemon {
@@ -28,25 +31,30 @@ ErrorFunction function_of(const std::vector<double>& position, const std::vector
   }
   for (double& each : f.u)
     if (!std::isfinite(each)) each = largest;
+  const auto curvature = [&](const std::vector<double>& values) {
+    return algo::curvatures(f.position, values, f.u_independent);
+  };
+  if (!f.u.empty() && f.position.size() > 2)
+    f.curvature = larger(curvature(f.forward), curvature(f.reverse));
   return f;
 }
 
 void refer_angle(ErrorFunction& f, double zero_m) {
   if (f.position.empty() || zero_m <= f.position.front()) return;
-  std::size_t above = 0;
-  while (above + 1 < f.position.size() && f.position[above] < zero_m) ++above;
-  const std::size_t below = above > 0 ? above - 1 : 0;
-  const double step = f.position[above] - f.position[below];
-  const double share = step > 0 ? std::fmin(1, (zero_m - f.position[below]) / step) : 1;
-  const auto there = [&](const auto& value) {
-    return value(below) + (value(above) - value(below)) * share;
-  };
-  const double mean = there([&](std::size_t i) { return (f.forward[i] + f.reverse[i]) / 2; });
+  const std::vector<double> shares = algo::value_at(f.position, zero_m);
+  double mean = 0;
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    mean += shares[i] * (f.forward[i] + f.reverse[i]) / 2;
   for (auto* values : {&f.forward, &f.reverse})
     for (double& x : *values) x -= mean;
-  if (f.u.empty()) return;
-  const double u = there([&](std::size_t i) { return f.u[i]; });
-  for (double& x : f.u) x = std::hypot(x, u);
+}
+
+void bound_angle_u(ErrorFunction& f, double zero_m) {
+  if (f.u.empty() || zero_m <= f.position.front()) return;
+  const std::vector<double> shares = algo::value_at(f.position, zero_m);
+  double there = 0;
+  for (std::size_t i = 0; i < shares.size(); ++i) there += shares[i] * f.u[i];
+  for (double& u : f.u) u += there;
 }
 
 std::vector<double> larger(const std::vector<double>& forward, const std::vector<double>& reverse) {
@@ -64,18 +72,60 @@ std::size_t body_error_of(const CompensationTable& table, std::size_t named) {
   return std::string_view("XYZABC").find(error_names(table.axis)[named].name[1]);
 }
 
-ErrorCorrelation correlation_of(const CompensationTable& table,
-                                const std::vector<Covariance5>& by_row) {
-  ErrorCorrelation correlation;
-  correlation.position = table.position_m;
-  for (const Covariance5& named : by_row) {
-    auto& at = correlation.at.emplace_back();
-    for (std::size_t k = 0; k < kBodyErrors; ++k) at[k][k] = 1;
+namespace {
+
+std::array<std::size_t, kErrorCount> body_errors_of(const CompensationTable& table) {
+  std::array<std::size_t, kErrorCount> of{};
+  for (std::size_t named = 0; named < kErrorCount; ++named) of[named] = body_error_of(table, named);
+  return of;
+}
+
+}  // namespace
+
+void set_covariance(MachineFrame& frame, const CompensationTable& table,
+                    const algo::ErrorCovariances& covariances) {
+  const auto of = body_errors_of(table);
+  ErrorCovariance& all = frame.covariance;
+  all.position = table.position_m;
+  const auto body = [&](const Covariance5& named) {
+    Covariance6 at{};
     for (std::size_t k = 0; k < kErrorCount; ++k)
       for (std::size_t l = 0; l < kErrorCount; ++l)
-        at[body_error_of(table, k)][body_error_of(table, l)] = named[k * kErrorCount + l];
+        if (all.has[of[k]] && all.has[of[l]]) at[of[k]][of[l]] = named[k * kErrorCount + l];
+    return at;
+  };
+  for (const std::size_t k : of) all.has[k] = !frame.error[k].u.empty();
+  for (std::size_t row = 0; row < all.position.size(); ++row) {
+    all.noise.push_back(body(covariances.noise[row]));
+    all.declared.push_back(
+        body(covariances.declared.empty() ? Covariance5{} : covariances.declared[row]));
   }
-  return correlation;
+  for (const std::size_t k : of) {
+    ErrorFunction& f = frame.error[k];
+    std::size_t row = 0;
+    for (std::size_t i = 0; all.has[k] && i < f.position.size(); ++i) {
+      while (all.position[row] < f.position[i]) ++row;  // an error may lack rows of the table
+      f.u_independent[i] = std::sqrt(all.noise[row][k][k]);
+      f.u[i] = std::sqrt(all.noise[row][k][k] + all.declared[row][k][k]);
+    }
+  }
+}
+
+void add_shared(MachineFrame& frame, const CompensationTable& table, const std::string& name,
+                const std::vector<Errors5>& by_row) {
+  const auto of = body_errors_of(table);
+  ErrorCovariance& all = frame.covariance;
+  SharedPart& shared = all.shared.emplace_back();
+  shared.name = name;
+  for (std::size_t row = 0; row < by_row.size(); ++row) {
+    auto& at = shared.at.emplace_back();
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      if (all.has[of[k]]) at[of[k]] = by_row[row][k];
+    for (std::size_t k = 0; k < kBodyErrors; ++k)
+      for (std::size_t l = 0; l < kBodyErrors; ++l) all.declared[row][k][l] -= at[k] * at[l];
+    for (std::size_t k = 0; k < kBodyErrors; ++k)  // below 0: rounding
+      all.declared[row][k][k] = std::fmax(all.declared[row][k][k], 0);
+  }
 }
 
 bool is_beyond(const std::vector<double>& position_m, double at_m) {

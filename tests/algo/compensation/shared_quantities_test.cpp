@@ -65,21 +65,23 @@ BuiltFrom built(Axis axis, double off, const std::string& certificate = "1") {
 Machine both_axes(const std::vector<BuiltFrom>& tables) {
   Machine machine;
   for (const BuiltFrom& of : tables) {
-    const auto together = error_correlations(of.table, of.rigs, of.runs, of.options).value();
-    const Machine one = test::machine_of(of.table, kToolPlace_m, together.combined);
+    const auto together = error_covariances(of.table, of.rigs, of.runs, of.options).value();
+    const Machine one = test::machine_of(of.table, kToolPlace_m, together);
     machine.tool_m = one.tool_m;
     machine.frames.push_back(one.frames.front());
   }
   const auto shared = shared_quantities(tables).value();
   for (const SharedQuantity& quantity : shared)
     for (std::size_t t = 0; t < tables.size(); ++t) {
-      auto& part = machine.frames[t].correlation.shared.emplace_back();
+      ErrorCovariance& all = machine.frames[t].covariance;
+      auto& part = all.shared.emplace_back();
       part.name = contributor_text(quantity.name);
-      for (const Errors5& named : quantity.by_table[t]) {
+      for (std::size_t row = 0; row < quantity.by_table[t].size(); ++row) {
         auto& at = part.at.emplace_back();
         for (std::size_t k = 0; k < kErrorCount; ++k)
           at[std::string_view("XYZABC").find(error_names(tables[t].table.axis)[k].name[1])] =
-              named[k];
+              quantity.by_table[t][row][k];
+        all.declared[row] = {};  // nothing else is declared, and there is no noise
       }
     }
   return machine;
@@ -99,8 +101,8 @@ TEST(SharedQuantities, AProbeOfTwoAxesMovesTheToolByBothTogether) {
   const Eigen::Vector3d moved =
       (tool_of({built(Axis::x, 1e-3), built(Axis::y, 1e-3)}) - tool_of(tables)).cwiseAbs();
   Machine machine = both_axes(tables);
-  ASSERT_EQ(machine.frames[0].correlation.shared.size(), 1u);
-  EXPECT_EQ(machine.frames[1].correlation.shared[0].name, "probe B: sensitivity");
+  ASSERT_EQ(machine.frames[0].covariance.shared.size(), 1u);
+  EXPECT_EQ(machine.frames[1].covariance.shared[0].name, "probe B: sensitivity");
   const Command at = command_at_row(tables);
   const Eigen::Vector3d u = tool_error(machine, at, MachineApproach::forward).u.head<3>();
   const auto budget =
@@ -116,7 +118,12 @@ TEST(SharedQuantities, AProbeOfTwoAxesMovesTheToolByBothTogether) {
     EXPECT_NEAR(std::sqrt(square), moved(c), 2e-3 * moved(c)) << c;
   }
   // The control: taken as two probes.
-  for (MachineFrame& frame : machine.frames) frame.correlation.shared.clear();
+  for (std::size_t t = 0; t < tables.size(); ++t) {
+    const auto alone =
+        error_covariances(tables[t].table, tables[t].rigs, tables[t].runs, tables[t].options);
+    machine.frames[t].covariance =
+        test::machine_of(tables[t].table, kToolPlace_m, *alone).frames.front().covariance;
+  }
   const Eigen::Vector3d apart = tool_error(machine, at, MachineApproach::forward).u.head<3>();
   EXPECT_GT(std::abs(apart.z() / moved.z() - 1), 0.1);
 }

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <limits>
 
-#include "algo/compensation/error_correlation.h"
+#include "algo/compensation/error_covariance.h"
 #include "algo/machine/tool_error.h"
 #include "schema/machine/machine.h"
 
@@ -23,8 +23,9 @@ inline Eigen::Vector3d moved_by(const CompensationTable& table, std::size_t row,
 }
 
 // One axis that carries the tool at `point_m`, with the table's errors about the fixture.
+// `covariances`: empty: each error has its u alone.
 inline Machine machine_of(const CompensationTable& table, const Eigen::Vector3d& point_m,
-                          const std::vector<Covariance5>& correlations) {
+                          const algo::ErrorCovariances& covariances) {
   Machine machine;
   machine.tool_m = {point_m.x(), point_m.y(), point_m.z()};
   MachineFrame& frame = machine.frames.emplace_back();
@@ -41,12 +42,20 @@ inline Machine machine_of(const CompensationTable& table, const Eigen::Vector3d&
     for (std::size_t row = 0; row < table.position_m.size(); ++row)
       f.u.push_back(table.u_of(table.u_forward, k, row));
   }
-  for (const Covariance5& c : correlations) {
-    auto& at = frame.correlation.at.emplace_back();
+  if (covariances.noise.empty()) return machine;
+  ErrorCovariance& all = frame.covariance;
+  all.position = table.position_m;
+  for (const std::size_t k : of) all.has[k] = true;
+  for (std::size_t row = 0; row < table.position_m.size(); ++row) {
+    all.noise.emplace_back();
+    all.declared.emplace_back();
     for (std::size_t k = 0; k < kErrorCount; ++k)
-      for (std::size_t l = 0; l < kErrorCount; ++l) at[of[k]][of[l]] = c[k * kErrorCount + l];
+      for (std::size_t l = 0; l < kErrorCount; ++l) {
+        all.noise[row][of[k]][of[l]] = covariances.noise[row][k * kErrorCount + l];
+        if (!covariances.declared.empty())
+          all.declared[row][of[k]][of[l]] = covariances.declared[row][k * kErrorCount + l];
+      }
   }
-  if (!correlations.empty()) frame.correlation.position = table.position_m;
   return machine;
 }
 

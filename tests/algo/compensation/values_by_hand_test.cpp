@@ -73,7 +73,7 @@ TEST(TableUncertaintyByHand, OfValuesAsTheyWereMeasured) {
 
 // The mean of both ways at the start has a half of each.
 TEST(TableUncertaintyByHand, AgainstTheStart) {
-  const std::vector<Reference> from_start(3, start(3));
+  const std::vector<Reference> from_start(3, Reference{1, 0, 0});
   const double of_start = (kOfForward + kOfReverse) / 4;
   const auto later = [&](double own) { return own + of_start + kApart; };
   expect_u(u_by_hand(visits_of_table(), Approach::forward, from_start),
@@ -88,7 +88,7 @@ TEST(TableUncertaintyByHand, VisitsOfARunAreAveraged) {
   auto points = visits_of_table();
   const auto once = points;
   points.insert(points.end(), once.begin(), once.end());
-  const std::vector<Reference> from_start(3, start(3));
+  const std::vector<Reference> from_start(3, Reference{1, 0, 0});
   const double forward = kOfForward / 4, of_start = (kOfForward + kOfReverse) / 16;
   expect_u(u_by_hand(points, Approach::forward, from_start),
            {of_start + kApart, forward + of_start + kApart, forward + of_start + kApart});
@@ -118,9 +118,9 @@ TEST(TableUncertaintyByHand, OfOneWayAlone) {
   auto points = visits_of_table();
   std::erase_if(points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
   const auto against_start =
-      u_by_hand(points, Approach::forward, std::vector<Reference>(3, start(3)));
+      u_by_hand(points, Approach::forward, std::vector<Reference>(3, Reference{1, 0, 0}));
   expect_u(against_start, {0, 2 * kOfForward, 2 * kOfForward});
-  const auto back = u_by_hand(points, Approach::reverse, std::vector<Reference>(3, start(3)));
+  const auto back = u_by_hand(points, Approach::reverse, std::vector<Reference>(3, Reference{1, 0, 0}));
   for (const auto& of_error : back)
     for (const double u : of_error) EXPECT_TRUE(std::isnan(u));
 }
@@ -134,7 +134,7 @@ TEST(TableUncertaintyByHand, OfASingleRunIsItsNoise) {
       p.errors.covariance[6 * k] = static_cast<double>((k + 1) * (k + 1)) * 0.25;
   expect_u(u_by_hand(points, Approach::reverse, std::vector<Reference>(3, as_measured(3))),
            {0.25, 0.25, 0.25});
-  expect_u(u_by_hand(points, Approach::forward, std::vector<Reference>(3, start(3))),
+  expect_u(u_by_hand(points, Approach::forward, std::vector<Reference>(3, Reference{1, 0, 0})),
            {0.25 * (0.25 + 0.25), 0.25 * 1.5, 0.25 * 1.5});
 }
 

@@ -21,21 +21,24 @@ void declare_u(Machine& machine, test::RandomMachines& random) {
       if (frame.location[k].value) frame.location[k].u = random.between(0, 1e-6);
     }
     if (frame.kind != FrameKind::linear) continue;
-    frame.correlation.position = {0, 0.3};
-    frame.correlation.at.resize(2);
+    ErrorCovariance& all = frame.covariance;
+    all.position = {0, 0.3};
     for (std::size_t p = 0; p < 3; ++p) {  // what the axes share: a probe's scale
-      SharedPart& part = frame.correlation.shared.emplace_back();
+      SharedPart& part = all.shared.emplace_back();
       part.at.resize(2);
       for (auto& at : part.at)
         for (double& e : at) e = random.between(-3e-7, 3e-7);
     }
-    for (auto& matrix : frame.correlation.at) {
-      const double rho = random.between(-0.15, 0.95);
-      for (std::size_t k = 0; k < kBodyErrors; ++k) {
-        matrix[k].fill(rho);
-        matrix[k][k] = 1;
+    for (std::size_t k = 0; k < kBodyErrors; ++k) all.has[k] = !frame.error[k].u.empty();
+    for (auto* by_position : {&all.noise, &all.declared})
+      for (std::size_t i = 0; i < 2; ++i) {
+        const double rho = random.between(-0.15, 0.95);
+        Covariance6& matrix = by_position->emplace_back();
+        for (std::size_t k = 0; k < kBodyErrors; ++k)
+          for (std::size_t l = 0; l < kBodyErrors; ++l)
+            if (all.has[k] && all.has[l])
+              matrix[k][l] = (k == l ? 1 : rho) * frame.error[k].u[0] * frame.error[l].u[0];
       }
-    }
   }
 }
 

@@ -241,7 +241,7 @@ void count_table(Coverage& coverage, const Rig& rig, const Run& run, const Run& 
     count(coverage, std::string("table ") + error_names(run.header.axis)[k].name,
           table.forward[k][kWatched - 1], true_table.forward[k][kWatched - 1],
           kTwoSided * table.u_of(table.u_forward, k, kWatched - 1));
-  const auto together = algo::error_correlations(table, {rig}, {run}, options).value().combined;
+  const auto together = algo::error_covariances(table, {rig}, {run}, options).value();
   for (const Eigen::Vector3d& p : {kTool_m, kFar_m}) {
     const Eigen::Vector3d u =
         test::u_of_tool(test::machine_of(table, p, together), table, kWatched - 1);

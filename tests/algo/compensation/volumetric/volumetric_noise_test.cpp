@@ -64,7 +64,7 @@ TEST(VolumetricNoise, IsThatOfTheSumOfTwoNodesAxisByAxis) {
 
 // EYX and ECX of X at 0, 10, 20 mm; nodes at 4, 7 and 13 mm. Those at 4 and 7 mm share the targets
 // at 0 (0.6 · 0.3) and 10 mm (0.4 · 0.7), those at 7 and 13 mm the one at 10 mm (0.7 · 0.7). The
-// correlation goes from 0.2 at 4 mm to -0.6 at 20 mm: 0.2 at 0 mm, -0.1 at 10 mm.
+// coefficient of correlation is 0.2 at 0 mm, -0.1 at 10 mm, -0.6 at 20 mm.
 TEST(VolumetricNoise, NodesSharePartsOfTheirTargets) {
   auto machine = parse_machine(
       "name = \"m\"\nmachine = {chain = \"w-b-X-Y-Z-t\"}\ntool = {point_mm = [40, 30, 20]}\n"
@@ -82,15 +82,15 @@ TEST(VolumetricNoise, NodesSharePartsOfTheirTargets) {
     frame.error[k].forward = {1e-7, 2e-7, 4e-7};
     frame.error[k].u = frame.error[k].u_independent = k == 1 ? u_yx : u_cx;
   }
-  auto& correlation = frame.noise_correlation;
-  correlation.position = {0.004, 0.02};
-  correlation.at.resize(2);
-  for (std::size_t i = 0; i < 2; ++i) {
-    double other = 0.01;  // of errors that have no noise
-    for (std::size_t k = 0; k < kBodyErrors; ++k)
-      for (std::size_t l = 0; l < kBodyErrors; ++l)
-        correlation.at[i][k][l] = k == l ? 1 : (other += 0.013);
-    correlation.at[i][1][5] = correlation.at[i][5][1] = i == 0 ? 0.2 : -0.6;
+  ErrorCovariance& known = frame.covariance;
+  known.position = targets;
+  known.has[1] = known.has[5] = true;
+  known.declared.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    Covariance6& at = known.noise.emplace_back();
+    at[1][1] = u_yx[i] * u_yx[i];
+    at[5][5] = u_cx[i] * u_cx[i];
+    at[1][5] = at[5][1] = std::array{0.2, -0.1, -0.6}[i] * u_yx[i] * u_cx[i];
   }
   VolumetricTable table;
   table.command_m = {std::vector<double>{0.004, 0.007, 0.013}, {0}, {0}};
@@ -113,7 +113,8 @@ TEST(VolumetricNoise, NodesSharePartsOfTheirTargets) {
   EXPECT_GT(std::abs(second), 1e-15);
   EXPECT_NEAR(table.noise[0][0].with_next[1][0] / first, 1, 1e-12);
   EXPECT_NEAR(table.noise[0][1].with_next[1][0] / second, 1, 1e-12);
-  // Without a common grid of targets nothing is known of what two errors share.
+  // Errors of which no covariance is known are independent, each on targets of its own.
+  known = {};
   frame.error[5].position[2] = 0.021;
   set_noise_of_axes(table, *machine, {}, MachineApproach::forward);
   EXPECT_NEAR(table.noise[0][1].with_next[1][0] /

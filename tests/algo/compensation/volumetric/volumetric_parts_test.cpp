@@ -35,20 +35,20 @@ struct Simulated {
   double u_EC0Y = 3e-6;
 };
 
-ErrorCorrelation same_everywhere(const Axis6& axis, bool with_common) {
-  ErrorCorrelation correlation;
-  correlation.position = {0, kTravelOfParts_m};
-  correlation.at.resize(2);
-  const auto covariance = [&](std::size_t k, std::size_t l) {
-    double sum = k == l && with_common ? axis.common[k] * axis.common[k] : 0;
-    for (std::size_t q = 0; q < kBodyErrors; ++q) sum += axis.noise[k][q] * axis.noise[l][q];
-    return sum;
-  };
-  for (auto& at : correlation.at)
-    for (std::size_t k = 0; k < kBodyErrors; ++k)
-      for (std::size_t l = 0; l < kBodyErrors; ++l)
-        at[k][l] = covariance(k, l) / std::sqrt(covariance(k, k) * covariance(l, l));
-  return correlation;
+ErrorCovariance same_everywhere(const Axis6& axis) {
+  ErrorCovariance all;
+  all.position = {0, kTravelOfParts_m};
+  all.has.fill(true);
+  Covariance6 noise{}, declared{};
+  for (std::size_t k = 0; k < kBodyErrors; ++k) {
+    declared[k][k] = axis.common[k] * axis.common[k];
+    for (std::size_t l = 0; l < kBodyErrors; ++l)
+      for (std::size_t q = 0; q < kBodyErrors; ++q)
+        noise[k][l] += axis.noise[k][q] * axis.noise[l][q];
+  }
+  all.noise.assign(2, noise);
+  all.declared.assign(2, declared);
+  return all;
 }
 
 Simulated simulated_axes(unsigned seed, const std::string& rotary = "") {
@@ -71,8 +71,7 @@ Simulated simulated_axes(unsigned seed, const std::string& rotary = "") {
       frame.error[k].u_independent = {noise, noise};
       frame.error[k].u.assign(2, std::hypot(noise, axis.common[k]));
     }
-    frame.correlation = same_everywhere(axis, true);
-    frame.noise_correlation = same_everywhere(axis, false);
+    frame.covariance = same_everywhere(axis);
     if (frame.direction == 1) frame.location[5] = {0.0, s.u_EC0Y};
   }
   return s;

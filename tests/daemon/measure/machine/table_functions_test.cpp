@@ -28,15 +28,18 @@ TEST(TableFunctions, AnAngleIsReferredToWhereTheAxisStood) {
   refer_angle(f, 1);
   EXPECT_EQ(f.forward, (std::vector<double>{-5.5, -1.5, 0.5}));
   EXPECT_EQ(f.reverse, (std::vector<double>{-3.5, 0.5, 2.5}));
-  EXPECT_NEAR(f.u[0], std::hypot(0.3, 0.5), 1e-15);
-  EXPECT_NEAR(f.u[2], std::hypot(0.8, 0.5), 1e-15);
+  EXPECT_EQ(f.u, table.u);
   EXPECT_EQ(f.u_independent, table.u_independent);
+  bound_angle_u(f, 1);  // there it is 0.5
+  EXPECT_NEAR(f.u[0], 0.8, 1e-15);
+  EXPECT_NEAR(f.u[2], 1.3, 1e-15);
   ErrorFunction held = table;
   refer_angle(held, 9);  // the end is held
   EXPECT_EQ(held.forward, (std::vector<double>{-7, -3, -1}));
   for (const double first : {-2.0, -9.0}) {
     ErrorFunction same = table;
     refer_angle(same, first);
+    bound_angle_u(same, first);
     EXPECT_EQ(same.forward, table.forward);
     EXPECT_EQ(same.u, table.u);
   }

@@ -1,4 +1,4 @@
-#include "algo/compensation/error_correlation.h"
+#include "algo/compensation/error_covariance.h"
 
 #include <cmath>
 
@@ -58,29 +58,57 @@ Covariance5 of_weights(const std::array<std::vector<std::vector<double>>, kError
   return coefficients(products);
 }
 
+// Of both approaches; NaN: the largest of the other positions, 0 where none is known.
+std::array<std::vector<double>, kErrorCount> noise_of(const CompensationTable& table) {
+  std::array<std::vector<double>, kErrorCount> u;
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    double largest = 0;
+    for (std::size_t row = 0; row < table.position_m.size(); ++row) {
+      u[k].push_back(std::fmax(table.u_forward[k][row], table.u_reverse[k][row]));
+      largest = std::fmax(largest, u[k].back());
+    }
+    for (double& each : u[k])
+      if (std::isnan(each)) each = largest;
+  }
+  return u;
+}
+
+// The covariance of an approach, its variances raised to those of the other where these are larger.
+Covariance5 larger_of(const Covariance5& forward, const Covariance5& reverse) {
+  Errors5 scale;
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    const double f = forward[at(k, k)], r = reverse[at(k, k)];
+    scale[k] = f > 0 && r > f ? std::sqrt(r / f) : 1;
+  }
+  Covariance5 both{};
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    for (std::size_t l = 0; l < kErrorCount; ++l)
+      both[at(k, l)] = scale[k] * scale[l] * forward[at(k, l)];
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    both[at(k, k)] = std::fmax(both[at(k, k)], reverse[at(k, k)]);
+  return both;
+}
+
 }  // namespace
 
-Result<ErrorCorrelations> error_correlations(const CompensationTable& table,
-                                             const std::vector<Rig>& rigs,
-                                             const std::vector<Run>& runs,
-                                             const TableOptions& options) {
+Result<ErrorCovariances> error_covariances(const CompensationTable& table,
+                                           const std::vector<Rig>& rigs,
+                                           const std::vector<Run>& runs,
+                                           const TableOptions& options) {
   MDOF_TRY(const DeclaredCovariance declared, declared_covariance(table, rigs, runs, options));
   MDOF_TRY(const Covariance5 probes, of_noise(rigs.front(), restate(runs.front(), options.stated)));
-  const auto references = references_of(table);
-  ErrorCorrelations all;
+  const auto references = references_of(table, options);
+  const auto u_noise = noise_of(table);
+  ErrorCovariances all;
   for (std::size_t row = 0; row < table.position_m.size(); ++row) {
     const Covariance5 weights = of_weights(references, row);
-    Covariance5 noise{};
-    Covariance5 sum = declared.forward.empty() ? Covariance5{} : declared.forward[row];
+    Covariance5& noise = all.noise.emplace_back();
     for (std::size_t k = 0; k < kErrorCount; ++k)
-      for (std::size_t l = 0; l < kErrorCount; ++l) {
-        const double both = table.u_forward[k][row] * table.u_forward[l][row];
-        if (!std::isfinite(both)) continue;
-        noise[at(k, l)] = probes[at(k, l)] * weights[at(k, l)] * both;
-        sum[at(k, l)] += noise[at(k, l)];
-      }
-    all.combined.push_back(coefficients(sum));
-    all.noise.push_back(coefficients(noise));
+      for (std::size_t l = 0; l < kErrorCount; ++l)
+        noise[at(k, l)] =
+            u_noise[k][row] * u_noise[l][row] * (k == l ? 1 : probes[at(k, l)] * weights[at(k, l)]);
+    if (!declared.forward.empty())
+      all.declared.push_back(larger_of(declared.forward[row], declared.reverse[row]));
   }
   return all;
 }

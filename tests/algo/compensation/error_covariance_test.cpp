@@ -1,0 +1,116 @@
+// Covariance of the errors of one set of probes. By hand, of the default fixture (B and C at
+// y = 10 and -10 mm, A at x = 10, D at z = 20, E at x = 10 beside it), with equal noise s of all
+// probes: EAX = (B - C) / 20 mm, EYX = D + 20 mm EAX, ECX = (E - D) / 10 mm, EZX = (B + C) / 2,
+// EBX = (EZX - A) / 10 mm.
+#include "algo/compensation/error_covariance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "algo/compensation/declared_uncertainty.h"
+#include "tests/algo/compensation/table_lever.h"
+#include "tests/algo/rigs.h"
+#include "tests/algo/uncertainty/synthetic_run.h"
+
+namespace mdof::algo {
+namespace {
+
+constexpr std::size_t kIsEYX = 0, kIsEZX = 1, kIsEAX = 2, kIsEBX = 3, kIsECX = 4;
+
+struct Case {
+  CompensationTable table;
+  ErrorCovariances covariances;
+  double covariance(std::size_t k, std::size_t l, std::size_t row) const {
+    const std::size_t kl = k * kErrorCount + l;
+    return covariances.noise[row][kl] +
+           (covariances.declared.empty() ? 0 : covariances.declared[row][kl]);
+  }
+  // Coefficient of correlation.
+  double of(std::size_t k, std::size_t l, std::size_t row) const {
+    return covariance(k, l, row) / std::sqrt(covariance(k, k, row) * covariance(l, l, row));
+  }
+};
+
+// EYX bends; `noise`: u of all values by noise.
+Case made_of(const Rig& rig, double noise) {
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
+  const std::vector<Run> runs{synthetic.measure()};
+  TableOptions options;
+  options.remove_slope = false;
+  options.stated = kAtFixture;
+  Case c{build_table(runs, options).value(), {}};
+  for (auto* side : {&c.table.u_forward, &c.table.u_reverse})
+    for (auto& u : *side) u.assign(c.table.position_m.size(), noise);
+  EXPECT_TRUE(add_declared_uncertainty(c.table, {rig}, runs, options));
+  c.covariances = error_covariances(c.table, {rig}, runs, options).value();
+  return c;
+}
+
+TEST(ErrorCovariance, OfEqualNoiseIsThatOfTheFixture) {
+  const Case c = made_of(test::rig_x_with("", ""), 1e-9);
+  const std::size_t row = 2;
+  // Straightness is as measured, angles less the first target: 1/sqrt(2) between them is left.
+  EXPECT_NEAR(c.of(kIsEYX, kIsEAX, row), 1 / std::sqrt(3.0), 1e-3);
+  EXPECT_NEAR(c.of(kIsEYX, kIsECX, row), -1 / std::sqrt(12.0), 1e-3);
+  EXPECT_NEAR(c.of(kIsEZX, kIsEBX, row), 1 / std::sqrt(6.0), 1e-3);
+  EXPECT_NEAR(c.of(kIsEAX, kIsECX, row), 0, 1e-3);
+  EXPECT_NEAR(c.of(kIsEYX, kIsEZX, row), 0, 1e-3);
+  for (std::size_t k = 0; k < kErrorCount; ++k)
+    for (std::size_t l = 0; l < kErrorCount; ++l) {
+      EXPECT_NEAR(c.of(k, l, row), c.of(l, k, row), 1e-12);
+      if (k == l) {
+        EXPECT_NEAR(c.covariance(k, l, row), 1e-18, 1e-27);
+      }
+    }
+  EXPECT_EQ(c.of(kIsEYX, kIsEAX, 0), 0);  // there the angle is 0 by definition
+}
+
+// A gain of D alone: EYX by s D, ECX by -s (D - D0) / 10 mm. At x = 10 mm they cancel.
+TEST(ErrorCovariance, AFaultOfOneProbeMovesItsErrorsTogether) {
+  const Case c = made_of(test::rig_x_with("D", "u_sensitivity_ppm = 1000"), 0);
+  const std::size_t last = c.table.position_m.size() - 1;
+  ASSERT_GT(c.table.u_declared[kIsEYX][last], 1e-9);
+  EXPECT_NEAR(c.of(kIsEYX, kIsECX, last), -1, 1e-9);
+  const Eigen::Vector3d beside(10e-3, 0, 0);
+  const auto u = [&](const ErrorCovariances& together) {
+    return test::u_of_tool(test::machine_of(c.table, beside, together), c.table, last).y();
+  };
+  const double alone = c.table.u_declared[kIsEYX][last];
+  EXPECT_NEAR(u({}), std::sqrt(2.0) * alone, 1e-3 * alone);
+  EXPECT_NEAR(u(c.covariances), 0, 1e-3 * alone);
+}
+
+// The target turns about Z by the square of the travel; E reads 1000 ppm too much in the second
+// run. The angle is 0 in the middle of the travel, so that E's scale has no part in it there.
+TEST(ErrorCovariance, IsThatOfAnglesFromWhereTheyAreZero) {
+  const Rig rig = test::rig_x_with("E", "u_sensitivity_ppm = 1000");
+  const auto tables = [&](double off, const TableOptions& options) {
+    SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+    synthetic.truth = [](double d) { return Errors5{0, 0, 0, 0, 0.5 * d * d}; };
+    synthetic.added = [off](std::size_t k, double, double reading_m, double) {
+      return k == 4 ? off * reading_m : 0;
+    };
+    const std::vector<mdof::Run> runs{synthetic.measure()};
+    return std::pair(build_table(runs, options).value(), runs);
+  };
+  TableOptions options;
+  options.stated = kAtFixture;
+  const std::size_t middle = tables(0, options).first.position_m.size() / 2;
+  options.angles_zero_m = tables(0, options).first.position_m[middle];
+  const auto [table, runs] = tables(0, options);
+  const CompensationTable off = tables(1e-3, options).first;
+  const auto declared = error_covariances(table, {rig}, runs, options).value().declared;
+  const std::size_t last = table.position_m.size() - 1, own = kIsECX * kErrorCount + kIsECX;
+  EXPECT_NEAR(table.forward[kIsECX][middle], 0, 1e-15);
+  EXPECT_NEAR(declared[middle][own], 0, 1e-24);
+  for (const std::size_t row : {std::size_t{0}, middle / 2, last}) {
+    const double moved = off.forward[kIsECX][row] - table.forward[kIsECX][row];
+    ASSERT_GT(std::abs(moved), 1e-8) << row;
+    EXPECT_NEAR(std::sqrt(declared[row][own]), std::abs(moved), 1e-3 * std::abs(moved)) << row;
+  }
+}
+
+}  // namespace
+}  // namespace mdof::algo

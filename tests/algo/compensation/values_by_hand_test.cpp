@@ -120,7 +120,8 @@ TEST(TableUncertaintyByHand, OfOneWayAlone) {
   const auto against_start =
       u_by_hand(points, Approach::forward, std::vector<Reference>(3, Reference{1, 0, 0}));
   expect_u(against_start, {0, 2 * kOfForward, 2 * kOfForward});
-  const auto back = u_by_hand(points, Approach::reverse, std::vector<Reference>(3, Reference{1, 0, 0}));
+  const auto back =
+      u_by_hand(points, Approach::reverse, std::vector<Reference>(3, Reference{1, 0, 0}));
   for (const auto& of_error : back)
     for (const double u : of_error) EXPECT_TRUE(std::isnan(u));
 }

@@ -177,8 +177,8 @@ TEST(OnTheFlyRun, ExplainsWhyThereIsNoPoint) {
   expect_in(dense.error().message, "and 1000 Hz a bin of 0.02 mm has ");
 }
 
-// Stops of 0.5 s between the bins, and 1 mm in 5 ms from one to the next: five scans a bin, but a
-// mean speed of 2 mm/s, at which a bin of 1 mm would have 500.
+// Stops of 0.5 s between the bins, and 1 mm in 5 ms from one to the next: two or three scans a bin,
+// but a mean speed of 2 mm/s, at which a bin of 0.5 mm would have 250.
 TEST(OnTheFlyRun, ALogWithStopsNeedsNoLargerBins) {
   FrameBlock frames = empty_frames(1);
   for (std::int64_t ms = 0; ms < 20 * 505; ++ms) {
@@ -188,7 +188,9 @@ TEST(OnTheFlyRun, ALogWithStopsNeedsNoLargerBins) {
         1e-3 * (static_cast<double>(stop) + 0.5 + 0.2 * static_cast<double>(moving_ms)));
     frames.probe_m[0].push_back(ms % 2 == 0 ? 1e-9 : -1e-9);
   }
-  OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
+  OnTheFlyOptions options;
+  options.bin_mm = 0.5;
+  OnTheFly run(TargetGrid(options, {}), {"A"}, {200e-6});
   ASSERT_TRUE(run.push(frames));
   run.flush();
   const Status why = run.explain_nothing();

@@ -212,13 +212,15 @@ std::vector<VisitStep> brute_steps(const std::vector<MeasuredPoint>& points) {
     const double freedom = static_cast<double>(n) - static_cast<double>(of.places.size()) - 2;
     if (freedom < 4) continue;
     Eigen::VectorXd y(n), time(n), best = Eigen::VectorXd::Zero(n);
-    double u = 1e-9 / 6;
+    std::vector<double> all_u;
     for (Eigen::Index i = 0; i < n; ++i) {
       const Point& p = of.visits[static_cast<std::size_t>(i)]->point;
       y[i] = p.probe_m[k];
       time[i] = 1e-9 * static_cast<double>(p.begin_ns);
-      u = std::max(u, p.probe_u_m[k]);
+      all_u.push_back(p.probe_u_m[k]);
     }
+    std::sort(all_u.begin(), all_u.end());
+    const double u = std::max(1e-9 / 6, all_u[all_u.size() / 2]);
     y = of.about_means(y);
     double least = y.squaredNorm(), size = 0;
     Eigen::Index at = 0;

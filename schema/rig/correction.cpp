@@ -30,7 +30,7 @@ std::string gap_of_point(const ChainAxis& measured, Axis axis, Sides sides, Refe
 // Why the correction turns with a rotary axis between the two; empty: it does not.
 std::string gap_of_rotary(const Chain& chain, const ChainAxis& measured,
                           const ChainAxis& correcting) {
-  const auto [first, last] = std::minmax(&measured, &correcting);
+  const auto [first, last] = std::minmax({&measured, &correcting});
   for (const ChainAxis* between = first + 1; between < last; ++between) {
     const bool is_rotary = between->letter < 'D';
     const char direction =

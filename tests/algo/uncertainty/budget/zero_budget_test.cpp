@@ -32,8 +32,8 @@ TEST(Budget, AnArtefactWithoutUIsNotOneThatDeclaresZero) {
   const Rig x = test::rig_x();
   Rig y = x;
   y.axis = Axis::y;
-  const Run run_x = SyntheticRun{.rig = x}.measure();
-  Run run_y = run_x;
+  const mdof::Run run_x = SyntheticRun{.rig = x}.measure();
+  mdof::Run run_y = run_x;
   run_y.header.axis = Axis::y;
   const auto lacks_u = [&](const std::optional<double>& u_rad) {
     const SquareArtefact square{.angle_error_rad = 0, .u_rad = u_rad, .corner = -1};

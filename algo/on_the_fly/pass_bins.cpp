@@ -138,12 +138,13 @@ class Binning {
   void fit(std::size_t probe, const Rows& rows, BinPoint& bin) {
     const std::string& id = probes_.ids[probe];
     const auto& fresh = frames_.probe_fresh[probe];
-    std::size_t usable_rows = 0, over_range = 0;
+    std::size_t usable_rows = 0;
+    OverRange over_range;
     place_.clear(), reading_.clear();
     for (std::size_t i = rows.first; i < rows.last; ++i) {
       const Quality q = frames_.quality_at(probe, i);
       const double read_m = frames_.probe_m[probe][i];
-      over_range += q == Quality::over_range;
+      if (q == Quality::over_range) over_range.add(read_m);
       if (!usable(q) || !std::isfinite(read_m)) continue;
       ++usable_rows;
       if (!fresh.empty() && !fresh[i]) continue;
@@ -155,16 +156,18 @@ class Binning {
     const double coarse_m = std::max(kCoarseShare * probes_.range_m[probe], kCoarseSteps * step_m);
     const BinFit found = fit_bin(place_, reading_, coarse_m, scratch_);
     const bool lost =
-        usable_rows < kFewestOfBin || 2 * usable_rows < n || is_saturated(over_range, n);
+        usable_rows < kFewestOfBin || 2 * usable_rows < n ||
+        is_saturated(over_range, n, found.value, found.sd + std::abs(found.slope) / 6);
     const bool few = found.used < kFewestOfBin || !std::isfinite(found.value);
-    if (over_range > 0) add_flag(bin.point, Flag::saturated, id);
+    if (over_range.count > 0) add_flag(bin.point, Flag::saturated, id);
     if (lost || few) add_flag(bin.point, lost ? Flag::lost : Flag::slow, id);
-    if (!lost && usable_rows + over_range < n) add_flag(bin.point, Flag::missing, id);
+    if (!lost && usable_rows + over_range.count < n) add_flag(bin.point, Flag::missing, id);
     if (found.rejected > 0) add_flag(bin.point, Flag::spike, id);
     const bool good = !lost && !few;
     bin.point.probe_m.push_back(good ? found.value : kNaN);
     const double u_m = with_resolution(found.u, found.sd, step_m);
-    bin.point.probe_u_m.push_back(good ? with_over_range(u_m, found.sd, over_range, n) : kNaN);
+    bin.point.probe_u_m.push_back(good ? with_over_range(u_m, found.sd, over_range.count, n)
+                                       : kNaN);
     bin.point.probe_sd_m.push_back(good ? found.sd : kNaN);
     bin.slope.push_back(good ? found.slope / half_m_ : kNaN);
   }

@@ -16,6 +16,7 @@
 #include "algo/plausibility/resolution.h"
 #include "algo/plausibility/slow_stretch.h"
 #include "algo/points/dwell_event.h"
+#include "algo/points/over_range.h"
 #include "schema/notice/notice.h"
 #include "schema/point.h"
 #include "schema/sample.h"
@@ -130,7 +131,7 @@ class DwellDetector {
   void pass_break(std::vector<Point>& out);
   Point average(std::size_t from, std::size_t to);
   std::span<const double> own_readings(std::size_t probe, std::size_t from, std::size_t to,
-                                       std::size_t& usable_rows, std::size_t& over_range);
+                                       std::size_t& usable_rows, OverRange& over_range);
   void average_probe(std::size_t probe, std::size_t from, std::size_t to, Point& point);
   void drop_rows_before(std::size_t row);  // when it is worth moving the rest up
   void drop_rows(std::size_t row);

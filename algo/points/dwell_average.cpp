@@ -45,7 +45,7 @@ Point DwellDetector::average(std::size_t from, std::size_t to) {
 // every value that is a number is one.
 std::span<const double> DwellDetector::own_readings(std::size_t probe, std::size_t from,
                                                     std::size_t to, std::size_t& usable_rows,
-                                                    std::size_t& over_range) {
+                                                    OverRange& over_range) {
   const auto& column = buffer_.probe_m[probe];
   const auto& quality = buffer_.probe_quality[probe];
   const auto& fresh = buffer_.probe_fresh[probe];
@@ -55,7 +55,7 @@ std::span<const double> DwellDetector::own_readings(std::size_t probe, std::size
   usable_rows = 0;
   for (std::size_t i = from; i < to; ++i) {
     const Quality q = quality.empty() ? Quality::good : quality[i];
-    over_range += q == Quality::over_range;
+    if (q == Quality::over_range) over_range.add(column[i]);
     if (!usable(q) || !std::isfinite(column[i])) continue;
     ++usable_rows;
     if (fresh.empty() || fresh[i]) finite_.push_back(column[i]);
@@ -65,29 +65,31 @@ std::span<const double> DwellDetector::own_readings(std::size_t probe, std::size
 
 void DwellDetector::average_probe(std::size_t probe, std::size_t from, std::size_t to,
                                   Point& point) {
-  std::size_t over_range = 0, usable_rows = to - from;
+  OverRange over_range;
+  std::size_t usable_rows = to - from;
   const std::span<const double> readings = own_readings(probe, from, to, usable_rows, over_range);
   const std::string& id = probe_ids_[probe];
-  if (over_range > 0) add_flag(point, Flag::saturated, id);
-  const bool lost =
-      usable_rows < kMinScans || 2 * usable_rows < to - from || is_saturated(over_range, to - from);
-  if (!lost && readings.size() < kMinScans) add_flag(point, Flag::slow, id);
+  if (over_range.count > 0) add_flag(point, Flag::saturated, id);
+  const double step = resolution_.step_m(probe);
+  const double coarse = std::max(1e-3 * probe_range_m_[probe], kCoarseSteps * step);
+  const bool few = readings.size() < kMinScans;
+  const RobustMean mean = few ? RobustMean{} : robust_mean(readings, coarse, scratch_);
+  const bool lost = usable_rows < kMinScans || 2 * usable_rows < to - from ||
+                    is_saturated(over_range, to - from, mean.mean, mean.sd);
+  if (!lost && few) add_flag(point, Flag::slow, id);
   if (lost) add_flag(point, Flag::lost, id);
-  if (lost || readings.size() < kMinScans) {
+  if (lost || few) {
     point.probe_m.push_back(kNaN);
     point.probe_u_m.push_back(kNaN);
     point.probe_sd_m.push_back(kNaN);
     return;
   }
-  if (usable_rows + over_range < to - from) add_flag(point, Flag::missing, id);
-  const double step = resolution_.step_m(probe);
-  const double coarse = std::max(1e-3 * probe_range_m_[probe], kCoarseSteps * step);
-  const RobustMean mean = robust_mean(readings, coarse, scratch_);
+  if (usable_rows + over_range.count < to - from) add_flag(point, Flag::missing, id);
   if (mean.rejected > 0) add_flag(point, Flag::spike, id);
   watch_.take_stop(probe, mean, step);
   point.probe_m.push_back(mean.mean);
   const double u_m = with_resolution(mean.u, mean.sd, step);
-  point.probe_u_m.push_back(with_over_range(u_m, mean.sd, over_range, to - from));
+  point.probe_u_m.push_back(with_over_range(u_m, mean.sd, over_range.count, to - from));
   point.probe_sd_m.push_back(mean.sd);
 }
 

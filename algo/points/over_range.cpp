@@ -6,12 +6,22 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kOneOf = 100;
+constexpr double kNear = 6;  // in standard deviations of the others
 constexpr double kBiasOfShare = 4;
 
 }  // namespace
 
-bool is_saturated(std::size_t over_range, std::size_t readings) {
-  return over_range > 1 && kOneOf * over_range > readings;
+void OverRange::add(double reading_m) {
+  ++count;
+  has_unknown = has_unknown || std::isnan(reading_m);
+  low_m = std::fmin(low_m, reading_m);
+  high_m = std::fmax(high_m, reading_m);
+}
+
+bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, double spread_m) {
+  if (over.count <= 1 || kOneOf * over.count <= readings) return false;
+  const double away_m = std::fmin(std::abs(over.low_m - mean_m), std::abs(over.high_m - mean_m));
+  return over.has_unknown || !(away_m > kNear * spread_m);
 }
 
 double with_over_range(double u_m, double sd_m, std::size_t over_range, std::size_t readings) {

@@ -1,13 +1,24 @@
-// Readings at the end of a probe's range. They are missing on one side of the mean, so that the
-// mean of the others is biased.
+// Readings at the end of a probe's range. Where they belong to the others, they are missing on one
+// side of the mean, so that the mean of the others is biased.
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 namespace mdof::algo {
 
-// Whether too many are over range for the mean of the others: more than one, and more than 1 %.
-bool is_saturated(std::size_t over_range, std::size_t readings);
+// Those of a stop.
+struct OverRange {
+  std::size_t count = 0;
+  double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;  // of their values
+  bool has_unknown = false;                                                 // one that is NaN
+  void add(double reading_m);
+};
+
+// Whether too many of `readings` are over range for the mean of the others: more than one, and more
+// than 1 %, of a probe that touches the end of its range: nearer to the mean than six times the
+// spread of the others. Further off they are glitches, which say nothing of the others.
+bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, double spread_m);
 
 // u of a mean of readings of which a share p is left out on one side. For normal readings the mean
 // is off by sd phi(a)/Phi(a) with Phi(-a) = p. That is less than 4 p sd, or below 0.0004 sd.

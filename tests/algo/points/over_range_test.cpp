@@ -59,13 +59,26 @@ TEST(OverRange, UCoversTheBiasOfATrace) {
   EXPECT_EQ(with_over_range(3e-9, 1e-6, 0, 1000), 3e-9);
 }
 
+bool is_too_much(std::size_t count, std::size_t readings, double at_m = 1e-6) {
+  OverRange over;
+  for (std::size_t i = 0; i < count; ++i) over.add(at_m);
+  return is_saturated(over, readings, 0, 0.5e-6);
+}
+
 TEST(OverRange, MoreThanOneReadingAndOnePercentIsTooMuch) {
-  EXPECT_FALSE(is_saturated(0, 0));
-  EXPECT_FALSE(is_saturated(1, 10));
-  EXPECT_TRUE(is_saturated(2, 10));
-  EXPECT_FALSE(is_saturated(2, 200));
-  EXPECT_TRUE(is_saturated(3, 299));
-  EXPECT_FALSE(is_saturated(3, 300));
+  EXPECT_FALSE(is_too_much(0, 0));
+  EXPECT_FALSE(is_too_much(1, 10));
+  EXPECT_TRUE(is_too_much(2, 10));
+  EXPECT_FALSE(is_too_much(2, 200));
+  EXPECT_TRUE(is_too_much(3, 299));
+  EXPECT_FALSE(is_too_much(3, 300));
+}
+
+// Far from all others it is the reading of a broken cable, on either side.
+TEST(OverRange, AGlitchSaysNothingOfTheOthers) {
+  for (const double at_m : {100e-6, -100e-6}) EXPECT_FALSE(is_too_much(20, 100, at_m));
+  EXPECT_TRUE(is_too_much(20, 100, -2.9e-6));
+  EXPECT_TRUE(is_too_much(20, 100, std::nan("")));
 }
 
 // 0.7 um rms about 99.9 um: the mean of what stays below 100 um is 99.3 um.

@@ -166,7 +166,7 @@ class Binning {
     const bool good = !lost && !few;
     bin.point.probe_m.push_back(good ? found.value : kNaN);
     const double u_m = with_resolution(found.u, found.sd, step_m);
-    bin.point.probe_u_m.push_back(good ? with_over_range(u_m, found.sd, over_range.count, n)
+    bin.point.probe_u_m.push_back(good ? with_over_range(u_m, found.value, found.sd, over_range, n)
                                        : kNaN);
     bin.point.probe_sd_m.push_back(good ? found.sd : kNaN);
     bin.slope.push_back(good ? found.slope / half_m_ : kNaN);

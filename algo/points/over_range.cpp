@@ -18,15 +18,19 @@ void OverRange::add(double reading_m) {
   high_m = std::fmax(high_m, reading_m);
 }
 
-bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, double spread_m) {
-  if (over.count <= 1 || kOneOf * over.count <= readings) return false;
-  const double away_m = std::fmin(std::abs(over.low_m - mean_m), std::abs(over.high_m - mean_m));
-  return over.has_unknown || !(away_m > kNear * spread_m);
+bool OverRange::is_near(double mean_m, double spread_m) const {
+  const double away_m = std::fmin(std::abs(low_m - mean_m), std::abs(high_m - mean_m));
+  return has_unknown || !(away_m > kNear * spread_m);
 }
 
-double with_over_range(double u_m, double sd_m, std::size_t over_range, std::size_t readings) {
-  if (over_range == 0) return u_m;
-  const double share = static_cast<double>(over_range) / static_cast<double>(readings);
+bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, double spread_m) {
+  return over.count > 1 && kOneOf * over.count > readings && over.is_near(mean_m, spread_m);
+}
+
+double with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,
+                       std::size_t readings) {
+  if (over.count == 0 || !over.is_near(mean_m, sd_m)) return u_m;
+  const double share = static_cast<double>(over.count) / static_cast<double>(readings);
   return std::hypot(u_m, kBiasOfShare * share * sd_m);
 }
 

@@ -13,15 +13,19 @@ struct OverRange {
   double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;  // of their values
   bool has_unknown = false;                                                 // one that is NaN
   void add(double reading_m);
+  // Nearer to the mean of the others than six times their spread, as of a probe that touches the
+  // end of its range. Further off they are glitches, which say nothing of the others.
+  bool is_near(double mean_m, double spread_m) const;
 };
 
-// Whether too many of `readings` are over range for the mean of the others: more than one, and more
-// than 1 %, of a probe that touches the end of its range: nearer to the mean than six times the
-// spread of the others. Further off they are glitches, which say nothing of the others.
+// Whether too many of `readings` are over range for the mean of the others: near to it, more than
+// one, and more than 1 %.
 bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, double spread_m);
 
-// u of a mean of readings of which a share p is left out on one side. For normal readings the mean
-// is off by sd phi(a)/Phi(a) with Phi(-a) = p. That is less than 4 p sd, or below 0.0004 sd.
-double with_over_range(double u_m, double sd_m, std::size_t over_range, std::size_t readings);
+// u of a mean of readings of which a share p is left out on one side, near to it. For normal
+// readings the mean is off by sd phi(a)/Phi(a) with Phi(-a) = p. That is less than 4 p sd, or below
+// 0.0004 sd.
+double with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,
+                       std::size_t readings);
 
 }  // namespace mdof::algo

@@ -40,6 +40,12 @@ std::vector<Point> points_of(const FrameBlock& frames) {
   return found;
 }
 
+OverRange one_over(double at_m) {
+  OverRange over;
+  over.add(at_m);
+  return over;
+}
+
 // phi(a)/Phi(a) where Phi(-a) = p, of a table of the normal distribution: how far the mean is off.
 TEST(OverRange, UCoversTheBiasOfATrace) {
   struct {
@@ -51,12 +57,13 @@ TEST(OverRange, UCoversTheBiasOfATrace) {
                      {100, 0.026652 / 0.99},
                      {1000, 0.0033671 / 0.999}};
   for (const auto& [of, bias] : table) {
-    const double u_m = with_over_range(0, 1e-6, 1, of);
+    const double u_m = with_over_range(0, 0, 1e-6, one_over(2e-6), of);
     EXPECT_GE(u_m, bias * 1e-6) << of;
     EXPECT_LE(u_m, 2.5 * bias * 1e-6) << of;
   }
-  EXPECT_NEAR(with_over_range(3e-9, 1e-6, 1, 1000), 5e-9, 1e-15);
-  EXPECT_EQ(with_over_range(3e-9, 1e-6, 0, 1000), 3e-9);
+  EXPECT_NEAR(with_over_range(3e-9, 0, 1e-6, one_over(2e-6), 1000), 5e-9, 1e-15);
+  EXPECT_EQ(with_over_range(3e-9, 0, 1e-6, {}, 1000), 3e-9);
+  EXPECT_EQ(with_over_range(3e-9, 0, 1e-6, one_over(-50e-6), 1000), 3e-9);  // a glitch
 }
 
 bool is_too_much(std::size_t count, std::size_t readings, double at_m = 1e-6) {

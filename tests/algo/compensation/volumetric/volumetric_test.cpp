@@ -63,8 +63,8 @@ TEST(Volumetric, WhatBendsBetweenNodesIsLeft) {
   request.step_m = 10e-3;
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", exx + "]", exy), request);
   EXPECT_NEAR(largest_correction_m(t, 0), 0.69e-6, 0.01e-6);  // of EXY at Y = 10 mm
-  // The corrected command stands beside the peak, on a slope of 4 um/mm: 10/1.004 um. And 0.9 um less
-  // what the line from 0 to 30/39 of 0.9 um has at a tenth of the cell.
+  // The corrected command stands beside the peak, on a slope of 4 um/mm: 10/1.004 um. And 0.9 um
+  // less what the line from 0 to 30/39 of 0.9 um has at a tenth of the cell.
   EXPECT_NEAR(t.interpolation_m[0], (10 / 1.004 + 0.9 - 0.09 * 30 / 39) * 1e-6, 1e-9);
   EXPECT_NEAR(t.interpolation_m[1], 0, 1e-12);
 }

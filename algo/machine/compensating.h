@@ -30,7 +30,7 @@ Command command_at_place(const Machine& machine, const Eigen::Vector3d& place_m)
 
 // Directions of the work's coordinates (orthonormal columns) in which no linear axis moves the tool
 // while the rotary axes are where they are: two axes are parallel there, or the chain has fewer
-// than three. No columns: there is none.
+// than three. No columns: the axes move the tool in all directions.
 Eigen::MatrixXd fixed_directions(const Machine& machine, const Command& command);
 
 // derivatives() with the place in the commands of X, Y, Z in place of the work's coordinates, in

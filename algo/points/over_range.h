@@ -22,9 +22,9 @@ struct OverRange {
 // one, and more than 1 %.
 bool is_saturated(const OverRange& over, std::size_t readings, double mean_m, double spread_m);
 
-// u of a mean of readings of which a share p is left out on one side, near to it. For normal
-// readings the mean is off by sd phi(a)/Phi(a) with Phi(-a) = p. That is less than 4 p sd, or below
-// 0.0004 sd.
+// Adds to u of a mean the bias by readings that were left out near to it, on one side: a share p of
+// them. For normal readings the bias is sd phi(a)/Phi(a) with Phi(-a) = p: less than 4 p sd, or
+// below 0.0004 sd.
 double with_over_range(double u_m, double mean_m, double sd_m, const OverRange& over,
                        std::size_t readings);
 

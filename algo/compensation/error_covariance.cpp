@@ -74,7 +74,9 @@ std::array<std::vector<double>, kErrorCount> noise_of(const CompensationTable& t
 }
 
 // The covariance of an approach, its variances raised to those of the other where these are larger.
+// An approach without values has no variances: then it is the other's.
 Covariance5 larger_of(const Covariance5& forward, const Covariance5& reverse) {
+  if (forward == Covariance5{}) return reverse;
   Errors5 scale;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     const double f = forward[at(k, k)], r = reverse[at(k, k)];

@@ -82,6 +82,23 @@ TEST(ErrorCovariance, AFaultOfOneProbeMovesItsErrorsTogether) {
   EXPECT_NEAR(u(c.covariances), 0, 1e-3 * alone);
 }
 
+// The same where all targets were approached in reverse only.
+TEST(ErrorCovariance, IsThatOfTheOneApproachThatWasMeasured) {
+  const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 1000");
+  SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
+  synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
+  mdof::Run run = synthetic.measure();
+  std::erase_if(run.points, [](const MeasuredPoint& p) { return p.point.direction > 0; });
+  TableOptions options;
+  options.remove_slope = false;
+  options.stated = kAtFixture;
+  const auto table = build_table({run}, options).value();
+  const auto declared = error_covariances(table, {rig}, {run}, options).value().declared.back();
+  const auto of = [&](std::size_t k, std::size_t l) { return declared[k * kErrorCount + l]; };
+  ASSERT_GT(of(kIsEYX, kIsEYX), 1e-18);
+  EXPECT_NEAR(of(kIsEYX, kIsECX) / std::sqrt(of(kIsEYX, kIsEYX) * of(kIsECX, kIsECX)), -1, 1e-9);
+}
+
 // The target turns about Z by the square of the travel; E reads 1000 ppm too much in the second
 // run. The angle is 0 in the middle of the travel, so that E's scale has no part in it there.
 TEST(ErrorCovariance, IsThatOfAnglesFromWhereTheyAreZero) {

@@ -56,7 +56,7 @@ Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
 }
 
 double mean_at(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const Reference shares = value_at(x, at);
+  const Reference shares = interpolation_at(x, at);
   double mean = 0;
   for (std::size_t i = 0; i < x.size(); ++i)
     if (shares[i] != 0) mean += shares[i] * y[i];
@@ -211,7 +211,7 @@ std::array<std::vector<Reference>, kErrorCount> references_of(const Compensation
   std::array<std::vector<Reference>, kErrorCount> all;
   for (std::size_t k = 0; k < kErrorCount; ++k)
     for (const double at_m : table.position_m)
-      all[k].push_back(error_names(table.axis)[k].angle ? value_at(table.position_m, zero_m)
+      all[k].push_back(error_names(table.axis)[k].angle ? interpolation_at(table.position_m, zero_m)
                        : table.slope_removed            ? line_at(table.position_m, at_m)
                                                         : as_measured(n));
   return all;

@@ -157,7 +157,7 @@ Reference as_measured(std::size_t targets) {
   return Reference(targets, 0.0);
 }
 
-Reference value_at(const std::vector<double>& x, double at) {
+Reference interpolation_at(const std::vector<double>& x, double at) {
   Reference shares(x.size(), 0.0);
   const auto above = std::upper_bound(x.begin(), x.end(), at);
   if (above == x.begin() || above == x.end()) {

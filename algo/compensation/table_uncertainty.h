@@ -13,7 +13,7 @@ namespace mdof::algo {
 using Reference = std::vector<double>;
 Reference as_measured(std::size_t targets);  // nothing
 // The value at a place between two targets, on the straight line; beyond them that of the end.
-Reference value_at(const std::vector<double>& x, double at);
+Reference interpolation_at(const std::vector<double>& x, double at);
 Reference line_at(const std::vector<double>& x, double at);  // the least-squares line
 
 // [named error][target] of one approach; NaN where it was not visited. `references`: of each named

@@ -8,12 +8,6 @@ namespace {
 
 constexpr std::string_view kLetters = "XYZABC";
 
-double value_at(const std::vector<double>& values, const TablePlace& place) {
-  if (values.size() < 2) return values.empty() ? 0 : values[0];
-  const double a = values[place.cell], b = values[place.cell + 1];
-  return place.part == 1 ? b : a + (b - a) * place.part;
-}
-
 double value_at(const ErrorFunction& f, const TablePlace& place, MachineApproach approach) {
   const double forward = value_at(f.forward, place);
   if (f.reverse.empty() || approach == MachineApproach::forward) return forward;
@@ -151,6 +145,12 @@ TablePlace place_of(const std::vector<double>& position, double at) {
   const auto above = std::upper_bound(position.begin(), position.end(), at);
   const auto cell = static_cast<std::size_t>(above - position.begin()) - 1;
   return {cell, (at - position[cell]) / (position[cell + 1] - position[cell])};
+}
+
+double value_at(const std::vector<double>& values, const TablePlace& place) {
+  if (values.size() < 2) return values.empty() ? 0 : values[0];
+  const double a = values[place.cell], b = values[place.cell + 1];
+  return place.part == 1 ? b : a + (b - a) * place.part;
 }
 
 double command_of(const MachineFrame& frame, const Command& command) {

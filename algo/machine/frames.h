@@ -43,6 +43,8 @@ struct TablePlace {
   bool beyond = false;  // the end is held
 };
 TablePlace place_of(const std::vector<double>& position, double at);
+// On the straight line between two values; of no values 0.
+double value_at(const std::vector<double>& values, const TablePlace& place);
 
 double command_of(const MachineFrame& frame, const Command& command);
 // How far its body goes along + of its axis.

@@ -37,7 +37,7 @@ using ShapeType = std::vector<ShapeAlternative>;
 struct ShapeMembers {
   std::vector<std::pair<std::string, std::string>> properties, patterns;  // name, schema
   std::vector<std::string> required;
-  std::size_t families = 0;  // of which at least one member is there
+  std::size_t families = 0;  // names with groups; each has one member or more
   std::string others = "false";
 };
 

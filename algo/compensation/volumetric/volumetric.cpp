@@ -152,12 +152,7 @@ std::vector<std::vector<double>> bends_along(const Machine& machine, std::size_t
                                              const std::vector<double>& nodes) {
   std::vector<std::vector<double>> bends(nodes.size());
   const auto add = [&](const std::vector<double>& position, const std::vector<double>& values) {
-    const auto at = [&](double x) {
-      const TablePlace place = place_of(position, x);
-      return values[place.cell] +
-             (values[std::min(place.cell + 1, values.size() - 1)] - values[place.cell]) *
-                 place.part;
-    };
+    const auto at = [&](double x) { return value_at(values, place_of(position, x)); };
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
       const double from = at(nodes[i]), to = at(nodes[i + 1]);
       double most = 0, where = 0;

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "algo/compensation/between_targets.h"
-#include "algo/compensation/table_uncertainty.h"
+#include "algo/machine/frames.h"
 #include "schema/sample.h"
 
 namespace mdof::daemon {
@@ -41,19 +41,15 @@ ErrorFunction function_of(const std::vector<double>& position, const std::vector
 
 void refer_angle(ErrorFunction& f, double zero_m) {
   if (f.position.empty() || zero_m <= f.position.front()) return;
-  const std::vector<double> shares = algo::value_at(f.position, zero_m);
-  double mean = 0;
-  for (std::size_t i = 0; i < shares.size(); ++i)
-    mean += shares[i] * (f.forward[i] + f.reverse[i]) / 2;
+  const algo::TablePlace zero = algo::place_of(f.position, zero_m);
+  const double mean = (algo::value_at(f.forward, zero) + algo::value_at(f.reverse, zero)) / 2;
   for (auto* values : {&f.forward, &f.reverse})
     for (double& x : *values) x -= mean;
 }
 
 void bound_angle_u(ErrorFunction& f, double zero_m) {
   if (f.u.empty() || zero_m <= f.position.front()) return;
-  const std::vector<double> shares = algo::value_at(f.position, zero_m);
-  double there = 0;
-  for (std::size_t i = 0; i < shares.size(); ++i) there += shares[i] * f.u[i];
+  const double there = algo::value_at(f.u, algo::place_of(f.position, zero_m));
   for (double& u : f.u) u += there;
 }
 

@@ -75,10 +75,10 @@ TEST(TableUncertainty, ReferencesAreSharesOfTheMeans) {
   const double expected[] = {0.6, 0.4, 0.2, 0, -0.2};
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(end[i], expected[i], 1e-15);
   EXPECT_NEAR(beyond[0] * 7 + beyond[1] * 9 + beyond[2] * 11, 15, 1e-12);
-  EXPECT_EQ(value_at({1, 2, 4}, 1), (Reference{1, 0, 0}));
-  EXPECT_EQ(value_at({1, 2, 4}, 2.5), (Reference{0, 0.75, 0.25}));
-  EXPECT_EQ(value_at({1, 2, 4}, 0), (Reference{1, 0, 0}));  // the ends are held
-  EXPECT_EQ(value_at({1, 2, 4}, 9), (Reference{0, 0, 1}));
+  EXPECT_EQ(interpolation_at({1, 2, 4}, 1), (Reference{1, 0, 0}));
+  EXPECT_EQ(interpolation_at({1, 2, 4}, 2.5), (Reference{0, 0.75, 0.25}));
+  EXPECT_EQ(interpolation_at({1, 2, 4}, 0), (Reference{1, 0, 0}));  // the ends are held
+  EXPECT_EQ(interpolation_at({1, 2, 4}, 9), (Reference{0, 0, 1}));
   EXPECT_EQ(as_measured(2), (Reference{0, 0}));
 }
 

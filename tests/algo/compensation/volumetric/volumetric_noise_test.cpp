@@ -113,7 +113,7 @@ TEST(VolumetricNoise, NodesSharePartsOfTheirTargets) {
   EXPECT_GT(std::abs(second), 1e-15);
   EXPECT_NEAR(table.noise[0][0].with_next[1][0] / first, 1, 1e-12);
   EXPECT_NEAR(table.noise[0][1].with_next[1][0] / second, 1, 1e-12);
-  // Errors of which no covariance is known are independent, each on targets of its own.
+  // Without a known covariance two errors are independent, each on targets of its own.
   known = {};
   frame.error[5].position[2] = 0.021;
   set_noise_of_axes(table, *machine, {}, MachineApproach::forward);

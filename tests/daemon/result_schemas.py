@@ -1,5 +1,5 @@
-"""What mdofd says in rpc.discover of its results, and whether a result is so: by python3-jsonschema, strictly. Which
-members are there and of which type is all that a schema says, so that results alike are checked once."""
+"""Checks results of mdofd against the schemas that rpc.discover gives, by python3-jsonschema, strictly. A schema states only the
+names and types of members, so of several results with the same names and types one is checked."""
 import jsonschema
 
 

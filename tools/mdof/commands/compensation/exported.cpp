@@ -215,9 +215,9 @@ Status mark_unknown_approach(store::Store& store, const CompensationTable& table
     MDOF_TRY(const Run run, store.run(id));
     if (!daemon::has_unknown_approach(run)) continue;
     out.options.marks.push_back(
-        "APPROACH NOT STATED: readings of run " + std::to_string(id) + ", of which table " +
-        std::to_string(table.id) +
-        " is made, do not state their approach, so both approaches have the same values; a "
+        "APPROACH NOT STATED: table " + std::to_string(table.id) + " is made from run " +
+        std::to_string(id) +
+        ", whose readings do not state their approach, so both approaches have the same values; a "
         "reversal error is not corrected, and a controller that uses this table may ignore its "
         "own backlash compensation (LinuxCNC ignores BACKLASH)");
   }

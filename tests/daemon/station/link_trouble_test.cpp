@@ -42,7 +42,7 @@ double travel_mm(double t_s) {
 enum class Kind { slow, growing, stalled, lost, garbled, stood_still };
 constexpr int kKinds = 6;
 
-struct Trouble {
+struct LinkFault {
   Kind kind = Kind::slow;
   int device = 0;
   double begin_s = 0, length_s = 0, late_s = 0;
@@ -50,9 +50,9 @@ struct Trouble {
   bool at(double t_s) const { return begin_s <= t_s && t_s < begin_s + length_s; }
 };
 
-Trouble trouble_of(std::uint32_t scenario) {
+LinkFault trouble_of(std::uint32_t scenario) {
   const Philox a = philox({scenario, 0, 0, 0}, 77), b = philox({scenario, 1, 0, 0}, 77);
-  Trouble t;
+  LinkFault t;
   t.kind = static_cast<Kind>(scenario % kKinds);
   t.device = static_cast<int>(scenario / kKinds % 3);
   t.begin_s = 2 + 28 * uniform(a[0], a[1]);
@@ -72,7 +72,7 @@ class Device {
   }
 
   // When the packet that comes next arrives. Packets do not overtake each other.
-  double received_s(const Trouble* trouble) const {
+  double received_s(const LinkFault* trouble) const {
     const Philox r = philox({static_cast<std::uint32_t>(next_), 0, 0, seed_}, 5);
     const double sent_s = true_s(next_ + kPacket - 1);
     double delay_s = 2e-4 + 1e-3 * uniform(r[0], r[1]);
@@ -86,7 +86,7 @@ class Device {
   }
 
   // Empty: the packet was lost on its way.
-  SampleBlock take(const Trouble* trouble, bool marks) {
+  SampleBlock take(const LinkFault* trouble, bool marks) {
     const double received = last_received_s_ = received_s(trouble);
     if (trouble && trouble->kind == Kind::stood_still && !stood_ && trouble->at(true_s(next_))) {
       stood_ = true;
@@ -102,7 +102,7 @@ class Device {
   }
 
  private:
-  bool is_dropped(const Trouble* trouble, std::int64_t first) const {
+  bool is_dropped(const LinkFault* trouble, std::int64_t first) const {
     if (!trouble || !trouble->at(true_s(first))) return false;
     const Philox r = philox({static_cast<std::uint32_t>(first), 1, 0, seed_}, 5);
     return trouble->kind == Kind::lost || (trouble->kind == Kind::garbled && r[0] % 4 == 0);
@@ -154,7 +154,7 @@ bool is_wrong(const Point& point) {
   return false;
 }
 
-Outcome measure(const Trouble& trouble, bool marks) {
+Outcome measure(const LinkFault& trouble, bool marks) {
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
   Pipeline pipeline = Pipeline::create(rig, {}).value();
   std::array<Device, 3> devices = {
@@ -192,7 +192,7 @@ int scenarios() {
   return asked ? std::atoi(asked) : 30;
 }
 
-std::string described(int scenario, const Trouble& t) {
+std::string described(int scenario, const LinkFault& t) {
   return "scenario " + std::to_string(scenario) + ": kind " +
          std::to_string(static_cast<int>(t.kind)) + ", device " + std::to_string(t.device) + ", " +
          std::to_string(t.late_s) + " s from " + std::to_string(t.begin_s) + " for " +
@@ -202,7 +202,7 @@ std::string described(int scenario, const Trouble& t) {
 TEST(LinkTrouble, NoPointIsWrongWithoutAFlag) {
   Outcome sum;
   for (int i = 0; i < scenarios(); ++i) {
-    const Trouble trouble = trouble_of(static_cast<std::uint32_t>(i));
+    const LinkFault trouble = trouble_of(static_cast<std::uint32_t>(i));
     const Outcome one = measure(trouble, true);
     EXPECT_EQ(one.wrong_unflagged, 0) << described(i, trouble);
     sum.points += one.points;

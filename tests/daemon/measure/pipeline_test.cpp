@@ -149,10 +149,12 @@ TEST(Pipeline, AProbeThatIsMissingAtOneStopCostsThatPointAlone) {
 }
 
 // What stays inside the range of a probe that vibrates across its end is not its mean.
+// It vibrates by 0.9 um about 99 um, and each tenth reading is beyond 100 um.
 TEST(Pipeline, AProbeThatTouchesTheEndOfItsRangeIsNoReading) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
-    for (std::size_t i = begin_of_stop(2); i < begin_of_stop(2) + kStand; i += 10)
-      block.value[kC][i] = 105;
+    for (std::size_t i = 0; i < kStand; ++i)
+      block.value[kC][begin_of_stop(2) + i] =
+          i % 10 == 0 ? 100.5 : 99 + 0.9 * (static_cast<double>(i % 3) - 1);
   });
   ASSERT_TRUE(run) << run.error().message;
   ASSERT_EQ(run->points.size(), 10u);

@@ -51,9 +51,9 @@ Matrix6 matrix_of(const Covariance6& covariance) {
 template <class UBetween>
 Matrix6 between(const std::vector<Covariance6>& by_position, const TablePlace& place,
                 UBetween u_between) {
-  const Matrix6 low = matrix_of(by_position[place.cell]);
+  Matrix6 low = matrix_of(by_position[place.cell]);
   if (place.part == 0) return low;
-  const Matrix6 high = matrix_of(by_position[place.cell + 1]);
+  Matrix6 high = matrix_of(by_position[place.cell + 1]);
   if (place.part == 1) return high;
   const Matrix6 mean = low + (high - low) * place.part;
   Eigen::Matrix<double, kBodyErrors, 1> scale;

@@ -26,10 +26,10 @@ constexpr Group kGroups[] = {
      ""},
     {"compensation", "Build, show and activate compensation tables", ""},
     {"machine", "Calculate errors of a machine at the tool: maps, diagonals, circles, budgets", ""},
-    {"form", "Calculate height maps, clamping, cuts and paths of a fast tool servo", ""},
+    {"form", "Build and evaluate height maps: clamping, next cut, path of a fast tool servo", ""},
     {"separate", "Separate the machine's error from the shape of the target", ""},
     {"encoder", "Set the position of an axis that has an incremental encoder", ""},
-    {"device", "List, probe and monitor the devices",
+    {"device", "List, test and monitor the devices",
      "Examples:\n"
      "  mdof device list\n"
      "  mdof device probe capa-1 --config mdofd.toml\n"

@@ -138,9 +138,9 @@ Command calibrate_certificate_command() {
           .footer =
               "mdof reads a DCC (Digital Calibration Certificate of PTB) with a sensitivity in\n"
               "volts per length, a table of errors (refTypes basic_measuredValue,\n"
-              "basic_measurementError or basic_referenceValue), or both. It divides each U by\n"
-              "the coverage factor and prints the values that it takes. It does not verify\n"
-              "signatures.\n"
+              "basic_measurementError or basic_referenceValue), or both. It divides each\n"
+              "expanded uncertainty U by the coverage factor and prints the values that it takes\n"
+              "from the certificate. It does not verify signatures.\n"
               "Example:\n"
               "  mdof calibrate certificate K-4711.xml --rig rig_X.toml --probe A --out A.toml",
           .declare = declare_certificate};

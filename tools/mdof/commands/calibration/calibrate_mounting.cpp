@@ -77,9 +77,10 @@ Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& 
   if (traverse.stops.size() < 2)
     return bad_input(
         log.file +
-        ": the axis stops at only one position in this log, but a slope needs two positions. " +
+        ": the axis stops at only one position in this log, but the calibration needs two or more "
+        "positions. " +
         hazard_of(rig, log.axis) +
-        "Stop at two or more positions, as far apart as the clearance allows");
+        "Record the log again with two or more stops, as far apart as the clearance allows");
   return traverse;
 }
 
@@ -132,10 +133,10 @@ void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig
 Status check_not_calibrated(const Rig& rig) {
   for (const CalibrationRecord& record : rig.records)
     if (record.kind == "mounting")
-      return bad_input(rig.source + ": the rig already uses the mounting calibration \"" +
-                       record.id +
-                       "\"; remove this record from the key \"calibration\", calibrate, and then "
-                       "add the new record");
+      return bad_input(
+          rig.source + ": the rig already uses the mounting calibration \"" + record.id +
+          "\"; remove this record from the key \"calibration\" of the rig file, calibrate, "
+          "and then add the new record to this key");
   return {};
 }
 
@@ -148,11 +149,11 @@ Status calibrate(const MountingCommand& command) {
   const MountingCalibration& found = fit.found;
   if (!found.explained)
     warn(
-        "chi-square is larger than expected from the noise of the readings (possible causes: wrong "
-        "sensitivity of a probe whose u_sensitivity_ppm the rig does not declare, target not flat, "
-        "target moved in its clamp, axis not straight); the uncertainties are increased, but they "
-        "do not cover an error that all clampings have in common, and runs with this record are "
-        "doubtful");
+        "chi-square is larger than expected from the noise of the readings. Possible causes: a "
+        "probe has a wrong sensitivity, and the rig does not declare its u_sensitivity_ppm; the "
+        "target is not flat; the target moved in its clamp; the axis is not straight. mdof has "
+        "increased the uncertainties, but they do not cover an error that all clampings have in "
+        "common. Runs with this record are doubtful");
   fill(record, found, rig, sources.files);
   if (!command.record.out.empty())
     MDOF_CHECK(write_record(command.record.out, record_text(record)));
@@ -177,9 +178,10 @@ Action declare_mounting(CLI::App& command) {
       ->required()
       ->type_name("RIG.toml");
   command
-      .add_option("--reversed", o->reversed,
-                  "Axes for which mdof reverses the direction of target motion calculated from the "
-                  "rig and the encoder")
+      .add_option(
+          "--reversed", o->reversed,
+          "Axes along which the target moves opposite to the direction that mdof calculates "
+          "from the rig and the encoder")
       ->delimiter(',')
       ->type_name("X,Y,Z")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
@@ -198,13 +200,13 @@ Command calibrate_mounting_command() {
           "HAZARD: a traverse along the measuring direction of a probe drives the target into\n"
           "the probe. On a rig for X, a traverse of Y drives the target into the probes D\n"
           "and E; the range of these probes may end after 100 um. A tilt of 1 mrad reduces a\n"
-          "gap by 1 um for each mm of distance.\n"
+          "gap by 1 um for each mm of distance from the axis of the tilt.\n"
           "First run \"mdof clearance RIG.toml\" for each rig. Retract the probes that this\n"
-          "command lists, or leave out the traverse.\n"
+          "command lists, or leave out the traverses that drive the target into these probes.\n"
           "Clamp the target at three or more tilts of some mrad about different axes, each\n"
-          "tilt also in the opposite direction. At each tilt, traverse each axis that does not\n"
-          "move the target towards a probe: some mm, with five or more stops. Record each\n"
-          "traverse as a separate log.\n"
+          "tilt also in the opposite direction. At each tilt, move each axis that does not\n"
+          "drive the target towards a probe. Move it by some mm, with five or more stops, and\n"
+          "record each of these traverses as a separate log.\n"
           "Example:\n"
           "  mdof calibrate mounting X=x1.csv,Y=y1.csv X=x2.csv,Y=y2.csv X=x3.csv,Y=y3.csv \\\n"
           "    --rig rig_X.toml --out mounting.toml",

@@ -137,9 +137,9 @@ Action declare_sensitivity(CLI::App& command) {
       ->required()
       ->type_name("RIG.toml");
   command.add_option("--probe", o->probe, "Probe to calibrate")->required()->type_name("ID");
-  command.add_flag(
-      "--reversed", o->reversed,
-      "Reverse the direction of target motion that mdof calculates from the rig and the encoder");
+  command.add_flag("--reversed", o->reversed,
+                   "The target moves opposite to the direction that mdof calculates from the rig "
+                   "and the encoder");
   add_record_options(command, o->record);
   add_json_flag(command, o->json);
   return [o] { return calibrate(*o); };
@@ -155,7 +155,7 @@ Command calibrate_sensitivity_command() {
               "and \"mdof live\" to see where the range of the probe ends. Use small steps and\n"
               "stay within the range.\n"
               "Move the target towards the probe in steps over its range, and stop at each step.\n"
-              "The result contains the scale error of the encoder.\n"
+              "A scale error of the encoder is part of the result.\n"
               "Example:\n"
               "  mdof calibrate sensitivity z.csv --rig rig_X.toml --probe A --out A.toml",
           .declare = declare_sensitivity};

@@ -280,9 +280,9 @@ class TheSame(unittest.TestCase):
         at = dict(axis="X", position_mm=10)
         self.assertEqual(self.generation(self.client.call("compensation.at", **at)), 1)
         self.assertEqual(self.both("compensation", "deactivate", "--axis", "X"),
-                         "axis X is no longer compensated, generation 2\n")
+                         "the table of axis X is no longer active, generation 2\n")
         self.assertEqual(self.both("compensation", "deactivate", "--axis", "X"),
-                         "axis X: no table was active, generation 2\n")
+                         "no table of axis X was active, generation 2\n")
         with self.assertRaisesRegex(RpcError, "no compensation table is active for axis X"):
             self.client.call("compensation.at", **at)
         status = self.client.call("compensation.status")

@@ -21,8 +21,8 @@ Result<std::int64_t> generation_in(const Result<Active>& active, std::int64_t ta
 void add_expected_generation_option(CLI::App& command, std::optional<std::int64_t>& generation) {
   command
       .add_option("--expected-generation", generation,
-                  "Generation of the active tables on which the decision is based; if it has "
-                  "changed, nothing is changed")
+                  "Make the change only if the active tables still have this generation (see mdof "
+                  "status)")
       ->type_name("N");
 }
 

@@ -39,7 +39,7 @@ std::string causes_text(const CheckedError& e) {
   if (e.by_ramp > kShown)
     text +=
         e.error + ": " + fixed(e.by_ramp * 1e6, 4) + unit +
-        " remain after a reversal, because LinuxCNC does not start its ramp for a step of this "
+        " remain after a reversal, because LinuxCNC does not start a motion for a step of this "
         "size; change MAX_ACCELERATION, use the live compensation, or permit this residual with "
         "--residual-um\n";
   if (e.between_nodes > kShown)

@@ -46,8 +46,8 @@ Result<std::string> deactivated(const DeactivateCommand& command) {
 Status deactivate(const DeactivateCommand& command) {
   MDOF_TRY(const std::string reply, deactivated(command));
   const std::string of = command.axis == kVolume ? "the volume" : "axis " + command.axis;
-  return print_activation(reply, of + " is no longer compensated", of + ": no table was active",
-                          command.json);
+  return print_activation(reply, "the table of " + of + " is no longer active",
+                          "no table of " + of + " was active", command.json);
 }
 
 Action declare_deactivate(CLI::App& command) {

@@ -46,8 +46,8 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
                    "If values are missing, export the longest range without a gap");
   command.add_flag(
       "--one-approach", request.one_approach,
-      "If values exist for one approach only, use them for both approaches; in a format with one "
-      "value for both approaches, accept that a reversal error remains");
+      "If values exist for one approach only, use them for both approaches. If the format has one "
+      "value for both approaches, accept the reversal error that remains");
   command
       .add_option("--joint", request.joints,
                   "linuxcnc: joints of the axes, such as X=0,Z=1; a gantry has two joints, such as "
@@ -76,13 +76,13 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
                   "contain (MD38000, MD18342) [default: 200]")
       ->check(CLI::Range(2, 20'000));
   command
-      .add_option(
-          "--siemens-tables", request.siemens_tables,
-          "siemens-cec: number of CEC tables in the control; an export with more tables is refused")
+      .add_option("--siemens-tables", request.siemens_tables,
+                  "siemens-cec: number of CEC tables in the control; mdof refuses an export that "
+                  "needs more")
       ->check(CLI::Range(1, 1000));
-  add_consent_flags(command, request.consent, "a table; a remark in the files says so");
+  add_consent_flags(command, request.consent, "a table; the files then contain a remark");
   command.add_flag("--not-in-force", request.not_in_force,
-                   "Also export a table that is not active; a remark in the files says so");
+                   "Also export a table that is not active; the files then contain a remark");
   command.add_flag("--unverified-sign", request.unverified_sign,
                    "Export although the sign convention of the controller is not confirmed");
   add_database_option(command, request.database);

@@ -195,8 +195,8 @@ Status take_one_approach(CompensationTable& table, const ExportRequest& request,
                              (has(forward) ? "forward" : "reverse") + " approach only";
     if (!request.one_approach)
       return bad_input(what +
-                       "; measure both approaches, or use these values for both with "
-                       "--one-approach, which does not correct a reversal error");
+                       "; measure both approaches, or use these values for both approaches with "
+                       "--one-approach (this does not correct a reversal error)");
     out.options.marks.push_back("ONE APPROACH: " + what + "; a reversal error is not corrected");
     (has(forward) ? reverse : forward) = has(forward) ? forward : reverse;
     return {};
@@ -217,9 +217,9 @@ Status mark_unknown_approach(store::Store& store, const CompensationTable& table
     out.options.marks.push_back(
         "APPROACH NOT STATED: table " + std::to_string(table.id) + " is made from run " +
         std::to_string(id) +
-        ", whose readings do not state their approach, so both approaches have the same values; a "
-        "reversal error is not corrected, and a controller that uses this table may ignore its "
-        "own backlash compensation (LinuxCNC ignores BACKLASH)");
+        ". The readings of this run do not state their approach, so both approaches have the same "
+        "values. The table does not correct a reversal error, and a controller that uses this "
+        "table may ignore its own backlash compensation (LinuxCNC ignores BACKLASH)");
   }
   return {};
 }
@@ -309,11 +309,11 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
     if (measured && !fixture_is_with_tool(*measured, rig->sides))
       return bad_input(
           name +
-          " is stated at a point of the fixture, and by moves and chain of the rig "
-          "of axis " +
+          " is the angle at the fixture, not at the tool: the keys \"moves\" and \"chain\" in "
+          "the rig of axis " +
           letter(rig->axis) +
-          " the fixture is on the side of the work, so this angle is not that of the tool; "
-          "measure it with the fixture in the spindle, or correct moves in the rig");
+          " state that the fixture is on the side of the work; measure with the fixture in the "
+          "spindle, or correct the key \"moves\" in the rig");
   }
   // The point at which tables of these rigs hold, too: the angle at another point is another.
   const StatedAt at = stated_at_by_default(x);

@@ -53,12 +53,13 @@ Status give_homes_to(std::string_view axes, Homes& homes) {
     if (home.axis == 0 && axes.size() == 1) home.axis = axes.front();
     if (home.axis == 0)
       return fail(ErrorCode::usage,
-                  "--home-mm: one number does not say which of the axes " + listed(axes) +
-                      " it is for; give each axis its home position, such as " + "X=10,Y=-20");
+                  "--home-mm: one number is not enough for the axes " + listed(axes) +
+                      "; give the home position of each axis, such as X=10,Y=-20");
     if (axes.find(home.axis) == std::string_view::npos)
       return fail(ErrorCode::usage, "--home-mm gives a position of axis " +
                                         std::string(1, home.axis) +
-                                        ", but the exported tables are of " + listed(axes));
+                                        ", but the exported tables are tables of " + listed(axes) +
+                                        "; leave out axis " + std::string(1, home.axis));
   }
   return {};
 }

@@ -44,9 +44,11 @@ Result<algo::Command> others_from(const Machine& machine, const VolumeOptions& o
   for (const char axis : axes_of(o)) {
     const std::size_t k = kAxes.find(axis);
     if (named ? o.at.find(axis) == std::string::npos : at[k] == 0) continue;
-    return fail(ErrorCode::usage, std::string("--at \"") + o.at + "\": " + axis +
-                                      " is an axis of the grid (" + axes_of(o) +
-                                      "), so it has no fixed position; leave " + axis + " out");
+    return fail(ErrorCode::usage,
+                std::string("--at \"") + o.at + "\": " + axis + " is an axis of the grid (" +
+                    axes_of(o) +
+                    "), so it has no fixed position; give only the positions of the other "
+                    "axes, as AXIS=MM");
   }
   return at;
 }

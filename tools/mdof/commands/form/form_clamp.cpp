@@ -61,7 +61,7 @@ Result<Clamped> clamped(const FormClampCommand& o) {
     MDOF_TRY(found.clamping, algo::clamping_by_K(before, after, o.K.value_or(0)));
   }
   warn_of_few(before, algo::figures_of(found.clamping.clamping).pixels,
-              "the clamping error of the other pixels is unknown");
+              "the clamping deformation at the remaining pixels is unknown");
   if (!o.thickness_mm) return found;
   const algo::Plate plate{from_mm(*o.thickness_mm), *o.young_GPa * 1e9, *o.poisson};
   // What springs back carries the stress; the plastic part stays without a load.

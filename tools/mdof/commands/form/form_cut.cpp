@@ -77,9 +77,9 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
   if (found.factor)
     text += "optimal gain: " + fixed(*found.factor, 4) + " times the mean error of the passes\n";
   if (found.left_by_smoothing_rms_m)
-    text += "error that smoothing (" + plain_number(o.smooth_mm) +
-            " mm squares) removes from the correction: RMS " +
-            in_um(*found.left_by_smoothing_rms_m) + " µm\n";
+    text += "error that is not corrected because of the smoothing (squares of " +
+            plain_number(o.smooth_mm) + " mm): RMS " + in_um(*found.left_by_smoothing_rms_m) +
+            " µm\n";
   if (!found.converges) return text + kOnePass + "\nnext path: " + o.out + "\n";
   text +=
       "repeatable error: RMS " + in_um(*found.repeatable_rms_m) + " µm; random error: RMS " +
@@ -114,7 +114,7 @@ Status form_cut(const FormCutCommand& o) {
   MDOF_TRY(const algo::CuttingResult found, algo::next_cut(passes));
   warn_of_few(
       passes.wanted, found.pixels,
-      "the next path has no height at the other pixels, and mdof form path bridges these gaps");
+      "the next path has no height at the remaining pixels, and mdof form path bridges these gaps");
   MDOF_CHECK(save_map(found.next, o.out));
   MDOF_CHECK(plot_maps({{"next-path", "Path of the next pass", found.next}}, o.plots));
   return o.json ? write_line(cut_json(found, o)) : write_out(cut_text(found, o));

@@ -271,13 +271,14 @@ Action declare_form_path(CLI::App& command) {
       ->type_name("FILE");
   command
       .add_option("--centre-mm", o->centre,
-                  "Position of the spindle axis [default: middle of the measured part; for the "
+                  "Position of the spindle axis [default: middle of the measured pixels; for the "
                   "scan of a run: 0,0]")
       ->type_name("X,Y");
   command
-      .add_option("--outer-radius-mm", o->outer_radius_mm,
-                  "Radius at which the path begins [default: farthest measured pixel, if the map "
-                  "has measured edge pixels]")
+      .add_option(
+          "--outer-radius-mm", o->outer_radius_mm,
+          "Radius at which the path begins [default: radius of the farthest measured pixel]; "
+          "required if all pixels at the edges of the map are empty")
       ->check(positive_number());
   command.add_option("--points-per-rev", o->points_per_rev, "Points per turn")
       ->check(whole_number_in(4, 1'000'000))

@@ -16,9 +16,9 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kScanU =
-    "the noise between neighbouring heights and u of the subtracted axis errors, but not the "
-    "errors of the probe calibration, the encoder, the spindle angle and the spindle, and not the "
-    "noise that neighbouring heights have in common";
+    "the noise between neighbouring heights and u of the subtracted axis errors. u does not "
+    "contain the noise that neighbouring heights have in common, or errors of the probe "
+    "calibration, the encoder, the spindle and the spindle angle";
 
 struct FormScanCommand {
   std::vector<std::string> runs;

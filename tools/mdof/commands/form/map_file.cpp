@@ -72,9 +72,8 @@ std::optional<std::int64_t> run_of_map(const std::string& name) {
 void warn_of_few(const SurfaceMap& map, std::size_t common, const std::string& rest) {
   const std::size_t measured = map.measured();
   if (10 * common >= 9 * measured) return;
-  warn(map.name + ": the map has " + std::to_string(measured) +
-       " measured pixels, but the other maps have only " + std::to_string(common) +
-       " of these pixels; " + rest);
+  warn(map.name + ": the map has " + std::to_string(measured) + " measured pixels, but only " +
+       std::to_string(common) + " of these pixels are measured in all maps; " + rest);
 }
 
 void add_map_options(CLI::App& command, MapOptions& options) {

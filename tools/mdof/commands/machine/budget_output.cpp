@@ -20,8 +20,7 @@ constexpr const char* kNothingDeclared =
 constexpr const char* kDirections[] = {"x", "y", "z"};
 constexpr const char* kNotKept =
     "the measured errors alone exceed the target; the target is not met even if every declared "
-    "source has "
-    "u = 0";
+    "source has u = 0";
 constexpr const char* kFactorRule = "all u are multiplied by the same factor";
 
 // The largest contribution to u_x² + u_y² + u_z² first.
@@ -226,17 +225,18 @@ std::string machine_budget_text(const Machine& machine, const BudgetRequest& req
                      at_text(machine, request.at) + "\n" + stage_text(found.now);
   if (!found.now.outputs.empty()) text += contributions_text(found);
   if (found.allocation)
-    text += wrapped(
-                "\"allowed u\": if all sources have these u, 95 % of the error vectors are shorter "
-                "than " +
-                    plain_number(*request.target_um, 6) + " µm (" + kFactorRule + ", " +
-                    fixed(found.allocation->common_factor, 4) +
-                    "); \"alone\": the allowed u if only this u changes and the other sources keep "
-                    "the declared u",
-                terminal_columns()) +
-            "\n";
+    text +=
+        wrapped(
+            "\"allowed u\": if all sources have these u, 95 % of the error vectors are shorter "
+            "than " +
+                plain_number(*request.target_um, 6) + " µm (" + kFactorRule + ", " +
+                fixed(found.allocation->common_factor, 4) +
+                "). \"alone\": allowed u of one source if all other sources keep their declared "
+                "u (\"any\": no limit)",
+            terminal_columns()) +
+        "\n";
   if (const auto& names = found.now.model.not_declared; !names.empty())
-    text += wrapped("no cause is declared for " + std::to_string(names.size()) +
+    text += wrapped("no [[source]] and no u is declared for " + std::to_string(names.size()) +
                         " errors that act on the tool" +
                         (names.size() <= 12 ? ": " + joined(names) : ""),
                     terminal_columns()) +

@@ -107,9 +107,10 @@ Action declare_machine_budget(CLI::App& command) {
   command.add_option("--threads", o->threads, "Number of threads; the results do not depend on it")
       ->check(CLI::Range(1, 1024));
   command
-      .add_option("--target-um", o->target_um,
-                  "Also print the tolerances with which 95 % of the error vectors are shorter than "
-                  "this length")
+      .add_option(
+          "--target-um", o->target_um,
+          "Also print the largest u of each source with which 95 % of the error vectors are "
+          "shorter than this length")
       ->check(positive_number());
   add_json_flag(command, o->json);
   return [o] { return machine_budget(*o); };

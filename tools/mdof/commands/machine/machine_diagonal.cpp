@@ -200,9 +200,10 @@ Status squareness(const MachineDiagonalCommand& o) {
       squareness_sense(axes, "°") + "\nfrom " +
       (s->two_diagonals ? "both diagonals" : "one diagonal and the lengths of both axes") +
       "; u contains repeatability (" + urad_to_place(s->u_repeat_rad, s->u_repeat_rad) + " µrad)" +
-      (o.u_um > 0 ? " and the declared u of each line" : " only (no u of the lines is declared)") +
+      (o.u_um > 0 ? " and the declared u of each line"
+                  : " only (declare u of the lines with --u-um)") +
       "\n"
-      "a scale error that all lines have in common has no effect\n");
+      "a scale error that all lines have in common does not change this angle\n");
 }
 
 Status machine_diagonal(const MachineDiagonalCommand& o) {

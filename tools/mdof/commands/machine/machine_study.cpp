@@ -289,7 +289,7 @@ Status write_grooving_files(const algo::GroovingStudy& study, const std::string&
   MDOF_CHECK(out.write(corrections, corrections_csv(study.corrections)));
   MDOF_CHECK(out.publish());
   say((to / "machine.toml").string() +
-      ": file of the measured errors; build a table for a controller with: "
+      " contains the measured errors; build a table for a controller with: "
       "mdof compensation build --machine " +
       (to / "machine.toml").string() + " --plane XY --step-mm 20 --incomplete");
   return {};
@@ -330,9 +330,10 @@ Command machine_study_command() {
       .name = "machine study",
       .summary = "Repeat a published study of a machine: measure and compensate in simulation",
       .footer =
-          "The 2-D errors (Eq. 1) follow from positioning, straightness and squareness. Diagonals "
-          "give the squareness (Eq. 2) and a check (ISO 230-6). Then mdof corrects the commands "
-          "and measures again. A circle gives the perpendicularity of the rotary table.\n"
+          "mdof calculates the 2-D errors from positioning, straightness and squareness (Eq. 1 of "
+          "the paper). Measured diagonals give the squareness (Eq. 2) and check the result "
+          "(ISO 230-6). Then mdof corrects the commands and measures again. A circular path gives "
+          "the perpendicularity of the rotary table.\n"
           "Examples:\n"
           "  mdof machine study grooving\n"
           "  mdof machine study grooving --seed 7 --out study --json",

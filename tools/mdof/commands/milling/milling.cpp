@@ -180,7 +180,7 @@ std::string milling_text(const std::vector<Milled>& all) {
   row("power/W", [](R r) { return fixed(r.power_W, 4); });
   row("wall offset at the tip/µm", [](R r) { return in_um(r.wall.offset_tip_m); });
   row("  at the root/µm", [](R r) { return in_um(r.wall.offset_root_m); });
-  row("form over the depth/µm", [](R r) { return in_um(r.wall.form_m); });
+  row("form error over the depth/µm", [](R r) { return in_um(r.wall.form_m); });
   row("waviness at the tip/µm", [](R r) { return in_um(r.wall.waviness_tip_m); });
   row("  at the root/µm", [](R r) { return in_um(r.wall.waviness_root_m); });
   std::string text = all.front().plan.name;

@@ -72,7 +72,7 @@ Action declare_drift(CLI::App& command) {
   command
       .add_option("--rig", o->rig,
                   "Rig file, which describes probes and axis [default if LOG is a recording: the "
-                  "rig stored in it]")
+                  "rig stored in this recording]")
       ->type_name("RIG.toml");
   command
       .add_option(

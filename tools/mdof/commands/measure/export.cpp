@@ -206,9 +206,10 @@ Action declare_export(CLI::App& command) {
                   ->type_name("FILE");
   add_report_options(command, o->request);
   command
-      .add_option("--csv", o->csv,
-                  "CSV file to write; with several devices, one file OUT-device.csv for each "
-                  "[default: standard output]")
+      .add_option(
+          "--csv", o->csv,
+          "CSV file to write; with several devices, one file OUT-device.csv for each device "
+          "[default: standard output]")
       ->type_name("OUT.csv");
   command
       .add_option("--rig", o->rig,

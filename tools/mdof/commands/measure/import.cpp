@@ -117,9 +117,10 @@ Action declare_import(CLI::App& command) {
           "230-2) or \"body\" (positive in the + direction of the machine axis) [default: command]")
       ->check(CLI::IsMember({"command", "body"}));
   command
-      .add_option("--travel", o->travel,
-                  "Direction in which the body moves when the command increases: + or - along the "
-                  "machine axis [default: unknown]")
+      .add_option(
+          "--travel", o->travel,
+          "Direction in which the moving body moves when the commanded position increases: + "
+          "or - along the machine axis [default: unknown]")
       ->check(CLI::IsMember({"+", "-"}));
   command
       .add_option("--u-um", o->request.u_um,

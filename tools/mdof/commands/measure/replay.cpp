@@ -134,7 +134,7 @@ Action declare_replay(CLI::App& command) {
   command
       .add_option("--rig", o->rig,
                   "Rig file, which describes probes and axis [default if LOG is a recording: the "
-                  "rig stored in it]")
+                  "rig stored in this recording]")
       ->type_name("RIG.toml");
   add_database_option(command, o->database);
   add_socket_option(command, o->socket);

@@ -84,10 +84,9 @@ std::string comparison_text(const daemon::Comparison& c) {
          wrapped("± is the expanded uncertainty U (95 %). u contains " + covers_text(c) +
                      ". The change is |after| - |before|. U of the change treats the runs as "
                      "independent. Uncertainties that both runs share cancel, so this U tends to "
-                     "be too large. Where the sign of a figure has changed, they add, and u of the "
-                     "change is the sum of both. \"changed\": the size is the same within U, but "
-                     "the sign or the "
-                     "shape is not.",
+                     "be too large. If the sign of a figure has changed, the shared uncertainties "
+                     "add, and u of the change is u before plus u after. Effect \"changed\": the "
+                     "size is the same within U, but the sign or the shape has changed.",
                  terminal_columns()) +
          "\n";
 }
@@ -115,9 +114,10 @@ Status compare(const CompareCommand& command) {
   std::vector<Budget> changes;
   for (const auto& figure : found.figures) changes.push_back(figure.change);
   if (const std::string text = not_declared_text(changes); !text.empty())
-    warn(found.is_imported ? "no uncertainty was declared at the import of a run (--u-um), so U "
-                             "contains the repeatability only"
-                           : text);
+    warn(found.is_imported
+             ? "an imported run has no declared uncertainty (mdof import --u-um), so U "
+               "contains the repeatability only"
+             : text);
   MDOF_CHECK(draw_change(found, command.plots));
   return command.json ? write_line(daemon::comparison_json(found))
                       : write_out(comparison_text(found));

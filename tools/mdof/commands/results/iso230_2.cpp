@@ -124,8 +124,8 @@ Status iso230_of_run(const Iso230Command& command) {
   if (is_imported(run.header))
     return bad_input(
         "run " + std::to_string(id) + " was imported from " + run.header.provenance.recording_path +
-        ", and --run takes measured or replayed runs; give this file in place of --run "
-        "if it is a CSV with the columns target_mm,direction,run,deviation_um");
+        ", but --run takes only measured or replayed runs; if this file is a CSV with the columns "
+        "target_mm,direction,run,deviation_um, give the file instead of --run");
   MDOF_TRY(const RunPositioning found,
            run_positioning(run, command.of_run, from_mm(command.scale_period_mm)));
   show_notices(found.notices, command.all_warnings);

@@ -61,7 +61,7 @@ std::string parallelism_text(const Parallelism& found) {
              "the machine between the runs. ± is the standard uncertainty u. It contains " +
                  covers_text(found.planes.front().budget) +
                  ". The declared uncertainties of the two runs are taken as independent. The "
-                 "result uses the least-squares slopes. All slopes are given at the fixture.",
+                 "result uses the least-squares slopes. All slopes refer to the fixture.",
              terminal_columns()) +
          "\n";
 }

@@ -79,7 +79,7 @@ std::string squareness_text(const Squareness& s, const std::vector<Budget>& budg
          " (k = " + fixed(budget.coverage_factor, 2) + ", 95 %)\n" + squareness_sense(s.axes, "°") +
          "\nform " + in_urad(s.form_rad) + " µrad: residual straightness of both axes\n" +
          wrapped("± is the standard uncertainty u. It contains " + covers_text(budget) +
-                     ". \"mdof budget\" lists the contributors. Slopes are given at the fixture.",
+                     ". \"mdof budget\" lists the contributors. Slopes refer to the fixture.",
                  terminal_columns()) +
          "\n";
 }

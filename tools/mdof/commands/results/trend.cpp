@@ -57,7 +57,7 @@ std::string sentence_of(const daemon::Trend& trend) {
            " values are too few for control limits (the limits need a baseline of " +
            (trend.baseline > 0 ? std::to_string(trend.baseline) + " values)"
                                : "at least " + std::to_string(algo::kFewestOfBaseline) +
-                                     " values and one more value)");
+                                     " values, and one value after them)");
   const std::string provisional = chart->baseline < kFirmBaseline
                                       ? "; the limits are provisional (baseline of " +
                                             std::to_string(chart->baseline) + " values)"
@@ -187,7 +187,8 @@ Action declare_trend(CLI::App& command) {
           "--baseline", o->baseline,
           "Calculate the limits from the first N values [default: all values except the last]")
       ->check(CLI::Range(algo::kFewestOfBaseline, std::size_t{100'000}));
-  command.add_flag("--mixed", o->mixed, "Also use runs with other rigs and models");
+  command.add_flag("--mixed", o->mixed,
+                   "Combine runs even if they differ in rig, model or evaluation options");
   add_database_option(command, o->database);
   add_plot_option(command, o->plots);
   add_csv_and_json_flags(command, o->csv, o->json);
@@ -197,16 +198,17 @@ Action declare_trend(CLI::App& command) {
 }  // namespace
 
 Command trend_command() {
-  return {.name = "trend",
-          .summary = "Draw control charts of squareness and other figures over the stored runs",
-          .footer =
-              "The squareness values are the results that \"mdof squareness\" has stored.\n"
-              "Exit code 1: a figure has moved: the last value is outside the control limits,\n"
-              "or is at least the eighth value in a row on one side of the centre.\n"
-              "Examples:\n"
-              "  mdof trend --figure EC0Y_urad\n"
-              "  mdof trend --axis X --csv > trend_X.csv",
-          .declare = declare_trend};
+  return {
+      .name = "trend",
+      .summary = "Draw control charts of squareness and other figures over the stored runs",
+      .footer =
+          "The squareness values are the results that \"mdof squareness\" has stored.\n"
+          "Exit code 1: a figure has moved. This means that its last value is outside the\n"
+          "control limits, or is at least the eighth value in a row on one side of the centre.\n"
+          "Examples:\n"
+          "  mdof trend --figure EC0Y_urad\n"
+          "  mdof trend --axis X --csv > trend_X.csv",
+      .declare = declare_trend};
 }
 
 }  // namespace mdof::tools

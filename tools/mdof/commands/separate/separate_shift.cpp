@@ -67,10 +67,11 @@ Action declare_separate_shift(CLI::App& command) {
       ->expected(2, 64)
       ->type_name("");
   command
-      .add_option("--shift-mm", o->shift_mm,
-                  "Shift of the target along + of the axis: one number for each set-up, 0 for the "
-                  "first. If the target was turned end for end, the number is the position of the "
-                  "zero point of the target")
+      .add_option(
+          "--shift-mm", o->shift_mm,
+          "Shift of the target in the + direction of the axis: one number for each set-up, 0 "
+          "for the first. If the target was turned end for end, the number is the position of the "
+          "zero point of the target")
       ->required()
       ->expected(2, 64)
       ->type_name("MM");
@@ -89,10 +90,10 @@ Command separate_shift_command() {
   return {.name = "separate shift",
           .summary = "Separate machine error and target shape by shifts and turns of the target",
           .footer =
-              "Positions must be equally spaced, and each shift must be a whole number of steps. "
-              "Shifts alone cannot separate a parabola or a period that divides all shifts. If one "
-              "set-up is turned about the moving axis and not shifted, all errors except offset "
-              "and slope can be separated.\n"
+              "Positions must be equally spaced, and each shift must be a whole multiple of this "
+              "spacing. Shifts alone cannot separate a parabola, or a periodic error whose period "
+              "divides all shifts. If the target is turned about the moving axis and not shifted "
+              "in one set-up, mdof can separate all errors except offset and slope.\n"
               "Examples:\n"
               "  mdof separate shift 4 5 6 --shift-mm 0 5 15 --surface top\n"
               "  mdof separate shift a.csv b.csv c.csv --shift-mm 0 5 0 --turned 3 --moves target "

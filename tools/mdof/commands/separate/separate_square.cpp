@@ -68,7 +68,7 @@ std::string text_of(const SquareReversal& s, bool simulated) {
          "the angle of the square is 90° + " +
          angle(s.square_rad) + " µrad (key artefact_angle_error_urad of a rig)\n" +
          wrapped("± is the standard uncertainty u. It contains " + covers_of(s) +
-                     ". Slopes are given at the fixture. The angle of the square is assumed to be "
+                     ". Slopes refer to the fixture. The angle of the square is assumed to be "
                      "equal in both set-ups.",
                  terminal_columns()) +
          "\n";
@@ -114,9 +114,9 @@ Command separate_square_command() {
       .summary =
           "Separate the squareness of the machine from the angle of a square that was turned over",
       .footer =
-          "EC0Y = (first + second)/2, where first and second are the squareness of the two "
-          "set-ups if the square is taken as exact. The angle error of the square is half of "
-          "the difference between first and second; the planes in the rigs determine the sign "
+          "For each set-up, mdof calculates EC0Y as if the square were exact: first and second. "
+          "Then EC0Y of the machine = (first + second)/2. The angle error of the square is half "
+          "of the difference between first and second; the planes in the rigs determine the sign "
           "of this error.\n"
           "Example:\n"
           "  mdof separate square 1 2 3 4",

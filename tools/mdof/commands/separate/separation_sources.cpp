@@ -81,8 +81,9 @@ Result<LoadedSources> load_files(const SourceOptions& options) {
   if (options.moves.empty())
     return fail(
         ErrorCode::usage,
-        "missing option --moves: the sign of the target height depends on the body that the axis "
-        "moves, and a file does not state this body; give --moves target or --moves fixture");
+        "missing option --moves: a file does not state whether the axis moves the target or the "
+        "fixture, and the sign of the target height depends on this; give --moves target or "
+        "--moves fixture");
   const Sides sides{options.moves == "fixture", options.travel == "-"};
   LoadedSources loaded = nothing_yet(options, {*axis_from(options.axis), sides});
   loaded.request.at.place_m = from_mm(options.at_mm);
@@ -220,11 +221,12 @@ void add_source_options(CLI::App& command, SourceOptions& o) {
     return option->each([&o](const std::string&) { o.sides_given = true; });
   };
   of_files(command.add_option("--moves", o.moves,
-                              "For files: the body that the axis moves, target or fixture"))
+                              "For files: what the axis moves, the target or the fixture"))
       ->check(CLI::IsMember({"target", "fixture"}));
   of_files(command.add_option(
                "--travel", o.travel,
-               "For files: direction of travel (+ or -), like the key \"travel\" of a rig"))
+               "For files: direction in which the target or fixture moves when the position "
+               "increases (+ or -)"))
       ->check(CLI::IsMember({"+", "-"}))
       ->capture_default_str();
   of_files(

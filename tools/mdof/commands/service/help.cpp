@@ -44,8 +44,8 @@ Action declare_help(CLI::App& command) {
   command
       .add_option(
           "COMMAND", *words,
-          "Name of a command, such as \"replay\" or \"compensation export\"; or \"fields\", "
-          "and names of members and columns, to explain these")
+          "Name of a command, such as \"replay\" or \"compensation export\". For the meaning of "
+          "members and columns of results, give \"fields\" and their names")
       ->type_name("");
   return [app = command.get_parent(), words] { return help(app, *words); };
 }

@@ -61,7 +61,7 @@ std::string compensation_text(const element& status, std::size_t columns) {
   std::string head = "generation " + or_dash(integer(status, "generation")) + "\n";
   simdjson::dom::object axes;
   if (status["axes"].get_object().get(axes) || axes.size() == 0)
-    return head + "no table is active\n";
+    return head + "no table of an axis is active\n";
   TextTable table({"axis", "table", "from/mm", "to/mm", "active since", "simulated"});
   for (const auto [axis, of] : axes)
     table.add({std::string(axis), or_dash(integer(of, "table")), fixed(number(of, "first_mm"), 3),

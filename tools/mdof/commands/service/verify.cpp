@@ -43,7 +43,7 @@ Status verify_database(const std::string& option, const std::string& head, Sourc
   if (!has_head)
     check.findings.push_back(
         "the chain of hashes has no link with the hash " + head +
-        " (--head): data that was stored up to this link was removed or changed");
+        " (--head): data that was stored before mdofd reported this hash was removed or changed");
   const auto sources = daemon::verify_sources(store);
   // A database that is damaged has said so above, and may not name its files.
   if (!sources) return findings.empty() ? Status(tl::unexpected(sources.error())) : Status();
@@ -114,9 +114,10 @@ Action declare_verify(CLI::App& command) {
                       "Check this recording instead of the database; with --db, mdof checks both")
           ->type_name("FILE.mdofrec");
   command
-      .add_option("--head", o->head,
-                  "Hash that mdofd reported (journal, server.info); mdof checks that no data "
-                  "stored up to this hash was removed or changed")
+      .add_option(
+          "--head", o->head,
+          "Hash that mdofd reported (journal, server.info); mdof checks that the data stored "
+          "before this report was not removed or changed")
       ->type_name("HASH")
       ->excludes(recording);
   add_json_flag(command, o->json);

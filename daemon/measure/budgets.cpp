@@ -68,12 +68,12 @@ RunUncertainty noise_of(const Run& run, const Error& error) {
 StatedFigures stated_figures(const Run& run, const Result<algo::RunBudgets>& of_run) {
   if (!of_run) return {{}, words::text(of_run.error())};
   if (of_run->cost() > kMostCost)
-    return {
-        {},
-        "the uncertainty was not calculated, because the calculation would take more than 1 s (" +
-            std::to_string(of_run->means().targets.size()) +
-            " targets and the declared uncertainties of the rig); " +
-            words::remedy(Remedy::budget_run)};
+    return {{},
+            "the uncertainty was not calculated: with " +
+                std::to_string(of_run->means().targets.size()) +
+                " targets and the declared uncertainties of the rig, the calculation would take "
+                "more than 1 s; " +
+                words::remedy(Remedy::budget_run)};
   StatedFigures stated{of_run->of(algo::figures_of_run(run.header.axis)), ""};
   std::erase_if(stated.budgets, [](const Budget& budget) { return !std::isfinite(budget.value); });
   if (stated.budgets.empty())

@@ -200,10 +200,12 @@ Status check_measured_without(store::Store& store, const CompensationTable& tabl
     return fail(ErrorCode::conflict,
                 "run " + std::to_string(id) + " was measured while table " +
                     std::to_string(active.table.id) +
-                    " was active. If the controller applied that table, table " +
-                    std::to_string(table.id) +
-                    " contains only the remaining errors and must not replace it; measure without "
-                    "compensation (deactivate the table first) and build the table again",
+                    " was active. If the controller applied table " +
+                    std::to_string(active.table.id) + ", table " + std::to_string(table.id) +
+                    " contains only the remaining errors and must not replace table " +
+                    std::to_string(active.table.id) + "; deactivate table " +
+                    std::to_string(active.table.id) +
+                    ", measure without compensation and build a new table",
                 Remedy::allow_doubtful);
   }
   return {};
@@ -215,14 +217,15 @@ Result<store::Marks> check_activation(store::Store& store, const ActivationReque
   if (volumetric) return check_volumetric_activation(store, request.table, request.consent);
   MDOF_TRY(const CompensationTable table, store.table(request.table));
   if (table.has_positioning())
-    return fail(
-        ErrorCode::conflict,
-        "table " + std::to_string(table.id) + " contains " + positioning_name(table.axis) +
-            ". An axis can have only one active table, so this table would replace the table with "
-            "the straightness and the angles. mdofd can serve positioning errors in a table of a "
-            "plane or a volume that is built from both tables; without such a table, the "
-            "controller must read the positioning errors from a file",
-        Remedy::export_table);
+    return fail(ErrorCode::conflict,
+                "table " + std::to_string(table.id) + " contains " + positioning_name(table.axis) +
+                    ". An axis can have only one active table, so table " +
+                    std::to_string(table.id) +
+                    " would replace the table that contains the straightness and the angles. "
+                    "Instead, build a table of a plane or a volume from both tables; mdofd then "
+                    "also serves the positioning errors. Without such a table, the controller must "
+                    "read the positioning errors from a file",
+                Remedy::export_table);
   MDOF_TRY(const Judged judged, judged_table(store, table));
   const auto now = store.active(table.axis);
   const bool is_active = now && now->table.id == request.table;

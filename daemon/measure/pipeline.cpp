@@ -177,9 +177,9 @@ Status Pipeline::explain_nothing() const {
   return bad_input("no stop found in " + std::to_string(s.scans) + " scans from " +
                        plain_number(to_mm(s.encoder_min_m), 6) + " to " +
                        plain_number(to_mm(s.encoder_max_m), 6) + " mm" +
-                       ": the axis was at rest for at most " + plain_number(s.longest_still_s) +
-                       " s" + " within " + plain_number(to_um(s.tolerance_m)) + " um" +
-                       ", but a stop must last " + plain_number(options_.dwell.shortest_s()) +
+                       ": the axis stayed within " + plain_number(to_um(s.tolerance_m)) +
+                       " um for at most " + plain_number(s.longest_still_s) +
+                       " s, but a stop must last " + plain_number(options_.dwell.shortest_s()) +
                        " s" + (problem ? "; " + words::text(*problem) : ""),
                    Remedy::stop_longer);
 }

@@ -35,7 +35,8 @@ Status read_store(TomlTable& root, Config& config) {
       config.durability = store::Durability::normal;
     } else if (durability != "full") {
       table->reject("durability",
-                    "must be \"full\" (stored data survive a power cut) or \"normal\"");
+                    "must be \"full\" (stored data survive a power cut) or \"normal\" (a power cut "
+                    "can lose the newest data)");
     }
     const auto interval_ms = table->integer("commit_interval_ms", 50);
     if (interval_ms < 1 || interval_ms > 10000) {

@@ -39,8 +39,8 @@ Result<Source> source_of(TomlTable& table, const std::vector<AxisConfig>& above)
 Status check_source(const TomlTable& table, const drivers::DriverSpec& device) {
   if (device.live && device.recorded && !device.simulated && !device.part.empty()) return {};
   return bad_input(table.where("same_as") + ": \"" + device.name + "\" (" + device.driver +
-                   ") cannot serve two axes, because this needs a hardware device with "
-                   "[[axis.device.channel]] entries; give this axis its own device");
+                   ") cannot serve two axes: only a hardware device with [[axis.device.channel]] "
+                   "entries can serve two axes; give this axis its own device");
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
   for (const double s : sense)
     if (s != sense.front())
       return bad_input(name + "column " + std::string(kSenseColumn) +
-                       " contains both \"command\" and \"body\"; convert all errors to one of the "
-                       "two, and write this word in each row");
+                       " contains both \"command\" and \"body\"; give all errors in the same "
+                       "sense, and write the word of this sense in each row");
   if (!sense.empty()) {
     const StatedSense stated =
         sense.front() == kCommandSense ? StatedSense::command : StatedSense::body;
@@ -88,8 +88,8 @@ Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
   }
   if (frame.positioning_sense != StatedSense::none || !frame.against_command) return {};
   return bad_input(
-      name + "the file does not state the sense of the errors, but axis " + frame.id +
-      " has travel \"-\", so the sign of the errors depends on the sense; add a column " +
+      name + "the file does not state the sense of the errors. Axis " + frame.id +
+      " has travel \"-\", so the sign of the errors depends on this sense. Add a column " +
       std::string(kSenseColumn) +
       " with \"command\" (actual minus commanded position) or \"body\" (positive in the + "
       "direction of the machine axis), or set positioning_sense for the axis in MACHINE.toml");

@@ -42,7 +42,8 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
                      "table whose reference point is the fixture");
   if (table.sides.fixture_moves != frame.point_moves)
     return bad_input(of + "point must be \"" + (frame.point_moves ? "standing" : "moving") +
-                     "\", because the rig states that the " + table.sides.moves() + " moves");
+                     "\" in the machine file, because the rig states that the " +
+                     table.sides.moves() + " moves");
   if (table.sides.against_encoder != frame.against_command)
     return bad_input(of + "the rig states travel \"" + table.sides.travel() +
                      "\", but the machine file states the opposite; correct the wrong file");
@@ -303,8 +304,8 @@ Status take_squareness(store::Store& store, Machine& machine, const Squareness& 
   if (a->location[about].value || b->location[about].value)
     return bad_input("squareness of the machine: " +
                      with_unit(location_name(b->location[about].value ? *b : *a, about), about) +
-                     " is given more than once (by \"squareness\" and by a key of an axis, or by "
-                     "two numbers in \"squareness\"); give this angle only once");
+                     " is given more than once (by \"squareness\" and by a key of an axis, or "
+                     "twice in \"squareness\"); give this angle only once");
   algo::StatedPair at;
   MDOF_TRY(at.a, point_of_slope(*a, stated));
   MDOF_TRY(at.b, point_of_slope(*b, stated));

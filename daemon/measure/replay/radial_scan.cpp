@@ -109,7 +109,7 @@ Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan
        {std::pair(scan.probe, &columns.height_m), std::pair(scan.angle, &columns.angle_deg)})
     if (series->value.empty())
       return bad_input(from.recording_path + ": the column " + name +
-                       ", which [scan] of the rig names, is missing or has no value");
+                       " (named in [scan] of the rig) is missing or has no value");
   columns.angle_deg.unwind();
   return columns;
 }

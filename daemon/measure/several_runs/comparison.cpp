@@ -124,7 +124,7 @@ Status add_figures(Comparison& found, const std::vector<Budget>& before,
       found.figures.push_back(compared(budget, *other));
   if (!found.figures.empty()) return {};
   return bad_input("runs " + std::to_string(found.before) + " and " + std::to_string(found.after) +
-                   " cannot be compared, because no figure has a value in both runs");
+                   " cannot be compared, because no result has a value in both runs");
 }
 
 void add_change_at_targets(Comparison& found) {
@@ -145,7 +145,7 @@ Status check_positioning(const Run& before, const Run& after) {
                        "measured runs, or two imported runs of positioning errors");
     if (run->header.provenance.model != positioning_name(run->header.axis))
       return bad_input(name + " was imported as " + run->header.provenance.model +
-                       "; only imported runs of positioning errors (" +
+                       "; of the imported runs, only runs of positioning errors (" +
                        positioning_name(run->header.axis) + ") can be compared");
   }
   return {};

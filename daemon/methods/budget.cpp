@@ -124,19 +124,20 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "run.trend",
        .summary =
            "Calculates control charts (Shewhart) of the results of the stored runs over time.",
-       .params = {{"axis", ParamType::string,
-                   "X, Y or Z: only results of this axis [all axes, and squareness]"},
-                  {"figure", ParamType::string,
-                   "only this result, such as EYX_straightness_um or EC0Y_urad [all results]"},
-                  {"baseline",
-                   ParamType::integer,
-                   "number of oldest values from which the limits are calculated [all values "
-                   "except the newest]",
-                   false,
-                   {},
-                   {.least = algo::kFewestOfBaseline, .most = 100'000}},
-                  {"mixed", ParamType::boolean,
-                   "also use runs with other rigs, models or evaluation options", false, "false"}},
+       .params =
+           {{"axis", ParamType::string,
+             "X, Y or Z: only results of this axis [all axes, and squareness]"},
+            {"figure", ParamType::string,
+             "only this result, such as EYX_straightness_um or EC0Y_urad [all results]"},
+            {"baseline",
+             ParamType::integer,
+             "number of oldest values from which the control limits are calculated [all values "
+             "except the newest]",
+             false,
+             {},
+             {.least = algo::kFewestOfBaseline, .most = 100'000}},
+            {"mixed", ParamType::boolean,
+             "also use runs with other rigs, models or evaluation options", false, "false"}},
        .members = "{reference, figures: {{figure}?: {values: [{runs: [integer], started_utc, "
                   "value, u, u_random, low, high, signal}], centre, sigma, baseline, moved: "
                   "{since_runs, by, u_by}, ...covers, left_out: [string], ...notices}}}",
@@ -152,9 +153,9 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
              .handler = on_query(m, squareness_budget)});
   table.add(
       {.name = "parallelism.fit",
-       .summary =
-           "Calculates the parallelism of two motions along one axis (ISO 230-1): the angle "
-           "between the reference lines of their straightness, with budgets. Nothing is stored.",
+       .summary = "Calculates the parallelism of two motions along one axis (ISO 230-1): the angle "
+                  "between the reference lines of their straightness, with uncertainty budgets. "
+                  "Nothing is stored.",
        .params = {{"run_a", ParamType::integer, "id of the reference run (datum)", true},
                   {"run_b", ParamType::integer,
                    "id of the run that is compared with run_a; both runs are along the same axis",

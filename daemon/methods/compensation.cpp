@@ -29,7 +29,7 @@ using rpc::Reply;
 
 constexpr const char* kSense =
     "error = actual - nominal position of the moving body; the correction is added to the command "
-    "of the axis that the error's second letter names (EYX: Y)";
+    "of one axis: the second letter of the name of the error (EYX: Y)";
 constexpr std::int64_t kMaxGridPage = 100;
 
 Result<const store::ActiveTable*> active_table(const Methods& m, const Params& params) {
@@ -133,7 +133,8 @@ Status refuse(const Params& params, std::initializer_list<const char*> keys, con
 
 Result<std::string> grid(const Methods& m, const Params& params) {
   if (is_volume(params)) return volume_grid(m, params);
-  MDOF_CHECK(refuse(params, {"u_parts"}, " applies only to a volumetric table; remove it"));
+  MDOF_CHECK(
+      refuse(params, {"u_parts"}, " applies only to a volumetric table; leave this parameter out"));
   MDOF_TRY(const auto* active, active_table(m, params));
   const auto [offset, count] = list_page_of(params, kMaxGridPage);
   if (params.has("generation") && params.integer("generation") != active->generation) {
@@ -195,8 +196,8 @@ void write_correction(JsonWriter& json, const CompensationTable& table, const Er
 Result<std::string> at(const Methods& m, const Params& params) {
   if (is_volume(params)) {
     MDOF_CHECK(refuse(params, {"direction", "position_mm"},
-                      " does not apply to a volumetric table, which has values of only one "
-                      "approach; leave it out, and give X_mm, Y_mm and Z_mm"));
+                      " does not apply to a volumetric table; leave this parameter out, and give "
+                      "X_mm, Y_mm and Z_mm"));
     return volume_at(m, params);
   }
   MDOF_CHECK(refuse(params, {"X_mm", "Y_mm", "Z_mm"},
@@ -246,16 +247,17 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param reason{"reason", ParamType::string,
                           "free text that explains the change; stored in the history", false,
                           "\"\""};
-  const rpc::Param expected{
-      "expected_generation", ParamType::integer,
-      "generation (of compensation.status, for all tables) on which the decision is based; if it "
-      "has changed, the call fails with error -32001, names the active tables and changes nothing",
-      false};
+  const rpc::Param expected{"expected_generation", ParamType::integer,
+                            "generation that compensation.status returned before you decided; if "
+                            "any active table has changed since then, the call fails with error "
+                            "-32001, names the active tables and changes nothing",
+                            false};
   std::vector<rpc::Param> build_params{
       {"runs", ParamType::array, "ids of runs of one axis with the same targets", true},
       {"keep_slope", ParamType::boolean,
-       "keep the slope in the straightness (by default the slope belongs to squareness)", false,
-       "false"},
+       "keep the slope in the straightness errors (by default the slope is removed, because it is "
+       "part of the squareness)",
+       false, "false"},
       {"partial", ParamType::boolean, "also accept partial runs", false, "false"},
       {"reference", ParamType::string,
        "reference point of the straightness: fixture, carriage or tool [tool if the rig has a tool "
@@ -339,7 +341,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
             {"Z_mm", ParamType::number, "for the volume: commanded position of Z; see X_mm", false},
             {"direction", ParamType::integer, "1: forward, -1: reverse, 0: mean of both", false,
              "0"}},
-       .result = "the first form is of an axis, the second of the volume",
+       .result = "the first form of the result is for an axis, the second for the volume",
        .members =
            "{axis, position_mm: number, direction: integer, ...reference, sense, error: errors, "
            "correction: errors, correction_reason, u: errors, u_interpolation: errors, ...covers, "

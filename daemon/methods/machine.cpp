@@ -45,8 +45,8 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
   json.end_object();
   if (!(u.minCoeff() > 0))
     json.field("u_reason",
-               "u of a component is unknown (null) if neither a source of uncertainty nor an error "
-               "with a known u acts on this component");
+               "u of a component is null (unknown) if no error with a known u and no other source "
+               "of uncertainty acts on this component");
   std::vector<std::string> missing, no_u;
   for (const auto& names : error.not_measured) algo::add_new(names, missing);
   for (const auto& names : error.no_u) algo::add_new(names, no_u);

@@ -316,8 +316,8 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              {.least = 0}},
             {"repeats",
              ParamType::integer,
-             "number of passes over the targets in each direction, after which the run ends (the "
-             "axis must overrun both ends); 0: the run ends at run.stop",
+             "the run ends after this number of passes over the targets in each direction; the "
+             "axis must move beyond the first and the last target. 0: the run ends at run.stop",
              false,
              "0",
              {.least = 0, .most = 10'000}},
@@ -340,7 +340,7 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "run.stop",
        .summary = "Ends a run that is under way, and evaluates the run.",
        .params = {run, {"abort", ParamType::boolean, "mark the run as aborted", false, "false"}},
-       .result = "if mdofd renumbered the targets at the end, this is a new run that supersedes "
+       .result = "if mdofd renumbered the targets at the end, \"run\" is a new run that supersedes "
                  "the stopped run",
        .members = "{run, axis, state: string|null, supersedes, notices: [notice]|null}",
        .example = R"({"run": 1})",
@@ -358,8 +358,8 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Returns a run without its points: header, provenance, straightness, "
                         "angles, plausibility, and who started and stopped the run.",
              .params = {run, reference},
-             .result = "a run of another instrument has the figures E and B of ISO 230-2, or the "
-                       "range of its values",
+             .result = "an imported run of positioning errors has the figures E and B of ISO "
+                       "230-2, or the range of its values",
              .members = "measured_run|imported_run",
              .example = R"({"run": 1})",
              .handler = on_query(m, get_run)});

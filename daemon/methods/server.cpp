@@ -237,7 +237,8 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
   table.add({.name = "server.info",
              .summary = "Returns the version, the uptime, the axes and the generation (a number "
                         "that increases with each change of an active table).",
-             .result = "link and sha256 of \"chain\" serve for a later check of the database",
+             .result = "keep link and sha256 of \"chain\": with them, a later check of the "
+                       "database detects removed or changed entries",
              .members =
                  "{server, version, protocol, started_utc, uptime_s, database, generation, "
                  "store_jobs_dropped, store_points_dropped, calls_refused, storage, "
@@ -247,7 +248,8 @@ void add_server_methods(rpc::MethodTable& table, Methods& m) {
              .handler = [&m](const Params&) -> Result<std::string> { return server_info(m); }});
   table.add(
       {.name = "device.list",
-       .summary = "Lists the devices with axis, state, last error, channels and numbers of scans.",
+       .summary = "Lists the devices, each with its axis, state, last error, channels and number "
+                  "of scans.",
        .members =
            "{devices: [{axis, device, driver, description, state, simulated, rate_hz, scans, "
            "scans_lost, blocks_dropped, reopened, error: string, last_error, mended_utc, trouble, "

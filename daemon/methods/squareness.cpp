@@ -77,7 +77,7 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
                   "the squareness with its standard uncertainty. X and Y give EC0Y, X and Z give "
                   "EB0Z, Y and Z give EA0Z. An identical result is stored only once.",
        .params = std::move(fit),
-       .result = "squareness and slopes are stated at the fixture",
+       .result = "the squareness and the slopes are valid at the position of the measuring fixture",
        .members =
            "{squareness, run_{small}, E{angular}0{axis}_urad, u_E{angular}0{axis}_urad, "
            "u_random_E{angular}0{axis}_urad, U_E{angular}0{axis}_urad, k, nu_eff, ...covers, "

@@ -82,7 +82,7 @@ Result<Series> without_holes(const Series& s, std::int64_t table, bool cut, Expo
   if (!cut) return bad_input(missing, Remedy::cut_range, range);
   out.notes.push_back(
       missing + "; only the range " + range +
-      " is exported; beyond this range, the controller uses the values at its two ends");
+      " is exported; beyond this range, the controller uses the values at the ends of the range");
   return range_of(s, {first, end});
 }
 
@@ -178,7 +178,8 @@ std::vector<std::string> head_lines(const CompensationTable& table, const Export
 }
 
 std::string stated_place(const StatedAt& at) {
-  if (at.reference == Reference::carriage) return "origin of the carriage, which travels";
+  if (at.reference == Reference::carriage)
+    return "origin of the carriage, a point that moves with the carriage";
   const auto mm = [&at](std::size_t k) { return plain_number(to_mm(at.point_m[k]), 6); };
   return std::string(to_string(at.reference)) + ": X, Y, Z = " + mm(0) + ", " + mm(1) + ", " +
          mm(2) + " mm from the origin of the measuring fixture";

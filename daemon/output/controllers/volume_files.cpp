@@ -148,7 +148,7 @@ Result<Export> write_isg_csv(const VolumetricTable& t, const ExportOptions& opti
   }
   out.files.push_back({kIsgTable, std::move(text)});
   out.files.push_back({kIsgList, isg_list(t, head)});
-  out.notes.push_back("the start-up list needs vol_comp[0].max_records of at least " +
+  out.notes.push_back("in the start-up list, set vol_comp[0].max_records to at least " +
                       std::to_string(t.nodes()));
   count_nodes(t, out);
   return out;

@@ -105,8 +105,8 @@ void write_software(Xml& xml, const Report& report) {
   write_text(
       xml, "dcc:description",
       "mdof_position, mdof_target, mdof_pass, mdof_direction: position, target, pass and "
-      "direction of approach of each point; mdof_EYX and others: error with its name of "
-      "ISO 230-1, actual minus nominal; mdof_figure: result of a run such as a straightness, "
+      "direction of approach of each point; mdof_EYX and others: error (actual minus nominal), "
+      "named as in ISO 230-1; mdof_figure: result of a run such as a straightness, "
       "calculated from the mean of the measured approaches");
   xml.leaf("dcc:namespace", "mdof");
   xml.leaf("dcc:link", "urn:mdof:refTypes");

@@ -62,8 +62,8 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
     add("drift", drift_svg(results, language));
   } else {
     all.left_out.push_back(run +
-                           ": the charts of repeatability and drift need a target that was visited "
-                           "twice from the same side");
+                           ": the charts of repeatability and drift need a target that was "
+                           "measured at least twice with the same approach");
   }
   add_budgets(results, all, language);
   return all;

@@ -133,7 +133,7 @@ std::string bins_svg(const StudyResult& result) {
     draw_output(svg, sheet.panel(i, x, false), outputs[i], result.binned_key);
   if (cut)
     svg.text("quiet", {kMarginPx, sheet.bottom() + 8}, Anchor::start,
-             "An extreme that is drawn at the edge of a panel lies outside the panel.");
+             "An extreme outside a panel is drawn at the edge of the panel.");
   return svg.take();
 }
 

@@ -82,8 +82,8 @@ Status add_joint(const CompensationTable& table, const ExportOptions& options, E
     if (s.error != error)
       out.left_out.push_back(
           s.error + " of table " + std::to_string(table.id) +
-          ": a COMP_FILE corrects only positioning errors, because it corrects each "
-          "joint by the position of the same joint");
+          ": a COMP_FILE corrects only positioning errors, because LinuxCNC calculates the "
+          "correction of a joint from the position of this joint only");
   const Series* along = find_series(series, error);
   if (!along)
     return bad_input("table " + std::to_string(table.id) + " has no " + error +

@@ -13,7 +13,7 @@ namespace {
 constexpr double kLinuxCncPeriod_s = 1e-3;  // its default SERVO_PERIOD
 constexpr double kNoReversal_m = 1e-12;
 constexpr const char* kRampRemedy =
-    "; change MAX_ACCELERATION, or use the live compensation, which has no such ramp";
+    "; change MAX_ACCELERATION, or use the live compensation, which does not have this limitation";
 
 std::string mm_s2(double m_s2) {
   return plain_number(to_mm(m_s2), 4) + " mm/s^2";
@@ -37,10 +37,10 @@ void note_ramp(const Series& s, const ExportOptions::Ramp& ramp, Export& out) {
   if (worst == s.position_m.size()) return;
   out.notes.push_back(s.error + ": the reversal of " + um_text(reversal_at(s, worst)) + " at " +
                       plain_number(to_mm(s.position_m[worst]), 9) +
-                      " mm is not applied, because with MAX_ACCELERATION " +
+                      " mm is not applied: with MAX_ACCELERATION " +
                       mm_s2(ramp.max_acceleration_m_s2) + " and a servo period of " +
                       plain_number(ramp.period_s * 1e3, 4) +
-                      " ms LinuxCNC does not start a motion for a reversal above " +
+                      " ms, LinuxCNC does not start a motion for a reversal above " +
                       um_text(held.above_m) + " and up to " + um_text(held.up_to_m) + kRampRemedy);
 }
 

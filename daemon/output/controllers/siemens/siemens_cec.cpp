@@ -215,7 +215,8 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
   Export out;
   const ExportOptions as_measured = without_tolerance(options, out);
   if (!options.homes.empty())
-    out.notes.emplace_back("home_mm has no effect, because CEC contains the errors unchanged");
+    out.notes.emplace_back(
+        "home_mm has no effect, because the CEC tables contain the errors unchanged");
   std::string head, text;
   std::size_t t = 0;
   for (const CompensationTable& table : tables) {
@@ -357,9 +358,9 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
   if (std::any_of(tables.begin(), tables.end(),
                   [](const CecTable& one) { return one.multiply_by > 0; }))
     out.notes.emplace_back(
-        "products (MULT_BY_TABLE): in the example of the manual, the control adds only the "
-        "product; check on the machine that the control does not add the single factors too; each "
-        "factor is below " +
+        "products (MULT_BY_TABLE): according to the example of the manual, the control adds only "
+        "the product of two tables; check on the machine that the control does not also add each "
+        "of the two tables. The values of each such table are at most " +
         plain_number(to_um(largest_factor(tables)), 2) + " um");
   MDOF_CHECK(check_count(tables.size(), options, out));
   count_nodes(t, out);

@@ -270,8 +270,7 @@ TEST_F(Plots, OfManyCausesShowTheLargestAndSayWhatIsLeftOut) {
 
 TEST_F(Plots, SayWhenExtremesAreCutOff) {
   StudyResult r = study();
-  constexpr const char* kNote =
-      "An extreme that is drawn at the edge of a panel lies outside the panel.";
+  constexpr const char* kNote = "An extreme outside a panel is drawn at the edge of the panel.";
   EXPECT_EQ(write(r).at("error-against-travel.svg").find(kNote), std::string::npos);
   r.bins[0].outputs[0].max = 1e6;
   EXPECT_NE(write(r).at("error-against-travel.svg").find(kNote), std::string::npos);

@@ -192,8 +192,10 @@ void App::Parts::start_stations() {
 std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
   auto last = reader->last_datum(axis);
   if (last) return std::move(*last);
-  std::fprintf(stderr, "axis %c: the position that was set last cannot be read: %s\n", letter(axis),
-               words::text(last.error()).c_str());
+  std::fprintf(
+      stderr,
+      "axis %c: the axis position that a user set last cannot be read from the database: %s\n",
+      letter(axis), words::text(last.error()).c_str());
   return std::nullopt;
 }
 

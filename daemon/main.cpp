@@ -104,9 +104,9 @@ int main(int argc, char** argv) try {
       ->capture_default_str();
   cli.add_flag("--check-config", options.check_only,
                "check the configuration, print the errors, and exit");
-  auto* http = cli.add_option(
-      "--http", options.http,
-      "serve the web page at this address; default: listen in [http], or 127.0.0.1:8080");
+  auto* http = cli.add_option("--http", options.http,
+                              "serve the web page at this address; default: the key \"listen\" in "
+                              "[http] of the configuration, or else 127.0.0.1:8080");
   http->type_name("[ADDRESS:PORT]")->expected(0, 1);
   cli.set_version_flag("--version", mdof::daemon::kVersion);
   try {

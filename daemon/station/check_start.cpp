@@ -109,9 +109,9 @@ Status make_socket_folder(const std::string& socket) {
 
 std::string first_configuration(const std::string& file) {
   return file +
-         R"(: the configuration is missing. Create two files: this configuration (--config FILE
-gives another path) and a rig for each axis. The example uses the simulator as its device, so it
-works without hardware. Then check the files with mdofd --check-config
+         R"(: the configuration is missing. Create this file (or give another path with
+--config FILE) and a rig file for each axis. The example below uses the simulator as its device, so
+it works without hardware. Then check the files with mdofd --check-config
 
 # --- )" +
          file +

@@ -31,11 +31,10 @@ Status check_can_go_on(store::Store& reader, const RunHeader& run, const AxisCon
   if (run.provenance.rig_text != axis.rig.text)
     return refused(run.id, "the rig was changed after this run began; start a new run");
   if (run.simulated != axis.simulated())
-    return refused(run.id, run.simulated
-                               ? "its devices were simulated, and those of the axis now are "
-                                 "not; start a new run"
-                               : "its devices were not simulated, and one of the axis now is; "
-                                 "start a new run");
+    return refused(run.id, run.simulated ? "at least one device of the run was simulated, but now "
+                                           "no device of the axis is simulated; start a new run"
+                                         : "no device of the run was simulated, but now a device "
+                                           "of the axis is simulated; start a new run");
   return {};
 }
 
@@ -92,10 +91,10 @@ Result<RunRequest> request_to_resume(store::Store& reader, std::int64_t run,
 
 Status check_same_settings(const CutOffRun& cut_off, const PipelineOptions& now) {
   if (cut_off.settings == now.settings_json()) return {};
-  return refused(
-      cut_off.id,
-      "the model, the delays or other settings of the measurement in the configuration are "
-      "not those of this run; restore them and restart mdofd, or start a new run");
+  return refused(cut_off.id,
+                 "the model, the delays or other settings of the measurement have changed in the "
+                 "configuration since this run; restore the old settings and restart mdofd, or "
+                 "start a new run");
 }
 
 Status check_same_datum(const CutOffRun& cut_off, const EncoderDatum& now, bool counts_on) {

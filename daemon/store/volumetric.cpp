@@ -259,7 +259,7 @@ Status Store::check_generation(std::optional<std::int64_t> expected) {
               "the active tables have changed since they were read: the generation is " +
                   std::to_string(now) + ", not " + std::to_string(*expected) +
                   "; active now: " + active_text() +
-                  ". Nothing was changed; read the active tables again, then decide again");
+                  ". Your change was not made; read the active tables again, then decide again");
 }
 
 }  // namespace mdof::store

@@ -55,9 +55,8 @@ bool can_only_be_read(const Storekeeper::Options& options, const Error& why) {
 // "No table is active" would be a guess, after which a controller would not correct.
 Error not_readable(const Storekeeper::Options& options, Error why) {
   if (!is_busy(why)) return why;
-  return {ErrorCode::io, another_locks(options,
-                                       " such that not even the active tables can be read, so "
-                                       "mdofd does not start")};
+  return {ErrorCode::io,
+          another_locks(options, ", so mdofd cannot read the active tables and does not start")};
 }
 
 // A mdofd that is just ending still holds it for a while.

@@ -74,7 +74,8 @@ std::string not_an_approver(const std::string& method, const std::string& group,
          (who                  ? "uid " + std::to_string(who->uid)
           : caller.over_http() ? std::string("a web page")
                                : std::string("a TCP client")) +
-         " is not a member; ask a member to make this call, or become a member and connect again";
+         " is not a member; ask a member to make this call, or become a member and connect again "
+         "to the Unix socket";
 }
 
 std::string may_not_write(const std::string& method, const Caller& caller) {

@@ -243,10 +243,11 @@ void Acquisition::report_clock(const drivers::ClockState& clock) {
         "or are evaluated without the probes of this device. Check the power and the network, "
         "then measure these stops again");
   else if (clock.doubtful && !was)
-    report(Trouble::Kind::clock,
-           "the packets arrive " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
-               " s late, or the device clock stood still; the samples are suspect until this "
-               "ends; check the network and the load of this computer");
+    report(
+        Trouble::Kind::clock,
+        "the packets arrive " + with_one_decimal(static_cast<double>(clock.late_ns) * 1e-9) +
+            " s late, or the device clock stood still; the samples are suspect until mdofd reports "
+            "that their times are valid again; check the network and the load of this computer");
   else if (was && !clock.doubtful)
     report(Trouble::Kind::back, "the times of the samples are valid again");
 }
@@ -314,7 +315,8 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
                " scans were lost in 5 s; check the network or cable and the "
                "load of this computer, or lower the rate of the device");
   }
-  if (was_slow && !slow) report(Trouble::Kind::back, "the device sends all scans again");
+  if (was_slow && !slow)
+    report(Trouble::Kind::back, "the device sends at its full rate again, and no scans are lost");
   window_end_ = now + kWindow;
   scans_in_window_ = lost_in_window_ = 0;
 }

@@ -232,7 +232,7 @@ class EncoderDatum(unittest.TestCase):
         self.offset_mm = 0
         encoder = self.encoder()
         self.assertEqual((encoder["datum"], encoder["offset_mm"]), ("none", 0))
-        lost = f"the position was set to {position_mm:.9g} mm on {said['utc']}, but was lost when mdofd restarted; "
+        lost = f"the axis position {position_mm:.9g} mm, which was set on {said['utc']}, was lost when mdofd restarted. "
         self.assertTrue(encoder["note"].startswith(lost), encoder["note"])
         self.assertIn("encoder of X: " + lost, self.status())
         started = self.client.call("run.start", axis="X")
@@ -365,7 +365,7 @@ class Simulated(unittest.TestCase):
             self.assertRegex(told["note"], "^set to 12.5 mm on ")
             told = encoder(simulator("X"))
             self.assertEqual(told["datum"], "absolute")
-            self.assertRegex(told["note"], "^the position was set to 12.5 mm on .*, but was lost when mdofd restarted.*the positions of the device apply")
+            self.assertRegex(told["note"], "^the axis position 12.5 mm, which was set on .*, was lost when mdofd restarted.*mdofd uses the positions of the device")
             log = os.path.join(folder, "log.csv")
             write_log(log)
             self.assertIsNone(encoder(replay("X", log))["note"])

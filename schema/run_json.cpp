@@ -15,13 +15,14 @@ namespace mdof {
 namespace {
 
 constexpr const char* kTableSense =
-    "error = actual minus nominal position of the moving body; to correct an error, add \"factor\" "
-    "times the error to the command of the axis \"command\" (both in \"correction\")";
+    "error = actual minus nominal position of the moving body; correction = factor times the "
+    "error, added to the command of the axis \"command\" (see \"correction\" for factor and "
+    "command)";
 
 constexpr const char* kPositioningTableSense =
-    "error = actual minus commanded position of the axis in coordinates of the controller; to "
-    "correct an error, add \"factor\" times the error to the command of the axis \"command\" (both "
-    "in \"correction\")";
+    "error = actual minus commanded position of the axis in coordinates of the controller; "
+    "correction = factor times the error, added to the command of the axis \"command\" (see "
+    "\"correction\" for factor and command)";
 
 // {"EYX_um": {"factor", "command", "reason"}, ...}: a correction is factor times the error, added
 // to the command of that axis; factor null: there is none, for that reason.

@@ -99,8 +99,8 @@ Status check_function(const ErrorFunction& function, std::size_t k, const std::s
   const auto fits = [rows](const std::vector<double>& v) { return v.empty() || v.size() == rows; };
   if (function.forward.size() != rows || !fits(function.reverse) || !fits(function.u))
     return bad_input(where +
-                     ": the numbers of positions and values differ, or there is no value; give one "
-                     "value for each position");
+                     ": the number of values is 0, or differs from the number of positions; give "
+                     "one value for each position");
   if (!all_below(function.position, 1e6))
     return bad_input(
         where +

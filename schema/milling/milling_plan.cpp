@@ -222,7 +222,10 @@ Result<DeclaredMillingPlan> parse_milling_plan(std::string_view text, const std:
                "must be smaller: feed_per_tooth_um times tool.teeth must not exceed the radius of "
                "the tool");
   if (plan.runout_m + std::abs(plan.runout_tilt) * plan.axial_depth_m > plan.radius_m() / 10)
-    root.reject("runout", "must not exceed a tenth of the radius of the tool");
+    root.reject(
+        "runout",
+        "radial_um plus |tilt_um_per_mm| times cut.axial_depth_mm must not exceed a tenth of "
+        "the radius of the tool");
 
   TomlTable& force = read.table("force");
   plan.force_source = force.string("source", "");

@@ -115,10 +115,8 @@ CsvLine parse_csv_line(std::string_view line, const CsvHeader& header) {
     double x = 0;
     const bool is_sense = words && header.columns[column] == kSenseColumn;
     const bool parsed = is_sense ? read_sense(field, x) : parse_whole_field(field, x);
-    std::string reason =
-        is_sense && !parsed
-            ? quoted(field) + " is not a sense of a positioning error; give command or body"
-            : reason_against(field, parsed, x);
+    std::string reason = is_sense && !parsed ? quoted(field) + " is not valid; give command or body"
+                                             : reason_against(field, parsed, x);
     if (!is_time) {
       result.values.push_back(x);
     } else if (reason.empty() && !parse_seconds(field, result.time_ns)) {

@@ -14,17 +14,17 @@ std::string gap_of_point(const ChainAxis& measured, Axis axis, Sides sides, Refe
   const bool at_carriage = reference == Reference::carriage;
   if (fixture_is_with_tool(measured, sides)) {
     if (!at_carriage) return "";
-    return "straightness at the carriage holds for a point that travels with the axis, not for the "
-           "tool; build a table with the reference \"fixture\" or \"tool\"";
+    return "straightness at the carriage is valid for a point that moves with the axis, not for "
+           "the tool; build a table with the reference \"fixture\" or \"tool\"";
   }
   if (at_carriage) return "";
   return std::string("the rig states that the ") + sides.moves() +
-         " moves, and the chain that axis " + letter(axis) + " carries the " +
+         " moves, and the chain states that axis " + letter(axis) + " carries the " +
          (measured.carries_work ? "work" : "tool") +
-         ", so the fixture is on the side of the work, and straightness at the " +
+         ". Therefore the fixture is on the side of the work, and straightness at the " +
          to_string(reference) +
-         " holds for a point of the work, not for the tool; if the fixture is in the spindle, "
-         "correct moves in the rig, else build a table with the reference \"carriage\"";
+         " is valid for a point of the work, not for the tool; if the fixture is in the spindle, "
+         "correct the key moves of the rig; if not, build a table with the reference \"carriage\"";
 }
 
 // Why the correction turns with a rotary axis between the two; empty: it does not.
@@ -39,8 +39,8 @@ std::string gap_of_rotary(const Chain& chain, const ChainAxis& measured,
     const std::string rotary(1, between->letter);
     return "the rotary axis " + rotary + " lies between axis " + measured.letter + " and axis " +
            correcting.letter + " in the chain " + chain.text +
-           ", so the direction of the correction turns with " + rotary +
-           "; build a volumetric table for the position of " + rotary;
+           ", so the direction of the correction depends on the position of " + rotary +
+           "; build a volumetric table for one position of " + rotary;
   }
   return "";
 }

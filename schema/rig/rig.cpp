@@ -217,9 +217,9 @@ void check_machine(TomlTable& table, const Rig& rig) {
   if (!in_chain)
     return table.reject("machine", "the chain " + rig.machine.text + " has no axis " + axis);
   if (in_chain->against_command != rig.sides.against_encoder)
-    table.reject("travel",
-                 "is \"" + std::string(rig.sides.travel()) + "\", but travel." + axis +
-                     " of [machine] is the opposite (\"+\" if not given); correct the wrong value");
+    table.reject("travel", "is \"" + std::string(rig.sides.travel()) + "\", but travel." + axis +
+                               " of [machine] has the opposite sign (\"+\" if the key is missing); "
+                               "correct one of the two values");
 }
 
 constexpr std::size_t kMostProbes = 1000;  // each is compared with each

@@ -91,8 +91,9 @@ TEST(RunUncertainty, RepeatsReplaceTheNoiseWhereTheyScatterMore) {
   synthetic.runs = 1;
   const auto single = run_uncertainty(rig, synthetic.measure());
   EXPECT_LT(single.points[5].u_random[kEYX], 50e-9);
-  EXPECT_NE(covers_text(single).find("noise slower than a stop is not included (no target"),
-            std::string::npos);
+  EXPECT_NE(
+      covers_text(single).find("noise with periods longer than a stop is not included (no target"),
+      std::string::npos);
 }
 
 // What a drift does between the visits is declared already.

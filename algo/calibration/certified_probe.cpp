@@ -118,10 +118,11 @@ class CertificateReader {
   tl::unexpected<Error> nothing() const {
     return bad_input(
         from_.source +
-        ": contains neither a sensitivity (a quantity in volts per length) nor a table (a list of "
-        "readings in um or V with refType basic_measuredValue and a second list with refType "
-        "basic_measurementError or basic_referenceValue); ask the laboratory for a DCC with these "
-        "refTypes, or write um_per_V and linearity into the rig by hand");
+        ": the certificate contains no sensitivity (a quantity in volts per length) and no table "
+        "that mdof can read. A table is a list of readings in um or V (refType "
+        "basic_measuredValue) and a second list (refType basic_measurementError or "
+        "basic_referenceValue); ask the laboratory for a DCC with these refTypes, or write "
+        "um_per_V and linearity into the rig by hand");
   }
 
   tl::unexpected<Error> several(const char* what, long line, long other) const {
@@ -137,9 +138,9 @@ class CertificateReader {
   }
 
   tl::unexpected<Error> zero_uncertainty(long line, const char* what) const {
-    return bad_input(at(line) + "the uncertainty of the " + what +
-                     " is 0 in the certificate, which no calibration attains; ask the laboratory "
-                     "to correct the DCC");
+    return bad_input(at(line) + "the certificate states an uncertainty of 0 for the " + what +
+                     ", but every calibration has an uncertainty; ask the laboratory to correct "
+                     "the DCC");
   }
 
   Status take_sensitivity() {
@@ -292,13 +293,13 @@ class CertificateReader {
     const double ratio = of_rig ? *probe.um_per_V / *of_rig : 1;
     if (!read.unit.is(1, 0) || !of_rig || !contains_scale(rows, ratio - 1, within_1))
       return bad_input(
-          at(read.line) + "the corrections of the table contain another sensitivity than the " +
-          number(*probe.um_per_V) +
-          " um/V of the certificate, so both together would correct the " +
-          "scale twice; set um_per_V of probe \"" + own_.id + "\" in " + rig_.source +
-          (of_rig ? " (" + number(*of_rig) + ")" : "") +
-          " to the value with which the laboratory has read the table, or choose one result of " +
-          "the certificate: " + names_);
+          at(read.line) + "the sensitivity (" + number(*probe.um_per_V) +
+          " um/V) and the table of the certificate both correct the scale of the probe, so mdof "
+          "would correct the scale twice; set um_per_V of probe \"" +
+          own_.id + "\" in " + rig_.source + (of_rig ? " (" + number(*of_rig) + ")" : "") +
+          " to the value that the laboratory used for the readings of the table, or choose one "
+          "result of the certificate: " +
+          names_);
     for (auto& [reading, correction] : rows) {
       correction += reading * (1 - ratio);
       reading *= ratio;
@@ -316,8 +317,8 @@ class CertificateReader {
     for (std::size_t i = 1; i < rows.size(); ++i)
       if (rows[i][0] <= rows[i - 1][0])
         return bad_input(at(line) +
-                         "two rows have the same reading; ask the laboratory for a table with one "
-                         "direction of motion only");
+                         "two rows of the table have the same reading; ask the laboratory for a "
+                         "table that was measured in one direction of motion");
     Calibration own;
     own.linearity = rows;
     const double at_zero_um = linearity_um(own, 0);

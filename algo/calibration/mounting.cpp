@@ -70,9 +70,9 @@ class Fit {
     }
     return fail(ErrorCode::check,
                 "no positions of the probes and no tilts of the target agree with these readings; "
-                "check that each log contains only one clamping of the target and only motion of "
-                "the axis of the rig, and that the target moves in the direction that mdof "
-                "calculates from the rig and the encoder",
+                "check that the target stays in one clamping during each log, and that only the "
+                "axis of the rig moves. Also check that the target moves in the direction that "
+                "mdof calculates from the rig and the encoder",
                 Remedy::reverse_target);
   }
 
@@ -261,9 +261,9 @@ Status check_places(const Rig& rig, const MountingFit& fit) {
     const double away_m = std::sqrt(x * x + y * y);
     if (away_m <= kFarthest_m) continue;
     return fail(ErrorCode::check,
-                rig.source + ": the readings put probe \"" + rig.probes[k].id +
-                    "\" at a distance of " + plain_number(to_mm(away_m), 3) +
-                    " mm from its position_mm (limit " + plain_number(to_mm(kFarthest_m), 3) +
+                rig.source + ": according to the readings, probe \"" + rig.probes[k].id + "\" is " +
+                    plain_number(to_mm(away_m), 3) + " mm away from its position_mm (limit " +
+                    plain_number(to_mm(kFarthest_m), 3) +
                     " mm); check position_mm of this probe, check that no two probes are "
                     "exchanged, and check that the target moves in the direction that mdof "
                     "calculates from the rig and the encoder",
@@ -277,8 +277,10 @@ Status check_misfit(const Rig& rig, const MountingCalibration& found) {
   const double misfit = std::sqrt(found.chi_square / found.freedom);
   if (misfit <= kMostMisfit) return {};
   return fail(ErrorCode::check,
-              rig.source + ": the readings differ from those of any mounting by " +
-                  plain_number(misfit, 3) + " times their uncertainty, root mean square (limit " +
+              rig.source +
+                  ": the readings do not fit any mounting of the probes: the RMS deviation of the "
+                  "readings is " +
+                  plain_number(misfit, 3) + " times their uncertainty (limit " +
                   plain_number(kMostMisfit) +
                   "); calibrate the sensitivities of the probes first, or declare "
                   "u_sensitivity_ppm; check that the target is flat and did not move in its clamp, "
@@ -291,8 +293,8 @@ Status check_seen(const MountingFit& fit) {
   if (std::any_of(probes.begin(), probes.end(), [](const auto& p) { return p.position_seen; }))
     return {};
   return fail(ErrorCode::check,
-              "these clampings do not determine the position of any probe, because the target "
-              "tilts differ by at most " +
+              "these clampings do not determine the position of any probe, because the tilts of "
+              "the target differ by at most " +
                   plain_number(fit.found.tilt_rad * 1e3, 3) +
                   " mrad; clamp the target at three or more tilts that differ by several mrad "
                   "about two axes");

@@ -92,8 +92,9 @@ std::vector<std::string> blind_to(const Rig& rig) {
   if (!rig.uncertainty.encoder.declared())
     sentences.insert(
         sentences.begin(),
-        "encoder errors that repeat at the same position (only their part in the residuals of the "
-        "line is included), because the rig does not declare [encoder] u_um");
+        "encoder errors that repeat at the same position, because the rig does not declare "
+        "[encoder] u_um (u includes only the part of these errors that is visible in the residuals "
+        "of the line)");
   return sentences;
 }
 
@@ -187,8 +188,9 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
     return fail(ErrorCode::check,
                 "probe \"" + own.id + "\" has readings at " + std::to_string(places.size()) +
                     " positions over " + plain_number(to_um(way_m)) +
-                    " um; measure at three or more positions that cover the used range of " +
-                    plain_number(to_um(own.range_m)) + " um");
+                    " um; measure at three or more positions that cover the part of the range that "
+                    "you use (range of the probe: " +
+                    plain_number(to_um(own.range_m)) + " um)");
   std::vector<double> x, y;
   for (const Reading& reading : all) {
     x.push_back(reading.true_m - all.front().true_m);

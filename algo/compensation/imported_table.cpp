@@ -40,7 +40,7 @@ Status check_one(const Run& run, const Run& first) {
   if (run.header.simulated != first.header.simulated)
     return bad_input(name_of(run.header.simulated ? run : first) + " is simulated and " +
                      name_of(run.header.simulated ? first : run) +
-                     " is measured; build a table from one kind of data");
+                     " is measured; build a table from only simulated or only measured runs");
   return {};
 }
 

@@ -44,8 +44,8 @@ Result<PlateStress> plate_stress(const SurfaceMap& form, const Plate& plate, dou
     }
   if (stress.pixels > 0) return stress;
   return bad_input(form.name +
-                   ": at every pixel, less than half of the smoothing square around the pixel is "
-                   "measured; give a smaller smoothing length");
+                   ": no pixel has enough measured pixels around it (at least half of the "
+                   "smoothing square must be measured); give a smaller smoothing length");
 }
 
 }  // namespace mdof::algo

@@ -195,8 +195,8 @@ Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const Art
   if (artefact.angle_error_rad == 0 || artefact.corner != 0) return artefact;
   const Rig &unclear = face_a == 0 ? rig_a : rig_b, &other = face_a == 0 ? rig_b : rig_a;
   return bad_input(unclear.source +
-                   ": the rig does not show on which side of the square the face normal to " +
-                   letter(other.axis) + " lies, so the sign of " + kAngle +
+                   ": the rig does not state on which side of the square the face normal to " +
+                   letter(other.axis) + " is, so the sign of " + kAngle +
                    " is unknown; give position_mm of the probes at this face, or offset_mm of the "
                    "[[plane]] of this face");
 }

@@ -25,7 +25,7 @@ Result<Motion> arm_angle(double arm_m, const Motion& end) {
   if (!(std::abs(s) < 1))
     return bad_input("screws A and C: sin B would be " + std::to_string(s) +
                      " (limit 1); the difference between the screws A and C, times cos(tilt), must "
-                     "be less than twice the arm");
+                     "be less than twice the length of the arm");
   const double b = std::asin(s), c = std::cos(b), speed = end.velocity / (arm_m * c);
   return Motion{b, speed, (end.acceleration / arm_m + speed * speed * s) / c};
 }

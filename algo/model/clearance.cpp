@@ -57,8 +57,8 @@ std::string clearance_text(const MotionClearance& motion) {
   const std::string axis(1, letter(motion.axis));
   if (motion.probes.empty())
     return axis +
-           " does not move the target towards any probe; a target tilt of 1 mrad changes the gaps "
-           "by 1 um for each mm of travel";
+           " does not move the target towards any probe. But a tilted target changes the gaps: "
+           "with a tilt of 1 mrad, by 1 um for each mm of travel";
   std::string ids, senses, contact;
   double least_m = motion.probes.front().range_m;
   for (const ProbeInTheWay& probe : motion.probes) {

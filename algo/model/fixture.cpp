@@ -101,8 +101,8 @@ Status check_common_planes(const Rig& rig, const Fixture& fixture,
       const double of_b = way > 0 ? b.plane_offset_m : -b.plane_offset_m;
       if (std::abs(a.plane_offset_m - of_b) <= kOnPlane_m) continue;
       return bad_input(rig.source + ": probes \"" + a.id + "\" and \"" + b.id +
-                       "\" measure one plane, but the position_mm of each probe gives another "
-                       "position of this plane: " +
+                       "\" measure one plane, but their values of position_mm give two different "
+                       "positions of this plane: " +
                        in_mm(a.plane_offset_m) + " and " + in_mm(of_b) +
                        "; correct position_mm, or declare two [[plane]] tables with offset_mm and "
                        "set plane = \"...\" in each [[probe]]");

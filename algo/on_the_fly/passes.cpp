@@ -33,9 +33,9 @@ Status PassFinder::push(const FrameBlock& frames, std::size_t first, std::size_t
     begin_ = 0;
   }
   if (rows_.size() - begin_ <= kMostScans) return {};
-  return bad_input("one pass (motion in one direction, or standstill) has more than " +
-                   std::to_string(kMostScans) +
-                   " scans, the limit; divide the log, or record at a lower rate");
+  return bad_input(
+      "one pass (motion in one direction, or standstill) has more scans than the limit of " +
+      std::to_string(kMostScans) + "; divide the log, or record at a lower rate");
 }
 
 void PassFinder::follow(std::size_t row, double at_m, const Take& take) {

@@ -61,7 +61,7 @@ Status check_on_the_fly(const OnTheFlyOptions& o, const std::vector<double>& tar
   const double apart = apart_mm(o, targets_m);
   if (o.bin_mm > apart * (1 + kAlike))
     return wrong("bin_mm", "must not exceed the target interval of " + plain_number(apart) +
-                               " mm, because a reading would count at two targets");
+                               " mm, because otherwise a reading would count at two targets");
   if (std::min(apart, o.bin_mm > 0 ? o.bin_mm : apart) < kLeastBin_mm)
     return wrong("interval_mm, bin_mm", "must be 0.001 or more");
   return {};

@@ -26,7 +26,8 @@ Result<AdaptiveRule> AdaptiveRule::create(const std::vector<std::string>& output
                                           const AdaptiveTolerance& tolerance) {
   if (tolerance.digits < 1 || tolerance.digits > 6) {
     return bad_input("digits is " + std::to_string(tolerance.digits) +
-                     "; the significant digits of the standard uncertainty must be from 1 to 6");
+                     "; the number of significant digits of the standard uncertainty must be from "
+                     "1 to 6");
   }
   AdaptiveRule rule;
   rule.digits_ = tolerance.digits;

@@ -52,8 +52,8 @@ Result<double> put_on_steps(std::vector<double>& position_m, double match_m) {
     if (std::abs(x - on) > match_m)
       return bad_input(
           "the positions are not equally spaced (" + in_mm(x) + " is " + in_mm(std::abs(x - on)) +
-              " away from a multiple of the step, " + in_mm(step) +
-              "), so the probe does not read the same places of the shifted target again",
+              " away from a multiple of the step of " + in_mm(step) +
+              "), so the probe does not measure the same points of the shifted target again",
           Remedy::measure_equal_intervals);
     x = on;
   }
@@ -69,9 +69,9 @@ Result<long> step_on_target(const ReadAt& at, const SetUp& set_up, std::size_t n
   const double off = (steps - std::round(steps)) * grid.step_m;
   if (std::abs(off) <= match_m) return std::lround(steps);
   return bad_input("set-up " + std::to_string(number) + ": the shift of " + in_mm(set_up.shift_m) +
-                       " is " + in_mm(std::abs(off)) + " away from a multiple of the step, " +
+                       " is " + in_mm(std::abs(off)) + " away from a multiple of the step of " +
                        in_mm(grid.step_m) +
-                       ", so this set-up reads other places of the target than the first set-up",
+                       ", so this set-up measures other points of the target than the first set-up",
                    Remedy::shift_by_intervals);
 }
 

@@ -51,7 +51,7 @@ Status check_request(const SeparationRequest& request) {
                      " can be separated at once; leave some set-ups out");
   if (!all_alike(request)) return {};
   return bad_input(
-      "the target has the same place and orientation in all set-ups, so the machine cannot be "
+      "the target has the same position and orientation in all set-ups, so the machine cannot be "
       "separated from the target; state in which set-up the target was turned or how far the "
       "target was shifted, or measure a set-up with the target turned or shifted");
 }
@@ -68,7 +68,7 @@ Status check_shared(const Grid& grid, const std::vector<SetUp>& set_ups) {
         shared = shared || first != k;
       }
     if (!shared)
-      return bad_input(std::string("no two set-ups read the same place of the ") +
+      return bad_input(std::string("no two set-ups measure the same point of the ") +
                        (at == &grid.at_position ? "machine" : "target") +
                        ", so the errors cannot be separated; measure at the same positions, and "
                        "shift the target by less than the travel");

@@ -67,7 +67,7 @@ Status check_one_kind(const Run& a, const Run& b) {
   if (a.header.simulated == b.header.simulated) return {};
   const Run &simulated = a.header.simulated ? a : b, &measured = a.header.simulated ? b : a;
   return bad_input(name_of(simulated) + " is simulated and " + name_of(measured) +
-                   " is measured; give runs of one kind");
+                   " is measured; give only simulated or only measured runs");
 }
 
 }  // namespace

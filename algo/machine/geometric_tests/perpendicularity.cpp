@@ -68,7 +68,7 @@ Status check(const CircleReadings& r, int highest, bool drift) {
                      " readings, or fewer harmonics");
   if (widest_gap(r.angle_rad) > kWidestGap_rad)
     return bad_input(
-        "the readings leave out more than 60° of the circle, so the first harmonic cannot be "
+        "the readings have a gap of more than 60° on the circle, so the first harmonic cannot be "
         "separated from the others; measure a whole turn");
   return {};
 }

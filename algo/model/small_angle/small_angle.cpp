@@ -118,7 +118,8 @@ Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture) {
   f.side_rise = (f.across[4] - f.across[3]) / span;
   if (std::abs(f.side_rise) > kSteepest)
     return not_of_this_kind(
-        "the two probes along ±y are too close along the motion for their distance along z");
+        "the two probes along ±y are too close together along the motion, compared with their "
+        "distance along z");
   f.x_D = f.x[3];
   f.z_D = f.across[3];
   return f;

@@ -132,9 +132,10 @@ Result<PlanAxis> PlanAxis::create(const StudyPlan& plan, const Rig& rig, const s
         plan.source + ": a plan needs a rig with moves = \"target\" and travel = \"+\", but " +
         rig.source + " has other values. Use a copy of the rig without these two keys" +
         (rig.sides.target_travel_m(1) < 0
-             ? ", and negate travel_mm of the plan: the target of this rig moves against the "
-               "encoder, and the effects of rig errors depend on where the target is"
-             : "; the size of the effects of rig errors is the same, because the target of this "
+             ? ", and reverse the sign of travel_mm in the plan: the target of this rig moves "
+               "against the encoder, and the effects of rig errors depend on the position of the "
+               "target"
+             : ". The effects of rig errors then have the same size, because the target of this "
                "rig moves with the encoder"));
   MDOF_CHECK(check_forward(plan, solver->fixture()));
   const std::size_t positions = series ? plan.series_positions : 0;

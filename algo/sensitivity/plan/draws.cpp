@@ -94,7 +94,8 @@ Status PlanDraws::add_group(const PlannedCorrelation& planned) {
       return bad_input(
           planned.where + ": " + drawn_[m].target.name + " and " +
           drawn_[group.members[0]].target.name +
-          " cannot be correlated, because one of them is noise, which is drawn for each reading");
+          " cannot be correlated, because one of them is noise, which has a new random value for "
+          "each reading");
   }
   groups_.push_back(std::move(group));
   return {};

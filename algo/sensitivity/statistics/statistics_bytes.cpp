@@ -124,16 +124,17 @@ Result<StudyStatistics> StudyStatistics::parse(std::string_view bytes, const Exp
   if (!bytes.starts_with(kMagic)) return bad_input(what + "the data do not begin with MDOFSTAT");
   ByteReader in(bytes.substr(kMagic.size()));
   if (const auto version = in.number<std::uint32_t>(); version != kVersion) {
-    return bad_input(what + "version " + std::to_string(version) +
+    return bad_input(what + "the data have version " + std::to_string(version) +
                      ", but this program reads version " + std::to_string(kVersion) +
                      "; continue the study with the program that wrote these data");
   }
   const auto outputs = in.number<std::uint64_t>(), bins = in.number<std::uint64_t>();
   StudyStatistics s(shape, StudyScale(shape.outputs().size()), set);
   if (outputs != s.parts_->outputs.size() || bins != s.parts_->binned.bins) {
-    return bad_input(what + std::to_string(outputs) + " outputs in " + std::to_string(bins) +
-                     " bins, but the study has " + std::to_string(s.parts_->outputs.size()) +
-                     " outputs in " + std::to_string(s.parts_->binned.bins) + " bins");
+    return bad_input(what + "the data contain " + std::to_string(outputs) + " outputs in " +
+                     std::to_string(bins) + " bins, but the study has " +
+                     std::to_string(s.parts_->outputs.size()) + " outputs in " +
+                     std::to_string(s.parts_->binned.bins) + " bins");
   }
   s.parts_->trials = in.number<std::uint64_t>();
   bool good = read_scale(in, s.parts_->scale);
@@ -146,7 +147,8 @@ Result<StudyStatistics> StudyStatistics::parse(std::string_view bytes, const Exp
   }
   for (const std::uint64_t n : seen) good = good && n == s.parts_->trials;
   if (!good || !in.at_end()) {
-    return bad_input(what + "damaged: counts, lengths or ranges contradict each other");
+    return bad_input(what +
+                     "the data are damaged: counts, lengths or ranges contradict each other");
   }
   return s;
 }

@@ -50,7 +50,7 @@ Decision decision(const Budget& budget, double limit, const std::string& against
     unknown.limit = limit;
     unknown.guard_factor = unknown.guard_band = std::nan("");
     unknown.rule = "ISO 14253-1:2017; no guard band can be calculated without u";
-    unknown.reason = budget.u == 0 ? "u is 0, so no uncertainty was found or declared"
+    unknown.reason = budget.u == 0 ? "u is 0, because no uncertainty was found or declared"
                                    : "the uncertainty is unknown";
     return unknown;
   }
@@ -69,8 +69,8 @@ Decision decision(const Budget& budget, double limit, const std::string& against
                    : "U is incomplete: the rig does not declare " + list_of(budget.not_declared);
   else if (budget.is_single_run)
     d.reason =
-        "U is incomplete: no target was visited twice from the same side, so slow noise is not in "
-        "U";
+        "U is incomplete: no target was approached twice from the same direction, so U does not "
+        "include slow noise";
   else if (size + d.guard_band <= limit)
     d.conformity = Conformity::conform;
   else if (size - d.guard_band > limit)

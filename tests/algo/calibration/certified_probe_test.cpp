@@ -375,7 +375,7 @@ TEST(CertifiedProbe, OneOfSeveralResults) {
                       ErrorCode::usage));
   c.results.clear();
   EXPECT_TRUE(refused(of_b(rig, c, "left"), {"c.xml: ", "none"}, ErrorCode::usage));
-  EXPECT_TRUE(refused(of_b(rig, c), {"c.xml: ", "neither"}));
+  EXPECT_TRUE(refused(of_b(rig, c), {"c.xml: ", "no sensitivity"}));
 }
 
 // What has another unit, no other column or no list beside it, is neither sensitivity nor table.
@@ -389,7 +389,8 @@ TEST(CertifiedProbe, LeavesOutWhatIsNeither) {
                     e = error(kMetre, {1e-7, 3e-7}, {1e-8, 2e-8});
   const Rig rig = rig_of(40, 0);
   others.push_back(e);
-  EXPECT_TRUE(refused(of_b(rig, certificate({r, e}, {{r}, others})), {"c.xml: ", "neither"}));
+  EXPECT_TRUE(
+      refused(of_b(rig, certificate({r, e}, {{r}, others})), {"c.xml: ", "no sensitivity"}));
   others.push_back(r);
   EXPECT_TRUE(of_b(rig, certificate({}, {others})));
 }

@@ -158,7 +158,7 @@ TEST(Sensitivity, WhatCannotBeIsRefused) {
     EXPECT_NE(found.error().message.find(what), std::string::npos) << found.error().message;
   };
   says(along_z([](double z) { return z; }, 2), "at 2 positions");
-  says(along_z([](double z) { return z; }, 11, 1e-6), "that cover the used range");
+  says(along_z([](double z) { return z; }, 11, 1e-6), "cover the part of the range that you use");
   says(along_z([](double z) { return -z; }), "check the keys \"reads\" and \"measures\"");
   says(along_z([](double z) { return 2.5 * z; }), "um_per_V");
   says(along_z([](double) { return std::nan(""); }), "at 0 positions over 0 um");

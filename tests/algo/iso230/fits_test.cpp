@@ -209,7 +209,7 @@ TEST(Artefact, IsRefusedWhereTheRigsDifferOrTellNoCorner) {
   EXPECT_TRUE(artefact_of(same_x, same_y, {.angle_error_rad = -0.01, .u_rad = 0.01}));
   EXPECT_NE(artefact_of(at_0, other, {})
                 .error()
-                .message.find("rig_X: the rig does not show on which side of the square"),
+                .message.find("rig_X: the rig does not state on which side of the square"),
             std::string::npos);
   const auto [no_angle, needs_none] = rigs_at(0, -15);
   EXPECT_EQ(artefact_of(no_angle, needs_none, {})->corner, 0);
@@ -358,7 +358,7 @@ TEST(Artefact, NamesTheRigWhoseFaceIsNotClear) {
   const auto refused = artefact_of(x, at_0, {});
   ASSERT_FALSE(refused);
   EXPECT_NE(
-      refused.error().message.find("rig_Y: the rig does not show on which side of the square"),
+      refused.error().message.find("rig_Y: the rig does not state on which side of the square"),
       std::string::npos);
   EXPECT_NE(refused.error().message.find("square the face normal to X lies"), std::string::npos);
   const auto [x_at_0, y] = rigs_at(0, -15, three, three);

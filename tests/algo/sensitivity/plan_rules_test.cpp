@@ -184,7 +184,7 @@ TEST(PlanRules, ARigThatMovesOtherwiseIsToldHowToBeReplaced) {
   };
   const auto negates = [](const std::string& why) {
     EXPECT_NE(why.find("moves = \"target\""), std::string::npos) << why;
-    return why.find("negate travel_mm") != std::string::npos;
+    return why.find("reverse the sign of travel_mm") != std::string::npos;
   };
   EXPECT_TRUE(negates(says("travel = \"-\"\n")));
   EXPECT_TRUE(negates(says("moves = \"fixture\"\n")));

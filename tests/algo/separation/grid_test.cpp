@@ -32,8 +32,8 @@ TEST(SeparationGrid, AShiftOffTheStepsIsTakenWithinTheMatch) {
   const auto refused = grid_of({}, set_ups, 0.39e-3);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find(
-                "set-up 2: the shift of 20.4 mm is 0.4 mm away from a multiple of the "
-                "step, 10 mm"),
+                "set-up 2: the shift of 20.4 mm is 0.4 mm away from a multiple of the step of 10 "
+                "mm"),
             std::string::npos)
       << refused.error().message;
 }

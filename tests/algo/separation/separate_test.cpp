@@ -311,15 +311,15 @@ TEST(Separation, WhatCannotBeIsRefusedWithARemedy) {
     EXPECT_NE(found.error().message.find(words), std::string::npos) << found.error().message;
   };
   says(request_of(world, {{}}), "one set-up");
-  says(request_of(world, {{}, {}}), "has the same place and orientation");
-  says(request_of(world, {{}, {false, false, 4 * kMm}}), "away from a multiple of the step, 10 mm");
+  says(request_of(world, {{}, {}}), "has the same position and orientation");
+  says(request_of(world, {{}, {false, false, 4 * kMm}}), "a multiple of the step of 10 mm");
   says(request_of(world, {{}, {false, false, 70 * kMm}}),
-       "no two set-ups read the same place of the target");
+       "no two set-ups measure the same point of the target");
   says(request_of({{}, 0, {0, 10e-3, 21e-3, 30e-3}}, {{}, {false, false, 10 * kMm}}),
        "not equally spaced");
   auto request = request_of(world, {{}, {true, false, 0}});
   for (double& x : request.set_ups[1].position_m) x += 1 * kMm;
-  says(request, "no two set-ups read the same place of the machine");
+  says(request, "no two set-ups measure the same point of the machine");
   request = request_of(world, {{}, {true, false, 0}});
   request.set_ups[1].error_m[3] = std::nan("");
   says(request, "set-up 2: a value is not a finite number");

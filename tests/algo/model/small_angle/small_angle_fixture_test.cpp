@@ -51,7 +51,7 @@ TEST(SmallAngleFixture, RefusesSideProbesTooCloseAlongTheMotion) {
   fixture.probes[4].p_MP.z() = fixture.probes[3].p_MP.z() + 3e-3;
   EXPECT_EQ(refused(fixture), "");
   fixture.probes[4].p_MP.z() = fixture.probes[3].p_MP.z() - 3.1e-3;
-  EXPECT_TRUE(says(refused(fixture), "too close along the motion"));
+  EXPECT_TRUE(says(refused(fixture), "too close together along the motion"));
 }
 
 TEST(SmallAngleFixture, LooksAlongTheAxes) {

@@ -99,8 +99,8 @@ Status reject_encoder(const SampleBlock& block, const Channel& encoder, const st
       (block.device.empty() ? "" : "device \"" + block.device + "\": ") + "channel \"encoder\" " +
       (unit.empty() ? "has no unit" : "is in " + unit) +
       ", but an axis position must be a length; " + scale +
-      "use an input in um or mm, or an input in counts together with the key um_per_count; a CSV "
-      "column of the encoder must have the name encoder_mm or encoder_um");
+      "use an input in um, in mm or in counts (with the key um_per_count). A CSV column of the "
+      "encoder must have the name encoder_mm or encoder_um");
 }
 
 }  // namespace

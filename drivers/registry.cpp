@@ -30,8 +30,9 @@ namespace mdof::drivers {
 namespace {
 
 constexpr const char* kResetOnly =
-    "a LabJack sets the count to 0 at the reference mark, but does not report this reset; near 0 "
-    "the reset looks like motion, so it is unknown whether the axis passed the mark";
+    "a LabJack sets the count to 0 at the reference mark, but does not report this reset. If the "
+    "count is near 0, the reset looks like a motion of the axis, so mdof cannot know whether the "
+    "axis passed the mark";
 
 Status check_index(const DriverRow& row, const EncoderOrigin& encoder) {
   if (!encoder.index_mm || !row.no_index) return {};

@@ -144,7 +144,8 @@ Status Capancdt::update_clock(std::int64_t received_ns, bool all) {
   const auto measured_ns = s.rate.add(*s.newest_frame, received_ns);
   if (!measured_ns) return {};
   return io_error("the controller sends a frame every " + std::to_string(*measured_ns / 1e3) +
-                  " us, but it reported " + std::to_string(s.setup.frame_ns() / 1e3) +
+                  " us, but it reported an interval of " +
+                  std::to_string(s.setup.frame_ns() / 1e3) +
                   " us; end any other program that changes the settings of the controller");
 }
 

@@ -59,8 +59,8 @@ Result<std::optional<int>> setting(CommandPort& port, const std::string& command
 }
 
 constexpr const char* kCorrectOne =
-    "correct one of the two values, or set configure = true, so that the driver writes its setting "
-    "to the controller";
+    "correct one of the two values, or set configure = true, so that the driver writes the "
+    "configured value to the controller";
 
 Status check(const char* key, std::optional<int> wanted, std::optional<int> is) {
   if (!wanted || !is || *wanted == *is) return {};
@@ -175,7 +175,7 @@ Result<Setup::Input> read_input(CommandPort& port, const Options::Channel& chann
 Status read_inputs(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const std::string text, port.ask("$CHS"));
   const auto channels = parse_channel_list(text);
-  if (!channels) return io_error("the answer to $CHS is \"" + text + "\", not a list");
+  if (!channels) return io_error("the answer to $CHS is \"" + text + "\", not a list of channels");
   for (const auto& channel : options.channels) {
     const auto index = static_cast<std::size_t>(channel.number - 1);
     if (index >= channels->size() || (*channels)[index] == 0)

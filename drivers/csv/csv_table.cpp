@@ -84,9 +84,8 @@ Status check_not_misspelt(const CsvHeader& header, const std::vector<std::string
     for (const std::string& column : header.columns)
       if (!is_read(column) && is_meant(column, name))
         return bad_input(header.source + ":" + std::to_string(header.lines) + ": column " + column +
-                         " is not read: the name of this column is " + name +
-                         "; rename the column to " + name +
-                         " if it contains these values, or delete it");
+                         " is not read. If this column is meant as " + name +
+                         ", rename the column to " + name + "; if not, delete the column");
   }
   return {};
 }

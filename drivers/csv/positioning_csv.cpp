@@ -41,7 +41,7 @@ Status check_new(const CsvTable& table, std::size_t row, const PositioningReadin
   if (is_new) return {};
   return bad_input(table.where(row) + "the line has the same target, direction and run as line " +
                    std::to_string(table.header_line + 1 + first->second) +
-                   "; use the run numbers 1, 2, 3 ... or delete one line");
+                   "; give each run its own number (1, 2, 3 ...), or delete one of the two lines");
 }
 
 std::vector<double> targets_of(const CsvTable& table) {

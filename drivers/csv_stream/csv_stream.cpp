@@ -20,8 +20,8 @@ constexpr std::int64_t kPaceOver_ns = 2'000'000'000;  // time_s is compared with
 constexpr std::size_t kMostScans = 4096;              // of a block
 
 constexpr const char* kDatumLost =
-    "the source was started or connected again, and may now count from another position (if it "
-    "never does, set absolute = true for this device)";
+    "the source was started or connected again, so the zero of its positions may have changed (if "
+    "this zero never changes, set absolute = true for this device)";
 
 std::string describe_source(const CsvStreamOptions& options) {
   if (options.server) return "tcp://" + options.server->text();

@@ -22,8 +22,8 @@ constexpr const char* kConvertAngles =
     "position_mm,deviation_urad, and import the CSV file as the measured error, such as EBX";
 
 constexpr const char* kNotPositioning =
-    ", not of positioning; state at the import which error was measured, such as EYX (or EXX if it "
-    "is positioning after all)";
+    "; at the import, state which error was measured, such as EYX (or EXX if the file contains "
+    "positioning errors after all)";
 
 std::string utf8_from_latin1(std::string_view text) {
   std::string out;
@@ -104,7 +104,7 @@ class Rtl {
       if (descending ? !(targets_[i] < targets_[i - 1]) : !(targets_[i] > targets_[i - 1]))
         return bad_input(source_ + ": target " + std::to_string(i + 1) + " is not " +
                          (descending ? "less" : "greater") +
-                         " than the previous target, so forward and reverse cannot be "
+                         " than the previous target, so forward and reverse runs cannot be "
                          "distinguished");
     if (series_.readings.size() != run_count_ * target_count_)
       return bad_input(source_ + ": has " + std::to_string(series_.readings.size()) +
@@ -142,7 +142,7 @@ class Rtl {
     for (const char* const other : {"straight", "flat", "square"})
       if (!error_is_stated_ && contains_word(value, other))
         return wrong(std::string(key) + " \"" + utf8_from_latin1(value) +
-                     "\" means that the file contains errors of another kind" + kNotPositioning);
+                     "\" means that the file contains no positioning errors" + kNotPositioning);
     return {};
   }
 
@@ -285,7 +285,7 @@ Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& sourc
   if (!error_is_stated && contains_word(ending.substr(0, 3), ".rt") &&
       !contains_word(ending, ".rtl"))
     return bad_input(source + ": a file that ends in " + std::string(ending) +
-                     " contains a test of another kind" + kNotPositioning);
+                     " contains no positioning errors" + kNotPositioning);
   Rtl rtl(source, error_is_stated);
   while (!text.empty()) {
     const std::size_t end = text.find('\n');

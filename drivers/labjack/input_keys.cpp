@@ -31,7 +31,7 @@ Result<int> negative_of(const std::string& device, const ChannelInput& channel, 
   if (ain % 2 == 0 && negative == partner) return ain + 1;
   return bad_input(
       channel.where + ": negative = \"" + negative + "\" is not possible; a " + device +
-      " measures an even AIN only against the next AIN; give " +
+      " can only measure the voltage between an even AIN and the next AIN; give " +
       (ain % 2 == 0 ? "negative = \"" + partner + "\" with " + channel.input
                     : "negative = \"" + channel.input + "\" with AIN" + std::to_string(ain - 1)));
 }

@@ -40,8 +40,8 @@ Result<Event> conversion(const Command& sources, std::size_t inputs, const ScanT
 Result<Command> without_pause(Command command, const Command& sources, double rate_hz) {
   if (!can(sources.scan_begin, kFollow) || !can(sources.convert, kTimer))
     return bad_input(
-        "the board has no timer for scans, and this driver cannot use an external timer, so it "
-        "cannot read the board");
+        "the board has no timer for scans, so this driver cannot read the board (external timers "
+        "are not supported)");
   command.scan_begin = {kFollow, 0};
   command.convert = {kTimer, period_ns(1 / rate_hz / static_cast<double>(command.inputs.size()))};
   return command;

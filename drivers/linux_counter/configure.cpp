@@ -20,8 +20,8 @@ Result<DriverSpec> configure_linux_counter(TomlTable& table, const DriverContext
   MDOF_TRY(options.channels, read_channels(table, context.rig, [&](TomlTable& channel) {
              if (channel.has("index_mm") && options.chip != kQuad8)
                channel.reject("index_mm",
-                              "needs chip = \"104-quad-8\", because no other counter driver of the "
-                              "Linux kernel is known to load the count at a reference mark",
+                              "needs chip = \"104-quad-8\", because only this counter driver of "
+                              "the Linux kernel is known to set the count at a reference mark",
                               Remedy::count_without_mark);
            }));
   MDOF_CHECK(table.finish());

@@ -68,8 +68,8 @@ struct ModbusClient::Impl {
 
 Status ModbusClient::Impl::configure() {
   if (stream.fd() >= FD_SETSIZE)
-    return io_error(stream.name() + ": descriptor " + std::to_string(stream.fd()) +
-                    " is too large for libmodbus; limit the open files of mdofd to " +
+    return io_error(stream.name() + ": file descriptor " + std::to_string(stream.fd()) +
+                    " is too large for libmodbus; limit the number of open files of mdofd to " +
                     std::to_string(FD_SETSIZE) + " (LimitNOFILE=)");
   if (!context) return io_error(stream.name() + ": libmodbus: " + ::modbus_strerror(errno));
   const auto us = std::chrono::microseconds(options.response_timeout).count();
@@ -159,8 +159,9 @@ Status ModbusClient::Impl::prove(int address, modbus::Shape regular) {
   const modbus::Shape sentinel = sentinels.pick(regular);
   if (sentinel.count == 0)
     return io_error(
-        "cannot test the line for late replies, because the requests of the profile already use "
-        "every number of registers that one request can read; remove a value from the profile");
+        "the test for late replies must read a number of registers that no request of the profile "
+        "reads, but the profile already uses every possible number; remove a value from the "
+        "profile");
   const int last = modbus::kLastAddress + 1 - sentinel.count;
   const auto pdu = modbus::read_request(static_cast<modbus::Function>(sentinel.function),
                                         std::min(address, last), sentinel.count);

@@ -116,7 +116,7 @@ Status ModbusDriver::check(const modbus::Check& check) {
   if ((is & check.mask) == check.equals) return {};
   return io_error(who() + ": " + check.says + " (register " + std::to_string(check.at.address) +
                   " is " + hex(is) + ", but the profile requires " + hex(check.equals) +
-                  "); correct the setting of the device, or give a profile that matches it");
+                  "); correct the setting of the device, or give a profile for this setting");
 }
 
 Result<ReadState> ModbusDriver::read(SampleBlock& block, milliseconds timeout) {

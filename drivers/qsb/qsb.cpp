@@ -283,7 +283,7 @@ Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
   if (step < 0 || step_ns > 2 * passed_ns + kAhead_ns)
     return io_error(
         place() + ": the time stamps jumped by " + std::to_string(step) +
-        " ticks; the QSB was reset, or the line is disturbed; reference the axis again");
+        " ticks; the QSB was reset, or the serial line is disturbed; reference the axis again");
   const std::int64_t count = count_(reply.data);
   MDOF_TRY(const IndexMark::State mark, watch_mark(count, received_ns));
   if (mark == IndexMark::State::astray) return take_malformed();

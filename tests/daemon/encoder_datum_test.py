@@ -300,9 +300,9 @@ class Units(unittest.TestCase):
             shutil.copy(SETUPS["labjack_t7"].rig, folder)
             for device, why in (
                     ('driver = "modbus"\nprofile = "adam-6017"\naddress = "127.0.0.1"\n'
-                     'channel = [{ id = "encoder", input = "AI0" }]', "is in V, .* use an input in um or mm"),
+                     'channel = [{ id = "encoder", input = "AI0" }]', "is in V, .* use an input in um, in mm"),
                     ('driver = "pokeys57u"\nchannel = [{ id = "encoder", input = "analogue1" }]',
-                     "is in V, .* use an input in um or mm"),
+                     "is in V, .* use an input in um, in mm"),
                     ('driver = "modbus"\nprofile = "adam-6017"\naddress = "127.0.0.1"\n'
                      'channel = [{ id = "encoder", input = "AI0", um_per_count = 3 }]', "um_per_count applies to counts"),
                     ('driver = "labjack_t7"\naddress = "127.0.0.1"\nchannel = [{ id = "encoder", input = "AIN0" }]',

@@ -105,7 +105,7 @@ TEST(LabjackU6Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
   EXPECT_EQ(list[3].channel, 2);
   EXPECT_EQ(list[3].gain, 2);
   EXPECT_TRUE(list[3].differential);
-  EXPECT_TRUE(has(refusal("", kChannels + pair("AIN2", "AIN5")), "a U6 measures an even AIN"));
+  EXPECT_TRUE(has(refusal("", kChannels + pair("AIN2", "AIN5")), "an even AIN and the next AIN"));
   EXPECT_TRUE(
       has(refusal("", kChannels + pair("AIN3", "AIN2")), "give negative = \"AIN3\" with AIN2"));
   EXPECT_TRUE(has(refusal("", pair("AIN0", "AIN1") + "[[channel]]\nid = \"A\"\ninput = \"AIN1\"\n"),

@@ -138,9 +138,9 @@ std::optional<Diagnosis> check_sysfs_device(const fs::path& device, const driver
           closed->string() + "; if mdofd.toml contains the key \"" + of.key +
           "\", mdofd has to write this file",
       std::string(
-          "install the udev rules (60-mdof.rules, above), which give the file to the group mdof. "
-          "If the device was connected before the installation, also run: sudo udevadm control "
-          "--reload && sudo udevadm trigger --action=add --subsystem-match=") +
+          "install the udev rules (60-mdof.rules, above), which give the group mdof permission to "
+          "write this file. If the device was connected before the installation, also run: sudo "
+          "udevadm control --reload && sudo udevadm trigger --action=add --subsystem-match=") +
           of.subsystem};
 }
 
@@ -238,10 +238,11 @@ Diagnosis check_set_up(const Rig& rig) {
   const std::string what = "set-up of axis " + std::string(1, letter(rig.axis)) + ": ";
   const char* const remedy =
       "check the set-up once by hand. Push the target towards each probe in turn: only the reading "
-      "of this probe may change, by the length of the push and with the sign of the direction of "
-      "the probe. Tilt the target by a known angle about each axis. Move the axis by a known "
-      "length: the encoder must show this length and direction. To find a drift that follows the "
-      "axis position, measure again with other dwell times, or with another order of targets";
+      "of this probe may change. The change must be as large as the push, and must have the sign "
+      "of the direction of the probe. Tilt the target by a known angle about each axis. Move the "
+      "axis by a known length: the encoder must show this length and direction. To find a drift "
+      "that follows the axis position, measure again with other dwell times, or with another order "
+      "of targets";
   const std::string locked =
       "A drift that follows the position of the axis (heat of drive or scale, pull of cables) "
       "repeats in each run. The errors contain this drift, but u does not. One run cannot separate "
@@ -252,7 +253,7 @@ Diagnosis check_set_up(const Rig& rig) {
                 " probes give redundant readings. If one probe is exchanged or turned, or has a "
                 "wrong gain or position, the readings contradict each other and mdof warns. A run "
                 "does not detect a reversed encoder, a wrong sign or gain of all probes, or a "
-                "common factor of all lengths. " +
+                "common scale error of all lengths. " +
                 locked,
             remedy};
   return {Level::good,

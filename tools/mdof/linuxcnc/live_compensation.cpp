@@ -216,7 +216,8 @@ class Judge {
   void write_hal() {
     std::string not_read, thread, other;
     for (const std::string& file : wiring_.not_read) not_read += " " + file;
-    const std::string unseen = not_read.empty() ? "" : " (not read:" + not_read + ")";
+    const std::string unseen =
+        not_read.empty() ? "" : " (mdof did not read these files:" + not_read + ")";
     const auto reads = place_of("motion-command-handler", thread);
     const auto moves = place_of("motion-controller", other);
     if (!reads || !moves || thread != other || *moves < *reads)
@@ -226,8 +227,9 @@ class Judge {
           unseen);
     if (wiring_.signal_of.contains("motion.homing-inhibit"))
       refuse(
-          "[HAL]HALFILE: a HAL file connects motion.homing-inhibit, but the mdof component must "
-          "set this pin while its offset is not 0; remove this connection");
+          "[HAL]HALFILE: a HAL file connects motion.homing-inhibit, but this pin must be connected "
+          "to the mdof component only (to prevent homing while an offset is active); remove this "
+          "connection");
     const std::string at = " " + thread + " ";
     live_.hal =
         "# Live compensation by mdof. This file must be the last HALFILE of [HAL].\n"

@@ -131,8 +131,8 @@ bool decide_squareness(report::Report& all, const std::string& figure, double to
 Status decide(report::Report& all, const std::vector<std::pair<std::string, double>>& tolerances) {
   for (const auto& [figure, tolerance] : tolerances) {
     std::string why =
-        "no run of the report has this figure with an uncertainty; a report "
-        "without --tolerance lists the figures";
+        "no run of the report has this figure with an uncertainty; to see the names of the "
+        "figures, make a report without --tolerance";
     bool found = decide_squareness(all, figure, tolerance, why);
     for (report::ReportRun& run : all.runs)
       if (const Budget* budget = find_budget(run.results.figures.budgets, figure)) {

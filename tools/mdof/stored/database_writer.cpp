@@ -65,8 +65,8 @@ Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database
   auto client = rpc::Client::connect(socket);
   if (!client)
     return held(file, "no mdofd answers at " + socket +
-                          "; wait for the end of the writing program, or use --socket to give the "
-                          "socket of the mdofd that uses the database");
+                          "; wait until the other program ends. If the other program is mdofd, "
+                          "give its socket with --socket");
   MDOF_TRY(const std::string info, client->call("server.info"));
   simdjson::dom::parser parser;
   const std::string theirs = text(parser.parse(simdjson::padded_string(info)), "database");

@@ -50,7 +50,7 @@ CLI::Option* add_run_arguments(CLI::App& command, std::vector<std::string>& runs
 }
 
 void add_axis_of_latest(CLI::App& command, std::string& axis) {
-  command.add_option("--axis", axis, "For \"latest\": axis of the run")
+  command.add_option("--axis", axis, "Axis of the run, if the run is \"latest\"")
       ->check(CLI::IsMember({"X", "Y", "Z"}));
 }
 

@@ -74,8 +74,8 @@ Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
 }
 
 const char* const kNotInR =
-    "R (ISO 230-2) is calculated only from the visits to each target in this run. U does not "
-    "include the uncertainty that comes from the small number of visits";
+    "R (ISO 230-2) is calculated only from the repeated approaches to each target in this run. U "
+    "does not include the uncertainty that comes from the small number of approaches";
 
 }  // namespace
 

@@ -58,7 +58,7 @@ std::string runs_of(const std::vector<std::int64_t>& runs) {
 std::string corrections_text(const CompensationTable& t, std::size_t width) {
   if (t.has_positioning())
     return std::string(1, letter(t.axis)) + " command: add -" + positioning_name(t.axis) +
-           ", independent of which body moves\n";
+           "; this is the same for a moving tool and a moving table\n";
   const CorrectionSigns signs = correction_signs(t.machine, t.axis, t.sides, t.stated.reference);
   if (!t.machine.known()) return wrapped("correction: unknown; " + signs.gap[0], width, 2) + "\n";
   std::string text = "machine " + t.machine.text + " (" + travels_of(t.machine) + ")\n";

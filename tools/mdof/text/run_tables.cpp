@@ -88,7 +88,7 @@ std::string error_label(const std::string& key) {
 std::string stated_text(const StatedAt& at) {
   switch (at.reference) {
     case Reference::carriage:
-      return "straightness of the carriage origin, which travels with the target (Eq. 2-12)\n";
+      return "straightness of the carriage origin, which travels with the target\n";
     case Reference::tool: {
       std::string text = "straightness at the tool point of the fixture,";
       for (const double x : at.point_m) text += " " + in_mm(x);
@@ -197,9 +197,9 @@ std::string straightness_text(const std::vector<StraightnessFigure>& figures,
   }
   return "straightness, peak to valley about each reference line\n" + table.text(width) +
          wrapped(
-             "± is the standard uncertainty u of the mean of the measured approaches. form: "
-             "standard "
-             "deviation of the slope, from the residuals about the line",
+             "± is the standard uncertainty u of the mean of the measured approaches. The column "
+             "\"form\" is the standard deviation of the slope, calculated from the residuals about "
+             "the line",
              width) +
          "\n";
 }

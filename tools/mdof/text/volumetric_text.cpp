@@ -100,8 +100,8 @@ std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
          "\n" + wrapped(std::to_string(t.nodes()) + " nodes: " + grid_text(t), terminal_columns()) +
          "\ncorrections, which are added to the commands\n" + out.text(terminal_columns()) +
          wrapped(
-             "between nodes: largest error of the linear interpolation. Largest residual that the "
-             "linear axes cannot correct: " +
+             "The column \"between nodes\" is the largest error of the linear interpolation. "
+             "Largest residual that the linear axes cannot correct: " +
                  fixed(to_um(t.place_left_m), 4) + " µm (position), " +
                  fixed(to_urad(t.turn_left_rad), 2) + " µrad (angle)",
              terminal_columns()) +

@@ -43,13 +43,14 @@ std::string mounting_text(const MountingCalibration& found, const Rig& rig, std:
                p.zero_seen ? with_u(to_um(p.zero_m), to_um(p.u_zero_m), 3) : "as in the rig"});
   }
   std::string text = noise_only_notice(!rig.declares_uncertainty()) + table.text(width);
-  text +=
-      "\n" + std::to_string(found.clampings) + " clampings, whose tilts differ by up to " +
-      plain_number(found.tilt_rad * 1e3, 3) + " mrad, " + std::to_string(found.readings) +
-      " readings\nchi-square " + plain_number(found.chi_square, 4) + " of " +
-      std::to_string(found.freedom) + " degrees of freedom" +
-      (found.explained ? "" : "; this is more than expected from the noise, so u was increased") +
-      "\n";
+  text += "\n" + std::to_string(found.clampings) + " clampings, whose tilts differ by up to " +
+          plain_number(found.tilt_rad * 1e3, 3) + " mrad, " + std::to_string(found.readings) +
+          " readings\nchi-square " + plain_number(found.chi_square, 4) + " of " +
+          std::to_string(found.freedom) + " degrees of freedom" +
+          (found.explained ? ""
+                           : "; chi-square is larger than expected from the noise, so u was "
+                             "increased") +
+          "\n";
   if (!found.not_seen.empty()) text += "Not determined:\n";
   for (const auto& what : found.not_seen) text += "- " + wrapped(what, width - 2, 2) + "\n";
   return text +

@@ -86,12 +86,20 @@ class ResultSchema(unittest.TestCase):
         cls.results = [(method, cls.client.call(method, **params)) for method, params in CALLS]
         volume = next(r["table"] for m, r in cls.results if m == "compensation.build_volume")
         cls.client.call("compensation.activate", table=volume, despite_warnings=True)
+        cls.volume, cls.status = volume, cls.mdof("status", "--socket", cls.daemon.socket)
         cls.results += [(method, cls.client.call(method, **params)) for method, params in VOLUME]
 
     @classmethod
     def mdof(cls, *words):
         done = subprocess.run([MDOF, *map(str, words)], capture_output=True, text=True, timeout=60)
         assert done.returncode == 0, (words, done.stderr)
+        return done.stdout
+
+    def test_mdof_status_shows_the_active_volume(self):
+        row = next(line for line in self.status.splitlines() if line.startswith("volume "))
+        self.assertEqual(row.split()[1], str(self.volume))
+        self.assertTrue(row.rstrip().endswith("DOUBTFUL  no"), row)
+        self.assertNotIn("no table is active", self.status)
 
     def test_every_method_has_one(self):
         self.assertEqual({m for m, _ in self.results} | ELSEWHERE, set(Client.schemas.of))

@@ -58,16 +58,25 @@ std::string server_text(const element& info, std::size_t columns) {
 }
 
 std::string compensation_text(const element& status, std::size_t columns) {
-  std::string head = "generation " + or_dash(integer(status, "generation")) + "\n";
+  const std::string head = "generation " + or_dash(integer(status, "generation")) + "\n";
+  TextTable table({"axis", "table", "from/mm", "to/mm", "active since", "doubtful", "simulated"});
+  const auto add = [&table](std::string_view axis, const element& active) {
+    const auto range = [&](const char* end) {
+      const double at_mm = number(active, end);
+      return std::isnan(at_mm) ? "-" : fixed(at_mm, 3);
+    };
+    table.add({std::string(axis), or_dash(integer(active, "table")), range("first_mm"),
+               range("last_mm"), text(active, "activated_utc"),
+               flag(active, "doubtful") ? "DOUBTFUL" : "no",
+               flag(active, "simulated") ? "SIMULATED" : "no"});
+  };
+  bool any = false;
   simdjson::dom::object axes;
-  if (status["axes"].get_object().get(axes) || axes.size() == 0)
-    return head + "no table of an axis is active\n";
-  TextTable table({"axis", "table", "from/mm", "to/mm", "active since", "simulated"});
-  for (const auto [axis, of] : axes)
-    table.add({std::string(axis), or_dash(integer(of, "table")), fixed(number(of, "first_mm"), 3),
-               fixed(number(of, "last_mm"), 3), text(of, "activated_utc"),
-               flag(of, "simulated") ? "SIMULATED" : "no"});
-  return head + table.text(columns);
+  if (!status["axes"].get_object().get(axes))
+    for (const auto [axis, active] : axes) add(axis, active), any = true;
+  element volume;
+  if (!status["volume"].get(volume) && volume.is_object()) add("volume", volume), any = true;
+  return head + (any ? table.text(columns) : "no table is active\n");
 }
 
 std::string runs_text(const element& list, std::size_t columns) {

@@ -84,19 +84,17 @@ std::string error_json(const Machine& machine, const FoundError& found,
 std::string compensating_text(const Machine& machine, const FoundError& found) {
   if (!found.compensating) return "the machine has no linear axis that could correct the error\n";
   const auto& c = *found.compensating;
-  std::string text = "the tool reaches the nominal position with the commands";
+  std::string text = c.converged ? "the tool reaches the nominal position with the commands"
+                                 : "NOT CONVERGED: the errors change too much with the position to "
+                                   "calculate a compensating command\nlast commands tried:";
   for (const MachineFrame& frame : machine.frames)
     if (frame.kind == FrameKind::linear) {
       const double to = algo::command_of(frame, c.command);
       text += " " + frame.id + " " + fixed(to_mm(to), 6) + " mm (change " +
               fixed(to_um(to - algo::command_of(frame, found.at)), 4) + " µm)";
     }
-  return text + "; residual " + fixed(to_um(c.residual_m.norm()), 6) + " µm\n" +
-         (c.converged
-              ? ""
-              : "NOT CONVERGED: the errors change too much with the position to calculate a "
-                "compensating command\n") +
-         "angular errors that remain: " + in_urad(c.angles_rad[0]) + ", " +
+  return text + "; residual " + fixed(to_um(c.residual_m.norm()), 6) +
+         " µm\nangular errors that remain: " + in_urad(c.angles_rad[0]) + ", " +
          in_urad(c.angles_rad[1]) + ", " + in_urad(c.angles_rad[2]) + " µrad about X, Y, Z\n";
 }
 

@@ -109,7 +109,7 @@ void append_values(TomlTable& table, std::vector<Value>& values) {
     if (hash != std::string::npos) value.name.replace(hash, 1, std::to_string(first + i));
     value.at.address += i * registers_of(one.type);
     if (value.check) value.check->at.address += i;
-    if (value.at.address >= kLastAddress)
+    if (value.at.address + registers_of(value.type) - 1 > kLastAddress)
       table.reject("count", "the last value ends beyond register 65535");
     values.push_back(std::move(value));
   }

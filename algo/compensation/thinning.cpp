@@ -16,10 +16,13 @@ Status check_input(const std::vector<double>& x, const Columns& columns, double 
   if (x.size() < 2) return bad_input("a table needs at least two points");
   if (!(tolerance >= 0 && std::isfinite(tolerance)))
     return bad_input("the tolerance must be a finite number and not negative");
-  for (std::size_t i = 0; i < x.size(); ++i)
-    if (!std::isfinite(x[i]) || (i > 0 && !(x[i] > x[i - 1])))
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i]))
+      return bad_input("position " + std::to_string(i + 1) + " is not a finite number");
+    if (i > 0 && !(x[i] > x[i - 1]))
       return bad_input("position " + std::to_string(i + 1) +
                        " is not greater than the position before");
+  }
   for (const auto& y : columns) {
     if (y.size() != x.size())
       return bad_input("the number of positions differs from the number of values");

@@ -56,8 +56,9 @@ std::string open_error(const std::string& device, int error) {
            "number; correct the key \"device\"";
   if (error == EACCES || error == EPERM)
     return what +
-           "; on Debian, a user of Comedi boards must be a member of the group iocard, and this "
-           "user is not; run \"sudo usermod -aG iocard $USER\", then log in again";
+           "; on Debian, a user of Comedi boards must be a member of the group iocard; if this "
+           "user "
+           "is not, run \"sudo usermod -aG iocard $USER\", then log in again";
   if (error == ENOTTY) return what + "; this is not a Comedi device; correct the key \"device\"";
   return what;
 }

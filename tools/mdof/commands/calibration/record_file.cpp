@@ -24,7 +24,9 @@ Result<std::chrono::sys_days> day_of(const std::string& date) {
                     std::sscanf(date.c_str(), "%4d-%2u-%2u", &year, &month, &day) == 3;  // NOLINT
   const auto ymd = std::chrono::year{year} / std::chrono::month{month} / std::chrono::day{day};
   if (!read || !ymd.ok())
-    return fail(ErrorCode::usage, "--date \"" + date + "\" is not a date; give it as YYYY-MM-DD");
+    return fail(ErrorCode::usage, "\"" + date +
+                                      "\" is not a date; give the date of the calibration with "
+                                      "--date YYYY-MM-DD");
   return std::chrono::sys_days(ymd);
 }
 

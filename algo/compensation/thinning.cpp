@@ -125,7 +125,7 @@ Result<Thinned> thinned(const std::vector<double>& x, const Columns& columns, do
 Result<double> tolerance_for(const std::vector<double>& x, const Columns& columns,
                              std::size_t most) {
   MDOF_CHECK(check_input(x, columns, 0));
-  if (most < 2) return bad_input("a table has at least two points");
+  if (most < 2) return bad_input("a table needs at least two points, so fewer cannot be requested");
   if (x.size() <= most) return 0.0;
   double high = 0;
   for (const auto& y : columns) {

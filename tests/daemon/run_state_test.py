@@ -146,7 +146,7 @@ class RunState(unittest.TestCase):
                 config = f.read()
             before, device = config.split("[axis.device]")
             others = {"other settings of the measurement": "[measure]\nmodel = \"simplified\"\n" + config,
-                      "were simulated": before + '[axis.device]\ndriver = "csv_stream"\nsource = "tcp://127.0.0.1:1"\n'}
+                      "was simulated": before + '[axis.device]\ndriver = "csv_stream"\nsource = "tcp://127.0.0.1:1"\n'}
             for why, other in others.items():
                 with open(daemon.config, "w") as f:
                     f.write(other)

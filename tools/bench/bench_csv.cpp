@@ -1,6 +1,6 @@
 // How fast CSV files of the bench are read: the row parser alone on one thread, the whole of
 // CsvRows (reading, hashing, parsing) as a program has it, and pandas.read_csv on the same file.
-//   bench_csv log|frames FILE [RUNS]      FILE of generate_log; the best of RUNS (5) counts
+//   bench_csv log|frames FILE [REPEATS]   FILE of generate_log; the best of REPEATS (5) counts
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -143,7 +143,7 @@ double pandas_s(const std::string& path, int runs) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: bench_csv log|frames FILE [RUNS]\n");
+    std::fprintf(stderr, "usage: bench_csv log|frames FILE [REPEATS]\n");
     return 2;
   }
   const std::string path = argv[2];

@@ -127,8 +127,8 @@ Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines
                             : (d.mean * d.mean - x.mean * x.mean - y.mean * y.mean) / product;
   if (!(std::abs(cosine) < 0.1))
     return bad_input(
-        "lines of these lengths do not fit two axes that are nearly square; check the order and "
-        "the unit of the lines");
+        "the measured lengths do not fit two axes that are nearly square; check the order and the "
+        "unit of the lengths");
   s.angle_error_rad = -std::asin(cosine);  // acos(c) - 90°
   const double by_sine = 1 / std::sqrt(1 - cosine * cosine);
   // ∂θ/∂length = -∂cos/∂length / sin θ.

@@ -154,8 +154,9 @@ std::vector<rpc::Param> import_params() {
       {"format", ParamType::string,
        "format of the file: csv, iso230-2 or rtl [recognised from the file]", false, "\"\""},
       {"sense", ParamType::string,
-       "sign of positioning errors: \"command\" (actual minus commanded position) or \"body\" "
-       "(positive in the + direction of the machine axis) [\"command\"]",
+       "meaning of a positive positioning error: \"command\": the actual position is greater than "
+       "the commanded position; \"body\": the moving body is too far in the + direction of the "
+       "machine axis [\"command\"]",
        false},
       {"travel", ParamType::string,
        "direction in which the moving body moves when the commanded position increases: \"+\" or "

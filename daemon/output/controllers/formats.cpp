@@ -156,8 +156,8 @@ const std::vector<Format>& formats() {
        .of = "RepRapFirmware (Duet), M556",
        .holds = "the squareness of X and Y",
        .limits = "stores one angle only; assumes that both axes are straight",
-       .sense = "X / S is the tangent of the squareness error; positive if the angle from +X to +Y "
-                "is above 90 deg",
+       .sense = "the parameter X of M556 divided by its parameter S is the tangent of the "
+                "squareness error; positive if the angle from +X to +Y is above 90 deg",
        .source = "manual of M556; not tested on a machine",
        .sign_confirmed = true,
        .quantum_m = 1e-9,

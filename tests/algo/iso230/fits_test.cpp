@@ -360,9 +360,9 @@ TEST(Artefact, NamesTheRigWhoseFaceIsNotClear) {
   EXPECT_NE(
       refused.error().message.find("rig_Y: the rig does not state on which side of the square"),
       std::string::npos);
-  EXPECT_NE(refused.error().message.find("square the face normal to X lies"), std::string::npos);
+  EXPECT_NE(refused.error().message.find("square the face normal to X is"), std::string::npos);
   const auto [x_at_0, y] = rigs_at(0, -15, three, three);
-  EXPECT_NE(artefact_of(x_at_0, y, {}).error().message.find("square the face normal to Y lies"),
+  EXPECT_NE(artefact_of(x_at_0, y, {}).error().message.find("square the face normal to Y is"),
             std::string::npos);
 }
 

@@ -60,7 +60,7 @@ void draw_figure(Svg& svg, const Panel& panel, const Convergence& c, const Figur
 
 std::string last_values(const Convergence& c) {
   const ConvergencePoint& p = c.points.back();
-  return key_label(c.key) + " after the last trial: mean " + number_text(p.mean) + ", sd " +
+  return key_label(c.key) + " over all trials: mean " + number_text(p.mean) + ", sd " +
          number_text(p.sd) + ", coverage interval [" + number_text(p.low) + ", " +
          number_text(p.high) + "]";
 }

@@ -41,7 +41,7 @@ TEST(SlowChannels, WhatCannotWorkIsRefusedWithTheRemedy) {
   EXPECT_NE(gap.error().message.find("remove max_gap_s from [measure]"), std::string::npos);
   const auto lag = check_rate(device("logger", 0.2, {"A"}), {}, false);
   ASSERT_FALSE(lag);
-  EXPECT_NE(lag.error().message.find("set lag_bound_s of [measure] to 10"), std::string::npos);
+  EXPECT_NE(lag.error().message.find("set lag_bound_s in [measure] to 10"), std::string::npos);
 }
 
 }  // namespace

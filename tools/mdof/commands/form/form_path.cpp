@@ -264,7 +264,7 @@ Action declare_form_path(CLI::App& command) {
       ->check(positive_number());
   command
       .add_option("--out", o->out,
-                  "Write the path to this file: CSV with the columns "
+                  "Write the tool path to this file: CSV with the columns "
                   "t_s,rho_mm,theta_deg,z_um,on_part (1: measured, 2: extended, 0: bridged), or "
                   "G-code if the file name ends in .ngc, .nc, .gcode or .tap")
       ->required()

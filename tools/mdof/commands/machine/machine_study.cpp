@@ -133,7 +133,7 @@ std::string angle_urad(double rad) {
 std::string grooving_plane_text(const algo::GroovingStudy& s) {
   const algo::GroovingState &a = s.before, &b = s.after;
   const auto number = [](double x) { return fixed(x, 2); };
-  TextTable table({"range/µm", "before", "paper", "after", "paper "});
+  TextTable table({"range/µm", "before", "in the paper", "after", "in the paper "});
   table.add({"2-D errors along X, by Eq. 1", range_um(a.estimated.x_m), number(kPaperBefore.x_um),
              range_um(b.estimated.x_m), number(kPaperAfter.x_um)});
   table.add({"2-D errors along Y, by Eq. 1", range_um(a.estimated.y_m), number(kPaperBefore.y_um),

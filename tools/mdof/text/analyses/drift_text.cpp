@@ -36,8 +36,7 @@ std::string closures_text(const Run& run, const std::vector<algo::Closure>& clos
       row.push_back(names[k].angle ? in_urad(change[k]) : in_um(change[k]));
     table.add(std::move(row));
   }
-  return "closure: change of the errors at the fixture when the axis returns to the start of a "
-         "run\n" +
+  return "closure: change of the errors at the fixture, back at the start of a run\n" +
          table.text(width);
 }
 

@@ -168,7 +168,8 @@ bool may_be_steps(const Points& points, const DriftFit& fit, std::size_t k) {
 std::string why_not_seen(const DriftDesign& design) {
   if (design.visits().empty())
     return "the approach direction is unknown at all points with calculated errors";
-  return "too few targets were approached twice or more from the same direction, so a drift cannot be "
+  return "too few targets were approached twice or more from the same direction, so a drift cannot "
+         "be "
          "separated from the errors of the axis; measure two runs or more";
 }
 

@@ -78,7 +78,19 @@ std::string MapTextReader::place_of_point(std::size_t point) const {
   return place(after->second + point - after->first);
 }
 
+// As many as the rest of the file has if its rows are as long as those of the first piece.
+void MapTextReader::reserve_points(std::size_t bytes_read) {
+  const std::size_t read = points_.z_m.size();
+  if (bytes_expected_ <= bytes_read || read == 0) return;
+  const double all = 1.02 * static_cast<double>(read) * static_cast<double>(bytes_expected_) /
+                     static_cast<double>(bytes_read);
+  const auto most = static_cast<std::size_t>(std::min(static_cast<double>(kMostPixels), all));
+  for (auto* column : {&points_.x_m, &points_.y_m, &points_.z_m}) column->reserve(most);
+  bytes_expected_ = 0;
+}
+
 Status MapTextReader::feed(std::string_view piece) {
+  const std::size_t size = piece.size();
   while (!piece.empty()) {
     const std::size_t end = piece.find('\n');
     if (end == std::string_view::npos) {
@@ -86,7 +98,7 @@ Status MapTextReader::feed(std::string_view piece) {
       if (rest_.size() > kMostLine)
         return bad_input(place(line_ + 1) + "the line is longer than " + std::to_string(kMostLine) +
                          " bytes, so this is not a map");
-      return {};
+      break;
     }
     if (rest_.empty()) {
       MDOF_CHECK(line(piece.substr(0, end)));
@@ -97,6 +109,7 @@ Status MapTextReader::feed(std::string_view piece) {
     }
     piece.remove_prefix(end + 1);
   }
+  reserve_points(size);
   return {};
 }
 

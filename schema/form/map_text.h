@@ -32,6 +32,8 @@ class MapTextReader {
  public:
   MapTextReader(std::string source, std::optional<XyzUnits> units)
       : source_(std::move(source)), units_(units) {}
+  // The size of the whole file, where it is known: memory is then taken once, not again and again.
+  void expect_bytes(std::size_t bytes) { bytes_expected_ = bytes; }
   Status feed(std::string_view piece);
   Result<SurfaceMap> finish();
 
@@ -43,6 +45,7 @@ class MapTextReader {
   Status csv_row(std::string_view text);
   Status xyz_row(std::string_view text);
   Status add(const std::array<double, 3>& xyz);
+  void reserve_points(std::size_t bytes_read);
   std::string place(std::size_t line) const;
   tl::unexpected<Error> bad_cell(std::size_t column, std::string_view cell) const;
   std::string place_of_point(std::size_t point) const;
@@ -55,6 +58,7 @@ class MapTextReader {
   double xy_m_ = 1e-3, z_m_ = 1e-6;
   std::string rest_;  // of a line that goes on in the next piece
   std::size_t line_ = 0;
+  std::size_t bytes_expected_ = 0;
   MapPoints points_;
   // Where points begin that follow each other line by line: (point, its line).
   std::vector<std::pair<std::size_t, std::size_t>> stretch_;

@@ -47,6 +47,23 @@ TEST(HeightMapCsv, RowsInAnyOrderWithHoles) {
   EXPECT_EQ(map->measured(), 3u);
 }
 
+// A size that is said too small, or of a file whose other rows are shorter, costs no point.
+TEST(HeightMapCsv, TheSizeOfTheFileIsOnlyAHint) {
+  std::string text = "x_mm,y_mm,z_um\n";
+  for (int i = 0; i < 1000; ++i)
+    text += std::to_string(i) + ",0,1\n" + std::to_string(i) + ",1,2\n";
+  for (const std::size_t bytes : {std::size_t{1}, text.size(), 100 * text.size()}) {
+    MapTextReader reader("map.csv", {});
+    reader.expect_bytes(bytes);
+    for (std::size_t at = 0; at < text.size(); at += 4096)
+      ASSERT_TRUE(reader.feed(std::string_view(text).substr(at, 4096)));
+    const auto map = reader.finish();
+    ASSERT_TRUE(map) << map.error().message;
+    EXPECT_EQ(map->measured(), 2000u);
+    EXPECT_EQ(map->at(999, 1), 2e-6);
+  }
+}
+
 // Three decimals of a pitch of two thirds, and 300 columns missing in the middle.
 TEST(HeightMapCsv, RoundedPlaces) {
   std::string text = "x_mm,y_mm,z_um\n";

@@ -27,7 +27,11 @@ constexpr std::size_t kMostBytes = std::size_t{2} << 30;  // of a file that is r
 class MapReader {
  public:
   MapReader(std::string file, std::optional<XyzUnits> units)
-      : file_(std::move(file)), text_(file_, units) {}
+      : file_(std::move(file)), text_(file_, units) {
+    std::error_code unknown;
+    const auto bytes = std::filesystem::file_size(file_, unknown);
+    if (!unknown) text_.expect_bytes(bytes);
+  }
 
   Status take(std::string_view piece) {
     if (!is_reported_) {

@@ -71,7 +71,8 @@ class Fit {
     return fail(ErrorCode::check,
                 "no positions of the probes and no tilts of the target agree with these readings; "
                 "check that the target stays in one clamping during each log, and that only the "
-                "axis of the rig moves. Also check that the target moves in the direction that "
+                "axis of this log moves (Y in Y=FILE). Also check that the target moves in the "
+                "direction that "
                 "mdof calculates from the rig and the encoder",
                 Remedy::reverse_target);
   }

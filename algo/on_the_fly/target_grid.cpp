@@ -47,7 +47,7 @@ std::string OnTheFlyOptions::json() const {
 Status check_on_the_fly(const OnTheFlyOptions& o, const std::vector<double>& targets_m) {
   const auto finite = [](const std::optional<double>& x) { return !x || std::isfinite(*x); };
   if (!(o.interval_mm >= 0 && std::isfinite(o.interval_mm)))
-    return wrong("interval_mm", "must not be negative");
+    return wrong("interval_mm", "must be a finite number and not negative");
   if (o.interval_mm == 0 && targets_m.empty())
     return wrong("interval_mm", "must be greater than zero, because no targets are given");
   if (!finite(o.from_mm) || !finite(o.to_mm)) return wrong("from_mm, to_mm", "must be numbers");

@@ -22,8 +22,8 @@ constexpr const char* kConvertAngles =
     "position_mm,deviation_urad, and import the CSV file as the measured error, such as EBX";
 
 constexpr const char* kNotPositioning =
-    "; at the import, state which error was measured, such as EYX (or EXX, if this "
-    "entry is wrong and the file contains positioning errors)";
+    "; at the import, state which error was measured, such as EYX (or EXX, if the "
+    "file contains positioning errors nevertheless)";
 
 std::string utf8_from_latin1(std::string_view text) {
   std::string out;

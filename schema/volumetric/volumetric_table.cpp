@@ -120,7 +120,9 @@ std::string covers_text(const VolumetricTable& table) {
       table.noise_only
           ? "the u of the errors; the u of at least one error contains only noise and repeatability"
           : "the u of the errors; errors of different axes and errors from files are "
-            "treated as independent, except for the scales of probes that measured several axes";
+            "treated as independent, except for scale, linearity and tilt factor of probes that "
+            "measured "
+            "several axes";
   if (!table.u_not_declared.empty()) text += "; errors without a u are not included";
   if (!table.u_independent_m.empty())
     text +=

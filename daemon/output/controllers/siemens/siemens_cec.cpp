@@ -216,7 +216,8 @@ Result<Export> write_cec(const std::vector<CompensationTable>& tables,
   const ExportOptions as_measured = without_tolerance(options, out);
   if (!options.homes.empty())
     out.notes.emplace_back(
-        "home_mm has no effect, because the CEC tables contain the errors unchanged");
+        "home_mm has no effect, because mdof does not shift the corrections in CEC tables to 0 at "
+        "the home position");
   std::string head, text;
   std::size_t t = 0;
   for (const CompensationTable& table : tables) {

@@ -116,7 +116,7 @@ Status compare(const CompareCommand& command) {
   if (const std::string text = not_declared_text(changes); !text.empty())
     warn(found.is_imported
              ? "an imported run has no declared uncertainty (mdof import --u-um), so U "
-               "contains the repeatability only"
+               "of this run contains the repeatability only"
              : text);
   MDOF_CHECK(draw_change(found, command.plots));
   return command.json ? write_line(daemon::comparison_json(found))

@@ -215,7 +215,12 @@ Result<std::string> at(const Methods& m, const Params& params) {
                                     : algo::TableSide::mean;
   const double position_mm = params.number("position_mm");
   const CompensationTable& table = active->table;
-  const algo::TableValue value = algo::table_at(table, from_mm(position_mm), side);
+  algo::TableValue value = algo::table_at(table, from_mm(position_mm), side);
+  if (!value.inside) {  // a value of another place or approach: how far the error is from it,
+                        // nobody knows
+    value.u.fill(std::nan(""));
+    value.u_interpolation.fill(std::nan(""));
+  }
   JsonWriter json(1280);
   json.begin_object()
       .field("axis", std::string_view(&"XYZ"[static_cast<std::size_t>(table.axis)], 1))
@@ -229,7 +234,8 @@ Result<std::string> at(const Methods& m, const Params& params) {
   write_values(json, "u_interpolation", table.axis, value.u_interpolation);
   write_covers(json,
                covers_text(table) +
-                   "; between targets, u also includes the uncertainty of the interpolation",
+                   "; between targets, u also includes the uncertainty of the interpolation" +
+                   (value.inside ? "" : "; outside the measured range, u is unknown"),
                table.not_declared);
   json.field("inside", value.inside)
       .field("simulated", table.simulated)

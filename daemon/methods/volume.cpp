@@ -2,6 +2,7 @@
 #include "daemon/methods/volume.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "daemon/measure/gate/active_json.h"
 #include "daemon/measure/machine/machine_files.h"
@@ -209,12 +210,15 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
     json.field(key, to_mm(command_m[k]));
   }
   write_rotary(json, table);
-  const algo::VolumetricValue value = algo::volumetric_at(table, command_m);
+  algo::VolumetricValue value = algo::volumetric_at(table, command_m);
+  if (!value.inside)  // the value of another place: how far the error is from it, nobody knows
+    for (Vec3* u : {&value.u_m, &value.u_common_m, &value.u_independent_m}) u->fill(std::nan(""));
   write_um(json, "correction", value.correction_m);
   write_um(json, "u", value.u_m);
   write_um(json, "u_common", value.u_common_m);
   write_um(json, "u_independent", value.u_independent_m);
-  json.field("u_covers", covers_text(table));
+  json.field("u_covers",
+             covers_text(table) + (value.inside ? "" : "; outside the grid, u is unknown"));
   write_strings(json, "not_declared", table.u_not_declared);
   write_strings(json, "not_measured", table.not_measured);
   json.field("inside", value.inside)

@@ -158,6 +158,9 @@ class EndToEnd(unittest.TestCase):
         self.assertTrue(inside["inside"])
         self.assertFalse(beyond["inside"])
         self.assertEqual(inside["correction"], beyond["correction"])
+        self.assertNotIn(None, inside["u"].values())
+        self.assertEqual({*beyond["u"].values(), *beyond["u_interpolation"].values()}, {None})
+        self.assertIn("outside the measured range, u is unknown", beyond["u_covers"])
         with self.assertRaises(RpcError) as changed:
             self.client.call("compensation.grid", axis="X", generation=active["generation"] - 1)
         self.assertEqual(changed.exception.code, -32001)

@@ -75,7 +75,9 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndTakenBack) {
   EXPECT_GT(at.number("/result/u/X_um"), 0.01);
   EXPECT_NEAR(value_at(R"(,"X_mm":10,"Y_mm":7)").number("/result/correction/X_um"), -(1 + 1 + 0.35),
               1e-3);
-  EXPECT_EQ(value_at(R"(,"X_mm":10,"Y_mm":7,"Z_mm":3)").at("/result/inside"), "false");
+  const Answer outside = value_at(R"(,"X_mm":10,"Y_mm":7,"Z_mm":3)");
+  EXPECT_EQ(outside.at("/result/inside"), "false");
+  EXPECT_EQ(outside.at("/result/u/X_um"), "null");
   EXPECT_SAYS(value_at(R"(,"X_mm":10)").message(), "Y_mm is missing");  // no command is guessed
 
   EXPECT_EQ(activate(1).at("/result/changed"), "false");

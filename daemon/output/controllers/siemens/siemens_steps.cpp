@@ -10,6 +10,7 @@ namespace mdof::controllers {
 namespace {
 
 constexpr double kSameStep_m = 1e-9;
+constexpr double kPermittedLoss = 0.01;  // of the largest error, by steps that miss the targets
 
 double value_at(const EqualSteps& e, const std::vector<double>& values, double at_m) {
   const double place =
@@ -31,6 +32,24 @@ std::vector<double> resampled(const Series& s, const std::vector<double>& approa
   return values;
 }
 
+EqualSteps in_steps(const Series& s, std::size_t steps) {
+  EqualSteps e;
+  e.first_m = std::round(s.position_m.front() / kSameStep_m) * kSameStep_m;
+  e.step_m = std::round((s.position_m.back() - s.position_m.front()) / static_cast<double>(steps) /
+                        kSameStep_m) *
+             kSameStep_m;
+  e.forward = resampled(s, s.forward, steps, e);
+  e.reverse = resampled(s, s.reverse, steps, e);
+  return e;
+}
+
+double largest_of(const Series& s) {
+  double largest = 0;
+  for (const auto* values : {&s.forward, &s.reverse})
+    for (const double value : *values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
 }  // namespace
 
 std::size_t most_points(const ExportOptions& options) {
@@ -47,12 +66,15 @@ Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Ex
   for (std::size_t i = 1; i < x.size(); ++i) smallest = std::min(smallest, x[i] - x[i - 1]);
   const double wanted = std::max(
       1.0, std::min(std::round(range / smallest), static_cast<double>(most_points(options) - 1)));
-  EqualSteps e;
-  e.first_m = std::round(x.front() / kSameStep_m) * kSameStep_m;
-  e.step_m = std::round(range / wanted / kSameStep_m) * kSameStep_m;
-  const auto steps = static_cast<std::size_t>(wanted);
-  e.forward = resampled(s, s.forward, steps, e);
-  e.reverse = resampled(s, s.reverse, steps, e);
+  const auto wanted_steps = static_cast<std::size_t>(wanted);
+  EqualSteps e = in_steps(s, wanted_steps);
+  // Targets that are not at equal steps: smaller steps, until no more is lost than matters.
+  const double permitted = std::max(kSameStep_m, kPermittedLoss * largest_of(s));
+  for (std::size_t steps = wanted_steps;
+       e.loss_m > permitted && steps + 1 < most_points(options);) {
+    steps = std::min(2 * steps, most_points(options) - 1);
+    if (EqualSteps finer = in_steps(s, steps); finer.loss_m < e.loss_m) e = std::move(finer);
+  }
   if (e.loss_m > kSameStep_m)
     out.notes.push_back(
         s.error + ": " + std::to_string(x.size()) + " points were interpolated to a table of " +

@@ -150,10 +150,11 @@ std::string exported_text(const ExportedTables& exported, const std::vector<std:
             urad_to_place(exported.angle.U, exported.angle.U) +
             " µrad, 95 %), one angle for all positions\n";
   for (const auto& written : exported.files.written)
-    text += written.error + ": " + std::to_string(written.points) + " of " +
+    text += written.error + ": " + std::to_string(written.points) +
+            (written.points > written.points_before ? " points from " : " of ") +
             std::to_string(written.points_before) +
-            " points kept, largest deviation from the full table " +
-            fixed(written.largest_deviation * 1e6, 4) +
+            (written.points > written.points_before ? " targets" : " points kept") +
+            ", largest deviation from the full table " + fixed(written.largest_deviation * 1e6, 4) +
             (is_angle(written.error) ? " µrad\n" : " µm\n");
   return text + "check: mdof read the files back and applied them to a simulated axis\n" +
          check_text(exported.check);

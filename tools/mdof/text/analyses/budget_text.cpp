@@ -48,21 +48,26 @@ std::string percent(double share) {
   return fixed(100 * share, 1) + " %";
 }
 
-std::string head_of(const Budget& b) {
-  return b.figure.substr(0, b.figure.rfind('_')) + " = " + shown(b, b.value) + " ± " +
-         shown_u(b, b.u) + " " + unit_of(b) + ", expanded U = " + shown(b, b.U) +
-         (b.U_by_trials ? " by Monte Carlo" : "") + " (k = " + fixed(b.coverage_factor, 2) +
-         ", 95 %; effective degrees of freedom: " + freedom_text(b.freedom) + ")\n";
+std::string head_of(const Budget& b, std::size_t width) {
+  return wrapped(b.figure.substr(0, b.figure.rfind('_')) + " = " + shown(b, b.value) + " ± " +
+                     shown_u(b, b.u) + " " + unit_of(b) + ", expanded U = " + shown(b, b.U) +
+                     (b.U_by_trials ? " by Monte Carlo" : "") +
+                     " (k = " + fixed(b.coverage_factor, 2) +
+                     ", 95 %; effective degrees of freedom: " + freedom_text(b.freedom) + ")",
+                 width, 2) +
+         "\n";
 }
 
-// The largest one without which U would be smaller, and by how much.
-std::string improve_text(const Budget& b) {
+// The largest one without which u would be smaller, and by how much. Not U: k would be another.
+std::string improve_text(const Budget& b, std::size_t width) {
   if (b.lines.empty() || !(b.u > 0)) return "";
   const BudgetLine& first = b.lines.front();
-  const double without = b.U * std::sqrt(std::max(0.0, 1 - first.share));
-  return "Improve first: " + contributor_text(first.name) + ", " + percent(first.share) +
-         " of u². Without this contribution, U would be " + shown_u(b, without) + " " + unit_of(b) +
-         ".\n";
+  const double without = b.u * std::sqrt(std::max(0.0, 1 - first.share));
+  return wrapped("Improve first: " + contributor_text(first.name) + ", " + percent(first.share) +
+                     " of u². Without this contribution, u would be " + shown_u(b, without) + " " +
+                     unit_of(b) + ".",
+                 width) +
+         "\n";
 }
 
 std::string decision_text(const Budget& b, const Decision& decision, std::size_t width) {
@@ -163,8 +168,8 @@ std::string budget_text(const Budget& b, const std::optional<Decision>& decision
   if (left_out > 0)
     table.add({std::to_string(left_out) + " more", "", "", "", "", shown_u(b, std::sqrt(rest)),
                percent(b.u > 0 ? rest / (b.u * b.u) : 0), ""});
-  std::string text = head_of(b) + "\n" + table.text(width) + "combined u " + shown_u(b, b.u) + " " +
-                     unit_of(b) + "\n" + improve_text(b);
+  std::string text = head_of(b, width) + "\n" + table.text(width) + "combined u " +
+                     shown_u(b, b.u) + " " + unit_of(b) + "\n" + improve_text(b, width);
   if (b.trials) text += trials_text(b);
   if (decision) text += decision_text(b, *decision, width);
   return text;

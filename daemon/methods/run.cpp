@@ -139,9 +139,8 @@ Status check_probes_free(const Methods& m, const Station& station) {
         ErrorCode::conflict,
         "the probes of device \"" + device + "\" are in use for axis " +
             letter(other->config().rig.axis) + ": " +
-            (run > 0
-                 ? "run " + std::to_string(run) + " is under way; stop this run with run.stop first"
-                 : "a run is about to begin, or the axis position is being stored; try again"));
+            (run > 0 ? "run " + std::to_string(run) + " is under way; stop this run first"
+                     : "a run is about to begin, or the axis position is being stored; try again"));
   }
   return {};
 }

@@ -155,7 +155,7 @@ std::string Station::why_occupied(std::int64_t run) const {
   if (run < 0) return of + " is about to begin, or the axis position is being stored; try again";
   if (const std::string why = keeper_.why_open(run); !why.empty())
     return of + " (run " + std::to_string(run) + ") has ended; " + why;
-  return of + " is under way; stop this run with run.stop first";
+  return of + " is under way; stop this run first";
 }
 
 void Station::start_run(const RunRequest& request, const RunDone& done) {

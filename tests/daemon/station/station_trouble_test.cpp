@@ -185,7 +185,7 @@ TEST_F(StationDatum, DoesNotShiftUnderARun) {
   const auto datum = set(12.5);
   ASSERT_FALSE(datum);
   EXPECT_EQ(datum.error().code, ErrorCode::conflict);
-  EXPECT_TOLD(datum.error().message, "stop this run with run.stop first");
+  EXPECT_TOLD(datum.error().message, "stop this run first");
   EXPECT_EQ(station_->encoder().datum.kind, EncoderDatum::Kind::none);
 }
 

@@ -70,9 +70,17 @@ Status stop(const StopCommand& command) {
   MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
   MDOF_TRY(const auto runs, stop_all(client, command));
   if (command.json) return write_line(stopped_json(runs));
+  // Another mdofd has another database than the one that mdof show reads by itself.
+  std::string database;
+  if (!command.socket.empty()) {
+    MDOF_TRY(const std::string info, client.call("server.info"));
+    simdjson::dom::parser parser;
+    database = " --db " + text(parser.parse(simdjson::padded_string(info)), "database");
+  }
   for (const auto& run : runs)
     MDOF_CHECK(write_line("run " + std::to_string(run.run) + " of axis " + run.axis +
-                          " has ended; show the run with: mdof show " + std::to_string(run.run)));
+                          " has ended; show the run with: mdof show " + std::to_string(run.run) +
+                          database));
   return {};
 }
 

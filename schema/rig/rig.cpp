@@ -85,6 +85,8 @@ Calibration read_calibration(TomlTable& table) {
   c.laboratory = table.string("laboratory", "");
   c.calibrated = read_date(table, "calibrated");
   c.due = read_date(table, "due");
+  if (!c.calibrated.empty() && !c.due.empty() && c.due < c.calibrated)
+    table.reject("due", "must not be before calibrated (" + c.calibrated + ")");
   return c;
 }
 

@@ -230,6 +230,11 @@ TEST(CalibratedRig, TakesACertificate) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("due: must be a date"), std::string::npos)
       << refused.error().message;
+  const auto reversed =
+      parse_rig(rig_text("calibrated = \"2026-10-30\"\ndue = \"2026-10-29\"\n"), "rig.toml");
+  ASSERT_FALSE(reversed);
+  EXPECT_NE(reversed.error().message.find("must not be before calibrated"), std::string::npos)
+      << reversed.error().message;
 }
 
 TEST(CalibratedRig, OutOfDateIsAWarning) {

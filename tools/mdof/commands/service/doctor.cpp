@@ -1,6 +1,7 @@
 // mdof doctor: what is wrong with this machine, its configuration and its devices, and the remedy.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "daemon/rpc/line/client.h"
@@ -93,9 +94,11 @@ std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::strin
   return all;
 }
 
-std::vector<Diagnosis> try_devices(const daemon::Config& config) {
+std::vector<Diagnosis> try_devices(const daemon::Config& config, const std::string& socket) {
+  std::error_code unknown;
+  const auto path = std::filesystem::absolute(socket, unknown);
   std::vector<Diagnosis> all = {
-      {Level::good, "mdofd is not running, so mdof opens the devices", ""}};
+      {Level::good, "no mdofd answers at " + path.string() + ", so mdof opens the devices", ""}};
   const Interrupt interrupt;
   for (const auto& axis : config.axes)
     for (const auto& device : axis.devices)
@@ -110,7 +113,7 @@ std::vector<Diagnosis> check_devices(const daemon::Config& config, const std::st
         {Level::bad,
          "devices: not checked, because mdofd may have opened them: " + words::text(runs.error()),
          ""}};
-  return *runs ? ask_daemon(config, socket) : try_devices(config);
+  return *runs ? ask_daemon(config, socket) : try_devices(config, socket);
 }
 
 std::vector<Diagnosis> examine(const DoctorCommand& command) {

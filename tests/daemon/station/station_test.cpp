@@ -129,7 +129,7 @@ TEST_F(StationTest, OneRunAtATime) {
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().code, ErrorCode::conflict);
   EXPECT_SAYS(second.error().message, "axis X");
-  EXPECT_SAYS(second.error().message, "run.stop");
+  EXPECT_SAYS(second.error().message, "stop this run first");
   EXPECT_EQ(station_->run(), *id);
   give(axis_);
   ASSERT_TRUE(stop());

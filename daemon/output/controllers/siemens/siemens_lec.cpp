@@ -24,11 +24,10 @@ Series mean_of_approaches(Series s) {
 // Refused where the mean leaves what the self-test would not take, unless it is asked for.
 Status check_reversal(const CompensationTable& table, const Series& s, const ExportOptions& options,
                       Export& out) {
-  double reversal = 0, largest = 0;
-  for (std::size_t i = 0; i < s.position_m.size(); ++i) {
+  const double largest = largest_error_m(s);
+  double reversal = 0;
+  for (std::size_t i = 0; i < s.position_m.size(); ++i)
     reversal = std::max(reversal, std::abs(s.forward[i] - s.reverse[i]));
-    largest = std::max({largest, std::abs(s.forward[i]), std::abs(s.reverse[i])});
-  }
   if (!(reversal > 0)) return {};
   out.left_out.push_back(
       s.error + ": a reversal of up to " + plain_number(to_um(reversal)) +

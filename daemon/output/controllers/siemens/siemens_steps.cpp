@@ -10,7 +10,7 @@ namespace mdof::controllers {
 namespace {
 
 constexpr double kSameStep_m = 1e-9;
-constexpr double kPermittedLoss = 0.01;  // of the largest error, by steps that miss the targets
+constexpr double kPermittedLoss = 0.01;  // of the largest error, where steps miss the targets
 
 double value_at(const EqualSteps& e, const std::vector<double>& values, double at_m) {
   const double place =
@@ -43,14 +43,14 @@ EqualSteps in_steps(const Series& s, std::size_t steps) {
   return e;
 }
 
-double largest_of(const Series& s) {
-  double largest = 0;
-  for (const auto* values : {&s.forward, &s.reverse})
-    for (const double value : *values) largest = std::max(largest, std::abs(value));
-  return largest;
-}
-
 }  // namespace
+
+double largest_error_m(const Series& s) {
+  double largest_m = 0;
+  for (const auto* errors : {&s.forward, &s.reverse})
+    for (const double error : *errors) largest_m = std::max(largest_m, std::abs(error));
+  return largest_m;
+}
 
 std::size_t most_points(const ExportOptions& options) {
   return options.siemens_points > 0 ? options.siemens_points : kMostOfSiemens;
@@ -66,12 +66,10 @@ Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Ex
   for (std::size_t i = 1; i < x.size(); ++i) smallest = std::min(smallest, x[i] - x[i - 1]);
   const double wanted = std::max(
       1.0, std::min(std::round(range / smallest), static_cast<double>(most_points(options) - 1)));
-  const auto wanted_steps = static_cast<std::size_t>(wanted);
-  EqualSteps e = in_steps(s, wanted_steps);
-  // Targets that are not at equal steps: smaller steps, until no more is lost than matters.
-  const double permitted = std::max(kSameStep_m, kPermittedLoss * largest_of(s));
-  for (std::size_t steps = wanted_steps;
-       e.loss_m > permitted && steps + 1 < most_points(options);) {
+  auto steps = static_cast<std::size_t>(wanted);
+  EqualSteps e = in_steps(s, steps);
+  const double permitted_m = std::max(kSameStep_m, kPermittedLoss * largest_error_m(s));
+  while (e.loss_m > permitted_m && steps + 1 < most_points(options)) {
     steps = std::min(2 * steps, most_points(options) - 1);
     if (EqualSteps finer = in_steps(s, steps); finer.loss_m < e.loss_m) e = std::move(finer);
   }

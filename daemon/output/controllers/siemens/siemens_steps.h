@@ -20,12 +20,16 @@ struct EqualSteps {
   double last_m() const { return first_m + step_m * static_cast<double>(forward.size() - 1); }
 };
 
-// As many steps as the smallest of the series asks for, at most most_points() - 1; of whole
+// As many steps as the smallest of the series asks for, and twice as many again and again while
+// the series loses more than 1 % of its largest error; at most most_points() - 1; of whole
 // nanometres, as they are written. What the series loses becomes a note of `out`, and its last
 // `written` has the points. Error (bad_input): fewer than two points.
 Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Export& out);
 // ExportOptions::siemens_points, or kMostOfSiemens.
 std::size_t most_points(const ExportOptions& options);
+
+// Largest error of both approaches.
+double largest_error_m(const Series& s);
 
 // Points at equal steps are not left out; a note says so where a tolerance was given.
 ExportOptions without_tolerance(const ExportOptions& options, Export& out);

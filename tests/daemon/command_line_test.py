@@ -52,6 +52,13 @@ class Stop(CommandLine):
         self.assertIn(started, (stopped[0]["run"], self.client.call("run.get", run=stopped[0]["run"])["supersedes"]))
         self.assertNotEqual(self.client.call("run.get", run=stopped[0]["run"])["state"], "open")
 
+    def test_the_remedy_names_the_database_of_the_run(self):
+        self.client.call("run.start", axis="X")
+        time.sleep(2.5)
+        told = self.done("stop", "--socket", self.daemon.socket)
+        words = re.search(r"show the run with: mdof (show \d+ --db .+)\n", told)[1].split(" ")
+        self.assertIn("axis X", self.done(*words))
+
     def test_without_a_run_it_is_an_error(self):
         for words, message in (((), "no run is in progress;"), (("--axis", "X"), "no run of axis X is in progress"),
                                (("--axis", "Z"), "mdofd does not measure axis Z")):

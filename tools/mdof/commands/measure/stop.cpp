@@ -39,8 +39,9 @@ Result<std::vector<UnderWay>> runs_under_way(const std::string& info, const std:
                                         "; to list the configured axes, use: mdof status");
 }
 
-Result<std::vector<UnderWay>> stop_all(rpc::Client& client, const StopCommand& command) {
-  MDOF_TRY(const std::string info, client.call("server.info"));
+// `info` is the reply of server.info.
+Result<std::vector<UnderWay>> stop_all(rpc::Client& client, const std::string& info,
+                                       const StopCommand& command) {
   MDOF_TRY(auto runs, runs_under_way(info, command.axis));
   if (runs.empty())
     return fail(ErrorCode::not_found,
@@ -68,15 +69,15 @@ std::string stopped_json(const std::vector<UnderWay>& runs) {
 
 Status stop(const StopCommand& command) {
   MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
-  MDOF_TRY(const auto runs, stop_all(client, command));
+  MDOF_TRY(const std::string info, client.call("server.info"));
+  MDOF_TRY(const auto runs, stop_all(client, info, command));
   if (command.json) return write_line(stopped_json(runs));
-  // Another mdofd has another database than the one that mdof show reads by itself.
-  std::string database;
-  if (!command.socket.empty()) {
-    MDOF_TRY(const std::string info, client.call("server.info"));
-    simdjson::dom::parser parser;
-    database = " --db " + text(parser.parse(simdjson::padded_string(info)), "database");
-  }
+  // A mdofd at another socket has another database than the one that mdof show reads by itself.
+  simdjson::dom::parser parser;
+  const std::string database =
+      command.socket.empty()
+          ? ""
+          : " --db " + text(parser.parse(simdjson::padded_string(info)), "database");
   for (const auto& run : runs)
     MDOF_CHECK(write_line("run " + std::to_string(run.run) + " of axis " + run.axis +
                           " has ended; show the run with: mdof show " + std::to_string(run.run) +

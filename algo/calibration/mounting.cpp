@@ -72,8 +72,7 @@ class Fit {
                 "no positions of the probes and no tilts of the target agree with these readings; "
                 "check that the target stays in one clamping during each log, and that only the "
                 "axis of this log moves (Y in Y=FILE). Also check that the target moves in the "
-                "direction that "
-                "mdof calculates from the rig and the encoder",
+                "direction that mdof calculates from the rig and the encoder",
                 Remedy::reverse_target);
   }
 

@@ -216,8 +216,7 @@ Result<std::string> at(const Methods& m, const Params& params) {
   const double position_mm = params.number("position_mm");
   const CompensationTable& table = active->table;
   algo::TableValue value = algo::table_at(table, from_mm(position_mm), side);
-  if (!value.inside) {  // a value of another place or approach: how far the error is from it,
-                        // nobody knows
+  if (!value.inside) {  // the value of another position or approach, whose u does not hold here
     value.u.fill(std::nan(""));
     value.u_interpolation.fill(std::nan(""));
   }
@@ -232,11 +231,13 @@ Result<std::string> at(const Methods& m, const Params& params) {
   write_correction(json, table, value.error);
   write_values(json, "u", table.axis, value.u);
   write_values(json, "u_interpolation", table.axis, value.u_interpolation);
-  write_covers(json,
-               covers_text(table) +
-                   "; between targets, u also includes the uncertainty of the interpolation" +
-                   (value.inside ? "" : "; outside the measured range, u is unknown"),
-               table.not_declared);
+  write_covers(
+      json,
+      covers_text(table) +
+          "; between targets, u also includes the uncertainty of the interpolation" +
+          (value.inside ? ""
+                        : "; this approach was not measured at this position, so u is unknown"),
+      table.not_declared);
   json.field("inside", value.inside)
       .field("simulated", table.simulated)
       .field("doubtful", active->doubtful)
@@ -335,7 +336,7 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
       {.name = "compensation.at",
        .summary = "Returns the correction at a position. Between grid points, the correction "
                   "is interpolated linearly. Outside the grid, it is the value at the end of "
-                  "the grid, and \"inside\" is false.",
+                  "the grid, \"inside\" is false, and u is null.",
        .params =
            {axis,
             {"position_mm", ParamType::number, "position on the axis; required for an axis", false},

@@ -211,7 +211,7 @@ Result<std::string> volume_at(const Methods& m, const Params& params) {
   }
   write_rotary(json, table);
   algo::VolumetricValue value = algo::volumetric_at(table, command_m);
-  if (!value.inside)  // the value of another place: how far the error is from it, nobody knows
+  if (!value.inside)  // the value at another position, whose u does not hold here
     for (Vec3* u : {&value.u_m, &value.u_common_m, &value.u_independent_m}) u->fill(std::nan(""));
   write_um(json, "correction", value.correction_m);
   write_um(json, "u", value.u_m);

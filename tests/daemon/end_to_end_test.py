@@ -160,7 +160,7 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(inside["correction"], beyond["correction"])
         self.assertNotIn(None, inside["u"].values())
         self.assertEqual({*beyond["u"].values(), *beyond["u_interpolation"].values()}, {None})
-        self.assertIn("outside the measured range, u is unknown", beyond["u_covers"])
+        self.assertIn("this approach was not measured at this position, so u is unknown", beyond["u_covers"])
         with self.assertRaises(RpcError) as changed:
             self.client.call("compensation.grid", axis="X", generation=active["generation"] - 1)
         self.assertEqual(changed.exception.code, -32001)

@@ -27,7 +27,8 @@ TEST(TargetGridLimits, EachKeyIsNamed) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusal_of(grid(1)), "");
-  EXPECT_NE(refusal_of(grid(-1)).find("interval_mm must be a finite number and not negative"), std::string::npos);
+  EXPECT_NE(refusal_of(grid(-1)).find("interval_mm must be a finite number and not negative"),
+            std::string::npos);
   EXPECT_NE(refusal_of(grid(0)).find("because no targets are given"), std::string::npos);
   EXPECT_EQ(refusal_of(grid(0), {0, 1e-3}), "");
   for (const double bad : {nan, kInfinity}) {

@@ -2,6 +2,7 @@
 #include "algo/machine/budget/budget.h"
 #include "daemon/measure/machine/machine_files.h"
 #include "daemon/measure/machine/stored_errors.h"
+#include "daemon/measure/machine/table_functions.h"
 #include "daemon/methods/methods.h"
 #include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
@@ -77,7 +78,9 @@ std::string machine_source(const Params& params) {
 }
 
 Result<Machine> machine_param(const Params& params) {
-  return parse_machine(params.string("machine"), machine_source(params));
+  MDOF_TRY(Machine machine, parse_machine(params.string("machine"), machine_source(params)));
+  add_curvatures(machine);
+  return machine;
 }
 
 std::vector<rpc::Param> machine_params() {

@@ -179,6 +179,7 @@ Result<std::string> read_machine_files(Machine& machine, const FindFile& find) {
     }
     turn_positioning(frame);
   }
+  add_curvatures(machine);
   return lines;
 }
 

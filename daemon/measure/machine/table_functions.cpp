@@ -31,12 +31,22 @@ ErrorFunction function_of(const std::vector<double>& position, const std::vector
   }
   for (double& each : f.u)
     if (!std::isfinite(each)) each = largest;
-  const auto curvature = [&](const std::vector<double>& values) {
-    return algo::curvatures(f.position, values, f.u_independent);
-  };
-  if (!f.u.empty() && f.position.size() > 2)
-    f.curvature = larger(curvature(f.forward), curvature(f.reverse));
+  add_curvature(f);
   return f;
+}
+
+void add_curvature(ErrorFunction& f) {
+  if (f.u.empty() || f.position.size() < 3 || !f.curvature.empty()) return;
+  std::vector<double> noise = f.u_independent;
+  noise.resize(f.position.size());
+  f.curvature = algo::curvatures(f.position, f.forward, noise);
+  if (!f.reverse.empty())
+    f.curvature = larger(f.curvature, algo::curvatures(f.position, f.reverse, noise));
+}
+
+void add_curvatures(Machine& machine) {
+  for (MachineFrame& frame : machine.frames)
+    for (ErrorFunction& error : frame.error) add_curvature(error);
 }
 
 void refer_angle(ErrorFunction& f, double zero_m) {

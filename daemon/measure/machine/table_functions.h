@@ -17,6 +17,10 @@ namespace mdof::daemon {
 ErrorFunction function_of(const std::vector<double>& position, const std::vector<double>& forward,
                           const std::vector<double>& reverse, const std::vector<double>& u,
                           const std::vector<double>& u_noise);
+// What u adds between the positions: of a function with u and at least three positions. Noise of
+// the values is subtracted where it is known.
+void add_curvature(ErrorFunction& f);
+void add_curvatures(Machine& machine);
 // u of both approaches: the larger, so that it holds for the value of either and of their mean.
 std::vector<double> larger(const std::vector<double>& forward, const std::vector<double>& reverse);
 // Makes the mean of both approaches 0 at the position, the ends held; u stays.

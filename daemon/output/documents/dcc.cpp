@@ -1,12 +1,10 @@
 #include "daemon/output/documents/dcc.h"
 
 #include <algorithm>
-#include <charconv>
-#include <chrono>
-#include <cmath>
 
 #include "daemon/measure/gate/gate.h"
 #include "daemon/output/documents/dcc_parts.h"
+#include "daemon/output/report/measured_days.h"
 #include "schema/base/sha256.h"
 #include "schema/imported/series.h"
 #include "schema/rig/report_facts.h"
@@ -14,6 +12,7 @@
 
 namespace mdof::documents {
 
+using report::Days;
 using report::Report;
 using report::ReportRun;
 
@@ -23,47 +22,18 @@ constexpr const char* kWhatItIs =
     "Test report. This document is not a calibration certificate of an accredited laboratory: it "
     "contains the results of a test in the data format of the Digital Calibration Certificate.";
 
-struct Days {
-  std::string first, last;
-};
-
-int number_at(const std::string& text, std::size_t at, std::size_t digits) {
-  int number = 0;
-  if (text.size() >= at + digits)
-    std::from_chars(text.data() + at, text.data() + at + digits, number);
-  return number;
-}
-
-// The day on which a run that began at "2026-11-26T10:47:33…" ended.
-std::string last_day(const RunHeader& header, const std::vector<MeasuredPoint>& points) {
-  using namespace std::chrono;
-  const std::string& t = header.started_utc;
-  const double took_s =
-      points.empty() ? 0 : ns_to_s(points.back().point.end_ns - points.front().point.begin_ns);
-  const double of_day_s =
-      3600 * number_at(t, 11, 2) + 60 * number_at(t, 14, 2) + number_at(t, 17, 2) + took_s;
-  const year_month_day day(
-      sys_days(year(number_at(t, 0, 4)) / number_at(t, 5, 2) / number_at(t, 8, 2)) +
-      days(static_cast<int>(std::clamp(std::floor(of_day_s / 86400), 0.0, 36500.0))));
-  const auto two = [](unsigned x) { return (x < 10 ? "0" : "") + std::to_string(x); };
-  return std::to_string(static_cast<int>(day.year())) + "-" +
-         two(static_cast<unsigned>(day.month())) + "-" + two(static_cast<unsigned>(day.day()));
-}
-
 Result<Days> days_of(const Report& report) {
   if (!report.facts.date.empty()) return Days{report.facts.date, report.facts.date};
   Days all;
   for (const ReportRun& run : report.runs) {
-    const RunHeader& header = run.results.run.header;
-    const std::string first = header.started_utc.substr(0, 10);
-    if (header.provenance.recording_kind == "csv" || !is_date(first))
-      return bad_input("run " + std::to_string(header.id) +
+    const auto days = report::recorded_days(run);
+    if (!days)
+      return bad_input("run " + std::to_string(run.results.run.header.id) +
                            ": the log contains no date, but a certificate must state the date of "
                            "the measurement",
                        Remedy::state_in_report, "date");
-    const std::string last = last_day(header, run.results.run.points);
-    if (all.first.empty() || first < all.first) all.first = first;
-    if (last > all.last) all.last = last;
+    if (all.first.empty() || days->first < all.first) all.first = days->first;
+    all.last = std::max(all.last, days->last);
   }
   return all;
 }

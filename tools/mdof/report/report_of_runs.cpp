@@ -2,12 +2,14 @@
 #include "tools/mdof/report/report_of_runs.h"
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cmath>
 #include <map>
 
 #include "algo/uncertainty/conformity/decision.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/gate/gate.h"
+#include "daemon/output/report/measured_days.h"
 #include "daemon/version.h"
 #include "schema/imported/series.h"
 #include "schema/rig/reference.h"
@@ -183,6 +185,8 @@ Result<report::Report> report_of_runs(const ReportRequest& request) {
     all.runs.push_back(std::move(run));
   }
   MDOF_TRY(all.facts, facts_of(all.runs, request.set));
+  MDOF_CHECK(report::use_stated_date(
+      all, std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now())));
   std::vector<const charts::StatedResults*> results;
   for (const report::ReportRun& run : all.runs) results.push_back(&run.results);
   all.squareness = squareness_of_runs(store, results);

@@ -128,13 +128,14 @@ std::string head_text(const RunHeader& h, const std::string& result_sha256, std:
   if (!h.note.empty()) out += labelled("note", h.note, width);
   if (h.supersedes) out += labelled("supersedes", "run " + std::to_string(*h.supersedes), width);
   out += labelled(from.recording_kind, from.recording_path, width);
+  if (!from.recording_sha256.empty()) out += labelled("sha256", from.recording_sha256, width);
   out += labelled("scans", std::to_string(h.scans) + ", " + lost_of(h), width);
   if (const auto datum = datum_of(options); !datum.empty()) out += labelled("datum", datum, width);
   if (h.temperature) out += labelled("at", temperature_text(*h.temperature), width);
   out += labelled("software", from.software_version, width);
   for (const Notice& each : summarised(h.notices, all_warnings))
     out += labelled(label_of(each.severity), words::text(each), width);
-  if (!result_sha256.empty()) out += labelled("sha256", result_sha256, width);
+  if (!result_sha256.empty()) out += labelled("result sha256", result_sha256, width);
   return out;
 }
 

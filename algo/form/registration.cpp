@@ -1,26 +1,25 @@
 #include "algo/form/registration.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "algo/form/evidence/shape_evidence.h"
 #include "algo/form/map_figures.h"
+#include "algo/form/pose/places.h"
+#include "algo/form/pose/pose_fit.h"
 #include "algo/form/surface.h"
-#include "algo/linear_algebra/least_squares.h"
-#include "algo/linear_algebra/spectra.h"
 #include "schema/base/number/number_text.h"
-#include "schema/base/random.h"
 #include "schema/units.h"
 
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kForSearch = 1500, kForCourse = 50'000, kForFit = 1'000'000;  // pixels
-constexpr double kLeastOverlap = 0.1;                                               // of A's pixels
+constexpr std::size_t kForSearch = 1500, kForCourse = 50'000, kForFit = 250'000;  // pixels
+constexpr double kLeastOverlap = 0.1;                                             // of A's pixels
 constexpr double kSearchOverlap = 0.6;  // of a start that was searched for
 constexpr double kSearchShift = 0.2;    // of the size of A, to each side
 constexpr int kSearchSteps = 10;        // to each side
@@ -30,190 +29,22 @@ constexpr std::size_t kForTurns = 400;
 constexpr int kTurnSteps = 4;  // of the shift, to each side
 constexpr double kTurnStep_deg = 5;
 constexpr std::size_t kTurnsFitted = 6;
-constexpr double kUndetermined = 1e-7;   // share of the slopes that no plane explains
-constexpr double kAlike = 1e-6;          // share of A's mean square: no search is needed
-constexpr double kFitted_pixels = 1e-4;  // the last step
-
-struct Turn {
-  double cos = 1, sin = 0;
-  explicit Turn(double rad)
-      : cos(sine_of_turns(rad / (2 * std::numbers::pi) + 0.25)),
-        sin(sine_of_turns(rad / (2 * std::numbers::pi))) {}
-};
-
-// Some of A's measured pixels about the middle of them.
-struct Places {
-  double x_mid_m = 0, y_mid_m = 0, size_m = 0;  // size: the larger side
-  std::vector<double> x_m, y_m, z_m;
-};
-
-Places places_of(const SurfaceMap& a, std::size_t most) {
-  Places places;
-  const std::size_t measured = a.measured(), every = std::max<std::size_t>(1, measured / most);
-  std::size_t least_i = a.nx, most_i = 0, least_j = a.ny, most_j = 0, k = 0;
-  // A step that has no common factor with the rows, or whole columns would be left out.
-  std::uint64_t mixed = 0;
-  for (std::size_t j = 0; j < a.ny; ++j)
-    for (std::size_t i = 0; i < a.nx; ++i) {
-      const double z = a.at(i, j);
-      if (std::isnan(z)) continue;
-      least_i = std::min(least_i, i);
-      most_i = std::max(most_i, i);
-      least_j = std::min(least_j, j);
-      most_j = std::max(most_j, j);
-      mixed = k++ * 0x9e3779b97f4a7c15u;
-      if (every > 1 && (mixed >> 33) % every != 0) continue;
-      places.x_m.push_back(a.x_m(i));
-      places.y_m.push_back(a.y_m(j));
-      places.z_m.push_back(z);
-    }
-  if (measured == 0) return places;
-  places.x_mid_m = (a.x_m(least_i) + a.x_m(most_i)) / 2;
-  places.y_mid_m = (a.y_m(least_j) + a.y_m(most_j)) / 2;
-  places.size_m = std::max(static_cast<double>(most_i - least_i + 1) * a.dx_m,
-                           static_cast<double>(most_j - least_j + 1) * a.dy_m);
-  for (double& x : places.x_m) x -= places.x_mid_m;
-  for (double& y : places.y_m) y -= places.y_mid_m;
-  return places;
-}
-
-// Sums over the places for the unknowns: piston, tilt x, tilt y (times size), shift x, shift y,
-// turn (times size).
-struct Sums {
-  static constexpr int kUnknowns = 6;
-  std::array<std::array<double, kUnknowns>, kUnknowns> A{};
-  std::array<double, kUnknowns> b{};
-  double squares = 0, count = 0;
-};
-
-// About the middle of A: q = R p + shift.
-Sums sums_at(const Places& a, const Surface& b, const MapPose& about_middle, bool with_plane_only) {
-  Sums sums;
-  const Turn turn(about_middle.turn_rad);
-  const double scale = 1 / a.size_m;
-  const int n = with_plane_only ? 3 : Sums::kUnknowns;
-  for (std::size_t k = 0; k < a.z_m.size(); ++k) {
-    const double x = turn.cos * a.x_m[k] - turn.sin * a.y_m[k],
-                 y = turn.sin * a.x_m[k] + turn.cos * a.y_m[k];
-    SurfacePoint at;
-    if (!b.at(x + a.x_mid_m + about_middle.shift_x_m, y + a.y_mid_m + about_middle.shift_y_m, 0,
-              at))
-      continue;
-    const double r = at.z_m - a.z_m[k];
-    const std::array<double, Sums::kUnknowns> slope = {{1, a.x_m[k] * scale, a.y_m[k] * scale,
-                                                        at.slope_x, at.slope_y,
-                                                        (at.slope_y * x - at.slope_x * y) * scale}};
-    for (int i = 0; i < n; ++i) {
-      const auto u = static_cast<std::size_t>(i);
-      for (std::size_t v = u; v < static_cast<std::size_t>(n); ++v)
-        sums.A[u][v] += slope[u] * slope[v];
-      sums.b[u] += slope[u] * r;
-    }
-    sums.squares += r * r;
-    sums.count += 1;
-  }
-  for (std::size_t u = 0; u < Sums::kUnknowns; ++u)
-    for (std::size_t v = 0; v < u; ++v) sums.A[u][v] = sums.A[v][u];
-  return sums;
-}
-
-struct Step {
-  double mean_square = 0;          // of the residual, without its best plane
-  std::array<double, 3> change{};  // shift x, y, turn times size
-  std::size_t undetermined = 0;
-};
-
-Step step_of(const Sums& sums, bool with_plane_only) {
-  Step step;
-  Eigen::MatrixXd P(3, 3), C(3, 3), M(3, 3);
-  Eigen::VectorXd p(3), m(3);
-  for (int u = 0; u < 3; ++u) {
-    p(u) = sums.b[static_cast<std::size_t>(u)];
-    m(u) = sums.b[static_cast<std::size_t>(u) + 3];
-    for (int v = 0; v < 3; ++v) {
-      const auto a = static_cast<std::size_t>(u), b = static_cast<std::size_t>(v);
-      P(u, v) = sums.A[a][b];
-      C(u, v) = sums.A[a][b + 3];
-      M(u, v) = sums.A[a + 3][b + 3];
-    }
-  }
-  const LeastNorm plane(P, 1e-12);
-  const Eigen::VectorXd fitted = plane.solve(p);
-  step.mean_square = std::max(0.0, sums.squares - p.dot(fitted)) / std::max(1.0, sums.count);
-  if (with_plane_only) return step;
-  const Eigen::MatrixXd left = M - C.transpose() * plane.solve(C);
-  const Eigen::VectorXd right = m - C.transpose() * fitted;
-  // Each unknown in its own scale, so that directions can be compared by their eigenvalues.
-  Eigen::VectorXd scale(3);
-  const double least = kUndetermined * kUndetermined * M.trace();  // below it, rounding
-  for (int u = 0; u < 3; ++u) scale(u) = M(u, u) > least ? 1 / std::sqrt(M(u, u)) : 0;
-  const SingularValues found = singular_values(scale.asDiagonal() * left * scale.asDiagonal());
-  Eigen::VectorXd change = Eigen::VectorXd::Zero(3);
-  for (int k = 0; k < 3; ++k) {
-    if (!(found.values(k) > kUndetermined)) {
-      ++step.undetermined;
-      continue;
-    }
-    const double along = found.U.col(k).dot(scale.cwiseProduct(right)) / found.values(k);
-    change -= along * scale.cwiseProduct(found.V.col(k));
-  }
-  step.change = {{change(0), change(1), change(2)}};
-  return step;
-}
-
-struct Fit {
-  MapPose pose;  // about the middle
-  double mean_square = 0, overlap = 0;
-  std::size_t undetermined = 0;
-};
-
-Fit fitted_from(const Places& a, const Surface& b, MapPose pose, double pixel_m, int most) {
-  Fit fit;
-  const auto all = static_cast<double>(a.z_m.size());
-  Sums sums = sums_at(a, b, pose, false);
-  Step step = step_of(sums, false);
-  for (int k = 0; k < most; ++k) {
-    double part = 1;
-    bool is_better = false;
-    const double size =
-        std::abs(step.change[0]) + std::abs(step.change[1]) + std::abs(step.change[2]);
-    for (int halved = 0; halved < 6 && !is_better; ++halved, part /= 2) {
-      MapPose next = pose;
-      next.shift_x_m += part * step.change[0];
-      next.shift_y_m += part * step.change[1];
-      next.turn_rad += part * step.change[2] / a.size_m;
-      const Sums at_next = sums_at(a, b, next, false);
-      const Step after = step_of(at_next, false);
-      is_better = at_next.count >= kLeastOverlap * all && after.mean_square < step.mean_square;
-      if (!is_better && size * part < kFitted_pixels * pixel_m) break;
-      if (!is_better) continue;
-      pose = next;
-      step = after;
-      sums = at_next;
-    }
-    if (!is_better || size < kFitted_pixels * pixel_m) break;
-  }
-  fit.pose = pose;
-  fit.mean_square = step.mean_square;
-  fit.overlap = sums.count / all;
-  fit.undetermined = step.undetermined;
-  return fit;
-}
+constexpr double kAlike = 5e-3;     // of the mean size of A: no search is needed
+constexpr double kMostOfPlace = 4;  // times the mean size of A: a single place counts for no more
+// A pose elsewhere has to leave less than this of what is left at first, and of A.
+constexpr double kMuchBetter = 0.5;
 
 // The best of starts over shifts and turns, by a few pixels.
 MapPose searched(const Places& a, const Surface& b) {
   MapPose best;
   double least = -1;
-  const auto all = static_cast<double>(a.z_m.size());
   const double step_m = kSearchShift * a.size_m / kSearchSteps;
   for (int turn = -5; turn <= 5; ++turn)
     for (int j = -kSearchSteps; j <= kSearchSteps; ++j)
       for (int i = -kSearchSteps; i <= kSearchSteps; ++i) {
         const MapPose pose{i * step_m, j * step_m, turn * kSearchTurn_deg * std::numbers::pi / 180};
-        const Sums sums = sums_at(a, b, pose, true);
-        if (sums.count < kSearchOverlap * all) continue;
-        const double mean_square = step_of(sums, true).mean_square;
-        if (least >= 0 && mean_square >= least) continue;
+        const double mean_square = mean_square_at(a, b, pose, kSearchOverlap);
+        if (mean_square < 0 || (least >= 0 && mean_square >= least)) continue;
         least = mean_square;
         best = pose;
       }
@@ -224,16 +55,14 @@ MapPose searched(const Places& a, const Surface& b) {
 // into the machine the other way round.
 std::vector<MapPose> turned_starts(const Places& a, const Surface& b) {
   std::vector<std::pair<double, MapPose>> starts;
-  const auto all = static_cast<double>(a.z_m.size());
   const double step_m = kSearchShift * a.size_m / kTurnSteps;
   for (double turn_deg = 15; turn_deg < 350; turn_deg += kTurnStep_deg) {
     std::pair<double, MapPose> best{-1, {}};
     for (int j = -kTurnSteps; j <= kTurnSteps; ++j)
       for (int i = -kTurnSteps; i <= kTurnSteps; ++i) {
         const MapPose pose{i * step_m, j * step_m, turn_deg * std::numbers::pi / 180};
-        const Sums sums = sums_at(a, b, pose, true);
-        if (sums.count < kSearchOverlap * all) continue;
-        const double mean_square = step_of(sums, true).mean_square;
+        const double mean_square = mean_square_at(a, b, pose, kSearchOverlap);
+        if (mean_square < 0) continue;
         if (best.first < 0 || mean_square < best.first) best = {mean_square, pose};
       }
     if (best.first >= 0) starts.push_back(best);
@@ -246,37 +75,154 @@ std::vector<MapPose> turned_starts(const Places& a, const Surface& b) {
   return poses;
 }
 
-MapPose about_origin(const MapPose& about_middle, const Places& a) {
-  const Turn turn(about_middle.turn_rad);
-  MapPose pose = about_middle;
-  pose.shift_x_m += a.x_mid_m - (turn.cos * a.x_mid_m - turn.sin * a.y_mid_m);
-  pose.shift_y_m += a.y_mid_m - (turn.sin * a.x_mid_m + turn.cos * a.y_mid_m);
-  return pose;
-}
-
-Fit registered(const SurfaceMap& a, const Surface& b, double pixel_m, const Places& places) {
-  SurfaceMap flat = a;
-  remove_plane(flat);
-  const Places few = places_of(flat, kForSearch);
-  Fit fit = fitted_from(few, b, {}, pixel_m, 30);
-  double own = 0;  // mean square of A
-  for (const double z : few.z_m) own += z * z / static_cast<double>(few.z_m.size());
-  // A start elsewhere has to be much better: the form of both may differ.
-  if (fit.overlap < kSearchOverlap || fit.mean_square > kAlike * own) {
-    const auto take = [&](const MapPose& start) {
-      const Fit other = fitted_from(few, b, start, pixel_m, 30);
-      if (other.overlap >= kSearchOverlap &&
-          (fit.overlap < kSearchOverlap || 4 * other.mean_square < fit.mean_square))
-        fit = other;
-    };
-    take(searched(few, b));
-    if (fit.overlap < kSearchOverlap || fit.mean_square > kAlike * own)
-      for (const MapPose& start : turned_starts(places_of(flat, kForTurns), b)) take(start);
+// B laid onto A. Poses are about the middle of A.
+class Registration {
+ public:
+  Registration(const SurfaceMap& a, const SurfaceMap& b, const Surface& surface)
+      : b_(surface),
+        pixel_m_(std::min(std::min(a.dx_m, a.dy_m), std::min(b.dx_m, b.dy_m))),
+        flat_(without_plane(a)),
+        few_(places_of(flat_, kForSearch)),
+        course_(places_of(flat_, kForCourse)),
+        evidence_(a, few_) {
+    own_.left_m = few_.z_m;
+    double sum_m = 0;
+    for (const double z : few_.z_m) sum_m += std::abs(z);
+    most_m_ = kMostOfPlace * sum_m / static_cast<double>(few_.z_m.size());
   }
-  if (places.z_m.size() > kForCourse)
-    fit = fitted_from(places_of(a, kForCourse), b, fit.pose, pixel_m, 20);
-  return fitted_from(places, b, fit.pose, pixel_m, 6);
-}
+
+  MapPose found() {
+    MapPose pose = fitted_at_rest();
+    PoseFit fit = fit_at(few_, b_, pose);
+    if (search(fit))
+      pose =
+          fitted_from(course_, b_, fit.pose, evidence_.determined(b_, fit.pose), pixel_m_, 20).pose;
+    Eigen::MatrixXd directions = evidence_.determined(b_, pose);
+    if (directions.cols() > 0 && flat_.measured() > course_.z_m.size()) {
+      pose = fitted_from(places_of(flat_, kForFit), b_, pose, directions, pixel_m_, 6).pose;
+      directions = evidence_.determined(b_, pose);
+    }
+    undetermined_ = 3 - static_cast<std::size_t>(directions.cols());
+    return about_origin(pose, few_);
+  }
+  std::size_t undetermined() const { return undetermined_; }
+
+ private:
+  static SurfaceMap without_plane(SurfaceMap map) {
+    remove_plane(map);
+    return map;
+  }
+
+  // From 0, in the directions that the shape determines there. Where it determines fewer of them
+  // at the end, again in these alone; where more, on from there.
+  MapPose fitted_at_rest() const {
+    MapPose pose;
+    Eigen::MatrixXd directions = evidence_.determined(b_, pose);
+    bool has_lost = false;
+    for (int again = 0; again < 5 && directions.cols() > 0; ++again) {
+      pose = fitted_from(course_, b_, pose, directions, pixel_m_, 20).pose;
+      const Eigen::MatrixXd now = evidence_.determined(b_, pose);
+      if (now.cols() == directions.cols() || (has_lost && now.cols() > directions.cols())) break;
+      if (now.cols() < directions.cols()) {
+        has_lost = true;
+        pose = {};
+      }
+      directions = now;
+    }
+    return pose;
+  }
+
+  PoseFit fitted_few(const MapPose& start, const Eigen::MatrixXd& directions) const {
+    return fitted_from(few_, b_, start, directions, pixel_m_, 30);
+  }
+  // From a start elsewhere; what the shape does not determine at its end is taken as 0.
+  PoseFit fitted_elsewhere(const MapPose& start) const {
+    PoseFit fit = fitted_few(start, Eigen::MatrixXd::Identity(3, 3));
+    const Eigen::MatrixXd directions = evidence_.determined(b_, fit.pose);
+    if (directions.cols() == 3) return fit;
+    const double turn = std::remainder(fit.pose.turn_rad, 2 * std::numbers::pi);
+    const Eigen::Vector3d at(fit.pose.shift_x_m, fit.pose.shift_y_m, turn * few_.size_m);
+    const Eigen::Vector3d held = directions * (directions.transpose() * at);
+    return fitted_few({held(0), held(1), held(2) / few_.size_m}, directions);
+  }
+
+  double overlap(const PoseFit& fit) const {
+    return fit.count / static_cast<double>(few_.z_m.size());
+  }
+  bool is_measured(double x_m, double y_m) const {
+    const double i = std::nearbyint((x_m + few_.x_mid_m - flat_.x0_m) / flat_.dx_m),
+                 j = std::nearbyint((y_m + few_.y_mid_m - flat_.y0_m) / flat_.dy_m);
+    return i >= 0 && j >= 0 && i < static_cast<double>(flat_.nx) &&
+           j < static_cast<double>(flat_.ny) &&
+           !std::isnan(flat_.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j)));
+  }
+  // Places that are measured in both poses, and so is, in the other one, what this one compares
+  // them with: otherwise a difference at the border of B would be left behind.
+  std::vector<bool> common(const PoseFit& fit, const PoseFit& other) const {
+    std::vector<bool> counts(fit.left_m.size());
+    const Turn here(fit.pose.turn_rad), back(-other.pose.turn_rad);
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      const double x = here.x_m(few_.x_m[k], few_.y_m[k]) + fit.pose.shift_x_m -
+                       other.pose.shift_x_m,
+                   y = here.y_m(few_.x_m[k], few_.y_m[k]) + fit.pose.shift_y_m -
+                       other.pose.shift_y_m;
+      counts[k] = !std::isnan(fit.left_m[k]) && !std::isnan(other.left_m[k]) &&
+                  is_measured(back.x_m(x, y), back.y_m(x, y));
+    }
+    return counts;
+  }
+  std::vector<bool> measured(const PoseFit& fit) const {
+    std::vector<bool> counts(fit.left_m.size());
+    for (std::size_t k = 0; k < counts.size(); ++k) counts[k] = !std::isnan(fit.left_m[k]);
+    return counts;
+  }
+
+  MeanLeft left(const PoseFit& fit, const std::vector<bool>& counts) const {
+    return mean_left(fit, counts, most_m_);
+  }
+
+  // The form of both may differ, so that a little better is not enough; and what is better must
+  // be so where both are measured.
+  bool is_much_better(const PoseFit& other, const PoseFit& fit) const {
+    if (overlap(other) < kSearchOverlap) return false;
+    const std::vector<bool> counts = measured(other);
+    if (!(left(other, counts).size_m < kMuchBetter * left(own_, counts).size_m)) return false;
+    const MeanLeft there = left(other, common(other, fit)), here = left(fit, common(fit, other));
+    if (std::min(there.share, here.share) < kLeastOverlap) return overlap(fit) < kSearchOverlap;
+    return there.size_m < kMuchBetter * here.size_m;
+  }
+  bool is_found(const PoseFit& fit) const {
+    const std::vector<bool> counts = measured(fit);
+    return overlap(fit) >= kSearchOverlap &&
+           left(fit, counts).size_m <= kAlike * left(own_, counts).size_m;
+  }
+
+  // True: a pose elsewhere is much better.
+  bool search(PoseFit& fit) const {
+    if (is_found(fit) || !evidence_.has_shape()) return false;
+    bool is_elsewhere = false;
+    const auto take = [&](const MapPose& start) {
+      PoseFit other = fitted_elsewhere(start);
+      if (!is_much_better(other, fit)) return;
+      fit = std::move(other);
+      is_elsewhere = true;
+    };
+    take({});
+    if (!is_found(fit)) take(searched(few_, b_));
+    if (!is_found(fit))
+      for (const MapPose& start : turned_starts(places_of(flat_, kForTurns), b_)) take(start);
+    return is_elsewhere;
+  }
+
+  const Surface& b_;
+  double pixel_m_;
+  SurfaceMap flat_;
+  Places few_, course_;
+  ShapeEvidence evidence_;
+  PoseFit own_;  // A itself at the few places
+  double most_m_ = 0;
+  std::size_t undetermined_ = 0;
+};
 
 SurfaceMap difference_at(const SurfaceMap& a, const Surface& b, const MapPose& pose) {
   SurfaceMap difference = empty_like(a);
@@ -323,14 +269,9 @@ Result<Comparison> compare(const SurfaceMap& a, const SurfaceMap& b, Register ho
   Comparison result;
   const Surface surface(b, 0, Extension::parabola);
   if (how == Register::rigid) {
-    const double pixel_m = std::min(std::min(a.dx_m, a.dy_m), std::min(b.dx_m, b.dy_m));
-    const Places places = places_of(a, kForFit);
-    const Fit fit = registered(a, surface, pixel_m, places);
-    result.pose = about_origin(fit.pose, places);
-    result.undetermined = fit.undetermined;
-    result.by_noise =
-        std::max(directions_without_shape(a, surface, result.pose), fit.undetermined) -
-        fit.undetermined;
+    Registration registration(a, b, surface);
+    result.pose = registration.found();
+    result.undetermined = registration.undetermined();
   }
   result.difference = difference_at(a, surface, result.pose);
   MDOF_CHECK(check_overlap(a, b, result.difference.measured()));

@@ -23,11 +23,9 @@ struct Comparison {
   SurfaceMap difference;  // B - A, over the pixels of A
   MapPose pose;
   // Directions among shift x, shift y and turn that the shape does not determine (a sphere can
-  // turn, and be tilted instead of shifted): they were taken as 0.
+  // turn, and be tilted instead of shifted), and those in which the slopes of the two maps have
+  // nothing in common: they were taken as 0.
   std::size_t undetermined = 0;
-  // More of them, in which the slopes of both maps have nothing in common (a sphere or a plane with
-  // noise): there the pose is fitted to noise.
-  std::size_t by_noise = 0;
   double pv_m = 0, rms_m = 0;  // rms about the mean
   std::size_t pixels = 0;
 };

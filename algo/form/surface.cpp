@@ -9,6 +9,9 @@ namespace {
 
 constexpr std::size_t kForSlopes = 6;  // rings more, so that slopes have their pixels at corners
 constexpr double kOnPixel = 1e-9;      // of a pixel: no neighbour has a part
+// Of a pixel: a neighbour with so little a part need not be measured. Rounding of a movement would
+// otherwise lose the outermost pixels.
+constexpr double kLittle = 0.01;
 
 // Weights of the pixels -2 ... 3 of a row for the height at t in [0, 1] between 0 and 1, and for
 // its derivative.
@@ -138,10 +141,13 @@ bool Surface::at(double x_m, double y_m, std::size_t rings, SurfacePoint& point)
   const auto i = static_cast<std::size_t>(x), j = static_cast<std::size_t>(y);
   const double tx = x - static_cast<double>(i), ty = y - static_cast<double>(j);
   const std::uint8_t* const ring = ring_.data() + j * nx_ + i;
-  std::uint8_t farthest = ring[0];
-  if (tx > 0) farthest = std::max(farthest, ring[1]);
-  if (ty > 0) farthest = std::max(farthest, ring[nx_]);
-  if (tx > 0 && ty > 0) farthest = std::max(farthest, ring[nx_ + 1]);
+  std::uint8_t farthest = 0;
+  const bool left = tx<1 - kLittle, right = tx> kLittle,
+             below = ty<1 - kLittle, above = ty> kLittle;
+  if (left && below) farthest = std::max(farthest, ring[0]);
+  if (right && below) farthest = std::max(farthest, ring[1]);
+  if (left && above) farthest = std::max(farthest, ring[nx_]);
+  if (right && above) farthest = std::max(farthest, ring[nx_ + 1]);
   if (farthest > rings || farthest == kNone) return false;
   const double* const z = z_m_.data() + (j - 2) * nx_ + i - 2;
   const auto sum = [&](const Weights& wx, const Weights& wy, std::size_t first, std::size_t last) {

@@ -3,11 +3,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "algo/linear_algebra/least_squares.h"
 #include "algo/linear_algebra/spectra.h"
-#include "schema/base/random.h"
 
 namespace mdof::algo {
 namespace {
@@ -46,13 +44,69 @@ struct Evidence {
     ab -= plane_a.transpose() * by_b;
     bb -= plane_b.transpose() * by_b;
   }
+
+  // The directions in which the slopes of both have something in common: what is left of all
+  // movements without those in which they have not.
+  Eigen::MatrixXd determined() {
+    const Eigen::Matrix3d raw = (aa + bb) / 2;
+    eliminate_plane();
+    const Eigen::Matrix3d all = (aa + bb) / 2, common = (ab + ab.transpose()) / 2;
+    // Each movement in its own scale, then each direction in that of its slopes.
+    Eigen::Vector3d scale;
+    const double least = kNoSlope * kNoSlope * raw.trace();
+    for (Eigen::Index k = 0; k < 3; ++k)
+      scale(k) = raw(k, k) > least ? 1 / std::sqrt(raw(k, k)) : 0;
+    const SingularValues found = singular_values(scale.asDiagonal() * all * scale.asDiagonal());
+    const double enough =
+        std::min(kEvidenceEnough, kEvidenceNeeded / std::sqrt(std::max(1., count)));
+    Eigen::MatrixXd with_slope(3, 0), without(3, 0);
+    const auto append = [](Eigen::MatrixXd& to, const Eigen::VectorXd& column) {
+      to.conservativeResize(3, to.cols() + 1);
+      to.rightCols(1) = column;
+    };
+    for (Eigen::Index k = 0; k < 3; ++k)
+      if (found.values(k) > kNoSlope)
+        append(with_slope, scale.cwiseProduct(found.U.col(k)) / std::sqrt(found.values(k)));
+      else
+        append(without, unscaled(found.U.col(k), scale));
+    const Eigen::Index n = with_slope.cols();
+    if (n > 0) {
+      // Correlations are in [-1, 1]: with 2 more, singular values are eigenvalues.
+      const SingularValues by_both = singular_values(with_slope.transpose() * common * with_slope +
+                                                     2 * Eigen::MatrixXd::Identity(n, n));
+      for (Eigen::Index k = 0; k < n; ++k)
+        if (by_both.values(k) - 2 < enough) append(without, with_slope * by_both.U.col(k));
+    }
+    return orthogonal_to(without);
+  }
+
+ private:
+  // A movement without slopes has no scale; it stands for itself.
+  static Eigen::VectorXd unscaled(const Eigen::VectorXd& u, const Eigen::Vector3d& scale) {
+    Eigen::VectorXd direction(3);
+    const bool has_none = (u.array().abs() * (scale.array() == 0).cast<double>()).maxCoeff() > 0.5;
+    for (Eigen::Index k = 0; k < 3; ++k)
+      direction(k) = has_none ? (scale(k) == 0 ? u(k) : 0) : u(k) * scale(k);
+    return direction;
+  }
+  static Eigen::MatrixXd orthogonal_to(const Eigen::MatrixXd& without) {
+    if (without.cols() == 0) return Eigen::MatrixXd::Identity(3, 3);
+    if (without.cols() == 3) return Eigen::MatrixXd(3, 0);
+    Eigen::MatrixXd unit = without;
+    for (Eigen::Index k = 0; k < unit.cols(); ++k) unit.col(k) /= unit.col(k).norm();
+    return LeastNorm(unit.transpose(), 1e-9).null_space();
+  }
 };
 
-// By the pixels beside it; false: one of them is missing.
+// By the pixels beside it; false: one of them is missing. A profile has no slope across.
 bool slope_of(const SurfaceMap& map, std::size_t i, std::size_t j, Eigen::Vector2d& slope) {
-  if (i == 0 || j == 0 || i + 1 >= map.nx || j + 1 >= map.ny) return false;
-  slope = {(map.at(i + 1, j) - map.at(i - 1, j)) / (2 * map.dx_m),
-           (map.at(i, j + 1) - map.at(i, j - 1)) / (2 * map.dy_m)};
+  const auto along = [&](std::size_t k, std::size_t n, double step_m, std::size_t next) {
+    if (n == 1) return 0.0;
+    const std::size_t at = j * map.nx + i;
+    if (k == 0 || k + 1 >= n) return SurfaceMap::kMissing;
+    return (map.z_m[at + next] - map.z_m[at - next]) / (2 * step_m);
+  };
+  slope = {along(i, map.nx, map.dx_m, 1), along(j, map.ny, map.dy_m, map.nx)};
   return std::isfinite(slope.sum());
 }
 
@@ -60,57 +114,45 @@ Moves moves(const Eigen::Vector2d& slope, const Eigen::Vector2d& arm) {
   return {slope.x(), slope.y(), slope.y() * arm.x() - slope.x() * arm.y()};
 }
 
-Evidence evidence_of(const SurfaceMap& a, const Surface& b, const MapPose& pose) {
-  Evidence evidence;
+}  // namespace
+
+ShapeEvidence::ShapeEvidence(const SurfaceMap& a, const Places& about)
+    : x_mid_m_(about.x_mid_m), y_mid_m_(about.y_mid_m), size_m_(about.size_m) {
   const std::size_t every = std::max<std::size_t>(1, a.z_m.size() / kEvidencePlaces);
-  const double turns = pose.turn_rad / (2 * std::numbers::pi);
-  const double c = sine_of_turns(turns + 0.25), s = sine_of_turns(turns);
-  const Eigen::Matrix2d turn{{c, -s}, {s, c}};
-  const Eigen::Vector2d middle((a.x_m(0) + a.x_m(a.nx - 1)) / 2, (a.y_m(0) + a.y_m(a.ny - 1)) / 2);
-  const double size =
-      std::max(static_cast<double>(a.nx) * a.dx_m, static_cast<double>(a.ny) * a.dy_m);
   for (std::size_t k = 0; k < a.z_m.size(); ++k) {
     // Spread without a common factor with the rows.
     if (every > 1 && (k * 0x9e3779b97f4a7c15u >> 33) % every != 0) continue;
-    Eigen::Vector2d slope_a;
-    if (std::isnan(a.z_m[k]) || !slope_of(a, k % a.nx, k / a.nx, slope_a)) continue;
-    const Eigen::Vector2d p(a.x_m(k % a.nx), a.y_m(k / a.nx));
-    const Eigen::Vector2d q = turn * p + Eigen::Vector2d(pose.shift_x_m, pose.shift_y_m);
-    SurfacePoint at;
-    if (!b.at(q.x(), q.y(), 0, at)) continue;
-    const Eigen::Vector2d arm = turn * ((p - middle) / size);
-    evidence.add({1, arm.x(), arm.y()}, moves(turn * slope_a, arm),
-                 moves({at.slope_x, at.slope_y}, arm));
+    Eigen::Vector2d slope;
+    if (std::isnan(a.z_m[k]) || !slope_of(a, k % a.nx, k / a.nx, slope)) continue;
+    places_.push_back(
+        {a.x_m(k % a.nx) - x_mid_m_, a.y_m(k / a.nx) - y_mid_m_, slope.x(), slope.y()});
   }
-  return evidence;
 }
 
-}  // namespace
-
-std::size_t directions_without_shape(const SurfaceMap& a, const Surface& b, const MapPose& pose) {
-  Evidence evidence = evidence_of(a, b, pose);
-  const Eigen::Matrix3d raw = (evidence.aa + evidence.bb) / 2;
-  evidence.eliminate_plane();
-  const Eigen::Matrix3d all = (evidence.aa + evidence.bb) / 2,
-                        common = (evidence.ab + evidence.ab.transpose()) / 2;
-  // Each movement in its own scale, then each direction in that of its slopes.
-  Eigen::Vector3d scale;
-  const double least = kNoSlope * kNoSlope * raw.trace();
-  for (Eigen::Index k = 0; k < 3; ++k) scale(k) = raw(k, k) > least ? 1 / std::sqrt(raw(k, k)) : 0;
-  const SingularValues found = singular_values(scale.asDiagonal() * all * scale.asDiagonal());
-  const double enough =
-      std::min(kEvidenceEnough, kEvidenceNeeded / std::sqrt(std::max(1.0, evidence.count)));
-  Eigen::MatrixXd directions(3, 0);
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    if (!(found.values(k) > kNoSlope)) continue;
-    directions.conservativeResize(3, directions.cols() + 1);
-    directions.rightCols(1) = scale.cwiseProduct(found.U.col(k)) / std::sqrt(found.values(k));
+bool ShapeEvidence::has_shape() const {
+  Evidence evidence;
+  for (const Place& p : places_) {
+    const Eigen::Vector2d arm = Eigen::Vector2d(p.x_m, p.y_m) / size_m_;
+    const Moves of_a = moves({p.slope_x, p.slope_y}, arm);
+    evidence.add({1, arm.x(), arm.y()}, of_a, of_a);
   }
-  if (directions.cols() == 0) return 3;
-  const Eigen::VectorXd correlation =
-      symmetric_eigenvalues(directions.transpose() * common * directions);
-  return 3 - static_cast<std::size_t>(std::count_if(correlation.begin(), correlation.end(),
-                                                    [enough](double r) { return r >= enough; }));
+  return evidence.determined().cols() > 0;
+}
+
+Eigen::MatrixXd ShapeEvidence::determined(const Surface& b, const MapPose& about_middle) const {
+  Evidence evidence;
+  const Turn turn(about_middle.turn_rad);
+  for (const Place& p : places_) {
+    const Eigen::Vector2d q(turn.x_m(p.x_m, p.y_m), turn.y_m(p.x_m, p.y_m));
+    SurfacePoint at;
+    if (!b.at(q.x() + x_mid_m_ + about_middle.shift_x_m, q.y() + y_mid_m_ + about_middle.shift_y_m,
+              0, at))
+      continue;
+    const Eigen::Vector2d arm = q / size_m_,
+                          slope_a(turn.x_m(p.slope_x, p.slope_y), turn.y_m(p.slope_x, p.slope_y));
+    evidence.add({1, arm.x(), arm.y()}, moves(slope_a, arm), moves({at.slope_x, at.slope_y}, arm));
+  }
+  return evidence.determined();
 }
 
 }  // namespace mdof::algo

@@ -1,16 +1,34 @@
 // Whether the shape of two maps or their noise determines how they lie against each other.
 #pragma once
 
-#include <cstddef>
+#include <Eigen/Core>
+#include <vector>
 
+#include "algo/form/pose/places.h"
 #include "algo/form/registration.h"
 #include "algo/form/surface.h"
 #include "schema/form/height_map.h"
 
 namespace mdof::algo {
 
-// How many directions among shift x, shift y and turn the shape does not determine at this pose:
-// the slopes of the two maps have nothing in common there (README.md, "Surfaces and registration").
-std::size_t directions_without_shape(const SurfaceMap& a, const Surface& b, const MapPose& pose);
+class ShapeEvidence {
+ public:
+  // Poses are about the middle of `about`, which are places of A.
+  ShapeEvidence(const SurfaceMap& a, const Places& about);
+
+  // The directions that the shape determines at this pose, one a column (shift x, shift y, turn
+  // times size), orthonormal: across those in which the slopes of the two maps have nothing in
+  // common (README.md, "Surfaces and registration").
+  Eigen::MatrixXd determined(const Surface& b, const MapPose& about_middle) const;
+  // Whether A alone has slopes that no tilt explains.
+  bool has_shape() const;
+
+ private:
+  struct Place {
+    double x_m, y_m, slope_x, slope_y;
+  };
+  double x_mid_m_, y_mid_m_, size_m_;
+  std::vector<Place> places_;
+};
 
 }  // namespace mdof::algo

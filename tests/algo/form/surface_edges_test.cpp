@@ -65,10 +65,15 @@ TEST(SurfacePolynomials, AParabolaGoesOnAsItIs) {
   SurfacePoint p;
   EXPECT_FALSE(surface_at(surface, -2, -3, 4, p));
   EXPECT_FALSE(surface_at(surface, -2, -2, 3, p));
-  EXPECT_FALSE(surface_at(surface, -4.01, 3, 4, p));
-  EXPECT_FALSE(surface_at(surface, 9.01, 3, 4, p));
-  EXPECT_FALSE(surface_at(surface, 3, -4.01, 4, p));
-  EXPECT_FALSE(surface_at(surface, 3, 10.01, 4, p));
+  // Up to 0.01 pixel beyond the last one: rounding of a place loses none.
+  for (const double beyond : {0.009, 0.011}) {
+    const bool is_there = beyond < 0.01;
+    EXPECT_EQ(surface_at(surface, -4 - beyond, 3, 4, p), is_there);
+    EXPECT_EQ(surface_at(surface, 9 + beyond, 3, 4, p), is_there);
+    EXPECT_EQ(surface_at(surface, 3, -4 - beyond, 4, p), is_there);
+    EXPECT_EQ(surface_at(surface, 3, 10 + beyond, 4, p), is_there);
+  }
+  EXPECT_NEAR(height_at(surface, 3, 10.009, 4), z(3, 10.009), 1e-10);
   EXPECT_FALSE(surface_at(surface, -1, 3, 0, p));
   EXPECT_FALSE(surface_at(surface, 1e6, 3, 4, p));
   EXPECT_FALSE(surface_at(surface, -1e6, 3, 4, p));

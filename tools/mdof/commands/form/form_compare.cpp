@@ -30,7 +30,7 @@ algo::Register register_from(const std::string& name) {
 }
 
 Notices notices_of(const algo::Comparison& found, const FormCompareCommand& o) {
-  const std::size_t directions = found.undetermined + found.by_noise;
+  const std::size_t directions = found.undetermined;
   if (directions == 0) return {};
   return {notice(NoticeCode::map_movements_undetermined, o.a, {{"directions", directions}})};
 }
@@ -48,8 +48,7 @@ std::string compare_json(const algo::Comparison& found, const FormCompareCommand
       .field("turn_deg", found.pose.turn_rad * 180 / std::numbers::pi)
       .field("pixels", static_cast<std::uint64_t>(found.pixels))
       .field("register", o.register_how)
-      .field("undetermined_directions",
-             static_cast<std::uint64_t>(found.undetermined + found.by_noise));
+      .field("undetermined_directions", static_cast<std::uint64_t>(found.undetermined));
   write_notices(json, "notices", notices_of(found, o), words::text);
   json.end_object();
   return json.take();

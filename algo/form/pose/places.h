@@ -1,0 +1,30 @@
+// Some of the measured pixels of a map, spread evenly, about the middle of all of them. SI.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "algo/form/registration.h"
+#include "schema/form/height_map.h"
+
+namespace mdof::algo {
+
+struct Places {
+  double x_mid_m = 0, y_mid_m = 0, size_m = 0;  // size: the larger side
+  std::vector<double> x_m, y_m, z_m;
+};
+
+Places places_of(const SurfaceMap& a, std::size_t most);
+
+// Of poses about the middle of A: what is at p in A is at R p + shift in B, both about that middle.
+struct Turn {
+  double cos = 1, sin = 0;
+  explicit Turn(double rad);
+  double x_m(double x, double y) const { return cos * x - sin * y; }
+  double y_m(double x, double y) const { return sin * x + cos * y; }
+};
+
+// The same pose about (0, 0), its turn in (-pi, pi].
+MapPose about_origin(const MapPose& about_middle, const Places& a);
+
+}  // namespace mdof::algo

@@ -23,7 +23,8 @@ struct Point {
   std::vector<PointFlag> flags;           // each at most once
 
   // For judging a run as a whole; neither stored nor part of the result.
-  std::vector<double> probe_sd_m;  // of single readings
+  std::vector<double> probe_sd_m;      // of single readings
+  std::uint64_t scan_fingerprint = 0;  // algo/points/scan_fingerprint.h; 0: none
   // How far the axis went between the point before and this one; NaN where that was not seen.
   double way_min_m = std::numeric_limits<double>::quiet_NaN();
   double way_max_m = std::numeric_limits<double>::quiet_NaN();

@@ -116,10 +116,12 @@ bool stepped_before(const ProbeVisits& visits, const std::string& id) {
                      [&](const MeasuredPoint* p) { return has_flag(p->point, Flag::step, id); });
 }
 
-// Whether all probes read the same, to the last bit, at both. Readings without noise, or with less
-// than their resolution, repeat.
+// Whether both have scans in common, or all probes have the same mean, to the last bit. Readings
+// without noise, or with less than their resolution, repeat.
 bool same_readings(const Point& a, const Point& b) {
-  return a.probe_m == b.probe_m && a.position_m == b.position_m && !a.probe_sd_m.empty() &&
+  const bool same_scans = a.scan_fingerprint != 0 && a.scan_fingerprint == b.scan_fingerprint;
+  return (same_scans || (a.probe_m == b.probe_m && a.position_m == b.position_m)) &&
+         !a.probe_sd_m.empty() &&
          std::all_of(a.probe_sd_m.begin(), a.probe_sd_m.end(), [](double sd) { return sd > 0; });
 }
 

@@ -6,6 +6,7 @@
 #include "algo/points/flags.h"
 #include "algo/points/over_range.h"
 #include "algo/points/robust_mean.h"
+#include "algo/points/scan_fingerprint.h"
 
 namespace mdof::algo {
 namespace {
@@ -34,6 +35,7 @@ Point DwellDetector::average(std::size_t from, std::size_t to) {
       add_flag(point, Flag::gap);
     }
   }
+  point.scan_fingerprint = scan_fingerprint(buffer_, from, to);
   if (truncated_) add_flag(point, Flag::truncated);
   const double jumped_m =
       point.end_ns < last_jump_.time_ns ? jumped_m_ - last_jump_.size_m : jumped_m_;

@@ -151,6 +151,23 @@ TEST(VisitStep, ASecondCopyOfTheSameRun) {
   EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
 }
 
+// The blocks of the second copy begin elsewhere, so that its dwells have other means.
+TEST(VisitStep, ASecondCopyWhoseDwellsBeginElsewhere) {
+  auto points = repeated_log(3, no_change, 1);
+  for (std::size_t i = 0; i < points.size(); ++i) points[i].point.scan_fingerprint = i + 1;
+  const auto once = points;
+  for (MeasuredPoint p : once) {
+    p.run = 2;
+    for (double& reading : p.point.probe_m) reading += 1e-10;
+    points.push_back(p);
+  }
+  const auto said = repeat_notices(test::rig_x(), points);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(shown(said[0]), "readings_copied copies=26 points=52");
+  for (std::size_t i = 26; i < 52; ++i) points[i].point.scan_fingerprint = i + 1;
+  EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
+}
+
 // A single visit cannot show slow noise, and that keeps no table from a controller.
 TEST(VisitStep, TargetsThatWereVisitedOnceAreSaid) {
   SyntheticRun synthetic{.rig = test::rig_x(), .runs = 1};

@@ -171,6 +171,19 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
   return BuiltTable{std::move(table), std::move(notices), std::move(doubtful)};
 }
 
+Result<CompensationTable> means_by_target(const Run& run) {
+  MDOF_TRY(const Rig rig, rig_of(run.header));
+  algo::TableOptions options;
+  options.remove_slope = false;
+  options.take_partial = true;
+  options.machine = rig.machine;
+  options.stated = run.header.stated;
+  MDOF_TRY(CompensationTable table, algo::build_table({run}, options));
+  MDOF_CHECK(algo::add_declared_uncertainty(table, {rig}, {run}, options));
+  add_not_declared(table, rig.undeclared_uncertainties());
+  return table;
+}
+
 Result<store::Activation> activate_table(store::Store& store, const ActivationRequest& request) {
   MDOF_TRY(const store::Marks marks, check_activation(store, request));
   return activate_checked(store, request, marks);

@@ -61,6 +61,11 @@ Result<BuiltTable> calculate_table(store::Store& store, const TableRequest& requ
 Status store_table(store::Store& store, CompensationTable& table,
                    const std::optional<HistoryEntry>& action);
 
+// Means of a run by target, as a table of this run alone has them: straightness as measured and
+// where the run states it, angles relative to the first target, u with what its rig declares.
+// Errors: those of algo::build_table() and algo::add_declared_uncertainty().
+Result<CompensationTable> means_by_target(const Run& run);
+
 struct ActivationRequest {
   std::int64_t table = 0;
   Consent consent;

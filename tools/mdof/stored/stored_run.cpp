@@ -20,7 +20,8 @@ Result<std::string> read_text(rpc::Client& daemon, std::int64_t id) {
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
   MDOF_TRY(const auto actions, store.actions_of_run(id));
   const std::size_t width = terminal_columns();
-  return show_text(run, daemon::uncertainty_of(run), sha256, width) + history_text(actions, width);
+  return show_text(run, daemon::uncertainty_of(run), sha256, width, Extent::brief) +
+         history_text(actions, width);
 }
 
 }  // namespace

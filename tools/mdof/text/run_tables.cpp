@@ -3,12 +3,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "daemon/measure/replay/request_json.h"
 #include "daemon/words/words.h"
 #include "schema/axis.h"
 #include "schema/run_json.h"
 #include "tools/mdof/text/analyses/budget_text.h"
+#include "tools/mdof/text/means_text.h"
 #include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/plausibility_text.h"
 #include "tools/mdof/text/text_table.h"
@@ -65,14 +67,29 @@ std::string simulated_notice(bool simulated) {
   return simulated ? "SIMULATED DATA: no machine was measured.\n" : "";
 }
 
+std::string noise_only_notice(NoiseOnly noise_only) {
+  switch (noise_only) {
+    case NoiseOnly::none:
+      break;
+    case NoiseOnly::some:
+      return "NOISE ONLY IN PART: u of at least one error or value contains only noise and "
+             "repeatability, so u is too small.\n";
+    case NoiseOnly::all:
+      return "NOISE ONLY: no declared uncertainty adds to u, so every u and U is too small.\n";
+  }
+  return "";
+}
+
 std::string noise_only_notice(bool noise_only) {
-  return noise_only
-             ? "NOISE ONLY: no declared uncertainty adds to u, so every u and U is too small.\n"
-             : "";
+  return noise_only_notice(noise_only_if(noise_only));
+}
+
+std::string noise_only_comment(NoiseOnly noise_only) {
+  return noise_only == NoiseOnly::none ? "" : "# " + noise_only_notice(noise_only);
 }
 
 std::string noise_only_comment(bool noise_only) {
-  return noise_only ? "# " + noise_only_notice(true) : "";
+  return noise_only_comment(noise_only_if(noise_only));
 }
 
 std::string arrow(int direction) {
@@ -98,14 +115,6 @@ std::string stated_text(const StatedAt& at) {
       break;
   }
   return "straightness at the fixture\n";
-}
-
-std::string show_text(const Run& run, const RunUncertainty& uncertainty,
-                      const std::string& result_sha256, std::size_t width, bool all_warnings) {
-  return noise_only_notice(uncertainty.noise_only) +
-         head_text(run.header, result_sha256, width, all_warnings) + "\n" +
-         points_text(run, uncertainty, width) +
-         (run.plausibility ? "\n" + plausibility_text(*run.plausibility) : "");
 }
 
 std::string figures_text(const Run& run, const StatedFigures& figures, std::size_t width) {
@@ -154,14 +163,23 @@ Errors5 columns_u(const Run& run, const RunUncertainty& uncertainty) {
 
 }  // namespace
 
-std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width) {
+namespace {
+
+constexpr std::size_t kMostFlagged = 12;  // rows; --all lists the others
+
+bool is_flagged(const MeasuredPoint& point) {
+  return !point.errors.valid || !point.point.flags.empty();
+}
+
+std::string rows_text(const Run& run, const RunUncertainty& uncertainty,
+                      const std::vector<std::size_t>& rows, std::size_t width) {
   const Axis axis = run.header.axis;
   std::vector<std::string> head{"target", "run", "dir", "at/mm"};
   for (const auto& name : error_names(axis)) head.push_back(error_label(name.key));
   head.insert(head.end(), {"samples", "flags"});
   TextTable table(std::move(head), 4);
   const Errors5 column = columns_u(run, uncertainty);
-  for (std::size_t j = 0; j < run.points.size(); ++j) {
+  for (const std::size_t j : rows) {
     const MeasuredPoint& p = run.points[j];
     std::vector<std::string> row{std::to_string(p.target), std::to_string(p.run),
                                  arrow(p.point.direction), in_mm(p.point.position_m)};
@@ -175,12 +193,49 @@ std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::
     row.insert(row.end(), {std::to_string(p.point.samples), flags_of(p)});
     table.add(std::move(row));
   }
-  return table.text(width) +
+  return table.text(width);
+}
+
+// The points that a reader of means must know of, and how many there are.
+std::string flagged_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width) {
+  std::vector<std::size_t> rows;
+  std::size_t flagged = 0;
+  for (std::size_t j = 0; j < run.points.size(); ++j)
+    if (is_flagged(run.points[j]) && ++flagged <= kMostFlagged) rows.push_back(j);
+  const std::string points = std::to_string(run.points.size());
+  if (flagged == 0) return "points: " + points + ", none has a flag (--all lists the points)\n";
+  return wrapped("points: " + points +
+                     "; with a flag or without errors: " + std::to_string(flagged) +
+                     (flagged > rows.size()
+                          ? ", of which the first " + std::to_string(rows.size()) + " are shown"
+                          : "") +
+                     " (--all lists all points)",
+                 width) +
+         "\n" + rows_text(run, uncertainty, rows, width);
+}
+
+}  // namespace
+
+std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width) {
+  std::vector<std::size_t> rows(run.points.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  return rows_text(run, uncertainty, rows, width) +
          wrapped("± is the standard uncertainty u. It contains " + covers_text(uncertainty) +
                      ". error = actual - nominal position of the moving " +
                      run.header.sides.moves(),
                  width) +
          "\n" + stated_text(run.header.stated);
+}
+
+std::string show_text(const Run& run, const RunUncertainty& uncertainty,
+                      const std::string& result_sha256, std::size_t width, Extent extent,
+                      bool all_warnings) {
+  const std::string means = extent == Extent::all ? "" : means_text(run, width);
+  return noise_only_notice(uncertainty.noise_only) +
+         head_text(run.header, result_sha256, width, all_warnings) + "\n" +
+         (means.empty() ? points_text(run, uncertainty, width)
+                        : means + "\n" + flagged_text(run, uncertainty, width)) +
+         (run.plausibility ? "\n" + plausibility_text(*run.plausibility) : "");
 }
 
 std::string straightness_text(const std::vector<StraightnessFigure>& figures,

@@ -8,6 +8,7 @@
 #include "schema/iso230/squareness.h"
 #include "schema/run.h"
 #include "schema/uncertainty/budget.h"
+#include "schema/uncertainty/noise_only.h"
 #include "schema/uncertainty/run_uncertainty.h"
 
 namespace mdof::tools {
@@ -16,14 +17,19 @@ namespace mdof::tools {
 std::string simulated_notice(bool simulated);
 
 // The first line of what shows an uncertainty that has nothing but noise in it, or nothing.
+std::string noise_only_notice(NoiseOnly noise_only);
 std::string noise_only_notice(bool noise_only);
-std::string noise_only_comment(bool noise_only);  // the same of a CSV or TOML file
+// The same of a CSV or TOML file.
+std::string noise_only_comment(NoiseOnly noise_only);
+std::string noise_only_comment(bool noise_only);
 
 std::string stated_text(const StatedAt& at);  // a line: where straightness is stated
 
-// What `mdof show` prints of a run.
+// What `mdof show` prints of a run. In short: means by target and the points that have flags or no
+// errors; all points where they give no means.
+enum class Extent { brief, all };
 std::string show_text(const Run& run, const RunUncertainty& uncertainty,
-                      const std::string& result_sha256, std::size_t width,
+                      const std::string& result_sha256, std::size_t width, Extent extent,
                       bool all_warnings = false);
 // What `mdof analyse` and `mdof replay` print; `figures`: those of the mean of both approaches.
 std::string figures_text(const Run& run, const StatedFigures& figures, std::size_t width);

@@ -16,6 +16,7 @@
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/database_writer.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/analyses/budget_text.h"
 #include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
 
@@ -28,7 +29,7 @@ struct ReplayCommand {
   std::string reference = "fixture";
   daemon::ReplayRequest request;
   std::string rig, database, socket;
-  bool json = false, keep_out = false, all_warnings = false;
+  bool json = false, keep_out = false, all_warnings = false, all = false;
 };
 
 Result<Run> replay_here(const daemon::ReplayRequest& request) {
@@ -105,8 +106,12 @@ Status replay(ReplayCommand command) {
   }
   run.header.notices.clear();  // shown already
   const daemon::StatedRun stated = daemon::stated_run(run);
-  return write_out(show_text(run, stated.points, "", terminal_columns()) + "\n" +
-                   figures_text(run, stated.figures, terminal_columns()));
+  const std::size_t width = terminal_columns();
+  const Extent extent = command.all ? Extent::all : Extent::brief;
+  return write_out(show_text(run, stated.points, "", width, extent) + "\n" +
+                   (command.all || !stated.figures.why.empty()
+                        ? figures_text(run, stated.figures, width)
+                        : stated_figures_text(stated.figures, width)));
 }
 
 void add_option(CLI::App& command, const ReplayOption& option, daemon::ReplayRequest& request) {
@@ -153,6 +158,8 @@ Action declare_replay(CLI::App& command) {
       ->delimiter(',');
   for (const ReplayOption& option : daemon::replay_options())
     add_option(command, option, o->request);
+  command.add_flag("--all", o->all,
+                   "Show all points, and the figures of each approach and reference line");
   add_all_warnings_flag(command, o->all_warnings);
   add_json_flag(command, o->json);
   return [o] { return replay(*o); };

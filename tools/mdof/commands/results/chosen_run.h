@@ -12,7 +12,7 @@ namespace mdof::tools {
 
 struct ChosenRun {
   std::string database, run, axis, reference = "fixture";
-  bool csv = false, json = false, all_warnings = false;
+  bool csv = false, json = false, all_warnings = false, all_points = false;
   std::string out;  // file to write; empty: standard output
 };
 

@@ -60,8 +60,10 @@ Status show_run(const ChosenRun& choice) {
   }
   const std::size_t width = terminal_columns();
   const std::string drift = drift_notice(run, drift_of(run).found, width);
-  return write_out(show_text(run, daemon::uncertainty_of(run), sha256, width, choice.all_warnings) +
-                   (drift.empty() ? "" : "\n" + drift) + history_text(actions, width));
+  const Extent extent = choice.all_points ? Extent::all : Extent::brief;
+  return write_out(
+      show_text(run, daemon::uncertainty_of(run), sha256, width, extent, choice.all_warnings) +
+      (drift.empty() ? "" : "\n" + drift) + history_text(actions, width));
 }
 
 namespace {
@@ -69,6 +71,7 @@ namespace {
 Action declare_show(CLI::App& command) {
   const auto choice = std::make_shared<ChosenRun>();
   add_chosen_run(command, *choice);
+  command.add_flag("--all", choice->all_points, "Show all points, not only the means by target");
   return [choice] { return show_run(*choice); };
 }
 
@@ -76,10 +79,11 @@ Action declare_show(CLI::App& command) {
 
 Command show_command() {
   return {.name = "show",
-          .summary = "Show the points of a run with uncertainty and flags",
+          .summary = "Show the errors of a run by target, or all its points, with uncertainty",
           .footer =
               "Examples:\n"
               "  mdof show 12\n"
+              "  mdof show 12 --all\n"
               "  mdof show latest --axis X --csv > points_X.csv",
           .declare = declare_show};
 }

@@ -1,6 +1,6 @@
 // mdof trend: figures of the stored runs over time, with control limits.
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <optional>
 #include <tuple>
 
 #include "daemon/measure/several_runs/trends_json.h"
@@ -28,7 +28,7 @@ constexpr std::size_t kFirmBaseline = 8;  // values; of fewer, limits are provis
 struct TrendCommand {
   std::string database, axis, figure, plots;
   std::size_t baseline = 0;
-  bool mixed = false, csv = false, json = false;
+  bool mixed = false, all = false, csv = false, json = false;
 };
 
 std::string runs_of(const daemon::TrendValue& value) {
@@ -106,16 +106,50 @@ std::string text_of(const daemon::Trend& trend) {
   return out + wrapped(sentence_of(trend), terminal_columns()) + "\n";
 }
 
-bool any_noise_only(const std::vector<daemon::Trend>& trends) {
-  return std::any_of(trends.begin(), trends.end(),
-                     [](const daemon::Trend& trend) { return trend.noise_only; });
+// Of all charts with values.
+NoiseOnly noise_only_of(const std::vector<daemon::Trend>& trends) {
+  std::optional<NoiseOnly> all;
+  for (const daemon::Trend& trend : trends)
+    if (!trend.values.empty()) all = joined(all.value_or(trend.noise_only), trend.noise_only);
+  return all.value_or(NoiseOnly::none);
 }
 
-std::string text_of(const std::vector<daemon::Trend>& trends) {
+// One row a figure: its last value and what the chart says of it.
+std::string brief_text(const std::vector<daemon::Trend>& trends) {
+  TextTable table(
+      {"figure", "unit", "values", "last value", "lower limit", "upper limit", "state"});
+  std::size_t left_out = 0;
+  std::string sentences;
+  for (const daemon::Trend& trend : trends) {
+    left_out += trend.left_out.size();
+    const bool has = trend.chart.has_value() && !trend.values.empty();
+    const bool moved = has && trend.chart->moved.has_value();
+    const std::string name = trend.figure.substr(0, trend.figure.rfind('_'));
+    table.add({name, unit_of(trend), std::to_string(trend.values.size()),
+               trend.values.empty()
+                   ? "-"
+                   : with_u(trend, trend.values.back().value, trend.values.back().u),
+               has ? shown(trend, trend.chart->low.back()) : "-",
+               has ? shown(trend, trend.chart->high.back()) : "-",
+               !has    ? "too few values"
+               : moved ? "MOVED"
+                       : "not moved"});
+    if (moved || (has && !trend.chart->outside.empty()))
+      sentences += wrapped(sentence_of(trend), terminal_columns()) + "\n";
+  }
+  return table.text(terminal_columns()) + "± is the standard uncertainty u.\n" + sentences +
+         (left_out > 0 ? "values left out: " + std::to_string(left_out) + "\n" : "") +
+         "--all shows the values of all runs, what u covers, and what was left out.\n";
+}
+
+std::string text_of(const std::vector<daemon::Trend>& trends, bool all) {
+  if (trends.empty()) return "no stored run gives a value for a control chart\n";
   std::string out;
-  for (const daemon::Trend& trend : trends) out += (out.empty() ? "" : "\n") + text_of(trend);
-  if (out.empty()) return "no stored run gives a value for a control chart\n";
-  return noise_only_notice(any_noise_only(trends)) + out;
+  if (all || trends.size() == 1)
+    for (const daemon::Trend& trend : trends) out += (out.empty() ? "" : "\n") + text_of(trend);
+  else
+    out = brief_text(trends);
+  return noise_only_notice(noise_only_of(trends)) + out;
 }
 
 std::string json_of(const std::vector<daemon::Trend>& trends) {
@@ -148,7 +182,7 @@ std::string csv_of(const std::vector<daemon::Trend>& trends) {
                  joined(trend.u_not_declared, " ")});
       csv.end_row();
     }
-  return noise_only_comment(any_noise_only(trends)) + csv.take();
+  return noise_only_comment(noise_only_of(trends)) + csv.take();
 }
 
 Status trend(const TrendCommand& command) {
@@ -168,7 +202,7 @@ Status trend(const TrendCommand& command) {
   MDOF_CHECK(write_plots(drawn, command.plots));
   MDOF_CHECK(command.csv    ? write_out(csv_of(found))
              : command.json ? write_line(json_of(found))
-                            : write_out(text_of(found)));
+                            : write_out(text_of(found, command.all)));
   std::string moved;
   for (const daemon::Trend& of : found)
     if (of.chart && of.chart->moved) moved += (moved.empty() ? "" : "; ") + sentence_of(of);
@@ -187,6 +221,7 @@ Action declare_trend(CLI::App& command) {
           "--baseline", o->baseline,
           "Calculate the limits from the first N values [default: all values except the last]")
       ->check(CLI::Range(algo::kFewestOfBaseline, std::size_t{100'000}));
+  command.add_flag("--all", o->all, "Show the values of all runs, not only the last value");
   command.add_flag("--mixed", o->mixed,
                    "Combine runs even if they differ in rig, model or evaluation options");
   add_database_option(command, o->database);

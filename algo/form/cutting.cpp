@@ -137,8 +137,9 @@ bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
     const double floor = passes.gain == CuttingGain::one    ? *result.floor_gain_one_m
                          : passes.gain == CuttingGain::mean ? *result.floor_mean_m
                                                             : *result.floor_optimal_m;
-    return floor < std::sqrt(square);
+    return floor < std::sqrt(square) || square == 0;
   }
+  if (error.back().rms_m == 0) return true;  // nothing is left
   double least = error[1].rms_m;
   for (std::size_t k = 1; k < error.size(); ++k) least = std::min(least, error[k].rms_m);
   return error.back().rms_m < error.front().rms_m && error.back().rms_m <= kGrowth * least;

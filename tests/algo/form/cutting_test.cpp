@@ -173,6 +173,17 @@ TEST_F(Cutting, SharesOfPassesWithSmoothing) {
   EXPECT_NEAR(*result.repeatable_rms_m, 0.3e-6, 0.02e-6);
 }
 
+// Nothing to correct, in whatever way the passes were made.
+TEST_F(Cutting, PassesWithoutErrorConverge) {
+  for (const bool repeated : {false, true})
+    for (const CuttingGain gain : {CuttingGain::one, CuttingGain::mean}) {
+      const SurfaceMap wanted = map(0.9e-6, false);
+      const auto found = next_cut({wanted, {wanted, wanted, wanted}, repeated, gain, 0});
+      ASSERT_TRUE(found);
+      EXPECT_TRUE(found->converges.value_or(false)) << repeated;
+    }
+}
+
 TEST_F(Cutting, OnePassTellsNoShares) {
   const CuttingResult found = passes(CuttingGain::mean, 1);
   EXPECT_FALSE(found.random_rms_m || found.converges || found.floor_mean_m);

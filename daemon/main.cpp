@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
 #include "daemon/app.h"
@@ -14,6 +15,7 @@
 #include "daemon/station/check_start.h"
 #include "daemon/version.h"
 #include "daemon/words/error_text.h"
+#include "daemon/words/help_formatter.h"
 #include "schema/base/instruction_set.h"
 #include "schema/base/output/printable.h"
 
@@ -99,16 +101,19 @@ int main(int argc, char** argv) try {
   CLI::App cli(
       "mdofd: reads the probes and the encoder, calculates the five errors of an axis and serves "
       "the results");
+  cli.formatter(std::make_shared<mdof::words::HelpFormatter>(80));
+  cli.name("mdofd");
+  cli.set_help_flag("-h,--help", "Print this help and exit");
   Options options;
-  cli.add_option("--config", options.config_file, "configuration file (TOML)")
+  cli.add_option("--config", options.config_file, "Configuration file (TOML)")
       ->capture_default_str();
   cli.add_flag("--check-config", options.check_only,
-               "check the configuration, print the errors, and exit");
+               "Check the configuration, print the errors, and exit");
   auto* http = cli.add_option("--http", options.http,
-                              "serve the web page at this address; default: the key \"listen\" in "
-                              "[http] of the configuration, or else 127.0.0.1:8080");
+                              "Serve the web page at this address [default: the key \"listen\" in "
+                              "[http] of the configuration, else 127.0.0.1:8080]");
   http->type_name("[ADDRESS:PORT]")->expected(0, 1);
-  cli.set_version_flag("--version", mdof::daemon::kVersion);
+  cli.set_version_flag("--version", mdof::daemon::kVersion, "Print the version and exit");
   try {
     cli.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

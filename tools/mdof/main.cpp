@@ -2,15 +2,18 @@
 #include <csignal>
 #include <exception>
 #include <filesystem>
+#include <memory>
 
 #include <CLI/CLI.hpp>
 
 #include "daemon/version.h"
 #include "daemon/words/error_text.h"
+#include "daemon/words/help_formatter.h"
 #include "schema/base/instruction_set.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/exit_code.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/usage.h"
 
 namespace {
@@ -21,18 +24,19 @@ using namespace mdof::tools;
 constexpr const char* kExamples =
     "Examples:\n"
     "  mdof selftest\n"
-    "  mdof replay log_X.csv.gz --rig rig_X.toml     evaluate a log and store it as a run\n"
-    "  mdof show 1                                   show the points of run 1 with uncertainty\n"
-    "  mdof squareness 1 2                           squareness from run 1 (X) and run 2 (Y)\n"
-    "  mdof compensation build 1                     build a table for the controller\n"
-    "  mdof sensitivity --preset simulation-2        effect of mounting errors on the result\n"
-    "  mdof record --axis X --repeats 5 --from-mm 0 --to-mm 60 --interval-mm 5   measure\n"
-    "  mdof device probe --config mdofd.toml         check the devices and their wiring\n"
-    "  mdof live                                     show the present readings of the probes\n"
+    "  mdof replay log_X.csv.gz --rig rig_X.toml   evaluate a log and store the run\n"
+    "  mdof show 1                                 show the points of run 1\n"
+    "  mdof squareness 1 2                         squareness from runs 1 (X) and 2 (Y)\n"
+    "  mdof compensation build 1                   build a table for the controller\n"
+    "  mdof sensitivity --preset simulation-2      effect of mounting errors\n"
+    "  mdof record --axis X --from-mm 0 --to-mm 60 --interval-mm 5 --repeats 5\n"
+    "  mdof device probe --config mdofd.toml       check the devices and their wiring\n"
+    "  mdof live                                   show the readings of the probes\n"
     "Exit codes: 0 ok, 1 a check failed, 2 wrong usage, 3 bad input, 4 device or I/O error.";
 
 void declare(CLI::App& app, Action& chosen) {
-  app.set_version_flag("--version", daemon::kVersion);
+  app.formatter(std::make_shared<words::HelpFormatter>(terminal_columns()));
+  app.set_version_flag("--version", daemon::kVersion, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   declare_commands(app, chosen);
   app.require_subcommand(0, 1);  // a word behind a command is no other command: "mdof help replay"

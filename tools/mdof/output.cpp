@@ -9,7 +9,9 @@
 #include <string>
 
 #include "schema/base/output/printable.h"
+#include "schema/base/output/wrapped.h"
 #include "tools/mdof/exit_code.h"
+#include "tools/mdof/terminal.h"
 
 namespace mdof::tools {
 
@@ -37,7 +39,9 @@ Status write_line(std::string_view text) {
 }
 
 void say(std::string_view message) {
-  std::fprintf(stderr, "%s\n", printable(message).c_str());
+  const std::string text = printable(message);
+  std::fprintf(stderr, "%s\n",
+               (messages_are_on_terminal() ? fitted(text, message_columns()) : text).c_str());
 }
 
 void warn(std::string_view message) {

@@ -17,7 +17,9 @@ Status write_line(std::string_view text);  // and a line end
 // Free text in it has to be printable().
 Status write_commands(std::string_view text);
 
-void say(std::string_view message);   // a line on the standard error
+// A message on the standard error: on a terminal in lines that are no wider, else in one line, as
+// journals and scripts take it.
+void say(std::string_view message);
 void warn(std::string_view message);  // the same, marked "warning: "
 
 bool out_is_terminal();

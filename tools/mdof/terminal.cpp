@@ -23,9 +23,9 @@ std::size_t stated_columns() {
   return error == std::errc() && end == digits.data() + digits.size() ? columns : 0;
 }
 
-std::size_t columns_of_terminal() {
+std::size_t columns_of_terminal(int file) {
   winsize size{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsualColumns;
+  if (::ioctl(file, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsualColumns;
   return size.ws_col;
 }
 
@@ -35,14 +35,14 @@ std::size_t terminal_columns() {
   const std::size_t stated = stated_columns();
   const std::size_t columns = !out_is_terminal() ? std::max(stated, kUsualColumns)
                               : stated > 0       ? stated
-                                                 : columns_of_terminal();
+                                                 : columns_of_terminal(STDOUT_FILENO);
   return std::clamp(columns, kFewestColumns, kMostColumns);
 }
 
-// Of UTF-8 only continuation bytes begin with 10.
-std::size_t text_width(std::string_view utf8) {
-  return static_cast<std::size_t>(
-      std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+std::size_t message_columns() {
+  const std::size_t stated = stated_columns();
+  return std::clamp(stated > 0 ? stated : columns_of_terminal(STDERR_FILENO), kFewestColumns,
+                    kMostColumns);
 }
 
 }  // namespace mdof::tools

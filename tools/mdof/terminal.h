@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string_view>
 
 namespace mdof::tools {
 
@@ -12,7 +11,7 @@ inline constexpr std::size_t kUsualColumns = 80;
 // pipe or a file has 80, or more where COLUMNS says so.
 std::size_t terminal_columns();
 
-// Characters, not bytes.
-std::size_t text_width(std::string_view utf8);
+// Of the terminal that the standard error is; messages that go elsewhere are not wrapped.
+std::size_t message_columns();
 
 }  // namespace mdof::tools

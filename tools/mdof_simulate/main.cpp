@@ -4,9 +4,11 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 
 #include "daemon/version.h"
 #include "daemon/words/error_text.h"
+#include "daemon/words/help_formatter.h"
 #include "tools/mdof/exit_code.h"
 #include "tools/mdof_simulate/plan.h"
 
@@ -32,7 +34,8 @@ mdof::Status serve(const std::string& plan, const std::string& host) {
 int main(int argc, char** argv) try {
   CLI::App app{"Simulated devices on TCP ports, serial lines and USB, for tests without hardware.",
                "mdof-simulate"};
-  app.set_version_flag("--version", mdof::daemon::kVersion);
+  app.formatter(std::make_shared<mdof::words::HelpFormatter>(80));
+  app.set_version_flag("--version", mdof::daemon::kVersion, "Print the version and exit");
   std::string plan, host = "127.0.0.1";
   app.add_option("PLAN", plan, "TOML file that describes the machine and the devices")
       ->required()

@@ -1,5 +1,6 @@
 """The names of members and columns that mdof explains: the rows of mdof help fields."""
 import functools
+import os
 import re
 import subprocess
 
@@ -10,7 +11,8 @@ GROUPS = {"linear": "[XYZ]", "angular": "[ABC]", "axis": "[XYZABC]", "small": "[
 @functools.lru_cache
 def rows(mdof):
     """[(name, type, meaning)] in the order in which mdof prints them."""
-    text = subprocess.run([mdof, "help", "fields"], capture_output=True, text=True, check=True).stdout
+    text = subprocess.run([mdof, "help", "fields"], capture_output=True, text=True, check=True,
+                          env={**os.environ, "COLUMNS": "10000"}).stdout
     return [tuple(re.split(" {2,}", line.strip(), maxsplit=2)) for line in text.split("---\n", 1)[1].splitlines()]
 
 

@@ -56,6 +56,25 @@ TEST(TextTable, BreaksWordsIntoLinesWithinTheirColumn) {
             "  2  short\n");
 }
 
+TEST(TextTable, NarrowsTheWidestColumnOfWordsBeforeItMakesBlocks) {
+  TextTable table({"check", "value", "result"});
+  table.add({"the errors of a known movement are calculated", "0.1", "ok"});
+  EXPECT_EQ(table.text(46),
+            "check                            value  result\n"
+            "-------------------------------  -----  ------\n"
+            "the errors of a known movement     0.1  ok\n"
+            "are calculated\n");
+}
+
+TEST(TextTable, BreaksAWordThatIsWiderThanAllOfItsBlockButNoPath) {
+  const std::string word(100, 'w'), path = "/" + word;
+  for (const std::string& note : {word, path}) {
+    TextTable table({"run", "note"});
+    table.add({"1", note});
+    EXPECT_EQ(widest(table.text(40)), note == word ? 40u : path.size() + 5);
+  }
+}
+
 // GUM 7.2.6, with its own example: 10.057 62 Ω with u = 27 mΩ is 10.058 Ω.
 TEST(Rounded, UHasTwoSignificantDigitsAndTheValueTheSamePlace) {
   EXPECT_EQ(with_u(10.05762, 0.027, 4), "10.058 ± 0.027");

@@ -28,15 +28,46 @@ std::string aligned(const std::string& cell, std::size_t to, bool right) {
   return right ? space + cell : cell + space;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
+std::size_t longest_word(std::string_view text) {
+  std::size_t longest = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    longest = std::max(longest, text_width(text.substr(0, end)));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return longest;
+}
+
+// With a space in each word that is wider than `width`, after that many characters.
+std::string with_breaks(std::string_view text, std::size_t width) {
+  std::string out;
+  std::size_t used = 0;
+  for (const char c : text) {
+    const bool begins = (c & 0xC0) != 0x80;  // a character of UTF-8
+    if (c == ' ') {
+      used = 0;
+    } else if (begins && ++used > width) {
+      out += ' ';
+      used = 1;
+    }
+    out += c;
+  }
+  return out;
+}
+
+// A path stays whole, so that it can be copied.
+std::vector<std::string> lines_of(const std::string& cell, std::size_t width) {
+  const bool path = cell.find('/') != std::string::npos;
   std::vector<std::string> lines(1);
-  for (const char c : text) c == '\n' ? lines.emplace_back() : lines.back().append(1, c);
+  for (const char c : wrapped(path ? cell : with_breaks(cell, width), width))
+    c == '\n' ? lines.emplace_back() : lines.back().append(1, c);
   return lines;
 }
 
-std::size_t total(const std::vector<std::size_t>& widths) {
+template <typename Block>
+std::size_t total(const Block& block) {
   std::size_t sum = 0;
-  for (const std::size_t width : widths) sum += width + kGap.size();
+  for (const auto& column : block) sum += column.width + kGap.size();
   return sum == 0 ? 0 : sum - kGap.size();
 }
 
@@ -54,8 +85,9 @@ void TextTable::add(std::vector<std::string> row) {
 TextTable::Block TextTable::columns() const {
   Block columns(rows_.front().size());
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    columns[c] = {c, 0, rows_.size() > 1, rows_.size() > 1};
+    columns[c] = {c, 0, 0, rows_.size() > 1, rows_.size() > 1};
     for (std::size_t r = 0; r < rows_.size(); ++r) {
+      columns[c].longest_word = std::max(columns[c].longest_word, longest_word(rows_[r][c]));
       columns[c].width = std::max(columns[c].width, text_width(rows_[r][c]));
       columns[c].right = columns[c].right && (r == 0 || is_number(rows_[r][c]));
       columns[c].empty = columns[c].empty && (r == 0 || rows_[r][c].empty());
@@ -64,26 +96,41 @@ TextTable::Block TextTable::columns() const {
   return columns;
 }
 
+bool TextTable::narrowed(Block& all, std::size_t width) const {
+  std::erase_if(all, [this](const Column& c) { return c.empty && c.of >= keys_; });
+  const auto widest =
+      std::max_element(all.begin(), all.end(), [](const Column& a, const Column& b) {
+        return (a.right ? 0 : a.width) < (b.right ? 0 : b.width);
+      });
+  const std::size_t used = total(all);
+  if (used <= width) return true;
+  if (widest->right || used - width >= widest->width) return false;
+  const std::size_t left = widest->width - (used - width);
+  if (left < std::max(kNarrowest, widest->longest_word)) return false;
+  widest->width = left;
+  return true;
+}
+
 std::vector<TextTable::Block> TextTable::blocks(std::size_t width) const {
-  Block all = columns();
-  const auto used = [](const Block& block) {
-    std::vector<std::size_t> widths;
-    for (const Column& column : block) widths.push_back(column.width);
-    return total(widths);
-  };
-  if (used(all) <= width) return {all};
+  const Block all = columns();
+  if (total(all) <= width) return {all};
+  if (Block one = all; narrowed(one, width)) return {one};
   const Block keys(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(keys_));
+  const auto room_of = [width](const Block& block) {
+    const std::size_t taken = total(block) + kGap.size();
+    return width > taken ? width - taken : 0;
+  };
+  const std::size_t most = room_of(keys);  // of a block with no other column
   std::vector<Block> blocks{keys};
   for (std::size_t c = keys_; c < all.size(); ++c) {
     Column column = all[c];
     if (column.empty) continue;
-    const auto room = [&] {
-      const std::size_t taken = used(blocks.back()) + kGap.size();
-      return width > taken ? width - taken : 0;
-    };
-    const bool fits = column.width <= room() || (!column.right && room() >= kNarrowest);
+    const std::size_t least = std::max(kNarrowest, std::min(column.longest_word, most));
+    const std::size_t room = room_of(blocks.back());
+    const bool fits = column.width <= room || (!column.right && room >= least);
     if (!fits && blocks.back().size() > keys_) blocks.push_back(keys);
-    if (!column.right) column.width = std::min(column.width, std::max(room(), kNarrowest));
+    if (!column.right)
+      column.width = std::min(column.width, std::max(room_of(blocks.back()), kNarrowest));
     blocks.back().push_back(column);
   }
   return blocks;
@@ -96,7 +143,7 @@ void TextTable::append_row(std::string& out, const Block& block, std::size_t row
   for (const Column& column : block) {
     const std::string& cell = rows_[row][column.of];
     const bool whole = text_width(cell) <= column.width;
-    cells.push_back(whole ? std::vector{cell} : lines_of(wrapped(cell, column.width)));
+    cells.push_back(whole ? std::vector{cell} : lines_of(cell, column.width));
     height = std::max(height, cells.back().size());
   }
   for (std::size_t h = 0; h < height; ++h) {
@@ -129,25 +176,6 @@ std::string TextTable::text() const {
 std::string TextTable::text(std::size_t width) const {
   std::string out;
   for (const Block& block : blocks(width)) out += (out.empty() ? "" : "\n") + text_of(block);
-  return out;
-}
-
-std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
-  std::string out;
-  std::size_t used = 0;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string_view word = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    const std::size_t wide = text_width(word);
-    if (used > 0 && used + 1 + wide > width) {
-      out.append("\n").append(indent, ' ').append(word);
-      used = indent + wide;
-    } else {
-      out.append(out.empty() ? "" : " ").append(word);
-      used += wide + (used > 0 ? 1 : 0);
-    }
-  }
   return out;
 }
 

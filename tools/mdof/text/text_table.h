@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "schema/base/output/wrapped.h"
+
 namespace mdof::tools {
 
 // Columns of numbers are set to the right, others to the left; a rule stands below the head.
@@ -14,18 +16,20 @@ class TextTable {
   explicit TextTable(std::vector<std::string> head, std::size_t keys = 1);
   void add(std::vector<std::string> row);  // as many cells as the head has
   std::string text() const;                // lines, each with its end, as wide as they are
-  // Where that is wider than `width`: blocks of columns one below the other, each beginning with
-  // the keys; columns of words are broken into lines, and those without a word are left out.
+  // Where that is wider than `width`: the widest column of words is broken into lines; where that
+  // does not suffice, blocks of columns one below the other, each beginning with the keys. Columns
+  // without a word are then left out. A word wider than all of its block is broken, but no path.
   std::string text(std::size_t width) const;
 
  private:
   struct Column {
-    std::size_t of = 0, width = 0;
+    std::size_t of = 0, width = 0, longest_word = 0;
     bool right = false, empty = false;
   };
   using Block = std::vector<Column>;
 
   Block columns() const;
+  bool narrowed(Block& all, std::size_t width) const;  // to one block
   std::vector<Block> blocks(std::size_t width) const;
   std::string text_of(const Block& block) const;
   void append_row(std::string& out, const Block& block, std::size_t row) const;
@@ -33,10 +37,6 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;  // the head first
   std::size_t keys_;
 };
-
-// Words in lines of at most `width` characters; a word that is longer stays whole, so that a path
-// can be copied. Every line but the first begins with `indent` spaces; no line end after the last.
-std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
 
 // Line ends and tabs of free text as spaces: a note cannot look like another row.
 std::string one_line(std::string text);

@@ -3,6 +3,7 @@
 #include "schema/base/number/number_text.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/compensation/exported.h"
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -80,8 +81,7 @@ std::string check_json(const ExportedTables& exported) {
 }
 
 std::string check_text(const controllers::Check& check) {
-  TextTable table(
-      {"error", "before", "after", "allowed", "cancels", "self-test: mistake detected"});
+  TextTable table({"error", "before", "after", "limit", "cancels", "self-test: mistake detected"});
   for (const CheckedError& e : check.errors) {
     std::string seen;
     for (const Control& control : e.controls)
@@ -93,19 +93,20 @@ std::string check_text(const controllers::Check& check) {
                fixed(e.before * 1e6, 4), fixed(e.residual * 1e6, 4), fixed(e.bound * 1e6, 4),
                e.cancels ? "yes" : "NO", seen});
   }
-  std::string text = table.text() + "allowed: at most " +
-                     plain_number(check.most_residual_m * 1e6) +
-                     " µm (angles: " + plain_number(check.most_residual_m * 1e6) +
-                     " µrad), and at most " + plain_number(check.share * 100) +
-                     " % of \"before\";\n"
-                     "see --residual-um and --residual-percent\n";
+  const std::size_t columns = terminal_columns();
+  const std::string most = plain_number(check.most_residual_m * 1e6);
+  std::string text =
+      "limit: the residual that the rounding of the format, --tolerance-um and "
+      "the causes below explain. The largest permitted residual is " +
+      most + " µm (angles: " + most + " µrad) and " + plain_number(check.share * 100) +
+      " % of \"before\"; see --residual-um and --residual-percent\n";
   for (const CheckedError& e : check.errors) text += causes_text(e);
   if (check.nothing_to_correct())
     text +=
         "nothing to correct, because all errors are smaller than the last digit of the format\n";
   for (const std::string& error : check.not_judged)
     text += error + ": not checked, because the correction sign is unknown\n";
-  return text;
+  return table.text(columns) + fitted(text, columns);
 }
 
 }  // namespace mdof::tools

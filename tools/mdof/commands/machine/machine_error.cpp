@@ -113,11 +113,12 @@ std::string error_text(const Machine& machine, const FoundError& found) {
     for (const auto& name : names)
       if (std::find(no_u.begin(), no_u.end(), name) == no_u.end()) no_u.push_back(name);
   return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
-         machine.name + ", " + machine.chain.text +
-         ": error of the tool relative to the workpiece, actual - nominal\n" +
-         table.text(terminal_columns()) + "missing: errors that were not measured\n" +
+         wrapped(machine.name + ", " + machine.chain.text +
+                     ": error of the tool relative to the workpiece, actual - nominal",
+                 terminal_columns()) +
+         "\n" + table.text(terminal_columns()) + "missing: errors that were not measured\n" +
          missing_text({}, no_u, terminal_columns()) +
-         wrapped(compensating_text(machine, found), terminal_columns());
+         fitted(compensating_text(machine, found), terminal_columns(), 0);
 }
 
 Status machine_error(const MachineErrorCommand& o) {

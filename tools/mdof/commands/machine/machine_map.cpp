@@ -195,10 +195,12 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
     }
   }
   return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
-         machine.name + ", " + machine.chain.text + ": " +
-         std::to_string(first.first_m.size() * first.second_m.size()) + " points of the plane " +
-         o.plane + ", error of the tool relative to the workpiece\n" +
-         table.text(terminal_columns()) +
+         wrapped(machine.name + ", " + machine.chain.text + ": " +
+                     std::to_string(first.first_m.size() * first.second_m.size()) +
+                     " points of the plane " + o.plane +
+                     ", error of the tool relative to the workpiece",
+                 terminal_columns()) +
+         "\n" + table.text(terminal_columns()) +
          (o.without_angles ? "the values contain positioning, straightness and squareness, but no "
                              "angular errors\n"
                            : "") +

@@ -17,6 +17,7 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/configured_daemon.h"
 #include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -25,6 +26,7 @@ namespace {
 using Level = Diagnosis::Level;
 
 constexpr double kProbe_s = 0.5;
+constexpr std::size_t kRemedyIndent = 6;
 
 struct DoctorCommand {
   std::string socket, config;
@@ -149,6 +151,7 @@ std::vector<Diagnosis> examine(const DoctorCommand& command) {
 Status print(const std::vector<Diagnosis>& all, bool as_json) {
   JsonWriter json;
   std::string text;
+  const std::size_t columns = terminal_columns();
   json.begin_object().key("findings").begin_array();
   for (const auto& d : all) {
     json.begin_object()
@@ -156,8 +159,9 @@ Status print(const std::vector<Diagnosis>& all, bool as_json) {
         .field("what", d.what)
         .field("remedy", d.remedy)
         .end_object();
-    text += std::string(to_string(d.level)) + "  " + d.what + "\n";
-    if (!d.remedy.empty()) text += "      " + d.remedy + "\n";
+    text += wrapped(std::string(to_string(d.level)) + "  " + d.what, columns, kRemedyIndent) + "\n";
+    if (!d.remedy.empty())
+      text += fitted(std::string(kRemedyIndent, ' ') + d.remedy, columns, 0) + "\n";
   }
   json.end_array().end_object();
   return as_json ? write_line(json.text()) : write_out(text);

@@ -28,7 +28,7 @@ std::string meaning_text(const Field& row, const std::string& meaning) {
 
 }  // namespace
 
-std::string field_list(std::optional<std::size_t> width) {
+std::string field_list(std::size_t width) {
   std::vector<const Field*> rows;
   for (const Field& row : fields()) rows.push_back(&row);
   std::sort(rows.begin(), rows.end(),
@@ -37,13 +37,13 @@ std::string field_list(std::optional<std::size_t> width) {
   for (const Field* row : rows)
     table.add(
         {std::string(row->name), type_text(*row), meaning_text(*row, std::string(row->meaning))});
-  return wrapped(kHead, 80) + "\n\n" + (width ? table.text(*width) : table.text());
+  return wrapped(kHead, width) + "\n\n" + table.text(width);
 }
 
-Result<std::string> field_text(const std::string& name) {
+Result<std::string> field_text(const std::string& name, std::size_t width) {
   if (const auto found = find_field(name))
     return name + ": " + type_text(*found->row) + "\n" +
-           wrapped(meaning_text(*found->row, found->meaning), 80) + "\n";
+           wrapped(meaning_text(*found->row, found->meaning), width) + "\n";
   std::vector<std::string> names;
   for (const Field& row : fields()) names.emplace_back(row.name);
   const std::string nearest = nearest_of(name, names);

@@ -11,12 +11,9 @@ namespace mdof::tools {
 namespace {
 
 Status help_fields(const std::vector<std::string>& words) {
-  if (words.size() == 1) {
-    const auto width = out_is_terminal() ? std::optional(terminal_columns()) : std::nullopt;
-    return write_out(field_list(width));
-  }
+  if (words.size() == 1) return write_out(field_list(terminal_columns()));
   for (std::size_t i = 1; i < words.size(); ++i) {
-    MDOF_TRY(const std::string text, field_text(words[i]));
+    MDOF_TRY(const std::string text, field_text(words[i], terminal_columns()));
     MDOF_CHECK(write_out(text));
   }
   return {};

@@ -6,6 +6,7 @@
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
+#include "tools/mdof/terminal.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
@@ -40,7 +41,7 @@ std::string checks_text(const std::vector<SelfCheck>& checks) {
     table.add({c.what, figure_text(c.figure), figure_text(c.bound), c.unit,
                c.passed() ? "ok" : "FAILED " + c.problem});
   }
-  return table.text();
+  return table.text(terminal_columns());
 }
 
 Status selftest(bool json) {

@@ -1,0 +1,73 @@
+// The help of a program within so many columns: CLI11 neither breaks lines nor counts characters.
+// A header only, for those who include CLI11.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "schema/base/output/wrapped.h"
+
+namespace mdof::words {
+
+class HelpFormatter : public CLI::Formatter {
+ public:
+  explicit HelpFormatter(std::size_t columns) : columns_(columns) {}
+
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    return row(make_option_name(option, is_positional) + make_option_opts(option),
+               make_option_desc(option), get_column_width());
+  }
+  std::string make_subcommand(const CLI::App* command) const override {
+    return row(command->get_display_name(true), command->get_description(), kCommandColumn);
+  }
+  std::string make_description(const CLI::App* app) const override {
+    return fitted(CLI::Formatter::make_description(app), columns_, 0);
+  }
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    return fitted(CLI::Formatter::make_usage(app, std::move(name)), columns_);
+  }
+  std::string make_footer(const CLI::App* app) const override {
+    return fitted(paragraphs(CLI::Formatter::make_footer(app)), columns_, 0);
+  }
+
+ private:
+  static constexpr std::size_t kCommandColumn = 20;  // two spaces before and behind the longest
+
+  std::string row(const std::string& name, const std::string& description,
+                  std::size_t column) const {
+    std::string head = fitted("  " + name, columns_, 4);
+    if (description.empty()) return head + "\n";
+    if (text_width("  " + name) + 2 > column)
+      head += "\n" + std::string(column, ' ');
+    else
+      head.append(column - text_width(head), ' ');
+    std::string lines;
+    for (const char c : wrapped(description, columns_ - std::min(column, columns_ - 1)))
+      lines += c == '\n' ? "\n" + std::string(column, ' ') : std::string(1, c);
+    return head + lines + "\n";
+  }
+
+  // Joins lines of prose that a source file has broken. Lines that begin with a space are examples.
+  static std::string paragraphs(std::string_view text) {
+    constexpr std::size_t kFull = 60;  // a shorter line was ended on purpose
+    std::string out;
+    bool goes_on = false;
+    while (!text.empty()) {
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      const std::string_view line = text.substr(0, end);
+      const bool prose = !line.empty() && line.front() != ' ' && line.back() != ':';
+      if (!out.empty()) out += goes_on && prose ? ' ' : '\n';
+      out += line;
+      goes_on = prose && text_width(line) >= kFull;
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return out.empty() ? out : out + "\n";
+  }
+
+  std::size_t columns_;
+};
+
+}  // namespace mdof::words

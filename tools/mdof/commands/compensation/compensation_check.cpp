@@ -37,7 +37,7 @@ Status check_tables(const CheckTablesCommand& command) {
 
 Action declare_check_tables(CLI::App& command) {
   const auto o = std::make_shared<CheckTablesCommand>();
-  add_export_options(command, o->request);
+  add_export_options(command, o->request, "");
   add_json_flag(command, o->json);
   return [o] { return check_tables(*o); };
 }

@@ -142,8 +142,6 @@ std::string exported_json(const ExportedTables& exported, const std::vector<std:
 
 std::string exported_text(const ExportedTables& exported, const std::vector<std::string>& names) {
   std::string text;
-  for (const auto& name : names) text += name + "\n";
-  if (exported.squareness > 0) text += exported.files.files.front().text;  // the line to paste
   text += std::string("sign convention: ") + exported.format->sense + "\n";
   if (exported.squareness > 0)
     text += "EC0Y: " + urad_to_place(exported.angle.value, exported.angle.U) + " µrad (U " +
@@ -153,18 +151,23 @@ std::string exported_text(const ExportedTables& exported, const std::vector<std:
     text += written.error + ": " + std::to_string(written.points) +
             (written.points > written.points_before ? " points from " : " of ") +
             std::to_string(written.points_before) +
-            (written.points > written.points_before ? " targets" : " points kept") +
+            (written.points <= written.points_before ? " points kept"
+             : written.points_before == 1            ? " target"
+                                                     : " targets") +
             ", largest deviation from the full table " + fixed(written.largest_deviation * 1e6, 4) +
             (is_angle(written.error) ? " µrad\n" : " µm\n");
-  return text + "check: mdof read the files back and applied them to a simulated axis\n" +
-         check_text(exported.check);
+  text += "check: mdof read the files back and applied them to a simulated axis\n";
+  std::string files;
+  for (const auto& name : names) files += name + "\n";
+  if (exported.squareness > 0) files += exported.files.files.front().text;  // the line to paste
+  return files + fitted(text, terminal_columns()) + check_text(exported.check);
 }
 
 Status export_tables(const ExportTablesCommand& command) {
   if (command.list)
     return command.json ? write_line(formats_json()) : write_out(formats_text(terminal_columns()));
   // A format that is not written is refused first: no --out would help.
-  MDOF_CHECK(controllers::format_named(command.request.format));
+  MDOF_CHECK(format_of(command.request));
   if (command.folder.empty()) return fail(ErrorCode::usage, "missing option --out FOLDER");
   MDOF_TRY(const ExportedTables exported, exported_tables(command.request));
   for (const auto& mark : exported.options.marks) warn(mark);
@@ -182,7 +185,7 @@ Status export_tables(const ExportTablesCommand& command) {
 
 Action declare_export_tables(CLI::App& command) {
   const auto o = std::make_shared<ExportTablesCommand>();
-  add_export_options(command, o->request);
+  add_export_options(command, o->request, "; the files then contain a remark");
   command.add_option("--out", o->folder, "Folder for the files (created if missing)")
       ->type_name("FOLDER");
   command.add_flag("--overwrite", o->overwrite, "Replace existing files");

@@ -6,7 +6,7 @@
 
 namespace mdof::tools {
 
-void add_export_options(CLI::App& command, ExportRequest& request) {
+void add_export_options(CLI::App& command, ExportRequest& request, const std::string& remark) {
   command.add_option("TABLE", request.tables, "Numbers of tables, one for each axis")
       ->type_name("");
   command
@@ -80,9 +80,10 @@ void add_export_options(CLI::App& command, ExportRequest& request) {
                   "siemens-cec: number of CEC tables in the control; mdof refuses an export that "
                   "needs more")
       ->check(CLI::Range(1, 1000));
-  add_consent_flags(command, request.consent, "a table; the files then contain a remark");
-  command.add_flag("--not-in-force", request.not_in_force,
-                   "Also export a table that is not active; the files then contain a remark");
+  add_consent_flags(command, request.consent, "a table" + remark);
+  command.add_flag("--not-active", request.not_active,
+                   "Accept a table that is not active" + remark);
+  command.add_flag("--not-in-force", request.not_active)->group("");  // its former name
   command.add_flag("--unverified-sign", request.unverified_sign,
                    "Export although the sign convention of the controller is not confirmed");
   add_database_option(command, request.database);

@@ -27,10 +27,6 @@ constexpr double kMostTolerance_um = 100;
 constexpr double kMostResidual_um = 20, kMostResidual_percent = 50;
 
 Status check_request(const ExportRequest& request) {
-  if (request.format.empty())
-    return fail(
-        ErrorCode::usage,
-        "missing option --format NAME; to list the formats, use: mdof compensation export --list");
   if (!std::isfinite(request.tolerance_um))
     return fail(ErrorCode::usage, "--tolerance-um must be a finite number");
   if (request.tolerance_um > kMostTolerance_um)
@@ -90,9 +86,9 @@ Status judge_active(std::int64_t table, std::int64_t generation, const ExportReq
                     std::vector<std::string>& marks) {
   if (generation > 0) return {};
   const std::string name = "table " + std::to_string(table);
-  if (!request.not_in_force)
+  if (!request.not_active)
     return bad_input(name + " is not active; activate the table (mdof compensation activate " +
-                     std::to_string(table) + "), or export the table with --not-in-force");
+                     std::to_string(table) + "), or export the table with --not-active");
   marks.push_back("NOT ACTIVE: " + name + " was not active when it was exported");
   return {};
 }
@@ -232,15 +228,23 @@ Result<std::int64_t> squareness_number(const std::string& word) {
                                     "\" must be the number of a stored squareness, or \"latest\"");
 }
 
+std::string volume_formats() {
+  std::string names;
+  for (const controllers::Format& format : controllers::formats())
+    if (format.volume.write) names += (names.empty() ? "" : ", ") + std::string(format.name);
+  return names;
+}
+
 Status export_axes(store::Store& store, const ExportRequest& request,
                    const algo::TableLimits& limits, ExportedTables& out) {
   std::vector<CompensationTable> tables;
   for (const std::int64_t id : request.tables) {
     MDOF_TRY(const bool volume, store.is_volumetric(id));
     if (volume)
-      return fail(ErrorCode::usage, "table " + std::to_string(id) +
-                                        " is a volumetric table, but the format " +
-                                        out.format->name + " contains " + out.format->holds);
+      return fail(ErrorCode::usage,
+                  "table " + std::to_string(id) + " is a volumetric table, but the format " +
+                      out.format->name + " contains " + out.format->holds +
+                      "; the formats for a volumetric table are " + volume_formats());
     MDOF_TRY(CompensationTable table, store.table(id));
     MDOF_CHECK(judge_table(store, table, request, out));
     MDOF_CHECK(algo::check_limits(table, limits));
@@ -337,10 +341,18 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
 
 }  // namespace
 
+Result<const controllers::Format*> format_of(const ExportRequest& request) {
+  if (!request.format.empty()) return controllers::format_named(request.format);
+  std::string names;
+  for (const controllers::Format& format : controllers::formats())
+    names += (names.empty() ? "" : ", ") + std::string(format.name);
+  return fail(ErrorCode::usage, "missing option --format NAME; the formats are " + names);
+}
+
 Result<ExportedTables> exported_tables(const ExportRequest& request) {
   MDOF_CHECK(check_request(request));
   ExportedTables out;
-  MDOF_TRY(out.format, controllers::format_named(request.format));
+  MDOF_TRY(out.format, format_of(request));
   const bool square = out.format->square.write != nullptr;
   if (square && (request.squareness.empty() || !request.tables.empty()))
     return fail(ErrorCode::usage,

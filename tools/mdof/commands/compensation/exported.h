@@ -35,10 +35,13 @@ struct ExportRequest {
   std::size_t siemens_points = 0, siemens_tables = 0;  // 0: the default
   bool one_approach = false;
   LimitOptions limits;
-  bool cut_range = false, not_in_force = false, unverified_sign = false;
+  bool cut_range = false, not_active = false, unverified_sign = false;
   daemon::Consent consent;
 };
-void add_export_options(CLI::App& command, ExportRequest& request);
+// `remark`: what accepting simulated data, warnings or a table that is not active brings; or "".
+void add_export_options(CLI::App& command, ExportRequest& request, const std::string& remark);
+// Error: it is missing or unknown, or mdof does not write it.
+Result<const controllers::Format*> format_of(const ExportRequest& request);
 
 struct ExportedTables {
   const controllers::Format* format = nullptr;

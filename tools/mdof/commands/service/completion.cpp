@@ -1,7 +1,9 @@
 // mdof completion SHELL: the completion of commands and options, made of the commands themselves.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 
+#include "daemon/output/controllers/export.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/output.h"
 
@@ -18,7 +20,8 @@ struct Node {
 void collect(const CLI::App& app, const std::string& path, std::vector<Node>& nodes) {
   Node node{path, app.get_subcommands({}), {}};
   for (const CLI::Option* option : app.get_options())
-    if (!option->get_lnames().empty()) node.options.push_back(option);
+    if (!option->get_lnames().empty() && !option->get_group().empty())
+      node.options.push_back(option);  // a former name is hidden
   nodes.push_back(node);
   for (const CLI::App* sub : node.below)
     collect(*sub, path.empty() ? sub->get_name() : path + " " + sub->get_name(), nodes);
@@ -28,22 +31,49 @@ std::string long_name(const CLI::Option& option) {
   return "--" + option.get_lnames().front();
 }
 
-std::string words_after(const Node& node) {
+std::string commands_after(const Node& node) {
   std::string words;
   for (const CLI::App* sub : node.below) words += sub->get_name() + " ";
+  return words;
+}
+
+std::string options_after(const Node& node) {
+  std::string words;
   for (const CLI::Option* option : node.options) words += long_name(*option) + " ";
   return words;
+}
+
+// Of an option that takes no others: "X Y Z"; else "".
+std::string values_of(const Node& node, const CLI::Option& option) {
+  std::string values;
+  if (node.path.starts_with("compensation ") && long_name(option) == "--format")
+    for (const controllers::Format& format : controllers::formats())
+      values += (values.empty() ? "" : " ") + std::string(format.name);
+  const std::string type = option.get_type_name();  // "TEXT:{X,Y,Z}" of IsMember
+  const std::size_t begin = type.find(":{");
+  if (begin == std::string::npos || type.back() != '}') return values;
+  values = type.substr(begin + 2, type.size() - begin - 3);
+  std::replace(values.begin(), values.end(), ',', ' ');
+  return values;
 }
 
 // bash and zsh: where no word fits, files are offered.
 std::string bash_script(const std::vector<Node>& nodes) {
   std::string cases;
   for (const Node& node : nodes)
-    cases += "    '" + node.path + "') words='" + words_after(node) + "' ;;\n";
+    cases += "    '" + node.path + "') words='" + commands_after(node) + "' options='" +
+             options_after(node) + "' ;;\n";
+  std::string values;
+  for (const Node& node : nodes)
+    for (const CLI::Option* option : node.options)
+      if (const std::string words = values_of(node, *option); !words.empty())
+        values += "    '" + node.path + " " + long_name(*option) + "') values='" + words + "' ;;\n";
   return "# bash completion of mdof; made by: mdof completion bash\n"
          "_mdof() {\n"
-         "  local current=${COMP_WORDS[COMP_CWORD]} path='' words='' word\n"
-         "  for word in \"${COMP_WORDS[@]:1:COMP_CWORD-1}\"; do\n"
+         "  local current=${COMP_WORDS[COMP_CWORD]} path='' words='' options='' values='' word "
+         "first=1\n"
+         "  [[ COMP_CWORD -gt 1 && ${COMP_WORDS[1]} == help ]] && first=2\n"
+         "  for word in \"${COMP_WORDS[@]:first:COMP_CWORD-first}\"; do\n"
          "    [[ $word == -* ]] && break\n"
          "    case \"${path:+$path }$word\" in\n" +
          [&] {
@@ -59,7 +89,15 @@ std::string bash_script(const std::vector<Node>& nodes) {
          "  case \"$path\" in\n" +
          cases +
          "  esac\n"
-         "  COMPREPLY=($(compgen -W \"$words\" -- \"$current\"))\n"
+         "  case \"$path ${COMP_WORDS[COMP_CWORD-1]}\" in\n" +
+         values +
+         "  esac\n"
+         "  [[ -n $values ]] && words=$values options=''\n"
+         "  if ((first == 2)); then\n"
+         "    options=''\n"
+         "    [[ -z $path ]] && words=\"$words fields\"\n"
+         "  fi\n"
+         "  COMPREPLY=($(compgen -W \"$words $options\" -- \"$current\"))\n"
          "}\n"
          "complete -o default -F _mdof mdof\n";
 }
@@ -92,10 +130,17 @@ std::string fish_script(const std::vector<Node>& nodes) {
     const std::string line = "complete -c mdof -n " + quoted(condition);
     for (const CLI::App* sub : node.below)
       script += line + " -f -a " + sub->get_name() + " -d " + quoted(sub->get_description()) + "\n";
-    for (const CLI::Option* option : node.options)
+    for (const CLI::Option* option : node.options) {
+      const std::string values = values_of(node, *option);
       script += line + " -l " + option->get_lnames().front() +
-                (option->get_items_expected_max() > 0 ? " -r" : "") + " -d " +
-                quoted(option->get_description()) + "\n";
+                (!values.empty()                        ? " -x -a " + quoted(values)
+                 : option->get_items_expected_max() > 0 ? " -r"
+                                                        : "") +
+                " -d " + quoted(option->get_description()) + "\n";
+    }
+    if (node.path.empty())
+      script += "complete -c mdof -n '__fish_seen_subcommand_from help' -f -a " +
+                quoted(commands_after(node) + "fields") + "\n";
   }
   return script;
 }

@@ -20,10 +20,11 @@ Phrase effect_phrase(daemon::Effect effect) {
 }
 
 // In the unit of the figure's key.
-std::string with_U_text(const Budget& budget, const std::string& figure) {
+std::string uncertain_text(const Budget& budget, const std::string& figure) {
   const bool angle = figure.ends_with("_urad");
   const auto shown = [&](double x) { return angle ? to_urad(x) : to_um(x); };
-  return value_with_U(shown(budget.value), shown(budget.U));
+  return value_with_u(shown(budget.value), shown(budget.u)) + " (U\u00a0" +
+         uncertainty_text(shown(budget.U)) + ")";
 }
 
 }  // namespace
@@ -37,8 +38,8 @@ void write_comparison(Html& html, const daemon::Comparison& comparison, Language
   for (const daemon::ComparedFigure& figure : comparison.figures) {
     const std::string& key = figure.change.figure;
     rows.push_back({key.substr(0, key.rfind('_')), unit_of_key(key),
-                    with_U_text(figure.before, key), with_U_text(figure.after, key),
-                    with_U_text(figure.change, key), of(effect_phrase(figure.effect))});
+                    uncertain_text(figure.before, key), uncertain_text(figure.after, key),
+                    uncertain_text(figure.change, key), of(effect_phrase(figure.effect))});
     changes.push_back(figure.change);
   }
   html.table({of(Phrase::figure), of(Phrase::unit),

@@ -24,8 +24,8 @@ std::string value_text(double value, double u) {
                                    : charts::number_text(value);
 }
 
-std::string value_with_U(double value, double U) {
-  return value_text(value, U) + "\u00a0±\u00a0" + uncertainty_text(U);
+std::string value_with_u(double value, double u) {
+  return value_text(value, u) + "\u00a0±\u00a0" + uncertainty_text(u);
 }
 
 std::string unit_of_key(const std::string& key) {

@@ -9,7 +9,7 @@ namespace mdof::report {
 // significant digits where there is none. In the unit of the key; what is not known is "–".
 std::string uncertainty_text(double u);
 std::string value_text(double value, double u);
-std::string value_with_U(double value, double U);  // "0.123 ± 0.045"
+std::string value_with_u(double value, double u);  // "0.123 ± 0.045"
 std::string unit_of_key(const std::string& key);   // "EYX_um": "µm"
 
 }  // namespace mdof::report

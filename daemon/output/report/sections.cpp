@@ -70,8 +70,8 @@ std::vector<std::string> point_row(const ReportRun& run, std::size_t row) {
                                     fixed_text(to_mm(p.point.position_m), 4)};
   const Errors5 named = named_from_local(results.header.moving(), p.errors.local);
   for (std::size_t k = 0; k < kErrorCount; ++k) {
-    const double U = to_key_unit(uncertainty.points[row].U[k]);
-    cells.push_back(p.errors.valid ? value_with_U(to_key_unit(named[k]), U) : "–");
+    const double u = to_key_unit(uncertainty.points[row].u[k]);
+    cells.push_back(p.errors.valid ? value_with_u(to_key_unit(named[k]), u) : "–");
   }
   std::string flags = to_string(p.point.flags);
   if (!p.errors.valid) flags += (flags.empty() ? "" : "; ") + p.errors.reason;

@@ -118,7 +118,7 @@ class Progress {
     this.element = h("section", {class: "panel", "aria-label": `Run ${run}`},
       h("h2", {}, `Run ${run}, axis ${axis}`), this.where, this.now, this.bar, this.buttons, this.end,
       notices(reply?.notices), this.trouble, this.place,
-      h("p", {class: "quiet"}, "Blue solid line: forward. Orange dashed line: reverse. Bands: ± U (95 %) of the errors at a single stop."), this.covers);
+      h("p", {class: "quiet"}, "Blue solid line: forward. Orange dashed line: reverse. Bands: U (95 %) about the errors at a single stop."), this.covers);
     this.offs = [live.on("run.event", (e) => this.event(e)), live.on("live.update", (v) => this.live(v)), live.on("gap", () => this.read())];
     this.read();
   }

@@ -176,7 +176,7 @@ class AxisPanel {
       this.opened?.close();
       this.opened = new TablePicture(shown, active);
       this.shown.replaceChildren(h("section", {class: "panel", "aria-label": `Table ${id}`}, h("h2", {}, `Table ${id}${shown.active ? ", active" : active ? `, compared with the active table ${active.table}` : ", not active"}`),
-        h("p", {class: "quiet"}, `Blue: table ${id}${active && !shown.active ? `, orange: active table ${active.table}` : ""}; solid: forward, dashed: reverse. Bands: ± U = ${kCoverage} u, where u is known.`),
+        h("p", {class: "quiet"}, `Blue: table ${id}${active && !shown.active ? `, orange: active table ${active.table}` : ""}; solid: forward, dashed: reverse. Bands: U = ${kCoverage} u about each point, where u is known.`),
         active ? differences(shown, active) : "", this.opened.element, numbers(shown), card(shown), covers(shown) ?? ""));
       this.opened.draw();
     } catch (error) {

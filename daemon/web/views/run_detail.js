@@ -164,7 +164,7 @@ export function openRun(place, id) {
         kResumable.includes(run.state) ? h("p", {}, h("button", {onclick: () => resume(id, wrong)}, "Resume (continue as a new run)")) : null, wrong,
         covers(run))), notices(run.notices) ?? "",
       h("h2", {}, "Five errors"), charts.element,
-      h("p", {class: "quiet"}, "Errors are actual − nominal. Blue solid line: forward; orange dashed line: reverse. Bands of the newest four passes: ± U (95 %). Bands of all older passes: from the smallest to the largest error, with the mean as a thin line."), pointsTable(points),
+      h("p", {class: "quiet"}, "Errors are actual − nominal. Blue solid line: forward; orange dashed line: reverse. Bands of the newest four passes: U (95 %) about each point. Bands of all older passes: from the smallest to the largest error, with the mean as a thin line."), pointsTable(points),
       straightness.element, h("h2", {}, "Angles"), angles(run), new Budget(run).element, deeds(run.history) ?? "");
     charts.set(points);
     straightness.draw();

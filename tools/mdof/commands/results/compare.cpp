@@ -26,11 +26,14 @@ struct CompareCommand {
   bool json = false, all_warnings = false;
 };
 
-std::string with_U(const Budget& budget) {
-  if (std::isnan(budget.U)) return fixed(to_um(budget.value), 3) + ", U unknown";
-  return budget.figure.ends_with("_um")
-             ? with_u(um_to_place(budget.value, budget.U), um_to_place(budget.U, budget.U))
-             : with_u(urad_to_place(budget.value, budget.U), urad_to_place(budget.U, budget.U));
+// "0.123 ± 0.045"; in the unit of the figure, and so is U.
+std::string value_cell(const Budget& budget) {
+  if (!(budget.u >= 0)) return fixed(to_key_unit(budget.value), 3);
+  return with_u(to_key_unit(budget.value), to_key_unit(budget.u), 3);
+}
+
+std::string U_cell(double U) {
+  return std::isnan(U) ? "unknown" : to_place(to_key_unit(U), to_key_unit(U), 3);
 }
 
 // "reduced, to 1/9.8": the factor only where what is left is seen.
@@ -48,31 +51,33 @@ std::string effect_text(const daemon::ComparedFigure& figure) {
 }
 
 std::string um_cell(double value, double U) {
-  if (std::isnan(value)) return "-";
-  return std::isnan(U) ? fixed(to_um(value), 3) : with_u(um_to_place(value, U), um_to_place(U, U));
+  return std::isnan(value) ? "-" : um_to_place(value, U);
 }
 
 // Target by target, each approach and the reversal.
 std::string positioning_points_text(const daemon::Comparison& c) {
   if (!c.why_no_points.empty()) return wrapped(c.why_no_points, terminal_columns()) + "\n";
-  TextTable table({"position/mm", "", "before/µm", "after/µm"});
+  TextTable table({"position/mm", "", "before/µm", "U/µm", "after/µm", "U/µm"}, 2);
   for (const daemon::ComparedPoint& point : c.points.points)
     for (std::size_t side = 0; side < point.side.size(); ++side) {
       const daemon::ComparedValue& value = point.side[side].front();
       table.add({side == 0 ? in_mm(point.position_m) : "", daemon::kComparedSides[side],
-                 um_cell(value.before, value.U_before), um_cell(value.after, value.U_after)});
+                 um_cell(value.before, value.U_before), um_cell(value.U_before, value.U_before),
+                 um_cell(value.after, value.U_after), um_cell(value.U_after, value.U_after)});
     }
   return "E: range of the means of both approaches (ISO 230-2); B: largest reversal error\n" +
          table.text(terminal_columns()) + "\n";
 }
 
 std::string comparison_text(const daemon::Comparison& c) {
-  TextTable table({"figure", "before, run " + std::to_string(c.before),
-                   "after, run " + std::to_string(c.after), "change", "effect"});
+  TextTable table({"figure", "before, run " + std::to_string(c.before), "U before",
+                   "after, run " + std::to_string(c.after), "U after", "change", "U of change",
+                   "effect"});
   std::vector<Budget> changes;
   for (const auto& figure : c.figures) {
-    table.add({figure.change.figure, with_U(figure.before), with_U(figure.after),
-               with_U(figure.change), effect_text(figure)});
+    table.add({figure.change.figure, value_cell(figure.before), U_cell(figure.before.U),
+               value_cell(figure.after), U_cell(figure.after.U), value_cell(figure.change),
+               U_cell(figure.change.U), effect_text(figure)});
     changes.push_back(figure.change);
   }
   std::string text = noise_only_notice(are_noise_only(changes)) + simulated_notice(c.simulated) +
@@ -81,7 +86,8 @@ std::string comparison_text(const daemon::Comparison& c) {
   for (const Notice& each : c.differences)
     text += wrapped("note: " + words::text(each), terminal_columns()) + "\n";
   return text +
-         wrapped("± is the expanded uncertainty U (95 %). u contains " + covers_text(c) +
+         wrapped("± is the standard uncertainty u, U the expanded uncertainty (95 %). u contains " +
+                     covers_text(c) +
                      ". The change is |after| - |before|. U of the change treats the runs as "
                      "independent. Uncertainties that both runs share cancel, so this U tends to "
                      "be too large. If the sign of a figure has changed, the shared uncertainties "

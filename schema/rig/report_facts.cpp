@@ -10,15 +10,20 @@
 namespace mdof {
 namespace {
 
-bool is_capital(char c) {
-  return c >= 'A' && c <= 'Z';
+constexpr std::string_view kCountryCodes =
+#include "schema/rig/country_codes.inc"
+    ;
+
+bool is_country_code(const std::string& code) {
+  return code.size() == 2 && code.find(' ') == std::string::npos &&
+         (" " + std::string(kCountryCodes)).find(" " + code + " ") != std::string::npos;
 }
 
 // What is wrong with it; empty: nothing.
 std::string fault(std::string_view key, const std::string& value) {
-  if (key == "country" && !value.empty() &&
-      (value.size() != 2 || !is_capital(value[0]) || !is_capital(value[1])))
-    return "\"" + value + "\" is not a country code of ISO 3166-1; give two capitals, such as DE";
+  if (key == "country" && !value.empty() && !is_country_code(value))
+    return "\"" + value +
+           "\" is not an assigned country code of ISO 3166-1; give two capitals, such as DE or GB";
   if (key == "place" && !value.empty() && value != "laboratory" && value != "customer" &&
       value != "other")
     return "\"" + value +

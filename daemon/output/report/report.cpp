@@ -35,12 +35,11 @@ void write_alarms(Html& html, const Report& report) {
 }
 
 std::string place_text(const ReportFacts& facts, Language language) {
-  const std::string country = facts.country.empty() ? "" : " (" + facts.country + ")";
-  if (facts.place.empty()) return facts.country;
+  if (facts.place.empty()) return "";
   const Phrase place = facts.place == "laboratory" ? Phrase::in_laboratory
                        : facts.place == "customer" ? Phrase::at_customer
                                                    : Phrase::elsewhere;
-  return phrase(place, language) + country;
+  return phrase(place, language);
 }
 
 void write_title(Html& html, const Report& report) {
@@ -61,6 +60,7 @@ void write_title(Html& html, const Report& report) {
               {phrase(Phrase::serial, language), stated(facts.serial_number)},
               {phrase(Phrase::laboratory_that_measured, language), stated(facts.laboratory)},
               {phrase(Phrase::laboratory_address, language), facts.laboratory_address},
+              {phrase(Phrase::laboratory_country, language), facts.country},
               {phrase(Phrase::operator_name, language), stated(facts.operator_name)},
               {phrase(Phrase::measured_on, language), facts.date},
               {phrase(Phrase::measured_at, language), place_text(facts, language)},

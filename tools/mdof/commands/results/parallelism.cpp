@@ -31,7 +31,7 @@ std::vector<std::string> slope_row(const std::string& label, const ParallelismOf
 std::string plane_sentence(const Parallelism& found, const ParallelismOfPlane& plane) {
   const double length_m = found.to_m - found.from_m;
   return wrapped(plane.error + ": motion B is inclined to motion A by " +
-                     with_u(urad_to_place(plane.budget.value, plane.budget.U),
+                     with_u(urad_to_place(plane.budget.value, plane.budget.u),
                             urad_to_place(plane.budget.u, plane.budget.u)) +
                      " µrad towards +" + plane.error[1] +
                      ", expanded U = " + urad_to_place(plane.budget.U, plane.budget.U) +

@@ -49,9 +49,9 @@ std::string percent(double share) {
 }
 
 std::string head_of(const Budget& b, std::size_t width) {
-  return wrapped(b.figure.substr(0, b.figure.rfind('_')) + " = " + shown(b, b.value) + " ± " +
-                     shown_u(b, b.u) + " " + unit_of(b) + ", expanded U = " + shown(b, b.U) +
-                     (b.U_by_trials ? " by Monte Carlo" : "") +
+  return wrapped(b.figure.substr(0, b.figure.rfind('_')) + " = " + shown_to(b, b.value, b.u) +
+                     " ± " + shown_u(b, b.u) + " " + unit_of(b) +
+                     ", expanded U = " + shown(b, b.U) + (b.U_by_trials ? " by Monte Carlo" : "") +
                      " (k = " + fixed(b.coverage_factor, 2) +
                      ", 95 %; effective degrees of freedom: " + freedom_text(b.freedom) + ")",
                  width, 2) +
@@ -117,7 +117,7 @@ std::string not_declared_text(const std::vector<Budget>& budgets) {
   const bool only = are_noise_only(budgets);
   return std::string(!only ? "the rig does not declare all uncertainties"
                      : declares(first)
-                         ? "noise only: the uncertainties declared in the rig file contribute zero"
+                         ? "noise only: the declared uncertainties contribute at most 1 % of u"
                          : std::string("noise only: ") + kNothingDeclared) +
          ", so U is too small. Not declared: " + joined(named_once(first.not_declared));
 }
@@ -127,8 +127,9 @@ std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width) 
       {"figure", "value", "unit", "U", "k", "u random", "largest contributor", "share"});
   for (const Budget& b : budgets) {
     const BudgetLine* first = b.lines.empty() ? nullptr : &b.lines.front();  // u is not known
-    table.add({b.figure.substr(0, b.figure.rfind('_')), with_u(shown(b, b.value), shown_u(b, b.u)),
-               unit_of(b), shown(b, b.U), fixed(b.coverage_factor, 2), shown_u(b, b.u_random),
+    table.add({b.figure.substr(0, b.figure.rfind('_')),
+               with_u(shown_to(b, b.value, b.u), shown_u(b, b.u)), unit_of(b), shown(b, b.U),
+               fixed(b.coverage_factor, 2), shown_u(b, b.u_random),
                first ? contributor_text(first->name) : "", first ? percent(first->share) : ""});
   }
   return table.text(width) +

@@ -125,6 +125,7 @@ std::string parked_text(const daemon::ParkedLog& log, const algo::WarmUp& found,
   if (log.limit_m_per_s) out += ", limit " + fixed(*log.limit_m_per_s * kPerHour, 1) + " nm/h";
   out += "\n\n" + rates_text(log, found, 0, log.probes, width) + "\n" +
          rates_text(log, found, log.probes, log.readings.series.size(), width);
+  out += "± is the standard uncertainty u. It contains the noise of the readings only\n";
   if (found.limited)
     out += "!: above the limit; ?: within two standard uncertainties of the limit\n";
   return out + "\n" + temperature_text(log, found, width) + "\n" +

@@ -23,8 +23,9 @@ bool declares(const Budget& budget) {
 
 Covers covers(const Budget& budget) {
   if (budget.is_imported)
-    return {budget.not_declared.empty() ? Covered::repeatability_import
-                                        : Covered::repeatability_only};
+    return {budget.not_declared.empty() && (budget.lines.empty() || declares(budget))
+                ? Covered::repeatability_import
+                : Covered::repeatability_only};
   Covers found = {Covered::noise_repeatability_declared};
   if (budget.noise_only)
     found = {Covered::noise_repeatability_only,
@@ -38,6 +39,15 @@ Covers covers(const std::vector<Budget>& budgets) {
                                  [](const Budget& budget) { return !budget.noise_only; });
   if (budgets.empty()) return {};
   Covers found = covers(best == budgets.end() ? budgets.front() : *best);
+  const auto has_import = [](const Budget& b) { return b.is_imported && declares(b); };
+  const auto is_at_one_target = [](const Budget& b) {
+    return b.is_imported && !b.lines.empty() && !declares(b);
+  };
+  if (std::any_of(budgets.begin(), budgets.end(), has_import)) {
+    found = {Covered::repeatability_import};
+    if (std::any_of(budgets.begin(), budgets.end(), is_at_one_target))
+      found.push_back(Covered::one_target_repeatability_only);
+  }
   const auto is_unknown = [](const Budget& b) { return b.is_imported && std::isnan(b.u); };
   if (std::any_of(budgets.begin(), budgets.end(), is_unknown))
     found.push_back(Covered::unknown_without_repeatability);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "schema/base/files.h"
+#include "schema/base/number/number_text.h"
 #include "schema/base/toml/toml_reader.h"
 #include "schema/rig/calibrated.h"
 #include "schema/rig/check/rig_check.h"
@@ -100,7 +101,8 @@ Probe read_probe(TomlTable& table) {
                                            : read_direction(table, "measures");
   probe.plane = table.string("plane", "");
   const double range_um = table.number("range_um");
-  if (range_um <= 0) table.reject("range_um", "must be greater than zero");
+  if (range_um <= 0)
+    table.reject("range_um", "must be greater than zero, not " + plain_number(range_um));
   probe.range_m = from_um(range_um);
   probe.calibration = read_calibration(table);
   const double delay_us = table.number("delay_us", 0.0);

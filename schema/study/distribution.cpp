@@ -6,6 +6,7 @@
 
 #include "schema/base/files.h"
 #include "schema/base/number/number.h"
+#include "schema/base/number/number_text.h"
 #include "schema/base/trimmed.h"
 
 namespace mdof {
@@ -56,7 +57,8 @@ void read_limits(TomlTable& table, Distribution& d) {
       if (table.has(key))
         table.reject(key, "contradicts half_width; give half_width, or low and high");
     const double half = table.number("half_width");
-    if (!(half > 0)) table.reject("half_width", "must be greater than zero");
+    if (!(half > 0))
+      table.reject("half_width", "must be greater than zero, not " + plain_number(half));
     const double mean = table.number("mean", 0.0);
     d.low = mean - half;
     d.high = mean + half;
@@ -70,9 +72,9 @@ void read_limits(TomlTable& table, Distribution& d) {
 double read_positive(TomlTable& table, const char* key) {
   const double x = table.number(key);
   if (!(x > 0))
-    table.reject(key,
-                 "must be greater than zero; for a fixed value use distribution = "
-                 "\"constant\"");
+    table.reject(key, "must be greater than zero, not " + plain_number(x) +
+                          "; for a fixed value use distribution = "
+                          "\"constant\"");
   return x;
 }
 

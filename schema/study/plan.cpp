@@ -5,6 +5,7 @@
 
 #include "schema/axis.h"
 #include "schema/base/files.h"
+#include "schema/base/number/number_text.h"
 #include "schema/base/toml/toml_reader.h"
 #include "schema/study/plan_parts.h"
 
@@ -35,7 +36,7 @@ double read_share(TomlTable& table, std::string_view key, double fallback) {
 
 double read_above_zero(TomlTable& table, std::string_view key, double fallback) {
   const double x = table.number(key, fallback);
-  if (!(x > 0)) table.reject(key, "must be greater than zero");
+  if (!(x > 0)) table.reject(key, "must be greater than zero, not " + plain_number(x));
   return x;
 }
 

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "schema/axis.h"
+#include "schema/base/number/number_text.h"
 #include "schema/study/plan_parts.h"
 
 namespace mdof::plan_parts {
@@ -55,7 +56,8 @@ PlannedAllocation read_allocation(TomlTable& table, const StudyPlan& plan) {
     table.reject("output", "\"" + a.output + "\" is not an output of this plan; " +
                                known_or_list(a.output, output_keys(plan)));
   a.limit = table.number("limit");
-  if (!(a.limit > 0)) table.reject("limit", "must be greater than zero");
+  if (!(a.limit > 0))
+    table.reject("limit", "must be greater than zero, not " + plain_number(a.limit));
   a.probability = read_share(table, "probability", a.probability);
   a.trials = read_count(table, "trials", a.trials, 100, 10'000'000);
   a.tolerances = table.strings("tolerances");

@@ -37,6 +37,12 @@ std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
   CLI::App* command = innermost(&app);
   const std::string help = "; see " + full_name(command) + " --help";
   const auto unknown = app.remaining(true);
+  if (unknown.empty() && dynamic_cast<const CLI::RequiredError*>(&error)) {
+    std::string commands;
+    for (const std::string& word : known_words(command, false))
+      commands += (commands.empty() ? "" : ", ") + word;
+    if (!commands.empty()) return "missing command; give one of " + commands + help;
+  }
   if (unknown.empty()) return error.what() + help;
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
   const bool option = word.starts_with("-");

@@ -172,7 +172,8 @@ double TomlTable::number(std::string_view key, std::optional<double> fallback) {
   }
   const auto x = as_number(*node);
   if (x && std::isfinite(*x)) return *x;
-  reject(key, "must be a finite number");
+  reject(key, node->is_string() ? "must be a finite number, not a text; remove the quotes"
+                                : "must be a finite number");
   return 0;
 }
 

@@ -19,7 +19,8 @@ double positive(TomlTable& table, const char* key, double most) {
   if (!table.has(key)) return 0;
   const double x = table.number(key);
   if (!(x > 0 && x <= most))
-    table.reject(key, "must be greater than zero and at most " + plain_number(most));
+    table.reject(key, "must be greater than zero and at most " + plain_number(most) + ", not " +
+                          plain_number(x));
   return x;
 }
 

@@ -89,7 +89,8 @@ Result<ReferenceLines> reference_lines(std::span<const double> positions_m,
   lines.readings = series.x.size();
   lines.positions = count_positions(series.x);
   if (lines.positions < 3)
-    return bad_input(std::to_string(lines.readings) + " readings at " +
+    return bad_input(std::to_string(lines.readings) +
+                     (lines.readings == 1 ? " reading" : " readings") + " at " +
                      (lines.positions == 1 ? "only one position"
                                            : std::to_string(lines.positions) + " positions") +
                      ", but straightness needs at least three positions; "

@@ -13,7 +13,8 @@ std::string name_of(const Run& run) {
 Status check_state(const Run& run, bool take_partial, const std::string& what) {
   const RunState state = run.header.state;
   if (state == RunState::complete || (take_partial && state == RunState::partial)) return {};
-  const std::string is = name_of(run) + " is " + to_string(state);
+  const std::string is =
+      name_of(run) + (state == RunState::failed ? " " : " is ") + to_string(state);
   if (state == RunState::partial)
     return bad_input(is + ", but complete runs are needed for " + what +
                          "; the notices of the run say what is missing",

@@ -63,9 +63,9 @@ Status check(const CircleReadings& r, int highest, bool drift) {
   if (!(r.radius_m > 0 && r.radius_m < 100))
     return bad_input("the radius of the circle must be above 0 and below 100 m");
   if (n < unknowns + 2)
-    return bad_input(std::to_string(n) + " readings are too few for " + std::to_string(highest) +
-                     " harmonics; give at least " + std::to_string(unknowns + 2) +
-                     " readings, or fewer harmonics");
+    return bad_input(std::to_string(n) + (n == 1 ? " reading is" : " readings are") +
+                     " too few for " + std::to_string(highest) + " harmonics; give at least " +
+                     std::to_string(unknowns + 2) + " readings, or fewer harmonics");
   if (widest_gap(r.angle_rad) > kWidestGap_rad)
     return bad_input(
         "the readings have a gap of more than 60° on the circle, so the first harmonic cannot be "

@@ -49,10 +49,14 @@ std::string side_text(const CompensationTable& t, const Columns& values, const C
   return out.text(terminal_columns());
 }
 
-std::string runs_of(const std::vector<std::int64_t>& runs) {
+std::string numbers_of(const std::vector<std::int64_t>& runs) {
   std::vector<std::string> ids;
   for (const auto id : runs) ids.push_back(std::to_string(id));
   return joined(ids, " ");
+}
+
+std::string runs_of(const std::vector<std::int64_t>& runs) {
+  return (runs.size() == 1 ? "run " : "runs ") + numbers_of(runs);
 }
 
 std::string corrections_text(const CompensationTable& t, std::size_t width) {
@@ -70,7 +74,7 @@ std::string corrections_text(const CompensationTable& t, std::size_t width) {
                       (signs.factor[k] > 0 ? "+" : "-") + name.name;
     text += "\n";
   }
-  return text;
+  return fitted(text, width);
 }
 
 std::string state_of(std::int64_t generation) {
@@ -94,7 +98,7 @@ std::string table_document(const CompensationTable& t, std::int64_t generation, 
 std::string table_of_positioning_text(const CompensationTable& t) {
   return simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) +
-                     ", positioning errors from the imported runs " + runs_of(t.runs) + ", " +
+                     ", positioning errors from the imported " + runs_of(t.runs) + ", " +
                      t.created_utc,
                  terminal_columns()) +
          "\n" +
@@ -114,7 +118,7 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
   if (t.has_positioning()) return table_of_positioning_text(t);
   return noise_only_notice(t.noise_only()) + simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) + ", " +
-                     state_of(generation) + ", created " + t.created_utc + ", from the runs " +
+                     state_of(generation) + ", created " + t.created_utc + ", from " +
                      runs_of(t.runs),
                  terminal_columns()) +
          "\n"
@@ -158,15 +162,15 @@ std::string list_text(const ListedTables& list) {
   for (std::size_t i = 0; i < list.tables.size(); ++i) {
     const auto& t = list.tables[i];
     out.add({std::to_string(t.id), std::string(1, letter(t.axis)), state_of(list.generations[i]),
-             t.simulated ? "SIMULATED" : "measured", runs_of(t.runs),
+             t.simulated ? "SIMULATED" : "measured", numbers_of(t.runs),
              std::to_string(t.position_m.size()), in_mm(t.position_m.front()),
              in_mm(t.position_m.back()), t.created_utc});
   }
   for (std::size_t i = 0; i < list.volumes.size(); ++i) {
     const auto& t = list.volumes[i];
     out.add({std::to_string(t.id), "volume", state_of(list.volume_generations[i]),
-             t.simulated ? "SIMULATED" : "measured", runs_of(t.runs), std::to_string(t.nodes()), "",
-             "", t.created_utc});
+             t.simulated ? "SIMULATED" : "measured", numbers_of(t.runs), std::to_string(t.nodes()),
+             "", "", t.created_utc});
   }
   return out.text(terminal_columns());
 }

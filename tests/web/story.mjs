@@ -105,7 +105,7 @@ async function controlCharts(page, run) {
   const replayed = await daemon.call("run.replay", {path: `${kData}/log_X.csv.gz`, rig: fs.readFileSync(`${kData}/rig_X.toml`, "utf8")});
   await page.getByRole("combobox", {name: /^Axis/}).selectOption("Y");
   await page.getByRole("combobox", {name: /^Axis/}).selectOption("X");
-  await page.getByText("1 values are too few for control limits").waitFor();
+  await page.getByText("1 value is too few for control limits").waitFor();
   const {figures} = await daemon.call("run.trend", {axis: "X"});
   await page.getByRole("combobox", {name: /^Figure/}).selectOption("EYX_straightness_um");
   const row = await page.getByRole("row", {name: `run ${replayed.run}`}).innerText();

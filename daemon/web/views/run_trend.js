@@ -20,7 +20,7 @@ export function controlSeries({values, centre}) {
 // What the chart says, in words.
 export function verdict(key, {moved, baseline, values}) {
   if (values.length === 0) return "No stored run has this result.";
-  if (baseline === 0) return `● ${values.length} values are too few for control limits.`;
+  if (baseline === 0) return `● ${values.length} ${values.length === 1 ? "value is" : "values are"} too few for control limits.`;
   if (!moved) return `● ${titleOf(key)} has not moved.`;
   return `▲ ${titleOf(key)} has moved by ${short(moved.by)} ${unitOf(key)} (u = ${short(moved.u_by)} ${unitOf(key)}) since ${named(moved.since_runs)}.`;
 }

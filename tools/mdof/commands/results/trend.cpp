@@ -54,7 +54,8 @@ std::string sentence_of(const daemon::Trend& trend) {
   const auto& [figure, values, chart] = std::tie(trend.figure, trend.values, trend.chart);
   if (!chart)
     return figure + ": " + std::to_string(values.size()) +
-           " values are too few for control limits (the limits need a baseline of " +
+           (values.size() == 1 ? " value is" : " values are") +
+           " too few for control limits (the limits need a baseline of " +
            (trend.baseline > 0 ? std::to_string(trend.baseline) + " values)"
                                : "at least " + std::to_string(algo::kFewestOfBaseline) +
                                      " values, and one value after them)");

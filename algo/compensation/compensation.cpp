@@ -7,6 +7,7 @@
 #include "algo/compensation/table_uncertainty.h"
 #include "algo/iso230/line_fit.h"
 #include "algo/iso230/target_means.h"
+#include "algo/machine/frames.h"
 #include "algo/model/restate.h"
 #include "algo/sequence/uneven_visits.h"
 #include "algo/sequence/usable_runs.h"
@@ -139,8 +140,8 @@ bool spans(const std::vector<double>& x, const std::vector<double>& y, double at
   while (last > 0 && !std::isfinite(y[last - 1])) --last;
   if (first >= last) return false;
   if (first + 1 == last) return at == x[first];
-  return at >= x[first] - kSameTargetShare * (x[first + 1] - x[first]) &&
-         at <= x[last - 1] + kSameTargetShare * (x[last - 1] - x[last - 2]);
+  return at >= x[first] - kEndShare * (x[first + 1] - x[first]) &&
+         at <= x[last - 1] + kEndShare * (x[last - 1] - x[last - 2]);
 }
 
 bool measured_there(const CompensationTable& table, double position_m, TableSide side) {
@@ -280,7 +281,10 @@ ValueOfSide value_of(const CompensationTable& table, const Side& side, std::size
   const double curvature = near.below == near.above    ? 0
                            : side.curvature[k].empty() ? curvatures(x, y, side.u[k])[place.below]
                                                        : side.curvature[k][place.below];
-  value.u = std::max(side.u[k][near.below], side.u[k][near.above]);
+  const double u_below = side.u[k][near.below], u_above = side.u[k][near.above];
+  value.u = near.below == near.above ? u_below
+                                     : u_below + (u_above - u_below) * (at - x[near.below]) /
+                                                     (x[near.above] - x[near.below]);
   value.u_interpolation = 0.5 * (at - x[near.below]) * (x[near.above] - at) * curvature;
   return value;
 }
@@ -296,9 +300,7 @@ TableValue table_at(const CompensationTable& table, double position_m, TableSide
     if (!table.has_declared()) return 0.0;
     const auto& u = table.u_declared[k];
     const double above = u[std::min(place.below + 1, u.size() - 1)];
-    return place.share == 0.0   ? u[place.below]
-           : place.share == 1.0 ? above
-                                : std::max(u[place.below], above);
+    return place.share == 1.0 ? above : u[place.below] + (above - u[place.below]) * place.share;
   };
   const Side forward{table.forward, table.u_forward, table.curvature_forward};
   const Side reverse{table.reverse, table.u_reverse, table.curvature_reverse};

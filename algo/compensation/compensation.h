@@ -43,8 +43,9 @@ std::array<std::vector<std::vector<double>>, kErrorCount> references_of(
 Result<Notices> uneven_visits_of(const std::vector<Run>& runs);
 
 // The errors at a position: linear between grid points, the end value held outside and said so. u
-// between two targets is the larger of theirs and what interpolation does, of an axis that bends
-// between them as it does about them.
+// between two targets is linear, too: no correlation of the two values makes the interpolated one
+// less certain. What interpolation does is added, of an axis that bends between them as it does
+// about them.
 struct TableValue {
   Errors5 error{};  // named; NaN where the table has no value
   Errors5 u{};

@@ -46,21 +46,19 @@ Matrix6 matrix_of(const Covariance6& covariance) {
   return matrix;
 }
 
-// The covariance between two positions: a mean of theirs, whose variances are made those that
-// `u_between` gives of two standard uncertainties.
-template <class UBetween>
-Matrix6 between(const std::vector<Covariance6>& by_position, const TablePlace& place,
-                UBetween u_between) {
+// The covariance between two positions: a mean of theirs, with variances whose roots are linear. No
+// correlation of two values makes the interpolated one less certain.
+Matrix6 between(const std::vector<Covariance6>& by_position, const TablePlace& place) {
   Matrix6 low = matrix_of(by_position[place.cell]);
   if (place.part == 0) return low;
   Matrix6 high = matrix_of(by_position[place.cell + 1]);
   if (place.part == 1) return high;
   const Matrix6 mean = low + (high - low) * place.part;
   Eigen::Matrix<double, kBodyErrors, 1> scale;
-  for (Eigen::Index k = 0; k < scale.rows(); ++k)
-    scale(k) = mean(k, k) > 0
-                   ? u_between(std::sqrt(low(k, k)), std::sqrt(high(k, k))) / std::sqrt(mean(k, k))
-                   : 0;
+  for (Eigen::Index k = 0; k < scale.rows(); ++k) {
+    const double below = std::sqrt(low(k, k)), above = std::sqrt(high(k, k));
+    scale(k) = mean(k, k) > 0 ? (below + (above - below) * place.part) / std::sqrt(mean(k, k)) : 0;
+  }
   return scale.asDiagonal() * mean * scale.asDiagonal();
 }
 
@@ -79,10 +77,10 @@ SharedErrors shared_at(const ErrorCovariance& covariance, const TablePlace& plac
 }
 
 // What a straight line between two positions may miss.
-double u_interpolation(const ErrorFunction& f, const TablePlace& place, double at) {
-  if (place.cell >= f.curvature.size() || place.beyond) return 0;
-  return 0.5 * (at - f.position[place.cell]) * (f.position[place.cell + 1] - at) *
-         f.curvature[place.cell];
+double u_interpolation(const ErrorFunction& f, const TablePlace& place) {
+  if (place.cell >= f.curvature.size() || place.part == 0 || place.part == 1) return 0;
+  const double interval = f.position[place.cell + 1] - f.position[place.cell];
+  return 0.5 * place.part * (1 - place.part) * interval * interval * f.curvature[place.cell];
 }
 
 double squared(double x) {
@@ -95,10 +93,8 @@ void set_uncertainty(const MachineFrame& frame, double at, FrameValues& v) {
   Matrix6 all = Matrix6::Zero(), noise = Matrix6::Zero();
   if (!known.position.empty()) {
     const TablePlace place = place_of(known.position, at);
-    const auto larger = [](double a, double b) { return std::max(a, b); };
-    const auto linear = [&](double a, double b) { return a + (b - a) * place.part; };
-    all = between(known.noise, place, larger) + between(known.declared, place, larger);
-    noise = between(known.noise, place, linear);
+    noise = between(known.noise, place);
+    all = noise + between(known.declared, place);
     v.shared = shared_at(known, place);
   }
   for (std::size_t k = 0; k < kBodyErrors; ++k) {
@@ -109,7 +105,7 @@ void set_uncertainty(const MachineFrame& frame, double at, FrameValues& v) {
       all(kk, kk) = squared(value_at(f.u, place));
       noise(kk, kk) = squared(value_at(f.u_independent, place));
     }
-    if (!f.u.empty()) all(kk, kk) += squared(u_interpolation(f, place, at));
+    if (!f.u.empty()) all(kk, kk) += squared(u_interpolation(f, place));
   }
   v.u_parts = root_of(all);
   v.noise_parts = root_of(noise);
@@ -140,8 +136,10 @@ Pose motion(const MachineFrame& frame, const FrameValues& v) {
 TablePlace place_of(const std::vector<double>& position, double at) {
   if (position.empty()) return {};
   if (position.size() == 1) return {0, 0, at != position[0]};
-  if (at <= position.front()) return {0, 0, at < position.front()};
-  if (at >= position.back()) return {position.size() - 2, 1, at > position.back()};
+  const std::size_t last = position.size() - 1;
+  if (at <= position[0]) return {0, 0, at < position[0] - kEndShare * (position[1] - position[0])};
+  if (at >= position[last])
+    return {last - 1, 1, at > position[last] + kEndShare * (position[last] - position[last - 1])};
   const auto above = std::upper_bound(position.begin(), position.end(), at);
   const auto cell = static_cast<std::size_t>(above - position.begin()) - 1;
   return {cell, (at - position[cell]) / (position[cell + 1] - position[cell])};

@@ -22,7 +22,7 @@ struct FrameValues {
   std::array<double, kBodyErrors> u_location{};  // 0 where it is not declared
   // u of the errors of the body as independent parts: what one standard uncertainty of part q does
   // to error k is (k, q); lower triangle, a diagonal where none are correlated. Between positions
-  // it is the larger of theirs and what a straight line misses. Beside them `shared`: parts that
+  // it is linear, and what a straight line misses. Beside them `shared`: parts that
   // other frames have too, by number.
   Eigen::Matrix<double, kBodyErrors, kBodyErrors> u_parts =
       Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
@@ -30,17 +30,21 @@ struct FrameValues {
   // The same of the part that is independent from position to position of the axis.
   Eigen::Matrix<double, kBodyErrors, kBodyErrors> noise_parts =
       Eigen::Matrix<double, kBodyErrors, kBodyErrors>::Zero();
-  std::array<bool, kBodyErrors> beyond{};  // the end of the table is held
+  std::array<bool, kBodyErrors> beyond{};  // as of TablePlace
 };
 FrameValues values_at(const MachineFrame& frame, const Command& command, MachineApproach approach);
 std::vector<FrameValues> values_at(const Machine& machine, const Command& command,
                                    MachineApproach approach);
 
+// A place that is less than this part of the last interval outside of a table is at its end, as far
+// as a stop is at its target.
+constexpr double kEndShare = 0.02;
+
 // A command in a table of an error: the position below it, and the part of the way to the next.
 struct TablePlace {
   std::size_t cell = 0;
   double part = 0;
-  bool beyond = false;  // the end is held
+  bool beyond = false;  // by more than kEndShare
 };
 TablePlace place_of(const std::vector<double>& position, double at);
 // On the straight line between two values; of no values 0.

@@ -183,7 +183,7 @@ TEST(BetweenTargets, OfAParabolaItIsTheDistanceFromTheChord) {
   }
 }
 
-TEST(BetweenTargets, IsZeroAtTargetsAndNeverBelowTheirU) {
+TEST(BetweenTargets, IsZeroAtTargetsAndNeverBelowTheStraightLineOfTheirU) {
   auto table = bare({0, 1e-6, -1e-6, 2e-6, 0, 1e-6, 3e-6}, 1e-8);
   table.u_forward[0][3] = 5e-8;
   for (std::size_t i = 0; i < table.position_m.size(); ++i) {
@@ -194,7 +194,7 @@ TEST(BetweenTargets, IsZeroAtTargetsAndNeverBelowTheirU) {
     for (const double s : {0.001, 0.5, 0.999}) {
       const double x_m = table.position_m[i] + s * kStep_m;
       EXPECT_GE(table_at(table, x_m, TableSide::forward).u[0],
-                std::max(table.u_forward[0][i], table.u_forward[0][i + 1]));
+                (1 - s) * table.u_forward[0][i] + s * table.u_forward[0][i + 1]);
     }
   }
   EXPECT_EQ(table_at(table, 1, TableSide::forward).u_interpolation[0], 0);  // an end value is held

@@ -88,24 +88,54 @@ TEST(TableAt, OneTargetIsHeldEverywhere) {
     EXPECT_EQ(table_at(table, at_m, TableSide::forward).error[0], 2e-6);
 }
 
-// Between two targets the larger u of both counts, at a target its own: of what is declared and of
-// what is random alike. The error is 0 everywhere, so that interpolation adds nothing.
-TEST(TableAt, BetweenTargetsTheLargerUCounts) {
+CompensationTable table_with_u() {
   CompensationTable table = table_by_hand();
   for (auto& column : table.u_declared) column = {5e-9, 2e-9, 7e-9};
+  table.u_forward[1] = {8e-9, 0, 3e-9};
+  return table;
+}
+
+// Of what is declared and of what is random alike. The error is 0 everywhere, so that interpolation
+// adds nothing. The larger of both would jump beside a target.
+TEST(TableAt, BetweenTargetsUIsLinear) {
+  const CompensationTable table = table_with_u();
   ASSERT_TRUE(table.has_declared());
-  table.u_forward[1] = {8e-9, 1e-9, 3e-9};
   struct Case {
     double at_m, declared, random;
   };
-  for (const Case& c :
-       {Case{-50e-3, 5e-9, 8e-9}, Case{0, 5e-9, 8e-9}, Case{1e-3, 5e-9, 8e-9},
-        Case{9e-3, 5e-9, 8e-9}, Case{10e-3, 2e-9, 1e-9}, Case{11e-3, 7e-9, 3e-9},
-        Case{39e-3, 7e-9, 3e-9}, Case{40e-3, 7e-9, 3e-9}, Case{50e-3, 7e-9, 3e-9}}) {
+  for (const Case& c : {Case{-50e-3, 5e-9, 8e-9}, Case{0, 5e-9, 8e-9}, Case{1e-3, 4.7e-9, 7.2e-9},
+                        Case{9e-3, 2.3e-9, 0.8e-9}, Case{10e-3, 2e-9, 0}, Case{16e-3, 3e-9, 0.6e-9},
+                        Case{40e-3, 7e-9, 3e-9}, Case{50e-3, 7e-9, 3e-9}}) {
     const TableValue value = table_at(table, c.at_m, TableSide::forward);
     EXPECT_EQ(value.u_interpolation[1], 0) << c.at_m;
     EXPECT_NEAR(value.u[1], std::hypot(c.declared, c.random), 1e-21) << c.at_m;
   }
+}
+
+TEST(TableAt, ANanometreBesideATargetUIsThatOfTheTarget) {
+  const CompensationTable table = table_with_u();
+  for (const double target_m : table.position_m)
+    for (const double beside_m : {-1e-9, 1e-9})
+      EXPECT_NEAR(table_at(table, target_m + beside_m, TableSide::forward).u[1],
+                  table_at(table, target_m, TableSide::forward).u[1], 1e-14)
+          << target_m;
+}
+
+// Variance of (1 - s) a + s b: GUM 5.2.2.
+TEST(TableAt, NoCorrelationOfTwoTargetsMakesUTooSmall) {
+  CompensationTable table = table_with_u();
+  for (auto& column : table.u_declared) column.clear();
+  const double a = table.u_forward[1][1] = 2e-9, b = table.u_forward[1][2];
+  for (const double s : {0.001, 0.2, 0.5, 0.9})
+    for (const double correlation : {-1.0, 0.0, 0.7, 1.0}) {
+      const double variance =
+          std::pow((1 - s) * a, 2) + std::pow(s * b, 2) + 2 * correlation * s * (1 - s) * a * b;
+      const double u = table_at(table, 10e-3 + s * 30e-3, TableSide::forward).u[1];
+      EXPECT_GE(u, std::sqrt(variance) - 1e-21) << s << " " << correlation;
+      if (correlation == 1) {
+        EXPECT_NEAR(u, std::sqrt(variance), 1e-21) << s;
+      }
+    }
 }
 
 }  // namespace

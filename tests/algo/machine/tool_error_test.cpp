@@ -171,6 +171,47 @@ TEST(MachineModel, HoldsTheEndOfATableAndSaysSo) {
   EXPECT_EQ(beyond.beyond, std::vector<std::string>{"EXX"});
 }
 
+// A stop is never exactly at its target: within 2 % of an interval, as of a compensation table.
+TEST(MachineModel, AnEndThatIsMissedByAStopIsNotBeyond) {
+  const std::vector<double> position{-0.01, 0, 0.04};
+  for (const auto& [at_m, beyond] : {std::pair(-0.01 - 0.19e-3, false),
+                                     {-0.01 - 0.21e-3, true},
+                                     {0.04 + 0.79e-3, false},
+                                     {0.04 + 0.81e-3, true}}) {
+    const TablePlace place = place_of(position, at_m);
+    EXPECT_EQ(place.beyond, beyond) << at_m;
+    EXPECT_EQ(value_at({1, 2, 3}, place), at_m < 0 ? 1 : 3) << at_m;
+  }
+}
+
+// An angle is 0, and so is its u, where it is zeroed; its correlation with the place stays.
+TEST(MachineModel, UIsLinearBetweenPositions) {
+  auto m = by_hand(false);
+  MachineFrame& x = m.frames[0];
+  x.error[1] = {{0, 0.1}, {0, 0}, {}, {1e-7, 3e-7}, {}};
+  x.error[5] = {{0, 0.1}, {0, 0}, {}, {0, 5e-6}, {}};
+  x.error[1].curvature = x.error[5].curvature = {0.0};
+  x.covariance.position = {0, 0.1};
+  x.covariance.has[1] = x.covariance.has[5] = true;
+  x.covariance.noise.resize(2);
+  x.covariance.declared.resize(2);
+  x.covariance.noise[0][1][1] = 1e-14;
+  x.covariance.noise[1][1][1] = 9e-14;
+  auto& declared = x.covariance.declared[1];
+  declared[5][5] = 25e-12;
+  for (const auto& [at_m, u_place, u_angle] : {std::tuple(0.0, 1e-7, 0.0),
+                                               {1e-9, 1e-7, 5e-14},
+                                               {0.025, 1.5e-7, 1.25e-6},
+                                               {0.1 - 1e-9, 3e-7, 5e-6},
+                                               {0.1, 3e-7, 5e-6},
+                                               {0.1 + 1e-9, 3e-7, 5e-6}}) {
+    const FrameValues v = values_at(x, {at_m, 0, 0, 0, 0, 0}, MachineApproach::mean);
+    EXPECT_NEAR(v.u_parts.row(1).norm(), u_place, 1e-14) << at_m;
+    EXPECT_NEAR(v.u_parts.row(5).norm(), u_angle, 1e-12) << at_m;
+    EXPECT_NEAR(v.noise_parts.row(1).norm(), u_place, 1e-14) << at_m;
+  }
+}
+
 // 2 turns · shifts to second order: the line of a rotary axis that is shifted counts twice, as the
 // body goes there and back; that of a linear axis once.
 TEST(MachineModel, TheBoundCountsAShiftedRotaryLineTwice) {

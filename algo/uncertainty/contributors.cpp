@@ -147,7 +147,7 @@ std::vector<PointShifts> of_encoder(const Basis& basis) {
   const double u = basis.rig.uncertainty.encoder.u;
   for (std::size_t j = 0; j < basis.points.size(); ++j)
     for (std::size_t e = 0; e < kErrorCount; ++e)
-      parts[part_of[basis.run.points[j].target]][j][e] = u * basis.points[j].by_travel[e];
+      parts[part_of[basis.run.points[j].target]][j][e] = u * basis.points[j].by_place[e];
   return parts;
 }
 

@@ -4,6 +4,7 @@
 
 #include "algo/model/restate.h"
 #include "algo/model/rigid.h"
+#include "algo/uncertainty/statistics/local_slopes.h"
 
 namespace mdof::algo {
 namespace {
@@ -91,7 +92,12 @@ class Differences {
 std::vector<PointSensitivity> point_sensitivities(const Solver& solver, const Run& run) {
   std::vector<PointSensitivity> all;
   all.reserve(run.points.size());
-  for (const MeasuredPoint& p : run.points) all.push_back(Differences(solver, run, p).take());
+  const std::vector<Errors5> slopes = local_slopes(run);
+  for (std::size_t j = 0; j < run.points.size(); ++j) {
+    PointSensitivity& s = all.emplace_back(Differences(solver, run, run.points[j]).take());
+    for (std::size_t e = 0; e < kErrorCount && s.valid; ++e)
+      s.by_place[e] = s.by_travel[e] - slopes[j][e];
+  }
   return all;
 }
 

@@ -95,7 +95,7 @@ std::vector<Contributor> expansion_contributors(const Rig& rig, const Solver& so
     PointShifts shifts(points.size());
     for (std::size_t j = 0; j < points.size(); ++j)
       for (std::size_t e = 0; e < kErrorCount; ++e)
-        shifts[j][e] = -scale * points[j].travel_m * points[j].by_travel[e];
+        shifts[j][e] = -scale * points[j].travel_m * points[j].by_place[e];
     list.push_back(contributor(ContributorKind::scale_expansion, kScaleKey,
                                relative_of(rig_expansion.scale), 1e6, "ppm", {std::move(shifts)}));
   }

@@ -75,14 +75,15 @@ Errors5 truth(double d) {
 
 // Half the difference of the errors that two forward models make.
 std::vector<Errors5> half_difference(const SyntheticRun& synthetic, const OwnModel& plus,
-                                     const OwnModel& minus, double scale = 0) {
+                                     const OwnModel& minus, double scale = 0, double offset_m = 0) {
   std::array<Run, 2> runs;
   for (const int sign : {1, -1}) {
     SyntheticRun one = synthetic;
     const OwnModel nominal = synthetic.rig.axis == Axis::x ? own_x() : plus;
     one.added = [&, sign](std::size_t k, double d, double reading, double) {
       const OwnModel& as_is = sign > 0 ? plus : minus;
-      return as_is.zeroed(k, d * (1 + sign * scale), one.truth(d)) - reading;
+      const double true_m = d + sign * (d * scale + offset_m);
+      return as_is.zeroed(k, true_m, one.truth(true_m)) - reading;
     };
     runs[sign > 0 ? 0 : 1] = one.measure();
   }
@@ -128,14 +129,35 @@ TEST(Expansion, OfTheFixtureMovesAllProbesFromItsOrigin) {
   }
 }
 
-// Errors at the carriage, which is where the encoder says: of the travel d (1 + s) is true.
+// The encoder says d, and d (1 + s) is true: the errors are those of there.
 TEST(Expansion, OfTheScaleGrowsWithTheTravel) {
   const Rig rig = test::rig_x_with(
       "", "", "[temperature]\nscale_C = 22\nu_scale_K = 0\nscale_ppm_per_K = 500\n");
-  SyntheticRun synthetic{.rig = rig, .stated = kAtCarriage, .truth = truth};
-  const auto parts = only_parts(synthetic, "scale: expansion");
-  ASSERT_EQ(parts.size(), 1u);
-  expect_parts(parts[0], half_difference(synthetic, own_x(), own_x(), 1e-3), 2e-3);
+  for (const StatedAt& stated : {kAtFixture, kAtCarriage}) {
+    SyntheticRun synthetic{.rig = rig, .stated = stated, .truth = truth};
+    synthetic.targets_m.clear();
+    for (int i = 0; i <= 80; ++i) synthetic.targets_m.push_back(i * 0.5e-3);
+    const auto parts = only_parts(synthetic, "scale: expansion");
+    ASSERT_EQ(parts.size(), 1u);
+    expect_parts(parts[0], half_difference(synthetic, own_x(), own_x(), 1e-3), 3e-2);
+  }
+}
+
+// An encoder that says too little at all targets: the sum of its parts, each of one target.
+TEST(Encoder, AWrongPlaceHasTheErrorsOfAnotherPlace) {
+  const Rig rig = test::rig_x_with("", "", "[encoder]\nu_um = 10\n");
+  SyntheticRun synthetic{.rig = rig, .truth = truth};
+  synthetic.targets_m.clear();
+  for (int i = 0; i <= 80; ++i) synthetic.targets_m.push_back(i * 0.5e-3);
+  const auto parts = only_parts(synthetic, "encoder");
+  ASSERT_EQ(parts.size(), 81u);
+  PointShifts sum = parts[0];
+  for (Errors5& each : sum)
+    for (double& x : each) x = -x;
+  for (std::size_t p = 1; p < parts.size(); ++p)
+    for (std::size_t j = 0; j < sum.size(); ++j)
+      for (std::size_t e = 0; e < kErrorCount; ++e) sum[j][e] -= parts[p][j][e];
+  expect_parts(sum, half_difference(synthetic, own_x(), own_x(), 0, 10e-6), 3e-2);
 }
 
 TEST(Expansion, OfAGradientBendsTheSquare) {

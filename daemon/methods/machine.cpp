@@ -53,7 +53,8 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
   for (const auto& names : error.no_u) algo::add_new(names, no_u);
   write_strings(json, "not_measured", missing);
   write_strings(json, "u_not_declared", no_u);
-  json.field("noise_only", machine.noise_only);
+  json.field("u_covers", covers_text(machine, !no_u.empty(), true))
+      .field("noise_only", noise_only(machine, true) == NoiseOnly::all);
   write_strings(json, "beyond_tables", error.beyond);
   json.end_object();
   return json.take();
@@ -128,8 +129,9 @@ void add_machine_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Calculates the error of the tool relative to the workpiece at a commanded "
                         "position of a machine, with u. Nothing is stored.",
              .params = params,
-             .members = "{machine, simulated, error: tool_error, u: {{small}_um}, u_reason?, "
-                        "not_measured, u_not_declared, noise_only, beyond_tables, ...notices}",
+             .members =
+                 "{machine, simulated, error: tool_error, u: {{small}_um}, u_reason?, "
+                 "not_measured, u_not_declared, u_covers, noise_only, beyond_tables, ...notices}",
              .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
                         R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
                         R"(EXX_um = 2\nu_EXX_um = 0.1\n", "X_mm": 10})",

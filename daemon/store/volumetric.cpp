@@ -18,7 +18,7 @@ constexpr std::string_view kVolumetric =
     "v.approach, v.tool_m, v.rotary_rad, v.X_m, v.Y_m, v.Z_m, v.correction_m, v.u_m, "
     "v.interpolation_m, v.place_left_m, v.turn_left_rad, v.not_measured, v.u_not_declared, "
     "v.beyond_tables, v.created_utc, v.sha256, v.u_independent_m, v.noise, "
-    "v.reversal_m, v.doubtful "
+    "v.reversal_m, v.doubtful, v.noise_only_all "
     "FROM volumetric_table AS v JOIN document ON document.id = v.description ";
 
 std::vector<double> flat(const std::vector<Vec3>& values) {
@@ -98,12 +98,13 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
                "simulated, noise_only, approach, created_utc, sha256, tool_m, rotary_rad, X_m, "
                "Y_m, Z_m, correction_m, u_m, interpolation_m, place_left_m, turn_left_rad, "
                "not_measured, u_not_declared, beyond_tables, u_independent_m, noise, "
-               "reversal_m, doubtful) VALUES "
-               "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
+               "reversal_m, doubtful, noise_only_all) VALUES "
+               "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
   const std::string travels = travels_of(table.machine);
   insert.bind(id).bind(std::string_view(table.name)).bind(description);
   insert.bind(std::string_view(table.machine.text)).bind(std::string_view(travels));
-  insert.bind(std::int64_t{table.simulated}).bind(std::int64_t{table.noise_only});
+  insert.bind(std::int64_t{table.simulated});
+  insert.bind(std::int64_t{table.noise_only != NoiseOnly::none});
   insert.bind(std::string_view(table.approach)).bind(std::string_view(table.created_utc));
   insert.bind(std::string_view(table.sha256));
   const FlatNodes nodes(table);
@@ -113,6 +114,7 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
     insert.bind_null();
   else
     insert.bind(std::string_view(doubtful));
+  insert.bind(std::int64_t{table.noise_only == NoiseOnly::all});
   MDOF_CHECK(insert.run());
   MDOF_TRY(Statement source, connection_.prepare("INSERT INTO volumetric_source VALUES (?,?,?)"));
   for (std::size_t row = 0; row < table.runs.size(); ++row)
@@ -131,7 +133,9 @@ Result<VolumetricTable> Store::volumetric_of(Statement& row) {
   t.description = row.text(2);
   MDOF_TRY(t.machine, chain_from(row.text(3), row.text(4)));
   t.simulated = row.integer(5) != 0;
-  t.noise_only = row.integer(6) != 0;
+  t.noise_only = row.integer(6) == 0                        ? NoiseOnly::none
+                 : !row.is_null(27) && row.integer(27) != 0 ? NoiseOnly::all
+                                                            : NoiseOnly::some;
   t.approach = row.text(7);
   doubles_from(row.bytes(8), t.tool_m);
   doubles_from(row.bytes(9), t.rotary_rad);

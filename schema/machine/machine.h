@@ -13,6 +13,7 @@
 #include "schema/axis.h"
 #include "schema/base/result.h"
 #include "schema/rig/chain.h"
+#include "schema/uncertainty/noise_only.h"
 
 namespace mdof {
 
@@ -32,6 +33,7 @@ struct ErrorFunction {
   // Of each interval, 1/m or rad/m²: what u adds between two positions, as a straight line misses
   // the error there: ½ (x - x_i) (x_{i+1} - x) curvature; empty: none.
   std::vector<double> curvature{};
+  bool noise_only = false;  // u contains noise and repeatability alone
 
   bool known() const { return !forward.empty(); }
 };
@@ -60,6 +62,7 @@ struct ErrorCovariance {
 struct LocationError {
   std::optional<double> value;  // m or rad; none: not measured
   std::optional<double> u;      // none: not declared
+  bool noise_only = false;      // as of ErrorFunction
 };
 
 // Rows of the database that a description names; whoever has the database takes them
@@ -136,13 +139,17 @@ struct Machine {
   std::vector<MachineFrame> frames;  // from the work to the tool
   Vec3 tool_m{};                     // the tool's point
   bool simulated = false;
-  bool noise_only = false;  // a table of its errors has a u of noise and repeatability alone
   std::vector<ErrorSource> sources;
   StoredRows squareness;  // of each two axes at most one, or the latest
 
   const MachineFrame* find(std::string_view id) const;
   bool names_stored_rows() const;  // so that it needs the database
 };
+
+// Of the errors that have a u; `with_sources`: and of its sources, which declare theirs.
+NoiseOnly noise_only(const Machine& machine, bool with_sources = false);
+// What u of the error of its tool contains. `some_without_u`: an error that acts there has none.
+std::string covers_text(const Machine& machine, bool some_without_u, bool with_sources = false);
 
 // The axes of the chain alone, without errors; where they are is not known.
 Machine nominal_machine(const Chain& chain);

@@ -58,7 +58,7 @@ void write_volumetric_members(JsonWriter& json, const VolumetricTable& t) {
   json.field("u_covers", covers_text(t));
   write_strings(json, "not_declared", t.u_not_declared);
   write_strings(json, "beyond_tables", t.beyond_tables);
-  json.field("noise_only", t.noise_only)
+  json.field("noise_only", t.noise_only == NoiseOnly::all)
       .field("simulated", t.simulated)
       .field("created_utc", t.created_utc)
       .field("sha256", t.sha256);

@@ -85,7 +85,7 @@ std::string volumetric_sha256(const VolumetricTable& t) {
   put(bytes, std::uint64_t{t.runs.size()});
   for (const std::int64_t run : t.runs) put(bytes, run);
   put(bytes, t.simulated ? 1 : 0);
-  put(bytes, t.noise_only ? 1 : 0);
+  put(bytes, static_cast<int>(t.noise_only));
   put_text(t.approach);
   put_vector(t.tool_m);
   put_vector(t.rotary_rad);
@@ -116,14 +116,7 @@ std::string rotary_text(const VolumetricTable& table) {
 }
 
 std::string covers_text(const VolumetricTable& table) {
-  std::string text =
-      table.noise_only
-          ? "the u of the errors; the u of at least one error contains only noise and repeatability"
-          : "the u of the errors; errors of different axes and errors from files are "
-            "treated as independent, except for scale, linearity and tilt factor of probes that "
-            "measured "
-            "several axes";
-  if (!table.u_not_declared.empty()) text += "; errors without a u are not included";
+  std::string text = covers_of_errors(table.noise_only, !table.u_not_declared.empty());
   if (!table.u_independent_m.empty())
     text +=
         "; u_independent is the part from noise, which differs between the positions of an axis; "

@@ -11,6 +11,7 @@
 #include "schema/axis.h"
 #include "schema/notice/notice.h"
 #include "schema/rig/chain.h"
+#include "schema/uncertainty/noise_only.h"
 
 namespace mdof {
 
@@ -30,12 +31,12 @@ struct VolumetricTable {
   std::int64_t id = 0;  // 0 until stored; no table of an axis has the same
   std::string name;     // of the machine
   Chain machine;
-  std::string description;         // MACHINE.toml, as it was given
-  std::vector<std::int64_t> runs;  // whose errors are in it
-  bool simulated = false;          // wholly or in part
-  bool noise_only = false;         // u is of noise and repeatability alone, in part at least
-  std::string approach = "mean";   // of all axes: "mean", "forward", "reverse"
-  Vec3 tool_m{};                   // the tool's point, in the machine's coordinates at 0
+  std::string description;                 // MACHINE.toml, as it was given
+  std::vector<std::int64_t> runs;          // whose errors are in it
+  bool simulated = false;                  // wholly or in part
+  NoiseOnly noise_only = NoiseOnly::none;  // of the errors; of an older table some at least
+  std::string approach = "mean";           // of all axes: "mean", "forward", "reverse"
+  Vec3 tool_m{};                           // the tool's point, in the machine's coordinates at 0
   std::array<std::vector<double>, 3> command_m;  // X, Y, Z; each strictly increasing
   Vec3 rotary_rad{};                             // where A, B, C stand
 
@@ -92,13 +93,13 @@ bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
 
 // SHA-256 of what the table says. Bytes hashed (schema/base/canonical.h):
 //   s "mdof volumetric table 1" (2 with u_independent_m, 3 with noise), s name, s chain, s travels,
-//   s description, i number of runs, i each run, i simulated, i noise_only, s approach, d
-//   tool_m[3], d rotary_rad[3], then of X, Y, Z i n, d command_m[n], d correction_m[nodes][3], d
-//   u_m[nodes][3], d u_independent_m[nodes][3] (2, 3), d noise (3; noise_numbers()), d
-//   interpolation_m[3], d place_left_m, d turn_left_rad, then of not_measured, u_not_declared,
-//   beyond_tables i n, s each. Where reversal_m is not 0, the first s goes on with ", reversal",
-//   and d reversal_m[3] follows; where there are doubtful notices, with ", doubtful", and s
-//   notices_json() ends all.
+//   s description, i number of runs, i each run, i simulated, i noise_only (0: none, 1: some, 2:
+//   all), s approach, d tool_m[3], d rotary_rad[3], then of X, Y, Z i n, d command_m[n], d
+//   correction_m[nodes][3], d u_m[nodes][3], d u_independent_m[nodes][3] (2, 3), d noise (3;
+//   noise_numbers()), d interpolation_m[3], d place_left_m, d turn_left_rad, then of not_measured,
+//   u_not_declared, beyond_tables i n, s each. Where reversal_m is not 0, the first s goes on with
+//   ", reversal", and d reversal_m[3] follows; where there are doubtful notices, with ", doubtful",
+//   and s notices_json() ends all.
 std::string volumetric_sha256(const VolumetricTable& table);
 
 // What its u covers: one sentence for people, without a full stop.

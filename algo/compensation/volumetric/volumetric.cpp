@@ -307,7 +307,7 @@ Result<VolumetricTable> build_volumetric(const Machine& machine, const Volumetri
   table.name = machine.name;
   table.machine = machine.chain;
   table.simulated = machine.simulated;
-  table.noise_only = machine.noise_only;
+  table.noise_only = noise_only(machine);
   table.approach = request.approach == MachineApproach::forward   ? "forward"
                    : request.approach == MachineApproach::reverse ? "reverse"
                                                                   : "mean";

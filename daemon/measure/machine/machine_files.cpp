@@ -108,7 +108,7 @@ Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
   f.reverse = from_key_unit(csv.columns[2]);
   if (!csv.columns[3].empty()) f.u = from_key_unit(csv.columns[3]);
   machine.simulated = machine.simulated || csv.simulated;
-  machine.noise_only = machine.noise_only || csv.noise_only;
+  f.noise_only = csv.noise_only;
   return complete(f, k, csv.source + ": " + error_name(frame, k));
 }
 
@@ -142,11 +142,11 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
     if (f.u.empty())
       f.u = column(4).empty() || column(5).empty() ? column(4) : larger(column(4), column(5));
     if (f.u.empty()) f.u = column(5);
+    f.noise_only = csv.noise_only;
     MDOF_CHECK(complete(f, k, where));
     any = true;
   }
   machine.simulated = machine.simulated || csv.simulated;
-  machine.noise_only = machine.noise_only || csv.noise_only;
   if (any) return {};
   return bad_input(csv.source + ": no column contains an error of axis " + frame.id + ", such as " +
                    names[0] + "; add such a column, or rename the column that contains the error");

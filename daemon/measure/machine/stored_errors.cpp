@@ -123,7 +123,6 @@ void take_shared(const TakenTables& taken) {
 Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
                   const CompensationTable& table, TakenTables& taken) {
   machine.simulated = machine.simulated || table.simulated;
-  machine.noise_only = machine.noise_only || table.noise_only();
   if (table.has_positioning()) {
     for (const std::int64_t id : table.runs) {
       MDOF_TRY(const RunHeader header, store.run_header(id));
@@ -136,9 +135,10 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
       u.push_back(std::fmax(table.u_of_positioning(true, i), table.u_of_positioning(false, i)));
     // Its errors are those of the place in the controller's coordinates; the body's are along +.
     const double body = frame.against_command ? -1 : 1;
-    return take(frame, frame.direction,
-                function_of(table.position_m, scaled(along.forward, body),
-                            scaled(along.reverse, body), u, noise));
+    ErrorFunction function = function_of(table.position_m, scaled(along.forward, body),
+                                         scaled(along.reverse, body), u, noise);
+    function.noise_only = table.noise_only();
+    return take(frame, frame.direction, std::move(function));
   }
   MDOF_CHECK(check_set_up(machine, frame, table));
   taken.stated.push_back({frame.id, table.stated, table.slope_removed});
@@ -155,6 +155,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
     ErrorFunction function =
         function_of(table.position_m, table.forward[named], table.reverse[named], u,
                     larger(table.u_forward[named], table.u_reverse[named]));
+    function.noise_only = table.noise_only();
     if (error_names(table.axis)[named].angle) refer_angle(function, zero_m);
     MDOF_CHECK(take(frame, body_error_of(table, named), std::move(function)));
   }
@@ -314,6 +315,7 @@ Status take_squareness(store::Store& store, Machine& machine, const Squareness& 
   b->location[about].u = std::nullopt;
   if (const double u_rad = fitted.squareness.u_error_rad; !std::isnan(u_rad))
     b->location[about].u = u_rad;
+  b->location[about].noise_only = !fitted.budgets.empty() && fitted.budgets.front().noise_only;
   machine.simulated = machine.simulated || fitted.squareness.simulated;
   append(all.notices, fitted.notices);
   append(all.doubtful, without_information(fitted.notices));

@@ -133,7 +133,8 @@ void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& 
   // What one value lacks, the chart lacks.
   const bool is_first = trend.values.size() == 1;
   if (is_first || budget.noise_only) trend.u_covers = covers(budget);
-  trend.noise_only = (!is_first && trend.noise_only) || budget.noise_only;
+  const NoiseOnly own = noise_only_if(budget.noise_only);
+  trend.noise_only = is_first ? own : joined(trend.noise_only, own);
   for (const std::string& key : budget.not_declared)
     if (std::find(trend.u_not_declared.begin(), trend.u_not_declared.end(), key) ==
         trend.u_not_declared.end())
@@ -171,7 +172,8 @@ Status add_axis(store::Store& store, Axis axis, const TrendRequest& request,
   MDOF_TRY(const Chosen chosen, choose(store, axis, request.mixed));
   std::vector<Trend> of_axis;
   for (const algo::Figure& figure : figures)
-    of_axis.push_back({figure.name, 0, {}, {}, chosen.left_out, chosen.notices, {}, false, {}});
+    of_axis.push_back(
+        {figure.name, 0, {}, {}, chosen.left_out, chosen.notices, {}, NoiseOnly::none, {}});
   for (const RunHeader& run : chosen.runs) MDOF_CHECK(add_run(store, run, of_axis, figures));
   for (Trend& trend : of_axis)
     if (!trend.values.empty() || !request.figure.empty() || request.axis)
@@ -187,7 +189,7 @@ Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& re
   std::map<std::int64_t, const RunHeader*> allowed;
   for (const auto* chosen : {&a, &b})
     for (const RunHeader& run : chosen->runs) allowed[run.id] = &run;
-  Trend trend{figure_of(axes), 0, {}, {}, {}, {}, {}, false, {}};
+  Trend trend{figure_of(axes), 0, {}, {}, {}, {}, {}, NoiseOnly::none, {}};
   std::vector<Squareness> fits;
   for (const auto* chosen : {&a, &b}) {
     trend.left_out.insert(trend.left_out.end(), chosen->left_out.begin(), chosen->left_out.end());

@@ -12,6 +12,7 @@
 #include "schema/base/result.h"
 #include "schema/notice/notice.h"
 #include "schema/uncertainty/covers.h"
+#include "schema/uncertainty/noise_only.h"
 
 namespace mdof::daemon {
 
@@ -38,7 +39,7 @@ struct Trend {
   Notices notices;                    // what is mixed
   // Of u of the newest value, as of its budget.
   Covers u_covers;
-  bool noise_only = false;
+  NoiseOnly noise_only = NoiseOnly::none;  // of all values
   std::vector<std::string> u_not_declared;
 };
 

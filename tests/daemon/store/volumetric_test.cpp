@@ -18,7 +18,7 @@ TEST_F(StoreTest, GivesAVolumetricTableBackToTheLastBit) {
   EXPECT_EQ(back->description, table.description);
   EXPECT_EQ(back->runs, table.runs);
   EXPECT_TRUE(back->simulated);
-  EXPECT_FALSE(back->noise_only);
+  EXPECT_EQ(back->noise_only, NoiseOnly::none);
   EXPECT_EQ(back->approach, "reverse");
   EXPECT_EQ(bits(back->tool_m), bits(table.tool_m));
   EXPECT_EQ(bits(back->rotary_rad), bits(table.rotary_rad));

@@ -48,7 +48,8 @@ TEST(VolumetricTable, EveryStatementIsInItsHash) {
         t.runs = {5, 3};
       },
       [](auto& t) { t.simulated = true; },
-      [](auto& t) { t.noise_only = true; },
+      [](auto& t) { t.noise_only = NoiseOnly::some; },
+      [](auto& t) { t.noise_only = NoiseOnly::all; },
       [](auto& t) { t.approach = "forward"; },
       [](auto& t) { t.tool_m[1] = 1e-9; },
       [](auto& t) { t.rotary_rad[2] = 1; },
@@ -109,8 +110,10 @@ TEST(VolumetricTable, ItsUHasTwoPartsWhereTheyAreKnown) {
 TEST(VolumetricTable, ItsWordsSayWhatUDoesNotHave) {
   VolumetricTable t = small_table();
   EXPECT_EQ(covers_text(t).find("noise"), std::string::npos);
-  t.noise_only = true;
-  EXPECT_NE(covers_text(t).find("noise"), std::string::npos);
+  t.noise_only = NoiseOnly::some;
+  EXPECT_NE(covers_text(t).find("at least one error contains only noise"), std::string::npos);
+  t.noise_only = NoiseOnly::all;
+  EXPECT_NE(covers_text(t).find("noise and repeatability only"), std::string::npos);
   EXPECT_EQ(covers_text(t).find("errors without a u are not included"), std::string::npos);
   t.u_not_declared = {"EYX"};
   EXPECT_NE(covers_text(t).find("errors without a u are not included"), std::string::npos);

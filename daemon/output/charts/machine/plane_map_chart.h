@@ -7,6 +7,7 @@
 
 #include "algo/machine/plane_map.h"
 #include "daemon/output/phrases.h"
+#include "schema/uncertainty/noise_only.h"
 
 namespace mdof::charts {
 
@@ -14,7 +15,8 @@ inline constexpr std::size_t kMostArrows = 2500;
 
 struct MapPicture {
   std::string machine, approach;  // its name; "mean", "forward", "reverse"
-  bool simulated = false, noise_only = false;
+  bool simulated = false;
+  NoiseOnly noise_only = NoiseOnly::none;
   std::int64_t table = 0;  // corrections of this table; 0: errors of the machine
   std::string place{};     // of the other axes, "Z = 5 mm"; empty: not stated
 };

@@ -7,6 +7,7 @@
 
 #include "daemon/output/charts/run/run_charts.h"
 #include "daemon/output/charts/run/series.h"
+#include "schema/uncertainty/noise_only.h"
 
 namespace mdof::charts {
 
@@ -20,6 +21,8 @@ std::string title_of_run(const RunHeader& header, const std::string& what, Langu
 std::string about_run(const RunHeader& header, Language language);
 
 // The marks of a head: that u is of noise alone comes first.
+std::vector<std::string> head_marks(NoiseOnly noise_only, std::vector<std::string> marks,
+                                    output::Language language);
 std::vector<std::string> head_marks(bool noise_only, std::vector<std::string> marks,
                                     Language language);
 

@@ -177,7 +177,7 @@ TEST(VolumetricTables, SayWhatTheMachineSays) {
   EXPECT_EQ(t->name, "small");
   EXPECT_EQ(t->machine.text, "w-b-X-Y-Z-t");
   EXPECT_TRUE(t->simulated);
-  EXPECT_FALSE(t->noise_only);
+  EXPECT_EQ(t->noise_only, NoiseOnly::none);
   EXPECT_EQ(t->approach, "reverse");
   EXPECT_EQ(t->tool_m, (Vec3{0.001, 0.002, 0.003}));
   EXPECT_EQ(t->beyond_tables, std::vector<std::string>{"EXX"});  // its table ends at 15 mm
@@ -189,12 +189,13 @@ TEST(VolumetricTables, SayWhatTheMachineSays) {
     EXPECT_EQ(has(t->not_measured, name), 1) << name;
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(t->u_m[5][k], (3 + double(k)) * 1e-7, 1e-12);
   m.simulated = false;
-  m.noise_only = true;
+  for (auto& frame : m.frames)
+    for (auto& error : frame.error) error.noise_only = true;
   request.approach = MachineApproach::forward;
   const auto other = build_volumetric(m, request);
   EXPECT_EQ(other->approach, "forward");
   EXPECT_FALSE(other->simulated);
-  EXPECT_TRUE(other->noise_only);
+  EXPECT_EQ(other->noise_only, NoiseOnly::all);
   request.approach = MachineApproach::mean;
   EXPECT_EQ(build_volumetric(m, request)->approach, "mean");
 }

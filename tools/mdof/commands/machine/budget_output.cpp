@@ -160,7 +160,8 @@ std::string contributions_text(const FoundMachineBudget& found) {
   return "\n" + table.text(terminal_columns());
 }
 
-std::string measured_text(const FoundMachineBudget& found) {
+// `at`: where the axes are.
+std::string measured_text(const FoundMachineBudget& found, const std::string& at) {
   if (found.measured.empty()) return "";
   TextTable table({"measured error", "designed/µm", "measured/µm", "ratio"});
   for (const algo::MeasuredError& e : found.measured)
@@ -170,7 +171,11 @@ std::string measured_text(const FoundMachineBudget& found) {
   std::string text = "\n" + table.text(terminal_columns()) +
                      wrapped(
                          "Each value is the effect of the error at the tool (RMS over all "
-                         "positions of the error table). First reduce the error in the first row.",
+                         "positions of its error table), with the axes at" +
+                             at +
+                             ". The effect of an angle or a squareness, and so the order of the "
+                             "rows, depends on this position (--at). At this position, first "
+                             "reduce the error in the first row.",
                          terminal_columns()) +
                      "\n";
   if (!found.now.model.replaced.empty())
@@ -195,7 +200,7 @@ std::string machine_budget_json(const Machine& machine, const BudgetRequest& req
       .field("machine", machine.name)
       .field("chain", machine.chain.text)
       .field("simulated", machine.simulated)
-      .field("noise_only", machine.noise_only);
+      .field("noise_only", noise_only(machine, true) == NoiseOnly::all);
   write_command(json, "at", machine, request.at);
   write_place(json, "error_um", algo::exact_error(machine, request.at, model.values).head<3>());
   json.field("trials", request.trials)
@@ -220,9 +225,10 @@ std::string machine_budget_json(const Machine& machine, const BudgetRequest& req
 
 std::string machine_budget_text(const Machine& machine, const BudgetRequest& request,
                                 const FoundMachineBudget& found) {
-  std::string text = noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
-                     machine.name + ", " + machine.chain.text + ", at" +
-                     at_text(machine, request.at) + "\n" + stage_text(found.now);
+  std::string text = noise_only_notice(noise_only(machine, true)) +
+                     simulated_notice(machine.simulated) + machine.name + ", " +
+                     machine.chain.text + ", at" + at_text(machine, request.at) + "\n" +
+                     stage_text(found.now);
   if (!found.now.outputs.empty()) text += contributions_text(found);
   if (found.allocation)
     text +=
@@ -241,7 +247,7 @@ std::string machine_budget_text(const Machine& machine, const BudgetRequest& req
                         (names.size() <= 12 ? ": " + joined(names) : ""),
                     terminal_columns()) +
             "\n";
-  return text + measured_text(found);
+  return text + measured_text(found, at_text(machine, request.at));
 }
 
 }  // namespace mdof::tools

@@ -67,12 +67,15 @@ Result<Compared> compared(const algo::Diagonal& d, std::size_t number,
   return c;
 }
 
+constexpr const char* kNoU = "No uncertainty of these values is calculated.";
+
 std::string diagonals_json(const Machine& machine, const std::vector<algo::Diagonal>& diagonals,
                            const std::vector<Compared>& measured) {
   JsonWriter json;
   json.begin_object()
       .field("machine", machine.name)
       .field("simulated", machine.simulated)
+      .field("u_reason", kNoU)
       .key("diagonals")
       .begin_array();
   for (std::size_t i = 0; i < diagonals.size(); ++i) {
@@ -114,7 +117,7 @@ std::string diagonals_text(const Machine& machine, const std::vector<algo::Diago
          "predicted, measured: range (largest minus smallest) of the deviation of the\n"
          "tool along the diagonal (ISO 230-6)\n"
          "difference: measured minus predicted deviation, where it is largest\n" +
-         missing_text(diagonals.front().not_measured, {}, terminal_columns());
+         kNoU + "\n" + missing_text(diagonals.front().not_measured, {}, terminal_columns());
 }
 
 Status predict(const MachineDiagonalCommand& o) {

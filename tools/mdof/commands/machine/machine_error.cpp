@@ -47,6 +47,12 @@ void write_compensating(JsonWriter& json, const Machine& machine,
   json.end_object();
 }
 
+std::vector<std::string> names_without_u(const algo::ToolError& e) {
+  std::vector<std::string> all;
+  for (const auto& names : e.no_u) algo::add_new(names, all);
+  return all;
+}
+
 std::string error_json(const Machine& machine, const FoundError& found,
                        const std::string& approach) {
   const algo::ToolError& e = found.error;
@@ -55,7 +61,7 @@ std::string error_json(const Machine& machine, const FoundError& found,
       .field("machine", machine.name)
       .field("chain", machine.chain.text)
       .field("simulated", machine.simulated)
-      .field("noise_only", machine.noise_only)
+      .field("noise_only", noise_only(machine) == NoiseOnly::all)
       .field("approach", approach);
   write_command(json, "at", machine, found.at);
   json.field(
@@ -63,6 +69,7 @@ std::string error_json(const Machine& machine, const FoundError& found,
       "error of the tool relative to the workpiece, actual - nominal, in workpiece coordinates");
   write_components(json, "error", e.exact);
   write_components(json, "u", e.u);
+  json.field("u_covers", covers_text(machine, !names_without_u(e).empty()));
   write_components(json, "linear", e.linear);
   write_components(json, "difference", e.exact - e.linear);
   json.key("difference_bound")
@@ -108,16 +115,16 @@ std::string error_text(const Machine& machine, const FoundError& found) {
                fixed(to_key_unit(e.linear[k]), 4), fixed(to_key_unit(e.exact[k] - e.linear[k]), 6),
                joined(without, " ")});
   }
-  std::vector<std::string> no_u;
-  for (const auto& names : e.no_u)
-    for (const auto& name : names)
-      if (std::find(no_u.begin(), no_u.end(), name) == no_u.end()) no_u.push_back(name);
-  return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
+  const std::vector<std::string> no_u = names_without_u(e);
+  return noise_only_notice(noise_only(machine)) + simulated_notice(machine.simulated) +
          wrapped(machine.name + ", " + machine.chain.text +
                      ": error of the tool relative to the workpiece, actual - nominal",
                  terminal_columns()) +
          "\n" + table.text(terminal_columns()) + "missing: errors that were not measured\n" +
-         missing_text({}, no_u, terminal_columns()) +
+         wrapped("u is the standard uncertainty. It contains " +
+                     covers_text(machine, !no_u.empty()) + ".",
+                 terminal_columns()) +
+         "\n" + missing_text({}, no_u, terminal_columns()) +
          fitted(compensating_text(machine, found), terminal_columns(), 0);
 }
 

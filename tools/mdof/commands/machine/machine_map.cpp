@@ -45,7 +45,8 @@ std::string csv_header(const Machine& machine, const std::vector<FoundMap>& maps
   for (int k = 0; k < 3; ++k) csv.cell(kComponents[k]);
   for (int k = 0; k < 3; ++k) csv.cell(std::string("u_") + kComponents[k]);
   csv.end_row();
-  return noise_only_comment(machine.noise_only) + csv.take();
+  return noise_only_comment(noise_only(machine)) + "# u is the standard uncertainty. It contains " +
+         covers_text(machine, !first.no_u.empty()) + ".\n" + csv.take();
 }
 
 // Cells as of CsvText, for a million rows: numbers become text many at a time, and the commands of
@@ -161,7 +162,8 @@ std::string map_json(const Machine& machine, const MachineMapCommand& o,
       .field("machine", machine.name)
       .field("chain", machine.chain.text)
       .field("simulated", machine.simulated)
-      .field("noise_only", machine.noise_only)
+      .field("noise_only", noise_only(machine) == NoiseOnly::all)
+      .field("u_covers", covers_text(machine, !maps.front().map.no_u.empty()))
       .field("plane", o.plane)
       .field("without_angles", o.without_angles)
       .key("maps")
@@ -194,7 +196,7 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
                  in_mm(found.map.second_at(extreme.point)), in_um(extreme.range)});
     }
   }
-  return noise_only_notice(machine.noise_only) + simulated_notice(machine.simulated) +
+  return noise_only_notice(noise_only(machine)) + simulated_notice(machine.simulated) +
          wrapped(machine.name + ", " + machine.chain.text + ": " +
                      std::to_string(first.first_m.size() * first.second_m.size()) +
                      " points of the plane " + o.plane +
@@ -204,7 +206,10 @@ std::string map_text(const Machine& machine, const MachineMapCommand& o,
          (o.without_angles ? "the values contain positioning, straightness and squareness, but no "
                              "angular errors\n"
                            : "") +
-         missing_text(first.not_measured, first.no_u, terminal_columns()) +
+         wrapped("u is the standard uncertainty. It contains " +
+                     covers_text(machine, !first.no_u.empty()) + ".",
+                 terminal_columns()) +
+         "\n" + missing_text(first.not_measured, first.no_u, terminal_columns()) +
          "--csv and --json print all points\n";
 }
 
@@ -222,7 +227,7 @@ Status draw_maps(const Machine& machine, const MachineMapCommand& o,
     drawn.push_back(
         {"map-" + o.plane + "-" + found.approach + ".svg",
          charts::plane_map_svg(
-             found.map, {machine.name, found.approach, machine.simulated, machine.noise_only},
+             found.map, {machine.name, found.approach, machine.simulated, noise_only(machine)},
              words::Language::english)});
   }
   return write_plots(drawn, o.plots);

@@ -87,7 +87,7 @@ std::string part_json(const FoundPart& found) {
       .field("name", part.plan.name)
       .field("machine", part.machine.name)
       .field("simulated", part.machine.simulated)
-      .field("noise_only", part.machine.noise_only)
+      .field("noise_only", noise_only(part.machine) == NoiseOnly::all)
       .field("points", static_cast<std::uint64_t>(part.path.at_m.size()))
       .field("along_normals", !part.path.normal.empty())
       .key("error_um")
@@ -142,7 +142,7 @@ std::string part_text(const FoundPart& found) {
   const LoadedPart& part = found.part;
   const Eigen::Vector3d& worst = part.path.at_m[found.error.worst];
   std::string text =
-      noise_only_notice(part.machine.noise_only) + simulated_notice(part.machine.simulated);
+      noise_only_notice(noise_only(part.machine)) + simulated_notice(part.machine.simulated);
   if (!part.plan.name.empty()) text += part.plan.name + ": ";
   text +=
       "error of the part (" +

@@ -1,0 +1,16 @@
+#include "schema/uncertainty/noise_only.h"
+
+namespace mdof {
+
+std::string covers_of_errors(NoiseOnly noise_only, bool some_without_u) {
+  const char* const text[] = {
+      "the u of the errors; errors of different axes and errors from files are treated as "
+      "independent, except for scale, linearity and tilt factor of probes that measured several "
+      "axes",
+      "the u of the errors; the u of at least one error contains only noise and repeatability",
+      "the u of the errors, which contains noise and repeatability only"};
+  return std::string(text[static_cast<std::size_t>(noise_only)]) +
+         (some_without_u ? "; errors without a u are not included" : "");
+}
+
+}  // namespace mdof

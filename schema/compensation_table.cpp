@@ -64,10 +64,9 @@ Covers covers(const CompensationTable& table) {
     return {Covered::declared_at_import, Covered::no_repeatability};
   if (table.has_positioning())
     return {table.has_declared() ? Covered::repeatability_import : Covered::repeatability_only};
-  if (!table.noise_only()) return {Covered::noise_repeatability_rigs};
-  if (table.has_declared())
-    return {Covered::noise_repeatability_only, Covered::rigs_below_1_percent};
-  return {Covered::noise_repeatability_only};
+  return covers({.noise_only = table.noise_only(),
+                 .declares = table.has_declared(),
+                 .repeated = !table.visited_once});
 }
 
 void add_not_declared(CompensationTable& table, const std::vector<std::string>& keys) {

@@ -53,6 +53,9 @@ struct CompensationTable {
   // Keys that the rigs of its runs leave open: u is too small by what they would add. Not stored:
   // the runs' rigs give.
   std::vector<std::string> not_declared;
+  // No target was visited twice from the same side: u has no repeatability. Not stored: the runs'
+  // points give.
+  bool visited_once = false;
   std::string created_utc;
   std::string sha256;  // table_sha256(), or a value of before it; the ledger of the store checks it
 

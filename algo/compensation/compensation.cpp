@@ -11,6 +11,7 @@
 #include "algo/model/restate.h"
 #include "algo/sequence/uneven_visits.h"
 #include "algo/sequence/usable_runs.h"
+#include "algo/uncertainty/statistics/visit_scatter.h"
 #include "schema/base/number/number_text.h"
 #include "schema/sample.h"
 #include "schema/units.h"
@@ -202,6 +203,7 @@ Result<TableOfMeans> table_of_means(const std::vector<Run>& measured, const Tabl
   table.position_m = positions(out.grid);
   fill_side(moving, out.points, Approach::forward, out.grid, reference, table.forward);
   fill_side(moving, out.points, Approach::reverse, out.grid, reference, table.reverse);
+  table.visited_once = VisitScatter(out.points).are_single();
   return out;
 }
 

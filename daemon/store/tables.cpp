@@ -256,6 +256,12 @@ Result<CompensationTable> Store::table_of(Statement& row) {
     if (const auto rig = parse_rig(header.provenance.rig_text, "its rig"))
       add_not_declared(table, rig->undeclared_uncertainties());
   }
+  MDOF_TRY(const auto repeated,
+           integers("SELECT target FROM point WHERE direction <> 0 AND reason IS NULL AND run IN "
+                    "(SELECT run FROM compensation_source WHERE compensation_table = ?) "
+                    "GROUP BY target, direction HAVING count(*) > 1 LIMIT 1",
+                    table.id));
+  table.visited_once = repeated.empty();
   return table;
 }
 

@@ -122,6 +122,7 @@ void write_run_positioning_uncertainty(JsonWriter& json, const RunPositioningUnc
   figures("U_B", U.B)("U_B_mean", U.B_mean);
   figures("U_R_forward", U.R_forward)("U_R_reverse", U.R_reverse)("U_R", U.R);
   figures("U_E_forward", U.E_forward)("U_E_reverse", U.E_reverse)("U_E", U.E)("U_M", U.M);
+  figures("U_A_forward", kNoFigure)("U_A_reverse", kNoFigure)("U_A", kNoFigure);
   write_covers(json, U.covers, U.not_declared);
   json.field("R_is_of", "these visits").end_object();
 }

@@ -59,6 +59,7 @@ struct RunPositioningUncertainty {
   double E_forward = kNoFigure, E_reverse = kNoFigure, E = kNoFigure, M = kNoFigure;
   // R of these visits: how well so few know the R of the axis is not in U.
   double R_forward = kNoFigure, R_reverse = kNoFigure, R = kNoFigure;
+  bool noise_only = false;
   std::string covers;  // a sentence for people: what U is made of
   std::vector<std::string> not_declared;
 };

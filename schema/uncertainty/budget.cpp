@@ -26,12 +26,9 @@ Covers covers(const Budget& budget) {
     return {budget.not_declared.empty() && (budget.lines.empty() || declares(budget))
                 ? Covered::repeatability_import
                 : Covered::repeatability_only};
-  Covers found = {Covered::noise_repeatability_declared};
-  if (budget.noise_only)
-    found = {Covered::noise_repeatability_only,
-             declares(budget) ? Covered::declared_below_1_percent : Covered::nothing_declared};
-  if (budget.is_single_run) found.push_back(Covered::single_run);
-  return found;
+  return covers({.noise_only = budget.noise_only,
+                 .declares = declares(budget),
+                 .repeated = !budget.is_single_run});
 }
 
 Covers covers(const std::vector<Budget>& budgets) {

@@ -14,6 +14,13 @@ enum class Covered {
 };
 using Covers = std::vector<Covered>;
 
+// Of what a fixture measured.
+struct MeasuredCovers {
+  bool noise_only = false, declares = false;
+  bool repeated = true;  // false: no target of a run was visited twice from the same side
+};
+Covers covers(const MeasuredCovers& of);
+
 // One sentence in English, without a full stop: "u_covers" of documents. German is in
 // daemon/words/words.h.
 std::string covers_text(const Covers& covers);

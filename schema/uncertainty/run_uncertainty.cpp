@@ -34,11 +34,11 @@ Covers covers(const RunUncertainty& uncertainty) {
   const bool repeated = uncertainty.visits == VisitsCovered::repeated;
   Covers found;
   if (uncertainty.why.empty() && !uncertainty.noise_only) {
-    found = {repeated ? Covered::noise_repeatability_rig : Covered::noise_rig};
+    found = {repeated ? Covered::noise_repeatability_declared : Covered::noise_declared};
   } else {
     found = {repeated ? Covered::noise_repeatability_only : Covered::noise_only};
     if (uncertainty.why.empty())
-      found.push_back(uncertainty.declares ? Covered::rig_contributes_zero
+      found.push_back(uncertainty.declares ? Covered::declared_below_1_percent
                                            : Covered::nothing_declared);
   }
   if (uncertainty.visits == VisitsCovered::single) found.push_back(Covered::no_second_visit);

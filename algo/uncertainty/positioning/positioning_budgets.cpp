@@ -194,6 +194,7 @@ Result<RunPositioningUncertainty> run_positioning_uncertainty(const Rig& rig, co
   const Budget M =
       both.of(without_line ? straightness_figure(axis, named) : range_figure(axis, named));
   if (std::isfinite(found.B_mean)) found.M = M.U;
+  found.noise_only = M.noise_only;
   found.covers = covers_text(M);
   found.not_declared = M.not_declared;
   const Visits visits = visits_of(run, named);

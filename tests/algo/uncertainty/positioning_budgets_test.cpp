@@ -164,7 +164,8 @@ TEST(PositioningBudgets, OfASingleRunThereIsNoR) {
   EXPECT_TRUE(std::isnan(U.R));
   EXPECT_TRUE(std::isnan(U.R_forward));
   EXPECT_GT(U.E, 0);
-  EXPECT_NE(U.covers.find("there is only one run"), std::string::npos) << U.covers;
+  EXPECT_NE(U.covers.find("approached twice from the same direction"), std::string::npos)
+      << U.covers;
 }
 
 // By hand: noise u of D and E at 10 mm gives u √2 / 10 mm of yaw at a visit.

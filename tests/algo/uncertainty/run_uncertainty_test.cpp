@@ -52,7 +52,7 @@ TEST(RunUncertainty, WhatIsDeclaredAddsToTheNoise) {
   const auto found = run_uncertainty(rig, measured(rig, noise));
   EXPECT_FALSE(found.noise_only);
   EXPECT_EQ(covers_text(found),
-            "noise, repeatability and the uncertainties declared in the rig file");
+            "noise, repeatability and the declared uncertainties");
   const auto& point = found.points[7];
   const double share = kUp_m / kL_m / 2;
   const double random2 = noise * noise * (1 + 2 * share * share);

@@ -75,7 +75,9 @@ Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
 
 const char* const kNotInR =
     "R (ISO 230-2) is calculated only from the repeated approaches to each target in this run. U "
-    "does not include the uncertainty that comes from the small number of approaches";
+    "does not include the uncertainty that comes from the small number of approaches. U of A is "
+    "unknown (null), because A contains 2 s at each of its ends, and so few approaches do not show "
+    "how well s is known";
 
 }  // namespace
 
@@ -124,9 +126,7 @@ namespace {
 std::string U_text(const RunPositioning& found, bool simulated, std::size_t width) {
   if (!found.U_reason.empty())
     return simulated_notice(simulated) + wrapped("U is unknown: " + found.U_reason, width) + "\n";
-  const auto covers_more = [](const PositioningColumn& column) {
-    return !column.U->covers.starts_with("noise and repeatability only");
-  };
+  const auto covers_more = [](const PositioningColumn& column) { return !column.U->noise_only; };
   const auto most = std::find_if(found.columns.begin(), found.columns.end(), covers_more);
   const bool noise_only = most == found.columns.end();
   const auto& U = (noise_only ? found.columns.begin() : most)->U;

@@ -79,8 +79,9 @@ TEST(Budget, NoiseOfIndependentTargets) {
   EXPECT_NEAR(slope.u, u_mean / std::sqrt(sxx), 1e-12);
   EXPECT_EQ(slope.u, slope.u_random);
   // Nothing was visited again: what is slower than a stop cannot be seen, and that is said.
-  EXPECT_NE(covers_text(slope).find(
-                "noise with periods longer than a stop is not included (there is only one run)"),
+  EXPECT_NE(covers_text(slope).find("noise with periods longer than a stop is not included (in a "
+                                    "run, no target was approached "
+                                    "twice from the same direction)"),
             std::string::npos);
   synthetic.runs = 3;
   EXPECT_EQ(

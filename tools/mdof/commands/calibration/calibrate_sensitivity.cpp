@@ -48,7 +48,7 @@ std::string json_of(const SensitivityCalibration& found, const CalibrationRecord
   for (const double reading_um : found.calibrated_um) json.value(reading_um);
   json.end_array()
       .field("u_covers",
-             covers_text(Covers{rig_declares ? Covered::noise_rig : Covered::noise_only}))
+             covers_text(Covers{rig_declares ? Covered::noise_declared : Covered::noise_only}))
       .field("noise_only", !rig_declares)
       .end_object();
   return json.take();

@@ -89,7 +89,7 @@ std::string mounting_json(const MountingCalibration& found, const CalibrationRec
   json.field("tilt_mrad", found.tilt_rad * 1e3).field("chi_square", found.chi_square);
   json.field("freedom", found.freedom).field("explained", found.explained);
   json.field("u_covers",
-             covers_text(Covers{rig_declares ? Covered::noise_rig : Covered::noise_only}))
+             covers_text(Covers{rig_declares ? Covered::noise_declared : Covered::noise_only}))
       .field("noise_only", !rig_declares)
       .end_object();
   return json.take();

@@ -60,8 +60,12 @@ std::string parallelism_text(const Parallelism& found) {
              "The result is valid only if neither the target nor the fixture was moved relative to "
              "the machine between the runs. ± is the standard uncertainty u. It contains " +
                  covers_text(found.planes.front().budget) +
-                 ". The declared uncertainties of the two runs are taken as independent. The "
-                 "result uses the least-squares slopes. All slopes refer to the fixture.",
+                 ". Scale, linearity and tilt factor of a probe and the flatness of a plane are "
+                 "common to both runs if both rigs declare them, and count by the difference of "
+                 "their effects. All other declared uncertainties are taken as independent between "
+                 "the runs, so u may be too large if the set-up stayed the same. The result uses "
+                 "the "
+                 "least-squares slopes. All slopes refer to the fixture.",
              terminal_columns()) +
          "\n";
 }

@@ -147,6 +147,7 @@ std::string clamp_text(const Clamped& found, const FormClampCommand& o) {
 
 Status form_clamp(const FormClampCommand& o) {
   MDOF_CHECK(check_plate(o));
+  MDOF_CHECK(check_out(o.out, {o.before, o.after, o.released}));
   if (o.K && !o.released.empty())
     return fail(ErrorCode::usage,
                 "mdof calculates K from the map RELEASED; leave out RELEASED or --K");

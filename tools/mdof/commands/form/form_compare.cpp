@@ -29,13 +29,25 @@ algo::Register register_from(const std::string& name) {
                            : algo::Register::none;
 }
 
-Notices notices_of(const algo::Comparison& found, const FormCompareCommand& o) {
-  const std::size_t directions = found.undetermined;
-  if (directions == 0) return {};
-  return {notice(NoticeCode::map_movements_undetermined, o.a, {{"directions", directions}})};
+struct Compared {
+  algo::Comparison found;
+  std::size_t measured = 0;  // pixels of A
+};
+
+Notices notices_of(const Compared& compared, const FormCompareCommand& o) {
+  const algo::Comparison& found = compared.found;
+  Notices notices;
+  if (is_few(found.pixels, compared.measured))
+    notices.push_back(notice(NoticeCode::map_pixels_not_compared, o.a,
+                             {{"compared", found.pixels}, {"measured", compared.measured}}));
+  if (found.undetermined > 0)
+    notices.push_back(
+        notice(NoticeCode::map_movements_undetermined, o.a, {{"directions", found.undetermined}}));
+  return notices;
 }
 
-std::string compare_json(const algo::Comparison& found, const FormCompareCommand& o) {
+std::string compare_json(const Compared& compared, const FormCompareCommand& o) {
+  const algo::Comparison& found = compared.found;
   JsonWriter json;
   json.begin_object()
       .field("pv_um", to_um(found.pv_m))
@@ -49,7 +61,7 @@ std::string compare_json(const algo::Comparison& found, const FormCompareCommand
       .field("pixels", static_cast<std::uint64_t>(found.pixels))
       .field("register", o.register_how)
       .field("undetermined_directions", static_cast<std::uint64_t>(found.undetermined));
-  write_notices(json, "notices", notices_of(found, o), words::text);
+  write_notices(json, "notices", notices_of(compared, o), words::text);
   json.end_object();
   return json.take();
 }
@@ -68,13 +80,17 @@ std::string compare_text(const algo::Comparison& found, const FormCompareCommand
 }
 
 Status form_compare(const FormCompareCommand& o) {
+  MDOF_CHECK(check_out(o.out, {o.a, o.b}));
   MDOF_TRY(const SurfaceMap a, load_map(o.a, o.maps));
   MDOF_TRY(const SurfaceMap b, load_map(o.b, o.maps));
-  MDOF_TRY(const algo::Comparison found, algo::compare(a, b, register_from(o.register_how)));
-  show_notices(notices_of(found, o));
+  Compared compared;
+  MDOF_TRY(compared.found, algo::compare(a, b, register_from(o.register_how)));
+  compared.measured = a.measured();
+  const algo::Comparison& found = compared.found;
+  show_notices(notices_of(compared, o));
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));
   MDOF_CHECK(plot_maps({{"difference", o.b + " - " + o.a, found.difference}}, o.plots));
-  return o.json ? write_line(compare_json(found, o)) : write_out(compare_text(found, o));
+  return o.json ? write_line(compare_json(compared, o)) : write_out(compare_text(found, o));
 }
 
 Action declare_form_compare(CLI::App& command) {

@@ -99,6 +99,8 @@ Status form_cut(const FormCutCommand& o) {
     return fail(ErrorCode::usage,
                 "--gain optimal: the random error of a pass is unknown; give --random-um, or two "
                 "or more passes with --repeated");
+  MDOF_CHECK(check_out(o.out, {o.wanted}));
+  MDOF_CHECK(check_out(o.out, o.cuts));
   algo::CuttingPasses passes;
   MDOF_TRY(passes.wanted, load_map(o.wanted, o.maps));
   for (const std::string& file : o.cuts) {

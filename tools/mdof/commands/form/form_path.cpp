@@ -39,7 +39,8 @@ struct FoundPath {
   algo::SpiralRequest request;
   algo::SpiralCounts counts;
   std::size_t undulations = 0;
-  double frequency_hz = 0, stroke_m = 0, acceleration_m_s2 = 0, duration_s = 0;
+  double frequency_hz = 0, stroke_m = 0, stroke_on_part_m = 0, acceleration_m_s2 = 0,
+         duration_s = 0;
   std::optional<algo::PassedBand> left_out;
 };
 
@@ -131,12 +132,13 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   const double per_s = o.speed_rpm / 60;
   algo::TurnSpectrum spectrum(found.request.points_per_turn,
                               o.bandwidth_hz ? *o.bandwidth_hz / per_s : -1);
-  Motion motion;
+  Motion motion, on_part;
   const PathRates rates{o.speed_rpm, found.request.points_per_turn};
   PathWriter writer(o.out, rates);
   MDOF_CHECK(writer.begin());
   MDOF_TRY(found.counts, path.each([&](const algo::PathPoint& point) {
     motion.add(point.z_m);
+    if (point.on_part != algo::OnPart::bridged) on_part.add(point.z_m);
     spectrum.add(point.z_m);
     return writer.add(point);
   }));
@@ -145,6 +147,7 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   found.undulations = spectrum.undulations(o.undulation_share);
   found.frequency_hz = static_cast<double>(found.undulations) * per_s;
   found.stroke_m = motion.stroke_m();
+  found.stroke_on_part_m = on_part.stroke_m();
   found.acceleration_m_s2 = motion.acceleration_m_s2(rates.t_s(1));
   found.duration_s = rates.t_s(found.counts.points - 1);
   if (o.bandwidth_hz) found.left_out = spectrum.left_out();
@@ -164,12 +167,25 @@ std::optional<algo::FeedRoughness> roughness_of(const FoundPath& found) {
   return algo::feed_roughness(request.tool_radius_m, request.feed_m);
 }
 
-Notices notices_of(const FoundPath& found) {
+// A spiral about a long part leaves it for most of its turns, and bridges rise a little above it.
+constexpr double kMostlyBridged = 0.9, kHigherBridged = 1.1;
+
+Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
   const algo::SpiralRequest& request = found.request;
-  if (!(request.tool_radius_m > 0) || roughness_of(found)) return {};
-  return {
-      notice(NoticeCode::feed_leaves_rings, "",
-             {{"feed_um", to_um(request.feed_m)}, {"radius_um", to_um(request.tool_radius_m)}})};
+  const algo::SpiralCounts& counts = found.counts;
+  Notices notices;
+  if (request.tool_radius_m > 0 && !roughness_of(found))
+    notices.push_back(
+        notice(NoticeCode::feed_leaves_rings, "",
+               {{"feed_um", to_um(request.feed_m)}, {"radius_um", to_um(request.tool_radius_m)}}));
+  if (static_cast<double>(counts.bridged) > kMostlyBridged * static_cast<double>(counts.points))
+    notices.push_back(notice(NoticeCode::path_mostly_bridged, o.map,
+                             {{"bridged", counts.bridged}, {"points", counts.points}}));
+  if (counts.bridged > 0 && found.stroke_m > kHigherBridged * found.stroke_on_part_m)
+    notices.push_back(notice(
+        NoticeCode::path_stroke_bridged, o.map,
+        {{"stroke_um", to_um(found.stroke_m)}, {"on_part_um", to_um(found.stroke_on_part_m)}}));
+  return notices;
 }
 
 std::string path_json(const FoundPath& found, const FormPathCommand& o) {
@@ -208,7 +224,7 @@ std::string path_json(const FoundPath& found, const FormPathCommand& o) {
     json.field("Ra_nm", rough ? rough->Ra_m * 1e9 : std::nan(""))
         .field("Rt_nm", rough ? rough->Rt_m * 1e9 : std::nan(""));
   }
-  write_notices(json, "notices", notices_of(found), words::text);
+  write_notices(json, "notices", notices_of(found, o), words::text);
   json.field("out", o.out).end_object();
   return json.take();
 }
@@ -237,9 +253,10 @@ std::string path_text(const FoundPath& found, const FormPathCommand& o) {
 }
 
 Status form_path(const FormPathCommand& o) {
+  MDOF_CHECK(check_out(o.out, {o.map}));
   MDOF_TRY(const SurfaceMap map, load_map(o.map, o.maps));
   MDOF_TRY(const FoundPath found, write_path(o, map));
-  show_notices(notices_of(found));
+  show_notices(notices_of(found, o));
   MDOF_CHECK(o.json ? write_line(path_json(found, o)) : write_out(path_text(found, o)));
   if (o.bandwidth_hz && found.frequency_hz > *o.bandwidth_hz)
     return fail(ErrorCode::check, o.map + ": the path needs a servo bandwidth of " +
@@ -281,6 +298,7 @@ Action declare_form_path(CLI::App& command) {
           "required if all pixels at the edges of the map are empty")
       ->check(positive_number());
   command.add_option("--points-per-rev", o->points_per_rev, "Points per turn")
+      ->type_name("N")
       ->check(whole_number_in(4, 1'000'000))
       ->capture_default_str();
   command.add_option("--tool-radius-mm", o->tool_radius_mm, "Radius of the tool; 0: pointed tool")
@@ -289,6 +307,7 @@ Action declare_form_path(CLI::App& command) {
   command
       .add_option("--extend-pixels", o->extend_pixels,
                   "Number of pixels by which mdof extends the surface beyond the edge")
+      ->type_name("N")
       ->check(whole_number_in(0, 100))
       ->capture_default_str();
   command

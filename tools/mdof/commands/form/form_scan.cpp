@@ -1,5 +1,6 @@
 // mdof form scan RUN...: a height map of a part on a spindle from a probe of one's own.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 
 #include "algo/form/map_figures.h"
@@ -71,6 +72,10 @@ Status form_scan(const FormScanCommand& o) {
   std::vector<std::int64_t> runs;
   for (const std::string& run : o.runs) {
     MDOF_TRY(const std::int64_t number, run_number(o.database, run));
+    if (std::find(runs.begin(), runs.end(), number) != runs.end())
+      return fail(ErrorCode::usage, "run " + std::to_string(number) +
+                                        " is given twice, so its heights would count twice; give "
+                                        "each run once");
     runs.push_back(number);
   }
   MDOF_TRY(const auto scan, load_scan(runs, pixel_m, o.database));

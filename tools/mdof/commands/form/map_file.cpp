@@ -73,9 +73,22 @@ std::optional<std::int64_t> run_of_map(const std::string& name) {
   return std::stoll(digits);
 }
 
+Status check_out(const std::string& out, const std::vector<std::string>& maps) {
+  std::error_code unknown;  // a file that does not exist yet
+  for (const std::string& map : maps)
+    if (!out.empty() && !run_of_map(map) && std::filesystem::equivalent(out, map, unknown))
+      return fail(ErrorCode::usage, "--out " + out + ": this is the file of the map " + map +
+                                        ", which mdof would overwrite; give another file");
+  return {};
+}
+
+bool is_few(std::size_t common, std::size_t measured) {
+  return 10 * common < 9 * measured;
+}
+
 void warn_of_few(const SurfaceMap& map, std::size_t common, const std::string& rest) {
   const std::size_t measured = map.measured();
-  if (10 * common >= 9 * measured) return;
+  if (!is_few(common, measured)) return;
   warn(map.name + ": the map has " + std::to_string(measured) + " measured pixels, but only " +
        std::to_string(common) + " of these pixels are measured in all maps; " + rest);
 }

@@ -23,6 +23,11 @@ struct MapOptions {
 // The run of "run:12", and of "12" where no file is called so.
 std::optional<std::int64_t> run_of_map(const std::string& name);
 
+// Error usage: `out` is the file of one of these maps, which would be overwritten.
+Status check_out(const std::string& out, const std::vector<std::string>& maps);
+
+// Less than nine tenths of the measured pixels.
+bool is_few(std::size_t common, std::size_t measured);
 // A warning where `common` pixels are less than nine tenths of those of `map`; `rest`: what becomes
 // of the others.
 void warn_of_few(const SurfaceMap& map, std::size_t common, const std::string& rest);

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,8 +30,13 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_usage(const CLI::App* app, std::string name) const override {
     return fitted(CLI::Formatter::make_usage(app, std::move(name)), columns_);
   }
+  // Examples stay as they are, so that they can be copied.
   std::string make_footer(const CLI::App* app) const override {
-    return fitted(paragraphs(CLI::Formatter::make_footer(app)), columns_, 0);
+    std::istringstream lines(paragraphs(CLI::Formatter::make_footer(app)));
+    std::string out;
+    for (std::string line; std::getline(lines, line);)
+      out += (line.starts_with(' ') ? line : wrapped(line, columns_)) + "\n";
+    return out;
   }
 
  private:

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "algo/plausibility/plausibility.h"
-#include "algo/points/ranges_text.h"
+#include "algo/sequence/ranges_text.h"
 #include "algo/sequence/shifted_targets.h"
 #include "algo/sequence/uneven_visits.h"
 #include "schema/units.h"

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "algo/points/ranges_text.h"
+#include "algo/sequence/ranges_text.h"
 #include "algo/sequence/run_drifts.h"
 
 namespace mdof::algo {

@@ -10,7 +10,7 @@
 #include "schema/axis.h"
 #include "schema/run_json.h"
 #include "tools/mdof/text/analyses/budget_text.h"
-#include "tools/mdof/text/means_text.h"
+#include "tools/mdof/text/analyses/means_text.h"
 #include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/plausibility_text.h"
 #include "tools/mdof/text/text_table.h"

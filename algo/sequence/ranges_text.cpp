@@ -1,4 +1,4 @@
-#include "algo/points/ranges_text.h"
+#include "algo/sequence/ranges_text.h"
 
 #include <cstddef>
 

@@ -1,4 +1,4 @@
-#include "tools/mdof/text/means_text.h"
+#include "tools/mdof/text/analyses/means_text.h"
 
 #include <cmath>
 #include <vector>

@@ -138,9 +138,9 @@ Result<std::string> grid(const Methods& m, const Params& params) {
   MDOF_TRY(const auto* active, active_table(m, params));
   const auto [offset, count] = list_page_of(params, kMaxGridPage);
   if (params.has("generation") && params.integer("generation") != active->generation) {
-    return fail(ErrorCode::conflict, "the active table changed (generation is now " +
-                                         std::to_string(active->generation) +
-                                         "); read the grid again from offset 0");
+    return fail(ErrorCode::changed, "the active table changed (generation is now " +
+                                        std::to_string(active->generation) +
+                                        "); read the grid again from offset 0");
   }
   JsonWriter json;
   json.begin_object();

@@ -173,9 +173,9 @@ Result<std::string> volume_grid(const Methods& m, const Params& params) {
   MDOF_TRY(const auto* active, active_volume(m));
   const auto [offset, count] = list_page_of(params, kMaxNodesPage);
   if (params.has("generation") && params.integer("generation") != active->generation)
-    return fail(ErrorCode::conflict, "the active table changed (generation is now " +
-                                         std::to_string(active->generation) +
-                                         "); read the grid again from offset 0");
+    return fail(ErrorCode::changed, "the active table changed (generation is now " +
+                                        std::to_string(active->generation) +
+                                        "); read the grid again from offset 0");
   const VolumetricTable& table = active->table;
   const bool with_parts = params.boolean("u_parts", false);
   JsonWriter json(48 * 1024);

@@ -11,9 +11,10 @@ struct Row {
 };
 
 // The first row of an ErrorCode is the one that is sent.
-constexpr std::array<Row, 12> kTable{{
+constexpr std::array<Row, 13> kTable{{
     {ErrorCode::usage, kInvalidParams},
-    {ErrorCode::conflict, kChanged},
+    {ErrorCode::changed, kChanged},
+    {ErrorCode::conflict, kConflict},
     {ErrorCode::not_found, kNotFound},
     {ErrorCode::bad_input, kBadInput},
     {ErrorCode::io, kIo},
@@ -26,7 +27,23 @@ constexpr std::array<Row, 12> kTable{{
     {ErrorCode::io, kBusy},
 }};
 
+constexpr CodeMeaning kMeanings[] = {
+    {"busy", kBusy, "too many connections"},
+    {"changed", kChanged, "the generation changed: read the data again"},
+    {"conflict", kConflict, "not possible now: a run is in progress, an axis moves"},
+    {"forbidden", kForbidden, "this client may only read"},
+    {"not_found", kNotFound, "no such run, table or device"},
+    {"bad_input", kBadInput, "an error in a file, a document or a value"},
+    {"io", kIo, "an error of a device, a file or the database"},
+    {"check", kCheck, "a result fails its check"},
+    {"reply_too_large", kReplyTooLarge, "read the result in pages"},
+};
+
 }  // namespace
+
+std::span<const CodeMeaning> code_meanings() {
+  return kMeanings;
+}
 
 int code_of(ErrorCode code) {
   for (const Row& row : kTable)

@@ -1,6 +1,8 @@
 // The error codes of the RPC interface: one table, read in both directions.
 #pragma once
 
+#include <span>
+
 #include "schema/base/result.h"
 
 namespace mdof::rpc {
@@ -13,13 +15,22 @@ inline constexpr int kInvalidParams = -32602;
 inline constexpr int kInternalError = -32603;
 // Of this server.
 inline constexpr int kBusy = -32000;       // too many connections; the line is followed by a close
-inline constexpr int kChanged = -32001;    // generation changed, a run is under way
+inline constexpr int kChanged = -32001;    // generation changed: read again, then decide or go on
+inline constexpr int kConflict = -32002;   // not possible now: a run is under way, the axis moves
 inline constexpr int kForbidden = -32003;  // this transport may only read
 inline constexpr int kNotFound = -32004;   // the named run, table, device does not exist
 inline constexpr int kBadInput = -32010;   // a file, a document or a value in it
 inline constexpr int kIo = -32011;         // device, file system, database
 inline constexpr int kCheck = -32012;      // a result exists and fails its check
 inline constexpr int kReplyTooLarge = -32013;  // page it: offset, count
+
+// What a client may branch on, for rpc.discover.
+struct CodeMeaning {
+  const char* name;
+  int code;
+  const char* message;
+};
+std::span<const CodeMeaning> code_meanings();
 
 int code_of(ErrorCode code);
 ErrorCode error_code_of(int code);  // what a client makes of a code

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "daemon/rpc/codes.h"
 #include "schema/base/json_page.h"
 #include "schema/base/toml/toml_reader.h"
 #include "schema/field/shape.h"
@@ -53,25 +54,38 @@ std::string describe(const Method& method, const std::string& schema) {
   return json.take();
 }
 
+// The codes of errors, as OpenRPC has them.
+void write_components(JsonWriter& json) {
+  json.key("components").begin_object().key("errors").begin_object();
+  for (const CodeMeaning& each : code_meanings())
+    json.key(each.name)
+        .begin_object()
+        .field("code", each.code)
+        .field("message", each.message)
+        .end_object();
+  json.end_object().end_object();
+}
+
 Method discover_method(const MethodTable& table) {
-  return {
-      .name = "rpc.discover",
-      .summary = "Describes all methods in an OpenRPC 1.2.6 document.",
-      .params = {{"offset", ParamType::integer, "index of the first method on this page", false,
-                  "0"},
-                 {"max_bytes", ParamType::integer,
-                  "limit of the reply line in bytes, from 4096 to 49152", false, "49152"}},
-      .members = "{openrpc, info: {title, version}, x-total, methods: [object], x-next-offset?}",
-      .example = R"({"offset":0})",
-      .handler = [&table](const Params& params) -> Result<std::string> {
-        const std::int64_t offset = params.integer("offset");
-        const std::int64_t bytes = params.integer("max_bytes", 49152);
-        if (offset < 0) return fail(ErrorCode::usage, "offset: must not be negative");
-        if (bytes < 4096 || bytes > 49152)
-          return fail(ErrorCode::usage, "max_bytes: must be from 4096 to 49152");
-        return table.openrpc(static_cast<std::size_t>(offset),
-                             static_cast<std::size_t>(bytes) - kEnvelopeBytes);
-      }};
+  return {.name = "rpc.discover",
+          .summary = "Describes all methods in an OpenRPC 1.2.6 document.",
+          .params = {{"offset", ParamType::integer, "index of the first method on this page", false,
+                      "0"},
+                     {"max_bytes", ParamType::integer,
+                      "limit of the reply line in bytes, from 4096 to 49152", false, "49152"}},
+          .members =
+              "{openrpc, info: {title, version}, components?, x-total, methods: [object], "
+              "x-next-offset?}",
+          .example = R"({"offset":0})",
+          .handler = [&table](const Params& params) -> Result<std::string> {
+            const std::int64_t offset = params.integer("offset");
+            const std::int64_t bytes = params.integer("max_bytes", 49152);
+            if (offset < 0) return fail(ErrorCode::usage, "offset: must not be negative");
+            if (bytes < 4096 || bytes > 49152)
+              return fail(ErrorCode::usage, "max_bytes: must be from 4096 to 49152");
+            return table.openrpc(static_cast<std::size_t>(offset),
+                                 static_cast<std::size_t>(bytes) - kEnvelopeBytes);
+          }};
 }
 
 }  // namespace
@@ -127,6 +141,7 @@ std::string MethodTable::openrpc(std::size_t offset, std::size_t max_bytes) cons
   JsonWriter json;
   json.begin_object().field("openrpc", "1.2.6").key("info").begin_object();
   json.field("title", title_).field("version", version_).end_object();
+  if (offset == 0) write_components(json);
   json.field("x-total", static_cast<std::uint64_t>(methods_.size())).key("methods").begin_array();
   std::vector<const Method*> left;
   for (const auto& [name, method] : methods_) left.push_back(&method);

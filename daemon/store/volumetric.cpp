@@ -259,7 +259,7 @@ Status Store::check_generation(std::optional<std::int64_t> expected) {
   if (!expected) return {};
   MDOF_TRY(const std::int64_t now, generation());
   if (now == *expected) return {};
-  return fail(ErrorCode::conflict,
+  return fail(ErrorCode::changed,
               "the active tables have changed since they were read: the generation is " +
                   std::to_string(now) + ", not " + std::to_string(*expected) +
                   "; active now: " + active_text() +

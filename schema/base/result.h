@@ -17,7 +17,8 @@ enum class ErrorCode {
   not_found,  // the named run, table, device does not exist
   check,      // a result exists and fails its check
   io,         // device, file system, database
-  conflict,   // true a moment ago, no longer: generation changed, a run is under way
+  conflict,   // not possible now: a run is under way, the axis moves, a table is active
+  changed,    // what the caller has read is no longer so: the generation is another
 };
 
 // `message` names the place (file, line, key, device, register) and what is wrong there, and the

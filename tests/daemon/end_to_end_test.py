@@ -219,7 +219,7 @@ class EndToEnd(unittest.TestCase):
         run = self.client.call("run.start", axis="X")["run"]
         with self.assertRaises(RpcError) as refused:
             self.client.call("run.start", axis="X")
-        self.assertEqual(refused.exception.code, -32001)
+        self.assertEqual(refused.exception.code, -32002)
         self.client.call("run.stop", run=run, abort=True)
         self.assertEqual(self.client.call("run.get", run=run)["state"], "aborted")
         with self.assertRaisesRegex(RpcError, "is aborted"):

@@ -151,7 +151,7 @@ class Examples(unittest.TestCase):
         def refused(run):
             with self.assertRaisesRegex(RpcError, f'device "t7" are in use for axis X: run {run} is under way') as no:
                 client.call("run.start", axis="Y")
-            self.assertEqual(no.exception.code, -32001)
+            self.assertEqual(no.exception.code, -32002)
 
         wait_until_all_flow(client)
         x = measured(daemon, client, TARGETS, "X", refused)

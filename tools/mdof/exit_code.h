@@ -14,6 +14,7 @@ inline ExitCode exit_code_of(ErrorCode code) {
     case ErrorCode::bad_input:
     case ErrorCode::not_found:
     case ErrorCode::conflict:
+    case ErrorCode::changed:
       return kBadInput;
     case ErrorCode::check:
       return kFailedCheck;

@@ -231,7 +231,7 @@ TEST_F(CompensationMethods, ASimulatedTableIsPutInForceOnlyWhenAskedForAndMarked
   ASSERT_EQ(call("compensation.build", R"({"runs":[)" + run + "]}").at("/result/simulated"),
             "true");
   const Answer refused = call("compensation.activate", R"({"table":2,"despite_warnings":true})");
-  EXPECT_EQ(refused.code(), rpc::kChanged) << refused.text();
+  EXPECT_EQ(refused.code(), rpc::kConflict) << refused.text();
   EXPECT_SAID(refused.message(), "is simulated");
   EXPECT_SAID(refused.message(), R"(\"simulated\": true)");
   EXPECT_EQ(call("compensation.status").at("/result/axes/X/table"), "1");
@@ -275,7 +275,7 @@ TEST_F(CompensationMethods, ATableOrASquarenessOfASupersededRunSaysSoAndTheTable
   EXPECT_EQ(notices("compensation.build", R"({"runs":[3]})").find(code), std::string::npos);
   EXPECT_EQ(call("compensation.table", R"({"table":1})").at("/result/doubtful"), "true");
   const Answer refused = call("compensation.activate", R"({"table":2})");
-  EXPECT_EQ(refused.code(), rpc::kChanged) << refused.text();
+  EXPECT_EQ(refused.code(), rpc::kConflict) << refused.text();
   EXPECT_SAID(refused.message(), "run 3");
   EXPECT_EQ(call("compensation.activate", R"({"table":3})").code(), 0);
 }
@@ -296,7 +296,7 @@ TEST_F(CompensationMethods, WhatHasWarningsIsPutInForceOnlyWhenAskedFor) {
   call("compensation.build", R"({"runs":[1],"partial":true})");
   EXPECT_EQ(call("compensation.activate", R"({"table":9})").code(), rpc::kNotFound);
   const Answer refused = call("compensation.activate", R"({"table":1})");
-  EXPECT_EQ(refused.code(), rpc::kChanged) << refused.text();
+  EXPECT_EQ(refused.code(), rpc::kConflict) << refused.text();
   EXPECT_SAID(refused.message(), "despite_warnings");
   EXPECT_EQ(call("compensation.status").at("/result/axes"), "{}");
   const auto done = call("compensation.activate", R"({"table":1,"despite_warnings":true})");

@@ -120,7 +120,7 @@ TEST_F(Queries, TooManyOfOneClientAreRefusedAndCounted) {
   for (int i = 0; i < 258; ++i) send(client, "note");
   await(client, 2);
   for (const std::string& reply : client->replies) {
-    EXPECT_EQ(Answer(reply).code(), rpc::kChanged) << reply;
+    EXPECT_EQ(Answer(reply).code(), rpc::kConflict) << reply;
     EXPECT_NE(reply.find("256 calls of this connection are already"), std::string::npos) << reply;
   }
   send(other, "note");

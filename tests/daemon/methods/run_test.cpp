@@ -75,12 +75,12 @@ TEST_F(RunMethods, TheProbesOfADeviceMeasureOneAxisAtATime) {
   }
   ASSERT_EQ(call("run.start", R"({"axis":"X"})").at("/result/run"), "1");
   const Answer refused = call("run.start", R"({"axis":"Y"})");
-  EXPECT_EQ(refused.code(), rpc::kChanged) << refused.text();
+  EXPECT_EQ(refused.code(), rpc::kConflict) << refused.text();
   EXPECT_TEXT(refused.message(), "device \\\"daq\\\" are in use for axis X: run 1 is under way");
   EXPECT_EQ(bench_->stations[1]->run(), 0);
   ASSERT_EQ(call("run.stop", R"({"run":1})").at("/result/run"), "1");
   EXPECT_EQ(call("run.start", R"({"axis":"Y"})").at("/result/run"), "2");
-  EXPECT_EQ(call("run.resume", R"({"run":1})").code(), rpc::kChanged);
+  EXPECT_EQ(call("run.resume", R"({"run":1})").code(), rpc::kConflict);
   EXPECT_EQ(call("run.stop", R"({"run":2})").at("/result/run"), "2");
 }
 

@@ -137,7 +137,7 @@ TEST_F(ServerMethods, TheEncoderIsSetWhereTheAxisStandsAndNotWhileItIsNotKnown) 
   EXPECT_EQ(call("encoder.set", R"({"axis":"X","position_mm":1})").code(), rpc::kNotFound);
   add_axis();
   const Answer nothing = call("encoder.set", R"({"axis":"X","position_mm":1})");
-  EXPECT_EQ(nothing.code(), rpc::kChanged);
+  EXPECT_EQ(nothing.code(), rpc::kConflict);
   EXPECT_HAS(nothing.message(), "the encoder has sent no sample");
   TestAxis axis(3);
   axis.stand(2);

@@ -139,7 +139,7 @@ TEST_F(VolumeMethods, AnAxisAndTheVolumeAreNotActiveTogether) {
   const std::string of_axis = R"({"table":1,"despite_warnings":true})";
   ASSERT_EQ(call("compensation.activate", of_axis).at("/result/changed"), "true");
   const Answer refused = activate(2);
-  EXPECT_EQ(refused.code(), rpc::kChanged);
+  EXPECT_EQ(refused.code(), rpc::kConflict);
   EXPECT_SAYS(refused.message(), "would correct the errors twice");
   EXPECT_SAYS(refused.message(), "--axis X");
   ASSERT_EQ(call("compensation.deactivate", R"({"axis":"X"})").code(), 0);

@@ -199,7 +199,8 @@ TEST_F(Replies, EveryErrorCodeHasItsNumberAndComesBackFromIt) {
   const std::pair<ErrorCode, const char*> codes[] = {
       {ErrorCode::usage, "-32602"},     {ErrorCode::bad_input, "-32010"},
       {ErrorCode::not_found, "-32004"}, {ErrorCode::check, "-32012"},
-      {ErrorCode::io, "-32011"},        {ErrorCode::conflict, "-32001"}};
+      {ErrorCode::io, "-32011"},        {ErrorCode::conflict, "-32002"},
+      {ErrorCode::changed, "-32001"}};
   for (const auto& [code, number] : codes) {
     const std::string params = "[" + std::to_string(static_cast<int>(code)) + "]";
     EXPECT_EQ(at(raw.ask(R"({"jsonrpc":"2.0","method":"fail","params":)" + params + R"(,"id":1})"),

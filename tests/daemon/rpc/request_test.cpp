@@ -180,6 +180,8 @@ TEST_F(Requests, DiscoverDescribesEveryMethod) {
 }
 
 TEST_F(Requests, DiscoverIsPagedWhereItDoesNotFit) {
+  EXPECT_EQ(at(call("rpc.discover", "[]"), "/result/components/errors/changed/code"), "-32001");
+  EXPECT_EQ(at(call("rpc.discover", "[]"), "/result/components/errors/conflict/code"), "-32002");
   std::size_t offset = 0, seen = 0, pages = 0;
   for (; pages < 20; ++pages) {
     const auto page = at(call("rpc.discover", "[" + std::to_string(offset) + ",4096]"), "/result");

@@ -16,7 +16,7 @@ import jsonschema  # noqa: E402
 from mdofd import DATA, RIG, Client, Daemon, recorded_again, simulator  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
-OPEN = {"options", "methods", "notices"}  # what devices, clients and codes add
+OPEN = {"options", "methods", "notices", "components", "probes"}  # what devices, clients and codes add
 MACHINE = """name = "m"
 machine = {chain = "w-b-X-Y-t"}
 [[axis]]

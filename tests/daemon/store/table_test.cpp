@@ -129,7 +129,7 @@ TEST_F(StoreTest, AChangeThatExpectsAnotherGenerationIsRefusedAndChangesNothing)
           store->change_volumetric(4, "anna", "t3", {}, old),
           store->change_volumetric(std::nullopt, "anna", "t3", {}, old)}) {
       ASSERT_FALSE(refused) << old;
-      EXPECT_EQ(refused.error().code, ErrorCode::conflict);
+      EXPECT_EQ(refused.error().code, ErrorCode::changed);
       for (const std::string& named : {std::to_string(other->generation), std::string("table 1"),
                                        std::string("table 3"), std::string("axis Y")})
         EXPECT_NE(refused.error().message.find(named), std::string::npos)

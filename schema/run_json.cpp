@@ -284,7 +284,8 @@ void write_squareness_members(JsonWriter& json, const Squareness& s,
       .field("k", budget.coverage_factor)
       .field("nu_eff", budget.freedom);
   write_covers(json, {budget});
-  json.field("form_urad", to_urad(s.form_rad))
+  json.field("noise_only", budget.noise_only)
+      .field("form_urad", to_urad(s.form_rad))
       .field("reference", to_string(Reference::fixture))
       .field(slope_a, to_urad(s.slope_a_rad))
       .field("u_" + slope_a, to_urad(s.u_slope_a_rad))

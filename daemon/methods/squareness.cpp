@@ -16,8 +16,9 @@ void squareness(Methods& m, const Params& params, Reply reply) {
   SquarenessRequest request = std::move(*asked);
   if (params.has("artefact_angle_error_urad"))
     request.given.angle_error_rad = from_urad(params.number("artefact_angle_error_urad"));
-  if (params.has("u_artefact_urad"))
-    request.given.u_rad = from_urad(params.number("u_artefact_urad"));
+  // The second name is of earlier versions.
+  for (const char* key : {"u_artefact_angle_urad", "u_artefact_urad"})
+    if (params.has(key)) request.given.u_rad = from_urad(params.number(key));
   request.action = action_of(params, "squareness.fit");
   answer_with_change(m, std::move(reply), [request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(auto found, calculate_squareness(reader, request));
@@ -32,6 +33,19 @@ void squareness(Methods& m, const Params& params, Reply reply) {
 
 constexpr std::array kRunKeys = {"run_x", "run_y", "run_z"};
 
+// run_a and run_b: the runs say which axes they are of.
+Result<SquarenessRequest> runs_in_order(const Params& params, bool named_by_axis) {
+  if (named_by_axis || !params.has("run_a") || !params.has("run_b"))
+    return fail(ErrorCode::usage,
+                "squareness needs runs of two axes; give run_a and run_b, or two of run_x, run_y "
+                "and run_z");
+  SquarenessRequest request;
+  request.run_a = params.integer("run_a");
+  request.run_b = params.integer("run_b");
+  request.partial = params.boolean("partial", false);
+  return request;
+}
+
 }  // namespace
 
 std::vector<rpc::Param> squareness_params(std::vector<rpc::Param> more) {
@@ -41,6 +55,11 @@ std::vector<rpc::Param> squareness_params(std::vector<rpc::Param> more) {
   all.insert(all.end(), more.begin(), more.end());
   all.push_back({"partial", ParamType::boolean, "also accept partial runs", false, "false"});
   all.push_back({"run_z", ParamType::integer, "id of the run along Z", false});
+  all.push_back({"run_a", ParamType::integer,
+                 "id of the run along the first axis, in the order X, Y, Z; give run_a and run_b "
+                 "instead of run_x, run_y, run_z",
+                 false});
+  all.push_back({"run_b", ParamType::integer, "id of the run along the second axis", false});
   return all;
 }
 
@@ -48,9 +67,11 @@ Result<SquarenessRequest> squareness_param(const Params& params) {
   std::vector<std::size_t> given;
   for (std::size_t axis = 0; axis < kRunKeys.size(); ++axis)
     if (params.has(kRunKeys[axis])) given.push_back(axis);
+  if (params.has("run_a") || params.has("run_b")) return runs_in_order(params, !given.empty());
   if (given.size() != 2)
     return fail(ErrorCode::usage,
-                "squareness needs runs of two axes; give two of run_x, run_y and run_z");
+                "squareness needs runs of two axes; give run_a and run_b, or two of run_x, run_y "
+                "and run_z");
   SquarenessRequest request;
   request.axes = {static_cast<Axis>(given[0]), static_cast<Axis>(given[1])};
   request.run_a = params.integer(kRunKeys[given[0]]);
@@ -65,12 +86,18 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
                           "angle error of the square: the angle between its two faces, inside the "
                           "material, is 90 deg + this value [value in the rigs]",
                           false},
-                         {"u_artefact_urad",
+                         {"u_artefact_angle_urad",
                           ParamType::number,
                           "standard uncertainty of the angle of the square [value in the rigs]",
                           false,
                           {},
                           {.least = 0}}});
+  fit.push_back({"u_artefact_urad",
+                 ParamType::number,
+                 "earlier name of u_artefact_angle_urad",
+                 false,
+                 {},
+                 {.least = 0}});
   table.add(
       {.name = "squareness.fit",
        .summary = "Calculates the squareness of two axes from a run along each axis, and stores "
@@ -81,6 +108,7 @@ void add_squareness_methods(rpc::MethodTable& table, Methods& m) {
        .members =
            "{squareness, run_{small}, E{angular}0{axis}_urad, u_E{angular}0{axis}_urad, "
            "u_random_E{angular}0{axis}_urad, U_E{angular}0{axis}_urad, k, nu_eff, ...covers, "
+           "noise_only, "
            "form_urad, reference, slope_E{linear}{axis}_urad, u_slope_E{linear}{axis}_urad, "
            "artefact_angle_error_urad, u_artefact_angle_urad, artefact_corner, ...stated_figures, "
            "slopes_over, sense, simulated, created_utc, ...notices, lines: {end_point: "

@@ -247,7 +247,7 @@ TEST_F(RunMethods, SquarenessIsThatOfARunAlongXAndOneAlongY) {
   EXPECT_NEAR(plain.number("/result/slope_EYX_urad"), slope_urad(0), 0.1) << plain.text();
   const Answer square =
       call("squareness.fit", R"({"run_x":1,"run_y":2,)"
-                             R"("artefact_angle_error_urad":40,"u_artefact_urad":3})");
+                             R"("artefact_angle_error_urad":40,"u_artefact_angle_urad":3})");
   EXPECT_NEAR(std::abs(square.number("/result/EC0Y_urad") - plain.number("/result/EC0Y_urad")), 40,
               1e-6);
   EXPECT_NEAR(std::hypot(3, plain.number("/result/u_EC0Y_urad")),

@@ -19,7 +19,7 @@ from mdofd import DATA, RIG, Daemon, simulator  # noqa: E402
 MDOFD, MDOF = sys.argv[1:3]
 ROOT = os.path.join(DATA, "..", "..")
 LOG = {axis: os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz") for axis in "XY"}
-IN_USE = 4
+BAD_INPUT, IN_USE = 3, 4
 SCAN = '[scan]\nprobe = "F"\nposition_mm = [0, 0, 0]\nmeasures = "+Z"\ncentre_mm = 0\n'
 # In this order, of one database: WRITES makes what READS shows. "@" is the folder. Runs: 1, 4 X; 2 Y; 3 laser; 5 a scan.
 WRITES = [("replay", LOG["X"], "--rig", RIG["X"]), ("replay", LOG["Y"], "--rig", RIG["Y"]),
@@ -136,6 +136,25 @@ class BesideDaemon(unittest.TestCase):
             self.assertEqual(done.returncode != 0, True)
             self.assertIn(reason, done.stderr)
             self.assertIn(name, done.stderr)
+
+    # Of a file that is not there the words differ: mdofd opens it with an absolute path, and says that it does.
+    def test_a_mistake_has_the_code_and_the_words_that_it_has_without_mdofd(self):
+        for words in (("squareness", "2", "1"), ("squareness", "1", "1"), ("squareness", "1", "3"), ("squareness", "1", "99"),
+                      ("squareness", "1", "4"), ("compare", "1", "1"), ("parallelism", "1", "1"),
+                      ("compensation", "build", "1", "1"), ("compensation", "activate", "99"),
+                      ("replay", "@/nowhere.csv", "--rig", RIG["X"]), ("import", "@/nowhere.csv", "--axis", "X")):
+            with self.subTest(words):
+                held, free = (self.refused(database, *words) for database in (self.held, self.free))
+                self.assertEqual(held[0], free[0], held[1])
+                self.assertEqual(held[0], BAD_INPUT, held[1])
+                if words[0] not in ("replay", "import"):
+                    self.assertEqual(held[1], free[1])
+
+    def refused(self, database, *words):
+        words = [word.replace("@", self.folder) for word in words]
+        socket = ["--socket", self.daemon.socket] if "--socket" in self.help_of(words) else []
+        done = subprocess.run([MDOF, *words, "--db", database, *socket], capture_output=True, text=True, timeout=60)
+        return done.returncode, done.stderr.replace(database, "DATABASE")
 
     def test_no_command_is_left_out(self):
         with open(os.path.join(ROOT, "tools", "mdof", "commands", "commands.inc")) as file:

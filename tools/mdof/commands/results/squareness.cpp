@@ -1,11 +1,11 @@
 // mdof squareness RUN_A RUN_B: the angle between two axes, with its standard uncertainty.
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
-#include "daemon/measure/gate/gate.h"
 #include "daemon/output/charts/run/run_charts.h"
 #include "daemon/words/words.h"
 #include "schema/units.h"
@@ -25,6 +25,8 @@
 namespace mdof::tools {
 namespace {
 
+using simdjson::dom::element;
+
 struct SquarenessCommand {
   std::string database, socket, axes;
   std::array<std::string, 2> words;
@@ -34,8 +36,8 @@ struct SquarenessCommand {
   bool partial = false, json = false, all_warnings = false;
 };
 
-Result<daemon::FittedSquareness> fit(const SquarenessCommand& command) {
-  MDOF_TRY(store::Store store, open_to_write(command.database));
+Result<daemon::FittedSquareness> fit(store::Store& store, const SquarenessCommand& command,
+                                     bool stored) {
   daemon::SquarenessRequest request{command.run_a,
                                     command.run_b,
                                     {},
@@ -43,80 +45,119 @@ Result<daemon::FittedSquareness> fit(const SquarenessCommand& command) {
                                     daemon::action_now("squareness.fit", daemon::this_process())};
   if (command.artefact_urad) request.given.angle_error_rad = from_urad(*command.artefact_urad);
   if (command.u_artefact_urad) request.given.u_rad = from_urad(*command.u_artefact_urad);
-  return daemon::fit_squareness(store, request);
+  return stored ? daemon::fit_squareness(store, request)
+                : daemon::calculate_squareness(store, request);
 }
 
-std::vector<std::string> line_row(const std::string& label, const SquarenessLines& lines,
-                                  double SquarenessLine::*value, const std::string& least_squares) {
-  return {label, least_squares, in_urad(lines.end_point.*value),
-          in_urad(lines.minimum_zone.*value)};
+Result<std::string> fit_here(const SquarenessCommand& command) {
+  MDOF_TRY(store::Store store, open_to_write(command.database));
+  MDOF_TRY(const auto fitted, fit(store, command, true));
+  MDOF_TRY(const SquarenessLines lines, daemon::lines_of_squareness(store, fitted.squareness));
+  return daemon::squareness_document(fitted, lines);
 }
 
-std::string of_run(std::int64_t run) {
-  return ", run " + std::to_string(run);
+// mdofd has the database: it fits and stores.
+Result<std::string> fit_there(rpc::Client& mdofd, const SquarenessCommand& command) {
+  JsonWriter params;
+  params.begin_object().field("run_a", command.run_a).field("run_b", command.run_b);
+  if (command.artefact_urad) params.field("artefact_angle_error_urad", *command.artefact_urad);
+  if (command.u_artefact_urad) params.field("u_artefact_angle_urad", *command.u_artefact_urad);
+  if (command.partial) params.field("partial", true);
+  return mdofd.call("squareness.fit", params.end_object().take());
 }
 
-std::string squareness_text(const Squareness& s, const std::vector<Budget>& budgets,
-                            const SquarenessLines& lines) {
-  const Budget& budget = budgets.front();
+AxisPair axes_in(const element& document) {
+  std::vector<Axis> found;
+  for (const auto& [key, axis] :
+       {std::pair{"run_x", Axis::x}, {"run_y", Axis::y}, {"run_z", Axis::z}})
+    if (integer(document, key)) found.push_back(axis);
+  return found.size() == 2 ? AxisPair{found[0], found[1]} : AxisPair{};
+}
+
+// A result as its document says it, in SI.
+struct Said {
+  const element& document;
+  AxisPair axes = axes_in(document);
+  std::string name = squareness_name(axes);
+
+  double rad(const std::string& key) const { return from_urad(number(document, key + "_urad")); }
+  // Of one of the reference lines.
+  double by(const char* line, const std::string& key) const {
+    return from_urad(number(document["lines"][line], key + "_urad"));
+  }
+  // In the sense of the squareness; the document gives the angle of the material.
+  double artefact_rad() const {
+    Squareness s;
+    s.axes = axes;
+    const double angle = rad("artefact_angle_error");
+    const double rest = rad(name) - squareness_of(axes, rad(slope_of(s.straightness_a())),
+                                                  rad(slope_of(s.straightness_b())), {});
+    return angle == 0 || text(document, "artefact_corner").empty() ? 0 : std::copysign(angle, rest);
+  }
+  static std::string slope_of(const std::string& error) { return "slope_" + error; }
+};
+
+std::vector<std::string> line_row(const Said& said, const std::string& label,
+                                  const std::string& key, const std::string& least_squares) {
+  return {label, least_squares, in_urad(said.by("end_point", key)),
+          in_urad(said.by("minimum_zone", key))};
+}
+
+void add_slope(TextTable& table, const Said& said, const std::string& error, Axis along) {
+  const std::string key = Said::slope_of(error);
+  const std::string run = std::string("run_") + static_cast<char>(letter(along) - 'A' + 'a');
+  table.add(line_row(said,
+                     error + ", run " + std::to_string(integer(said.document, run).value_or(0)),
+                     key, urad_with_u(said.rad(key), said.rad("u_" + key))));
+}
+
+void add_artefact(TextTable& table, const Said& said) {
+  const double u = said.rad("u_artefact_angle"), u_known = std::isnan(u) ? 0 : u;
+  const std::string artefact = urad_to_place(said.artefact_rad(), u_known);
+  table.add({"artefact", std::isnan(u) ? artefact : with_u(artefact, urad_to_place(u, u)), artefact,
+             artefact});
+}
+
+std::string squareness_text(const Said& said) {
+  const element& document = said.document;
+  Squareness pair;
+  pair.axes = said.axes;
+  const double error = said.rad(said.name), U = said.rad("U_" + said.name),
+               u = said.rad("u_" + said.name);
   TextTable table({"slope/µrad", "least squares", "end points", "minimum zone"});
-  table.add(line_row(s.straightness_a() + of_run(s.run_a), lines, &SquarenessLine::slope_a_rad,
-                     urad_with_u(s.slope_a_rad, s.u_slope_a_rad)));
-  table.add(line_row(s.straightness_b() + of_run(s.run_b), lines, &SquarenessLine::slope_b_rad,
-                     urad_with_u(s.slope_b_rad, s.u_slope_b_rad)));
-  const std::string name = squareness_name(s.axes);
-  const double u_artefact = s.artefact.u_rad.value_or(0);
-  const std::string artefact = urad_to_place(squareness_of(s.axes, 0, 0, s.artefact), u_artefact);
-  table.add({"artefact",
-             s.artefact.u_rad ? with_u(artefact, urad_to_place(u_artefact, u_artefact)) : artefact,
-             artefact, artefact});
-  table.add(
-      line_row(name, lines, &SquarenessLine::error_rad, urad_to_place(s.error_rad, budget.U)));
-  return noise_only_notice(budget.noise_only) + simulated_notice(s.simulated) + table.text() +
-         "\n" + name + " = " +
-         with_u(urad_to_place(s.error_rad, budget.U), urad_to_place(budget.u, budget.u)) +
-         " µrad, expanded U = " + urad_to_place(budget.U, budget.U) +
-         " (k = " + fixed(budget.coverage_factor, 2) + ", 95 %)\n" + squareness_sense(s.axes, "°") +
-         "\nform " + in_urad(s.form_rad) + " µrad: residual straightness of both axes\n" +
-         wrapped("± is the standard uncertainty u. It contains " + covers_text(budget) +
+  add_slope(table, said, pair.straightness_a(), pair.axes.a);
+  add_slope(table, said, pair.straightness_b(), pair.axes.b);
+  add_artefact(table, said);
+  table.add(line_row(said, said.name, said.name, urad_to_place(error, U)));
+  return noise_only_notice(flag(document, "noise_only")) +
+         simulated_notice(flag(document, "simulated")) + table.text() + "\n" + said.name + " = " +
+         with_u(urad_to_place(error, U), urad_to_place(u, u)) +
+         " µrad, expanded U = " + urad_to_place(U, U) + " (k = " + fixed(number(document, "k"), 2) +
+         ", 95 %)\n" + squareness_sense(pair.axes, "°") + "\nform " + in_urad(said.rad("form")) +
+         " µrad: residual straightness of both axes\n" +
+         wrapped("± is the standard uncertainty u. It contains " + text(document, "u_covers") +
                      ". \"mdof budget\" lists the contributors. Slopes refer to the fixture.",
                  terminal_columns()) +
          "\n";
 }
 
-Result<RunHeader> stored_header(const std::string& database, std::int64_t run) {
-  MDOF_TRY(store::Store store, open_to_read(database));
-  return store.run_header(run);
+std::string undeclared_text(const element& document) {
+  Budget budget;
+  budget.not_declared = texts(document, "u_not_declared");
+  budget.noise_only = flag(document, "noise_only");
+  // The words of a rig that declares nothing name no line of it.
+  if (text(document, "u_covers").find(kNothingDeclared) == std::string::npos)
+    budget.lines.emplace_back().key = "declared";
+  return not_declared_text(std::vector{budget});
 }
 
-// mdofd has the database: it fits and stores. What it stored is read like that of this program, so
-// that both say the same.
-Result<daemon::FittedSquareness> fit_there(rpc::Client& mdofd, const SquarenessCommand& command) {
-  JsonWriter params;
-  params.begin_object();
-  for (const std::int64_t run : {command.run_a, command.run_b}) {
-    MDOF_TRY(const RunHeader header, stored_header(command.database, run));
-    params.field(std::string("run_") + static_cast<char>(letter(header.axis) - 'A' + 'a'), run);
-  }
-  if (command.artefact_urad) params.field("artefact_angle_error_urad", *command.artefact_urad);
-  if (command.u_artefact_urad) params.field("u_artefact_urad", *command.u_artefact_urad);
-  if (command.partial) params.field("partial", true);
-  params.end_object();
-  MDOF_TRY(const std::string reply, mdofd.call("squareness.fit", params.text()));
-  simdjson::dom::parser parser;
-  const auto json = parser.parse(simdjson::padded_string(reply));
-  const auto id = integer(json, "squareness");
-  MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const auto stored, store.squareness_of(command.run_a, command.run_b));
-  for (const auto& s : stored)
-    if (s.id == id) return daemon::stored_squareness(store, s);
-  return io_error("the database does not contain the squareness that mdofd stored: " + reply);
-}
-
-Status draw_both_axes(const SquarenessCommand& command, const Squareness& s, const Budget& budget) {
+// The chart needs the readings of both runs.
+Status draw_both_axes(const SquarenessCommand& command) {
   if (command.plots.empty()) return {};
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  charts::SquarenessResults drawn{s, budget, {}, {}};
+  MDOF_TRY(const auto fitted, fit(store, command, false));
+  const Squareness& s = fitted.squareness;
+  charts::SquarenessResults drawn{s, fitted.budgets.front(), {}, {}};
   MDOF_TRY(drawn.run_a, daemon::run_stated_at(store, s.run_a, Reference::fixture));
   MDOF_TRY(drawn.run_b, daemon::run_stated_at(store, s.run_b, Reference::fixture));
   const std::string name =
@@ -130,15 +171,13 @@ Status squareness(SquarenessCommand command) {
   command.run_a = runs[0];
   command.run_b = runs[1];
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
-  MDOF_TRY(const auto fitted, mdofd ? fit_there(*mdofd, command) : fit(command));
-  const auto& [s, budgets, notices] = fitted;
-  show_notices(notices, command.all_warnings);
-  if (const std::string text = not_declared_text({budgets.front()}); !text.empty()) warn(text);
-  MDOF_TRY(store::Store store, open_to_read(command.database));
-  MDOF_TRY(const SquarenessLines lines, daemon::lines_of_squareness(store, s));
-  MDOF_CHECK(draw_both_axes(command, s, budgets.front()));
-  return command.json ? write_line(daemon::squareness_document(fitted, lines))
-                      : write_out(squareness_text(s, budgets, lines));
+  MDOF_TRY(const std::string reply, mdofd ? fit_there(*mdofd, command) : fit_here(command));
+  simdjson::dom::parser parser;
+  const element document = parser.parse(simdjson::padded_string(reply));
+  show_notices(notices_of(document), command.all_warnings);
+  if (const std::string text = undeclared_text(document); !text.empty()) warn(text);
+  MDOF_CHECK(draw_both_axes(command));
+  return command.json ? write_line(reply) : write_out(squareness_text({document}));
 }
 
 Action declare_squareness(CLI::App& command) {

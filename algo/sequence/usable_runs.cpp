@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 
+#include "schema/imported/series.h"
+
 namespace mdof::algo {
 namespace {
 
@@ -42,8 +44,9 @@ bool share_a_reading(const Run& a, const Run& b) {
   });
 }
 
-// Why the readings of both are the same; empty: they are not.
-std::string in_common(const Run& a, const Run& b) {
+}  // namespace
+
+std::string readings_in_common(const Run& a, const Run& b) {
   const std::string& sha256 = a.header.provenance.recording_sha256;
   if (a.header.id != 0 && a.header.id == b.header.id) return name_of(a) + " is given twice";
   if (!sha256.empty() && sha256 == b.header.provenance.recording_sha256)
@@ -53,12 +56,16 @@ std::string in_common(const Run& a, const Run& b) {
     return name_of(b) + " continues " + name_of(a) + " and contains the readings of " + name_of(a);
   if (continues_from(a, b))
     return name_of(a) + " continues " + name_of(b) + " and contains the readings of " + name_of(b);
-  if (share_a_reading(a, b)) return name_of(a) + " and " + name_of(b) + " have readings in common";
+  // Imported readings have no times.
+  if (!is_imported(a.header) && share_a_reading(a, b))
+    return name_of(a) + " and " + name_of(b) + " have readings in common";
   return "";
 }
 
+namespace {
+
 Status check_independent(const Run& a, const Run& b) {
-  const std::string common = in_common(a, b);
+  const std::string common = readings_in_common(a, b);
   if (common.empty()) return {};
   return bad_input(common +
                    ": readings that count twice make the uncertainty too small; leave one run out");

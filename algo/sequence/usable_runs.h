@@ -19,6 +19,9 @@ Runs all_of(const std::vector<Run>& runs);
 // would make the uncertainty too small. `what`: "a table".
 Status check_usable(const Runs& runs, bool take_partial, const std::string& what);
 
+// Why the readings of both are the same, as above; empty: they are not.
+std::string readings_in_common(const Run& a, const Run& b);
+
 // What is wrong with these runs is wrong with the figure, too: which are partial, and each notice
 // of each run, with the run as its source.
 Notices inherited_notices(const Runs& runs);

@@ -138,7 +138,7 @@ class Replay(CommandLine):
     def test_an_error_of_the_daemon_is_told(self):
         missing = os.path.join(self.folder.name, "none.csv")
         code, _, err = mdof("replay", missing, "--rig", RIG["X"], *self.at)
-        self.assertEqual(code, 4)
+        self.assertEqual(code, 3)
         self.assertIn("none.csv: No such file", err)
         code, _, err = mdof("replay", LOG["Y"], "--rig", RIG["X"], *self.at)
         self.assertEqual(code, 3)

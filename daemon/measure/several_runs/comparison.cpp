@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "algo/sequence/usable_runs.h"
 #include "daemon/measure/imported/imported_run.h"
 #include "daemon/measure/imported/positioning_figures.h"
 #include "daemon/measure/several_runs/change_at_targets.h"
@@ -113,6 +114,8 @@ Notices differences(const Run& before, const Run& after) {
   if (of_a.model != of_b.model)
     found.push_back(
         notice(NoticeCode::models_differ, "", {{"before", of_a.model}, {"after", of_b.model}}));
+  if (const std::string why = algo::readings_in_common(before, after); !why.empty())
+    found.push_back(notice(NoticeCode::readings_in_common, "", {{"reason", why}}));
   return found;
 }
 
@@ -215,8 +218,8 @@ const char* to_string(Effect effect) {
 
 Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& request) {
   if (request.before == request.after)
-    return fail(ErrorCode::usage, "run " + std::to_string(request.before) +
-                                      " is given twice; give two different runs of the same axis");
+    return bad_input("run " + std::to_string(request.before) +
+                     " is given twice; give two different runs of the same axis");
   MDOF_TRY(const Run before, store.run(request.before));
   MDOF_TRY(const Run after, store.run(request.after));
   if (before.header.axis != after.header.axis)

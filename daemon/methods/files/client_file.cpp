@@ -30,10 +30,17 @@ bool may_read(const FileUser& user, const struct stat& file) {
   return (file.st_mode & S_IROTH) != 0;
 }
 
+// A path that leads to no file that may be read is a mistake of the caller, as where `mdof` opens
+// the file itself.
+bool is_of_path(int why) {
+  return why == ENOENT || why == ENOTDIR || why == EACCES || why == ELOOP || why == ENAMETOOLONG;
+}
+
 tl::unexpected<Error> cannot_open(const std::string& path, int why) {
-  return io_error(
-      path + ": " + rpc::system_error_text(why) +
-      "; mdofd opens this file itself: put the file where the user that runs mdofd can read it");
+  return fail(is_of_path(why) ? ErrorCode::bad_input : ErrorCode::io,
+              path + ": " + rpc::system_error_text(why) +
+                  "; mdofd opens this file itself: put the file where the user that runs mdofd can "
+                  "read it");
 }
 
 Status check_file(const FileUser& user, const std::string& path, int place) {
@@ -48,7 +55,7 @@ Status check_file(const FileUser& user, const std::string& path, int place) {
                                          ": mdofd is writing this file (its database, or a "
                                          "recording under way); replay a recording that has ended");
   if (may_read(user, file)) return {};
-  return io_error(path + ": you have no permission to read this file; check its owner and mode");
+  return bad_input(path + ": you have no permission to read this file; check its owner and mode");
 }
 
 // First the place alone (O_PATH), which reads nothing, waits for nobody and is not what a program

@@ -1,6 +1,7 @@
 #include "daemon/run_item.h"
 
 #include "daemon/words/words.h"
+#include "schema/base/json_page.h"
 #include "schema/base/json_writer.h"
 #include "schema/imported/series.h"
 #include "schema/recording/run_options.h"
@@ -50,11 +51,13 @@ RunHeader shortened(RunHeader header) {
   return header;
 }
 
-std::string header_item(const RunHeader& header) {
-  const auto item = [](const RunHeader& h, bool is_short) {
+std::string header_item(const RunHeader& header, std::optional<std::int64_t> superseded_by) {
+  const auto item = [superseded_by](const RunHeader& h, bool is_short) {
     JsonWriter json;
     json.begin_object();
     write_header_members(json, h, words::text);
+    json.key("superseded_by");
+    superseded_by ? json.value(*superseded_by) : json.null();
     if (is_short) json.field("shortened", true);
     json.end_object();
     return json.take();
@@ -62,6 +65,42 @@ std::string header_item(const RunHeader& header) {
   constexpr std::size_t kMostBytes = 16 * 1024;  // so that a page is never one run's alone
   std::string whole = item(header, false);
   return whole.size() <= kMostBytes ? whole : item(shortened(header), true);
+}
+
+namespace {
+
+// The run that has the result in the end: what supersedes a run may be superseded itself.
+Result<std::optional<std::int64_t>> last_that_supersedes(store::Store& store, std::int64_t run) {
+  std::optional<std::int64_t> last;
+  for (;;) {
+    MDOF_TRY(const auto by, store.superseded_by(last.value_or(run)));
+    if (!by) return last;
+    last = by;
+  }
+}
+
+}  // namespace
+
+Result<std::string> run_list_document(store::Store& store, const RunListRequest& request,
+                                      std::size_t most_bytes,
+                                      const std::function<void(RunHeader&)>& explain) {
+  using Listed = store::Store::Listed;
+  const Listed listed = request.all ? Listed::all : Listed::results;
+  MDOF_TRY(auto headers, store.list_runs(request.offset, request.count, request.axis, listed));
+  MDOF_TRY(const auto total, store.count_runs(request.axis, listed));
+  std::vector<std::string> items;
+  for (RunHeader& header : headers) {
+    MDOF_TRY(const auto by, last_that_supersedes(store, header.id));
+    if (explain) explain(header);
+    items.push_back(header_item(header, by));
+  }
+  JsonWriter json;
+  json.begin_object().field("total", total).field("offset", request.offset);
+  json.key("runs").begin_array();
+  append_page(
+      json, items, [](const std::string& item) { return item; }, most_bytes);
+  json.end_array().end_object();
+  return json.take();
 }
 
 }  // namespace mdof::daemon

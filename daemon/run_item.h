@@ -1,15 +1,31 @@
-// A run's header as one item of a list or one message.
+// A run's header as one item of a list or one message, and the list of runs.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 
+#include "daemon/store/store.h"
 #include "schema/run.h"
 
 namespace mdof::daemon {
 
 // As JSON, well under a reply's bytes: of one that is longer the note and the notices are cut, its
 // options are null, and "shortened" says so.
-std::string header_item(const RunHeader& header);
+std::string header_item(const RunHeader& header,
+                        std::optional<std::int64_t> superseded_by = std::nullopt);
 RunHeader shortened(RunHeader header);
+
+struct RunListRequest {
+  std::int64_t offset = 0, count = 0;
+  std::optional<Axis> axis = std::nullopt;
+  bool all = false;  // also the runs that another run supersedes
+};
+// Newest first, as run.list and `mdof runs` give them; as many as fit into `most_bytes`. `explain`
+// may change a header before it is written.
+Result<std::string> run_list_document(store::Store& store, const RunListRequest& request,
+                                      std::size_t most_bytes,
+                                      const std::function<void(RunHeader&)>& explain);
 
 }  // namespace mdof::daemon

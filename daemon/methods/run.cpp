@@ -204,25 +204,16 @@ void explain(const Methods& m, RunHeader& header) {
   header.notices.push_back(notice(NoticeCode::run_still_open, "", {{"reason", why}}));
 }
 
-Result<std::string> runs_json(const Methods& m, store::Store& store, rpc::ListPage page,
-                              std::optional<Axis> axis) {
-  MDOF_TRY(auto headers, store.list_runs(page.offset, page.count, axis));
-  for (RunHeader& header : headers) explain(m, header);
-  MDOF_TRY(const auto total, store.count_runs(axis));
-  JsonWriter json;
-  json.begin_object().field("total", total).field("offset", page.offset).key("runs").begin_array();
-  append_page(json, headers, header_item);
-  json.end_array().end_object();
-  return json.take();
-}
-
 Result<QueryThread::Work> list_runs(Methods& m, const Params& params) {
   std::optional<Axis> axis;
   if (params.has("axis")) {
     MDOF_TRY(axis, axis_param(params));
   }
-  return [&m, page = list_page_of(params, kMaxRunsPage), axis](store::Store& store) {
-    return runs_json(m, store, page, axis);
+  const rpc::ListPage page = list_page_of(params, kMaxRunsPage);
+  const RunListRequest request{page.offset, page.count, axis, params.boolean("all", false)};
+  return [&m, request](store::Store& store) {
+    return run_list_document(store, request, kPageBytes,
+                             [&m](RunHeader& header) { explain(m, header); });
   };
 }
 
@@ -349,8 +340,10 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Lists runs, newest first, in pages.",
              .params = {offset,
                         count_param(kMaxRunsPage),
-                        {"axis", ParamType::string, "list only runs of this axis", false}},
-             .members = "{total, offset, runs: [{...run_header, shortened?}]}",
+                        {"axis", ParamType::string, "list only runs of this axis", false},
+                        {"all", ParamType::boolean, "also list runs that another run supersedes",
+                         false, "false"}},
+             .members = "{total, offset, runs: [{...run_header, superseded_by, shortened?}]}",
              .example = R"({"offset": 0, "count": 10})",
              .handler = on_query(m, list_runs)});
   table.add({.name = "run.get",

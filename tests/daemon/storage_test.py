@@ -4,6 +4,7 @@ goes on once it can write. And a signal that comes when a terminal is closed end
 
 usage: storage_test.py MDOFD MDOF"""
 import contextlib
+import json
 import os
 import signal
 import sqlite3
@@ -252,6 +253,10 @@ class HeldDatabase(Served):
         self.assertEqual((self.axis(client)["run"], self.axis(client)["unstored_run"]), (None, run))
         text = subprocess.run([MDOF, "status", "--socket", self.daemon.socket], capture_output=True, text=True).stdout
         self.assertRegex(text, rf"(?m)^X +{run} \(ended, not stored yet\)")
+        listed = ("runs", "--db", self.daemon.database, "--socket", self.daemon.socket)
+        text, document = (subprocess.run([MDOF, *listed, *more], capture_output=True, text=True).stdout for more in ((), ("--json",)))
+        self.assertRegex(text, rf"(?m)^ *{run} +X +ended ")
+        self.assertEqual(json.loads(document), client.call("run.list"))
         for method, params in (("run.start", {"axis": "X"}), ("run.stop", {"run": run}), ("run.resume", {"run": run}), ("encoder.set", {"axis": "X", "position_mm": 1})):
             with self.subTest(method=method), self.assertRaisesRegex(RpcError, "has ended; .*not stored yet"):
                 client.call(method, **params)

@@ -176,6 +176,22 @@ TEST_F(RunMethods, RunsAreListedNewestFirstByPageAndAxis) {
   EXPECT_EQ(call("run.list", R"({"axis":"x y"})").code(), rpc::kInvalidParams);
 }
 
+TEST_F(RunMethods, ASupersededRunIsListedWhereAllAreAskedForAndNamesTheRunWithTheResult) {
+  add_run('X', "first");
+  supersedes_ = 1;
+  add_run('X', "second");
+  supersedes_ = 2;
+  add_run('X', "third");
+  const Answer results = call("run.list");
+  EXPECT_EQ(results.number("/result/total"), 1) << results.text();
+  ASSERT_EQ(results.size("/result/runs"), 1u);
+  EXPECT_EQ(results.at("/result/runs/0/superseded_by"), "null");
+  const Answer all = call("run.list", R"({"all":true})");
+  EXPECT_EQ(all.number("/result/total"), 3);
+  EXPECT_EQ(all.at("/result/runs/1/superseded_by"), "3");
+  EXPECT_EQ(all.at("/result/runs/2/superseded_by"), "3");
+}
+
 TEST_F(RunMethods, PointsComeByPageInTheUnitsOfTheirKeysAndAtTheReferenceAskedFor) {
   add_run();
   const Answer page = call("run.points", R"({"run":1,"offset":3,"count":2})");

@@ -76,6 +76,12 @@ Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database
                         "; use --socket to give the socket of the mdofd that uses this database");
 }
 
+std::optional<rpc::Client> mdofd_that_serves(const std::string& database,
+                                             const std::string& socket) {
+  auto mdofd = mdofd_that_writes(database, socket);
+  return mdofd ? std::move(*mdofd) : std::nullopt;
+}
+
 std::string canonical_path(const std::string& file) {
   std::error_code ec, none;
   const fs::path path = fs::canonical(file, none);

@@ -26,10 +26,12 @@ def mdof(*words, stdin=None):
 
 
 class CommandLine(unittest.TestCase):
+    DWELL_S = 0.2
+
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
         self.daemon = Daemon(MDOFD, os.path.join(self.folder.name, "d"),
-                             simulator("X", targets_mm=(0, 2, 4.1, 6.2), dwell_s=0.2))
+                             simulator("X", targets_mm=(0, 2, 4.1, 6.2), dwell_s=self.DWELL_S))
         self.client = self.daemon.start()
         self.at = ("--db", self.daemon.database, "--socket", self.daemon.socket)
 
@@ -44,6 +46,8 @@ class CommandLine(unittest.TestCase):
 
 
 class Stop(CommandLine):
+    DWELL_S = 0.4  # long enough for a stop
+
     def test_ends_the_run_under_way(self):
         started = self.client.call("run.start", axis="X")["run"]
         time.sleep(2.5)
@@ -58,6 +62,28 @@ class Stop(CommandLine):
         told = self.done("stop", "--socket", self.daemon.socket)
         words = re.search(r"show the run with: mdof (show \d+ --db .+)\n", told)[1].split(" ")
         self.assertIn("axis X", self.done(*words))
+        self.assertEqual([line for line in told.splitlines() if len(line) > 80 and " /" not in line], [])
+
+    def test_the_remedy_names_no_database_that_is_the_default(self):
+        self.client.call("run.start", axis="X")
+        time.sleep(2.5)
+        environment = {**os.environ, "STATE_DIRECTORY": os.path.dirname(self.daemon.database)}
+        told = subprocess.run([MDOF, "stop", "--socket", self.daemon.socket], capture_output=True, text=True, env=environment).stdout
+        self.assertRegex(told, r"show the run with: mdof show \d+\n")
+
+    def test_a_run_that_failed_is_an_error_with_its_reason(self):
+        for words in (("--json",), ()):
+            run = self.client.call("run.start", axis="X", targets_mm=[1000, 2000])["run"]
+            time.sleep(2.5)
+            code, out, err = mdof("stop", "--socket", self.daemon.socket, *words)
+            self.assertEqual(code, 1, out + err)
+            self.assertRegex(err, rf"run {run} of axis X failed: none of the \d+ stops\s+is near a given target; check\s+targets_mm")
+            if words:
+                stopped, = json.loads(out)["stopped"]
+                self.assertEqual((stopped["run"], stopped["axis"], stopped["state"]), (run, "X", "failed"))
+                self.assertIn("failure", [n["code"] for n in stopped["notices"]])
+            else:
+                self.assertNotIn("has ended", out)
 
     def test_without_a_run_it_is_an_error(self):
         for words, message in (((), "no run is in progress;"), (("--axis", "X"), "no run of axis X is in progress"),

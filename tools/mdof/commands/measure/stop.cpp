@@ -1,12 +1,16 @@
 // mdof stop: ends the runs under way, through mdofd, which evaluates and stores them.
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
+#include "daemon/paths.h"
 #include "daemon/rpc/line/client.h"
+#include "daemon/words/words.h"
 #include "schema/base/json_writer.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/json_read.h"
+#include "tools/mdof/text/notice_lines.h"
 
 namespace mdof::tools {
 namespace {
@@ -21,6 +25,13 @@ struct StopCommand {
 struct UnderWay {
   std::string axis;
   std::int64_t run = 0;
+};
+
+// What run.stop says of one of them.
+struct Stopped {
+  std::string reply, axis, state;
+  std::int64_t run = 0;  // another one may have superseded it
+  Notices notices;
 };
 
 // Error: the axis asked for is none of mdofd's.
@@ -40,49 +51,92 @@ Result<std::vector<UnderWay>> runs_under_way(const std::string& info, const std:
 }
 
 // `info` is the reply of server.info.
-Result<std::vector<UnderWay>> stop_all(rpc::Client& client, const std::string& info,
-                                       const StopCommand& command) {
-  MDOF_TRY(auto runs, runs_under_way(info, command.axis));
+Result<std::vector<Stopped>> stop_all(rpc::Client& client, const std::string& info,
+                                      const StopCommand& command) {
+  MDOF_TRY(const auto runs, runs_under_way(info, command.axis));
   if (runs.empty())
     return fail(ErrorCode::not_found,
                 "no run" + (command.axis.empty() ? "" : " of axis " + command.axis) +
                     " is in progress; to list the runs that have ended, use: mdof runs");
-  for (UnderWay& run : runs) {
+  std::vector<Stopped> all;
+  for (const UnderWay& run : runs) {
     JsonWriter params;
     params.begin_object().field("run", run.run).field("abort", command.abort).end_object();
     MDOF_TRY(const std::string reply, client.call("run.stop", params.text()));
     simdjson::dom::parser parser;
     const auto stopped = parser.parse(simdjson::padded_string(reply));
-    run.run = integer(stopped, "run").value_or(run.run);  // another one may supersede it
+    all.push_back({reply, run.axis, text(stopped, "state"),
+                   integer(stopped, "run").value_or(run.run), notices_of(stopped)});
   }
-  return runs;
+  return all;
 }
 
-std::string stopped_json(const std::vector<UnderWay>& runs) {
+std::string stopped_json(const std::vector<Stopped>& runs) {
   JsonWriter json;
   json.begin_object().key("stopped").begin_array();
-  for (const auto& run : runs)
-    json.begin_object().field("run", run.run).field("axis", run.axis).end_object();
+  for (const auto& run : runs) json.raw(run.reply);
   json.end_array().end_object();
   return json.take();
+}
+
+bool has_failed(const Stopped& run) {
+  return run.state == "failed";
+}
+
+std::string name_of(const Stopped& run) {
+  return "run " + std::to_string(run.run) + " of axis " + run.axis;
+}
+
+// With its reason, which is among its notices.
+std::string failure_text(const Stopped& run) {
+  std::string reasons;
+  for (const Notice& each : run.notices)
+    if (each.code == NoticeCode::failure)
+      reasons += (reasons.empty() ? ": " : "; ") + words::text(each);
+  return name_of(run) + " failed" + reasons;
+}
+
+// Error (check): the runs that failed, with their reasons.
+Status check_results(const std::vector<Stopped>& runs) {
+  std::string failures;
+  for (const Stopped& run : runs)
+    if (has_failed(run)) failures += (failures.empty() ? "" : "; ") + failure_text(run);
+  return failures.empty() ? Status() : fail(ErrorCode::check, failures);
+}
+
+// The option that names the database of `info`, where the command that shows a run would read
+// another one.
+std::string database_option(const std::string& info) {
+  simdjson::dom::parser parser;
+  const std::string database = text(parser.parse(simdjson::padded_string(info)), "database");
+  std::error_code ec;
+  const auto by_default = daemon::default_database();
+  const bool is_default =
+      by_default && std::filesystem::equivalent(database, *by_default, ec) && !ec;
+  return is_default ? "" : " --db " + database;
+}
+
+Status write_ends(const std::vector<Stopped>& runs, const std::string& database) {
+  for (const Stopped& run : runs) {
+    Notices notices;
+    for (const Notice& each : run.notices)
+      if (!has_failed(run) || each.code != NoticeCode::failure) notices.push_back(each);
+    show_notices(notices);
+    if (has_failed(run)) continue;
+    MDOF_CHECK(write_line(name_of(run) + " has ended" +
+                          (run.state.empty() ? "" : " (" + run.state + ")") +
+                          "\nshow the run with: mdof show " + std::to_string(run.run) + database));
+  }
+  return {};
 }
 
 Status stop(const StopCommand& command) {
   MDOF_TRY(rpc::Client client, rpc::Client::connect(command.socket));
   MDOF_TRY(const std::string info, client.call("server.info"));
   MDOF_TRY(const auto runs, stop_all(client, info, command));
-  if (command.json) return write_line(stopped_json(runs));
-  // A mdofd at another socket has another database than the one that mdof show reads by itself.
-  simdjson::dom::parser parser;
-  const std::string database =
-      command.socket.empty()
-          ? ""
-          : " --db " + text(parser.parse(simdjson::padded_string(info)), "database");
-  for (const auto& run : runs)
-    MDOF_CHECK(write_line("run " + std::to_string(run.run) + " of axis " + run.axis +
-                          " has ended; show the run with: mdof show " + std::to_string(run.run) +
-                          database));
-  return {};
+  MDOF_CHECK(command.json ? write_line(stopped_json(runs))
+                          : write_ends(runs, database_option(info)));
+  return check_results(runs);
 }
 
 Action declare_stop(CLI::App& command) {

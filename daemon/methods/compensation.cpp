@@ -6,7 +6,7 @@
 
 #include "algo/compensation/compensation.h"
 #include "daemon/measure/evaluation.h"
-#include "daemon/measure/gate/active_json.h"
+#include "daemon/measure/gate/table_documents.h"
 #include "daemon/methods/methods.h"
 #include "daemon/methods/volume.h"
 #include "daemon/paths.h"
@@ -64,13 +64,9 @@ void build(Methods& m, const Params& params, Reply reply) {
         return [built = std::move(calculated),
                 action = request.action](store::Store& store) mutable -> Result<std::string> {
           MDOF_CHECK(store_table(store, built.table, action));
-          JsonWriter json;
-          json.begin_object();
-          write_table_members(json, built.table);
-          json.field("doubtful", !built.doubtful.empty());
-          write_active(json, 0);
-          json.end_object();
-          return with_notices(json.take(), built.notices, words::text);
+          const std::string document = table_document(built.table, 0, !built.doubtful.empty(),
+                                                      page_beside(built.notices, kMaxGridPage));
+          return with_notices(document, built.notices, words::text);
         };
       });
 }
@@ -275,7 +271,8 @@ void add_compensation_methods(rpc::MethodTable& table, Methods& m) {
              .summary =
                  "Builds a table of one axis from runs and stores the table without activating it.",
              .params = std::move(build_params),
-             .members = "{...active_table, active, ...notices}",
+             .result = "with the first points; compensation.table gives all of them, in pages",
+             .members = "{...active_table, active, ...table_points, ...notices}",
              .example = R"({"runs": [1]})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) { build(m, p, std::move(r)); }});

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "daemon/measure/gate/active_json.h"
+#include "daemon/measure/gate/table_documents.h"
 #include "daemon/measure/machine/machine_files.h"
 #include "daemon/measure/machine/volumetric.h"
 #include "daemon/methods/files/client_file.h"
@@ -71,13 +71,9 @@ Result<VolumetricTableRequest> read_request(const Params& params) {
 }
 
 std::string built_json(const BuiltVolumetric& built) {
-  JsonWriter json;
-  json.begin_object();
-  write_volumetric_members(json, built.table);
-  json.field("doubtful", !built.doubtful.empty());
-  write_active(json, 0);
-  json.end_object();
-  return with_notices(json.take(), built.notices, words::text);
+  const std::string document = volumetric_document(built.table, 0, !built.doubtful.empty(),
+                                                   page_beside(built.notices, kMaxNodesPage));
+  return with_notices(document, built.notices, words::text);
 }
 
 // Files beside MACHINE.toml, as the client may read them.
@@ -253,7 +249,8 @@ void add_volume_methods(rpc::MethodTable& table, Methods& m) {
              .summary = "Builds a table of corrections over a plane or a volume from the measured "
                         "errors of a machine, and stores the table without activating it.",
              .params = std::move(params),
-             .members = "{...active_volume, active, ...notices}",
+             .result = "with the first nodes; compensation.table gives all of them, in pages",
+             .members = "{...active_volume, active, offset, points: [[number|null]], ...notices}",
              .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-Y-t\"}\n)"
                         R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
                         R"(range_mm = [0, 10]\nEXX_um = 2\n[[axis]]\nid = \"Y\"\n)"

@@ -64,6 +64,20 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndTakenBack) {
   EXPECT_EQ(status.at("/result/volume/generation"), generation);
   EXPECT_EQ(status.at("/result/generation"), generation);
 
+  // As stored, active or not, in pages.
+  const Answer stored = call("compensation.table", R"({"table":1,"offset":24,"count":9})");
+  EXPECT_EQ(stored.at("/result/nodes"), "25") << stored.text();
+  EXPECT_EQ(stored.at("/result/active"), "true");
+  ASSERT_EQ(stored.size("/result/points"), 1u);
+  EXPECT_EQ(stored.at("/result/points/0/0"), "20.0");
+  EXPECT_EQ(stored.size("/result/points/0"), 15u);
+  EXPECT_EQ(table.size("/result/points"), 25u);
+  const Answer list = call("compensation.list");
+  EXPECT_EQ(list.at("/result/tables"), "[]");
+  EXPECT_EQ(list.at("/result/volumes/0/table"), "1");
+  EXPECT_EQ(call("compensation.list", R"({"axis":"X"})").at("/result/volumes"), "[]");
+  EXPECT_EQ(call("compensation.list", R"({"axis":"volume"})").at("/result/tables/0/table"), "1");
+
   // The work goes 2 µm too far and turns by 100 µrad about Y at the end of X, where the tool is 20
   // mm above: its material there is 2 µm further on; both are taken back by X. EC0Y: at 20 mm of Y
   // the tool is 1 µm at -X; X, which moves the work, takes 1 µm back as well.

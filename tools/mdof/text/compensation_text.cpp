@@ -2,11 +2,8 @@
 
 #include <cmath>
 
-#include "daemon/measure/gate/active_json.h"
 #include "schema/imported/series.h"
 #include "schema/rig/correction.h"
-#include "schema/run_json.h"
-#include "schema/volumetric/volumetric_json.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
@@ -83,18 +80,6 @@ std::string state_of(std::int64_t generation) {
 
 }  // namespace
 
-std::string table_document(const CompensationTable& t, std::int64_t generation, bool doubtful) {
-  JsonWriter json;
-  json.begin_object();
-  write_table_members(json, t);
-  json.field("doubtful", doubtful);
-  daemon::write_active(json, generation);
-  json.field("offset", std::int64_t{0}).key("points").begin_array();
-  for (std::size_t i = 0; i < t.position_m.size(); ++i) write_table_row(json, t, i);
-  json.end_array().end_object();
-  return json.take();
-}
-
 std::string table_of_positioning_text(const CompensationTable& t) {
   return simulated_notice(t.simulated) +
          wrapped("table " + std::to_string(t.id) + ", axis " + letter(t.axis) +
@@ -135,28 +120,7 @@ std::string table_text(const CompensationTable& t, std::int64_t generation) {
          "\n";
 }
 
-std::string list_document(const ListedTables& list) {
-  JsonWriter json;
-  json.begin_object().field("generation", list.generation);
-  json.field("offset", std::int64_t{0}).key("tables").begin_array();
-  for (std::size_t i = 0; i < list.tables.size(); ++i) {
-    json.begin_object();
-    write_table_members(json, list.tables[i]);
-    daemon::write_active(json, list.generations[i]);
-    json.end_object();
-  }
-  json.end_array().key("volumes").begin_array();
-  for (std::size_t i = 0; i < list.volumes.size(); ++i) {
-    json.begin_object();
-    write_volumetric_members(json, list.volumes[i]);
-    daemon::write_active(json, list.volume_generations[i]);
-    json.end_object();
-  }
-  json.end_array().end_object();
-  return json.take();
-}
-
-std::string list_text(const ListedTables& list) {
+std::string list_text(const daemon::ListedTables& list) {
   TextTable out(
       {"table", "axis", "state", "data", "runs", "points", "from/mm", "to/mm", "created"});
   for (std::size_t i = 0; i < list.tables.size(); ++i) {

@@ -1,27 +1,16 @@
-// Compensation tables as JSON documents and as text for people.
+// Compensation tables as text for people; their documents are in daemon/measure/gate.
 #pragma once
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
+#include "daemon/measure/gate/table_documents.h"
 #include "schema/compensation_table.h"
-#include "schema/volumetric/volumetric_table.h"
 
 namespace mdof::tools {
 
-// `generation`: 0 where the table is not active; `doubtful`: by its runs.
-std::string table_document(const CompensationTable& table, std::int64_t generation, bool doubtful);
+// `generation`: 0 where the table is not active.
 std::string table_text(const CompensationTable& table, std::int64_t generation);
-
-// Tables of axes and of volumes with the generation of each.
-struct ListedTables {
-  std::vector<CompensationTable> tables;
-  std::vector<VolumetricTable> volumes;
-  std::vector<std::int64_t> generations, volume_generations;
-  std::int64_t generation = 0;  // of all active tables
-};
-std::string list_document(const ListedTables& list);
-std::string list_text(const ListedTables& list);
+std::string list_text(const daemon::ListedTables& list);
 
 }  // namespace mdof::tools

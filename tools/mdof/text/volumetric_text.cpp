@@ -63,18 +63,6 @@ std::string runs_text(const VolumetricTable& t) {
 
 }  // namespace
 
-std::string volumetric_document(const VolumetricTable& t, std::int64_t generation, bool doubtful) {
-  JsonWriter json;
-  json.begin_object();
-  write_volumetric_members(json, t);
-  json.field("doubtful", doubtful);
-  daemon::write_active(json, generation);
-  json.key("points").begin_array();
-  for (std::size_t node = 0; node < t.nodes(); ++node) write_volumetric_node(json, t, node, true);
-  json.end_array().end_object();
-  return json.take();
-}
-
 std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
   TextTable out({"command of", "largest correction/µm", "u/µm", "u_common/µm", "u_independent/µm",
                  "at X/mm", "Y/mm", "Z/mm", "between nodes/µm"});

@@ -1,4 +1,4 @@
-// Volumetric tables as JSON documents, CSV and text for people.
+// Volumetric tables as CSV and text for people.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,7 @@
 
 namespace mdof::tools {
 
-// `generation`: 0 where the table is not active; `doubtful`: by its runs or by itself.
-std::string volumetric_document(const VolumetricTable& table, std::int64_t generation,
-                                bool doubtful);
+// `generation`: 0 where the table is not active.
 std::string volumetric_text(const VolumetricTable& table, std::int64_t generation);
 // A row a node: X_mm, Y_mm, Z_mm, corrections and their u.
 std::string volumetric_csv(const VolumetricTable& table);

@@ -4,6 +4,7 @@
 
 #include "daemon/history.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/gate/table_documents.h"
 #include "daemon/words/words.h"
 #include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
@@ -102,7 +103,7 @@ Status build(const BuildCommand& asked) {
   MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
   const auto& [table, notices, doubtful] = built;
   show_notices(notices, command.all_warnings);
-  const std::string document = table_document(table, 0, !doubtful.empty());
+  const std::string document = daemon::table_document(table, 0, !doubtful.empty());
   MDOF_CHECK(command.json ? write_line(with_notices(document, notices, words::text))
                           : write_out(table_text(table, 0)));
   const std::string named = std::to_string(table.id) + (table.simulated ? " --simulated" : "") +

@@ -1,6 +1,7 @@
 // mdof compensation list: the stored tables, newest first.
 #include <CLI/CLI.hpp>
 
+#include "daemon/measure/gate/table_documents.h"
 #include "schema/axis.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/commands/compensation/active_table.h"
@@ -21,7 +22,7 @@ struct ListTablesCommand {
 
 Status list(const ListTablesCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
-  ListedTables found;
+  daemon::ListedTables found;
   MDOF_TRY(found.generation, store.generation());
   MDOF_TRY(found.tables, store.list_tables(0, kMostTables, axis_from(command.axis)));
   for (const auto& table : found.tables) {
@@ -35,7 +36,7 @@ Status list(const ListTablesCommand& command) {
     MDOF_TRY(const std::int64_t generation, generation_of(store, table));
     found.volume_generations.push_back(generation);
   }
-  return command.json ? write_line(list_document(found)) : write_out(list_text(found));
+  return command.json ? write_line(daemon::list_document(found)) : write_out(list_text(found));
 }
 
 Action declare_list(CLI::App& command) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "daemon/measure/gate/gate.h"
+#include "daemon/measure/gate/table_documents.h"
 #include "daemon/measure/machine/volumetric.h"
 #include "daemon/words/error_text.h"
 #include "schema/axis.h"
@@ -64,8 +65,9 @@ Status show_volume(store::Store& store, const ShowTableCommand& command, std::in
   if (command.csv)
     return write_out(noise_only_comment(table.noise_only) + csv_marks(daemon::marks_of(judged)) +
                      volumetric_csv(table));
-  return command.json ? write_line(volumetric_document(table, generation, !judged.doubtful.empty()))
-                      : write_out(volumetric_text(table, generation));
+  return command.json
+             ? write_line(daemon::volumetric_document(table, generation, !judged.doubtful.empty()))
+             : write_out(volumetric_text(table, generation));
 }
 
 Status show(const ShowTableCommand& command) {
@@ -86,7 +88,7 @@ Status show(const ShowTableCommand& command) {
       {daemon::JudgedKind::table, std::to_string(table.id), table.simulated, doubtful});
   if (command.csv)
     return write_out(noise_only_comment(table.noise_only()) + csv_marks(marks) + table_csv(table));
-  return command.json ? write_line(table_document(table, generation, !doubtful.empty()))
+  return command.json ? write_line(daemon::table_document(table, generation, !doubtful.empty()))
                       : write_out(table_text(table, generation));
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "daemon/history.h"
+#include "daemon/measure/gate/table_documents.h"
 #include "daemon/measure/machine/volumetric.h"
 #include "daemon/words/words.h"
 #include "schema/base/files.h"
@@ -156,10 +157,10 @@ Status build_volume(const VolumeBuild& command) {
   MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
   const VolumetricTable& table = built.table;
   show_notices(built.notices, command.all_warnings);
-  MDOF_CHECK(command.json
-                 ? write_line(with_notices(volumetric_document(table, 0, !built.doubtful.empty()),
-                                           built.notices, words::text))
-                 : write_out(volumetric_text(table, 0)));
+  MDOF_CHECK(command.json ? write_line(with_notices(
+                                daemon::volumetric_document(table, 0, !built.doubtful.empty()),
+                                built.notices, words::text))
+                          : write_out(volumetric_text(table, 0)));
   say("stored; activate the table with: mdof compensation activate " + std::to_string(table.id) +
       (table.simulated ? " --simulated" : "") +
       (built.doubtful.empty() ? "" : " --despite-warnings"));

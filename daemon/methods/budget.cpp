@@ -1,6 +1,7 @@
-// run.budget, run.compare, run.trend, squareness.budget, parallelism.fit.
+// run.analyse, run.budget, run.compare, run.trend, squareness.budget, parallelism.fit.
 #include "daemon/measure/budgets.h"
 
+#include "daemon/measure/analysis/analysis.h"
 #include "daemon/measure/several_runs/comparison.h"
 #include "daemon/measure/several_runs/trends_json.h"
 #include "daemon/methods/methods.h"
@@ -22,6 +23,19 @@ Status check_size(store::Store& store, std::int64_t run) {
                        " points (limit for a budget in one call: " + std::to_string(kMostPoints) +
                        ")",
                    Remedy::budget_run);
+}
+
+Result<QueryThread::Work> analyse_run(Methods&, const Params& params) {
+  MDOF_TRY(const Reference reference, reference_param(params));
+  return [id = params.integer("run"), reference](store::Store& store) -> Result<std::string> {
+    MDOF_TRY(const std::int64_t points, store.count_points(id));
+    if (points > kMostPoints)
+      return bad_input("run " + std::to_string(id) + " has " + std::to_string(points) +
+                           " points (limit of one call: " + std::to_string(kMostPoints) + ")",
+                       Remedy::analyse_run);
+    MDOF_TRY(const Run run, run_stated_at(store, id, reference));
+    return analysis_document(store, run);
+  };
 }
 
 Result<QueryThread::Work> run_budget(Methods&, const Params& params) {
@@ -89,6 +103,22 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
   const rpc::Param reference{"reference", ParamType::string,
                              "reference point of the errors: fixture, carriage or tool", false,
                              "\"fixture\""};
+  table.add(
+      {.name = "run.analyse",
+       .summary = "Calculates the straightness of a run by each reference line, its angles, their "
+                  "uncertainties and the drift.",
+       .params = {{"run", ParamType::integer, "id of the run", true}, reference},
+       .members =
+           "{run, axis, model, simulated, superseded_by, ...reference, ...covers, straightness: "
+           "{E{linear}{axis}_um?: {{approach}: straightness_figure}}, straightness_lines: "
+           "{E{linear}{axis}_um?: {{approach}: lines}}, angles: {E{angular}{axis}_urad?: "
+           "{{approach}: angle_figure}}, ...stated_figures, drift: {significant, not_seen, "
+           "length_s, level, errors: {E{linear}{axis}_um?: drift_series, E{angular}{axis}_urad?: "
+           "drift_series}, probes: {*: drift_series}, closures: [{run: integer, after_s, "
+           "same_side, ...errors}], straightness_without: {E{linear}{axis}_um?: {{approach}: "
+           "straightness_figure}}}}",
+       .example = R"({"run": 1})",
+       .handler = on_query(m, analyse_run)});
   table.add(
       {.name = "run.budget",
        .summary =

@@ -9,10 +9,12 @@
 #include "daemon/measure/gate/gate.h"
 #include "daemon/paths.h"
 #include "daemon/version.h"
+#include "daemon/words/words.h"
 #include "drivers/imported/imported_file.h"
 #include "schema/base/json_writer.h"
 #include "schema/base/number/number_text.h"
 #include "schema/iso230/targets.h"
+#include "schema/notice/notice_json.h"
 #include "schema/sample.h"
 #include "schema/units.h"
 
@@ -161,6 +163,19 @@ Result<Run> imported_run(const ImportRequest& request) {
                  {.simulated = false, .despite_warnings = request.despite_warnings},
                  "the file is not stored as a run"));
   return run;
+}
+
+std::string import_document(const RunHeader& header, std::size_t readings) {
+  const Provenance& from = header.provenance;
+  JsonWriter json;
+  json.begin_object().field("run", header.id).field("axis", std::string(1, letter(header.axis)));
+  json.field("error", from.model);
+  json.field("format", from.recording_kind.substr(std::string("imported ").size()));
+  json.field("readings", static_cast<std::uint64_t>(readings));
+  json.field("file", from.recording_path).field("sha256", from.recording_sha256);
+  json.field("simulated", header.simulated);
+  write_notices(json, "notices", header.notices, words::text);
+  return json.end_object().take();
 }
 
 }  // namespace mdof::daemon

@@ -33,4 +33,7 @@ struct ImportRequest {
 // targets whose slope is; a doubtful file (gate.h).
 Result<Run> imported_run(const ImportRequest& request);
 
+// What `mdof import --json` and run.import say of a run that was imported and stored.
+std::string import_document(const RunHeader& header, std::size_t readings);
+
 }  // namespace mdof::daemon

@@ -1,10 +1,12 @@
 // run.replay, run.import: files of clients become runs.
+#include "daemon/measure/budgets.h"
 #include "daemon/measure/imported/import.h"
+#include "daemon/measure/replay/replay_document.h"
 #include "daemon/measure/replay/replay_options.h"
 #include "daemon/methods/files/client_file.h"
 #include "daemon/methods/files/replayer.h"
 #include "daemon/methods/methods.h"
-#include "schema/base/json_writer.h"
+#include "daemon/run_item.h"
 
 namespace mdof::daemon {
 namespace {
@@ -62,21 +64,32 @@ Result<ImportRequest> read_import_request(const Params& params) {
   return request;
 }
 
-Result<Run> replayed(ReplayRequest request, const FileUser& user,
-                     const ProgressCallback& progress) {
+Result<Replayer::Made> replayed(ReplayRequest request, const FileUser& user,
+                                const ProgressCallback& progress) {
   MDOF_TRY(const ClientFile opened, open_for(user, request.log));
   request.opened = {opened.file.get(), opened.wal.get()};
-  return replay(request, progress);
+  MDOF_TRY(Run run, replay(request, progress));
+  StatedRun stated = stated_run(run);
+  RunUncertainty uncertainty = stated.points;
+  return Replayer::Made{
+      std::make_shared<Run>(std::move(run)), std::move(uncertainty),
+      [stated = std::move(stated)](const Run& whole) { return replay_reply(whole, stated); }};
 }
 
-Result<Run> imported(ImportRequest request, const FileUser& user, const ProgressCallback&) {
+Result<Replayer::Made> imported(ImportRequest request, const FileUser& user,
+                                const ProgressCallback&) {
   MDOF_TRY(const ClientFile opened, open_for(user, request.file));
   request.opened = opened.file.get();
-  return imported_run(request);
+  MDOF_TRY(Run run, imported_run(request));
+  RunUncertainty uncertainty = uncertainty_of(run);
+  return Replayer::Made{std::make_shared<Run>(std::move(run)), std::move(uncertainty),
+                        [](const Run& whole) {
+                          return import_document(shortened(whole.header), whole.points.size());
+                        }};
 }
 
 template <class Request>
-using MakeRun = Result<Run> (*)(Request, const FileUser&, const ProgressCallback&);
+using MakeRun = Result<Replayer::Made> (*)(Request, const FileUser&, const ProgressCallback&);
 
 // The file is opened with the rights of the client, on the replayer's thread.
 template <class Request>
@@ -95,12 +108,7 @@ void store_run(Methods& m, const Params& params, Result<Request> request, MakeRu
   m.replayer->start([request = std::move(*request), user, make](
                         const ProgressCallback& progress) { return make(request, user, progress); },
                     action_of(params, method),
-                    [shared](const Result<std::int64_t>& id) {
-                      if (!id) return (*shared)(tl::unexpected(id.error()));
-                      JsonWriter json;
-                      json.begin_object().field("run", *id).end_object();
-                      (*shared)(json.take());
-                    });
+                    [shared](Result<std::string> document) { (*shared)(std::move(document)); });
 }
 
 rpc::Param param_of(const ReplayOption& option) {
@@ -190,8 +198,9 @@ void add_files_methods(rpc::MethodTable& table, Methods& m) {
                   "replays one file at a time.",
        .params = replay_params(),
        .result =
-           "mdofd replies after it has stored the run, which takes a long time for a long log",
-       .members = "{run}",
+           "mdofd replies after it has stored the run, which takes a long time for a long log. The "
+           "points come from run.points",
+       .members = "replayed_run",
        .example = R"({"path": "/var/lib/mdof/recordings/run-1.mdofrec"})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) {
@@ -202,7 +211,8 @@ void add_files_methods(rpc::MethodTable& table, Methods& m) {
                         "readings as a run.",
              .params = import_params(),
              .result = "mdofd replies after it has stored the run",
-             .members = "{run}",
+             .members = "{run, axis, error: string, format, readings, file, sha256, simulated, "
+                        "...notices}",
              .example = R"({"path": "/var/lib/mdof/laser_X.rtl", "axis": "X", "u_um": 0.3})",
              .writes = true,
              .handler = [&m](const Params& p, Reply r) {

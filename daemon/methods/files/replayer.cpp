@@ -8,7 +8,6 @@
 #include <condition_variable>
 #include <mutex>
 
-#include "daemon/measure/budgets.h"
 #include "schema/base/thread_start.h"
 
 namespace mdof::daemon {
@@ -25,7 +24,7 @@ struct Replayer::Shared {
   explicit Shared(Storekeeper& to) : keeper(to) {}
 
   void work(const Make& make, const HistoryEntry& action, const Done& done);
-  void store(Result<Run> run, const HistoryEntry& action, const Done& done);
+  void store(Result<Made> made, const HistoryEntry& action, const Done& done);
 
   std::atomic<bool> busy{false}, stopping{false};
   std::mutex mutex;  // guards the next two
@@ -38,21 +37,22 @@ void Replayer::Shared::work(const Make& make, const HistoryEntry& action, const 
   start_thread_as("replay");
   // Linux: of this thread alone.
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
-  auto run = make([this](const Progress&) { return !stopping; });
+  auto made = make([this](const Progress&) { return !stopping; });
   const std::lock_guard lock(mutex);
   busy = false;  // before the answer: who has it may ask for the next
-  if (!stopping) store(std::move(run), action, done);
+  if (!stopping) store(std::move(made), action, done);
   working = false;
   ended.notify_all();
 }
 
-void Replayer::Shared::store(Result<Run> run, const HistoryEntry& action, const Done& done) {
-  if (!run) return done(tl::unexpected(run.error()));
-  const auto whole = std::make_shared<Run>(std::move(*run));
-  const bool posted =
-      keeper.post([whole, action, done, uncertainty = uncertainty_of(*whole)](store::Store& store) {
-        done(store.add_run(*whole, action, uncertainty));
-      });
+void Replayer::Shared::store(Result<Made> made, const HistoryEntry& action, const Done& done) {
+  if (!made) return done(tl::unexpected(made.error()));
+  const bool posted = keeper.post([made = std::move(*made), action, done](store::Store& store) {
+    const auto id = store.add_run(*made.run, action, made.uncertainty);
+    if (!id) return done(tl::unexpected(id.error()));
+    made.run->header.id = *id;
+    done(made.document(*made.run));
+  });
   if (!posted) done(io_error("too many writes to the database are pending; try again"));
 }
 

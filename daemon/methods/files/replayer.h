@@ -5,10 +5,13 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <thread>
 
 #include "daemon/storekeeper/storekeeper.h"
 #include "schema/base/progress.h"
+#include "schema/run.h"
+#include "schema/uncertainty/run_uncertainty.h"
 
 namespace mdof::daemon {
 
@@ -21,11 +24,18 @@ class Replayer {
   ~Replayer();
   static bool was_left_behind();
 
+  // A run with its uncertainty for SQL users, and what the reply says of it once it has its id:
+  // that is made by the thread that stores it, so it is quick.
+  struct Made {
+    std::shared_ptr<Run> run;
+    RunUncertainty uncertainty;
+    std::function<std::string(const Run&)> document;
+  };
   // `make` runs on the thread and ends soon after the callback that it gets has returned false.
-  // `done`: the id of the stored run, or why there is none; on another thread, or at once with
-  // `conflict` while a file is under way.
-  using Make = std::function<Result<Run>(const ProgressCallback&)>;
-  using Done = std::function<void(Result<std::int64_t>)>;
+  // `done`: the document of the stored run, or why there is none; on another thread, or at once
+  // with `conflict` while a file is under way.
+  using Make = std::function<Result<Made>(const ProgressCallback&)>;
+  using Done = std::function<void(Result<std::string>)>;
   void start(Make make, const HistoryEntry& action, Done done);
 
  private:

@@ -41,7 +41,7 @@ OTHERS = {"clearance", "completion", "demo", "help", "machine kinematics", "mach
           "selftest", "sensitivity", "separate reversal", "separate shift", "separate square", "setup network",
           "solve", "status", "stop", "straightness", "studies", "study", "token", "verify"}
 OTHER_METHODS = {"compensation.activate", "compensation.build_volume", "compensation.deactivate", "compensation.list", "device.list", "encoder.set", "history.list",
-                 "live.subscribe", "live.unsubscribe", "machine.at", "rig.get", "rpc.discover", "run.import", "run.list", "run.replay", "run.resume",
+                 "live.subscribe", "live.unsubscribe", "machine.at", "rig.get", "rpc.discover", "run.analyse", "run.import", "run.list", "run.replay", "run.resume",
                  "run.start", "run.stop", "server.health", "server.info"}
 
 

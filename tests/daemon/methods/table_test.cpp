@@ -45,7 +45,7 @@ TEST_F(MethodTableTest, WhoMayCallWhat) {
       "run.budget",          "run.compare",       "squareness.budget", "history.list",
       "compensation.status", "compensation.grid", "compensation.at",   "parallelism.fit",
       "machine.at",          "rig.get",           "compensation.list", "compensation.table",
-      "server.health",       "run.trend"};
+      "server.health",       "run.trend",         "run.analyse"};
   const std::set<std::string> approving = {"compensation.activate", "compensation.deactivate"};
   for (const auto& [name, method] : methods()) {
     EXPECT_EQ(method.writes, writing.contains(name)) << name;

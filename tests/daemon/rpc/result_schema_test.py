@@ -36,7 +36,7 @@ range_mm = [0, 10]
 CALLS = [
     ("server.info", {}), ("server.health", {}), ("device.list", {}), ("rig.get", {"axis": "X"}), ("history.list", {}),
     ("run.list", {}), ("run.get", {"run": 1}), ("run.get", {"run": 4}), ("run.points", {"run": 1}), ("run.points", {"run": 4}),
-    ("run.budget", {"run": 1, "figure": "EYX_um", "at_mm": 20}), ("run.budget", {"run": 1, "figure": "EYX_straightness_um"}),
+    ("run.analyse", {"run": 1}), ("run.budget", {"run": 1, "figure": "EYX_um", "at_mm": 20}), ("run.budget", {"run": 1, "figure": "EYX_straightness_um"}),
     ("run.compare", {"before": 1, "after": 3}), ("run.trend", {}), ("squareness.fit", {"run_x": 1, "run_y": 2}),
     ("squareness.budget", {"run_x": 1, "run_y": 2}), ("parallelism.fit", {"run_a": 1, "run_b": 3}),
     ("compensation.build", {"runs": [1]}), ("compensation.build", {"runs": [4]}),

@@ -17,6 +17,9 @@ from result_schemas import methods  # noqa: E402
 MDOFD, MDOF = sys.argv[1:3]
 PAGED = "a reply has at most 48 KiB: points come in pages, by a method of their own"
 NEXT = "the second of two alike"
+VOLUME = 1
+MACHINE = 'name = "m"\nmachine = {chain = "w-Y-X-b-t"}\n' + "".join(
+    f'[[axis]]\nid = "{axis}"\nholds_at_mm = [0, 0, 0]\npoint = "standing"\nrange_mm = [0, 20]\nE{axis}{axis}_um = 2\n' for axis in "XY")
 # (method, its parameters, the command, members that may differ and why). Runs 1 and 3 are of X, 2 of Y; 4 is imported.
 SAME = [
     ("run.get", {"run": 1}, "show 1", {"points": PAGED}),
@@ -32,12 +35,13 @@ SAME = [
     ("parallelism.fit", {"run_a": 1, "run_b": 3}, "parallelism 1 3", {}),
     ("squareness.fit", {"run_x": 1, "run_y": 2}, "squareness 1 2", {}),
     ("squareness.budget", {"run_x": 1, "run_y": 2}, "budget 1 2", {}),
-    ("compensation.build", {"runs": [1]}, "compensation build 1",
-     {"points": PAGED, "offset": PAGED, "table": NEXT, "created_utc": NEXT}),
-    ("compensation.table", {"table": 1}, "compensation show 1", {}),
-    ("compensation.list", {}, "compensation list", {"volumes": "their pages are those of axis: volume"}),
-    ("compensation.activate", {"table": 1}, "compensation activate 1", {"changed": NEXT}),
-    ("compensation.table", {"table": 1}, "compensation show 1", {}),
+    ("compensation.build", {"runs": [1]}, "compensation build 1", {"table": NEXT, "created_utc": NEXT}),
+    ("compensation.table", {"table": 2}, "compensation show 2", {}),
+    ("compensation.table", {"table": VOLUME}, f"compensation show {VOLUME}", {}),
+    ("compensation.list", {}, "compensation list", {}),
+    ("compensation.list", {"axis": "X"}, "compensation list --axis X", {}),
+    ("compensation.activate", {"table": 2}, "compensation activate 2", {"changed": NEXT}),
+    ("compensation.table", {"table": 2}, "compensation show 2", {}),
     ("compensation.deactivate", {"axis": "X"}, "compensation deactivate --axis X", {"changed": NEXT}),
     ("history.list", {"count": 5}, "history --count 5", {}),
     ("device.list", {}, "device list", {"scans": "they go on", "measured_hz": "it goes on", "clock": "it goes on"}),
@@ -49,8 +53,8 @@ OTHERS = {
     "compensation.at": "a question of the machine's control", "compensation.grid": "as compensation.table",
     "compensation.build_volume": "tests/daemon/rpc/beside_daemon_test.py", "encoder.set": "tests/daemon/encoder_datum_test.py",
     "live.subscribe": "a stream", "live.unsubscribe": "a stream", "machine.at": "mdof machine error is of files",
-    "rig.get": "what the page draws", "rpc.discover": "the methods", "run.import": "the id; the command shows the run",
-    "run.points": "pages of mdof show", "run.replay": "the id; the command shows the run", "run.resume": "begins",
+    "rig.get": "what the page draws", "rpc.discover": "the methods", "run.import": "test_a_file_gives_the_same_document_to_both",
+    "run.points": "pages of mdof show", "run.replay": "test_a_file_gives_the_same_document_to_both", "run.resume": "begins",
     "run.start": "begins; mdof record shows the run at its end", "run.stop": "ends", "server.health": "what the page shows",
 }
 
@@ -85,7 +89,11 @@ class SameDocument(unittest.TestCase):
         readings = os.path.join(cls.folder, "laser.csv")
         with open(readings, "w") as file:
             file.write("target_mm,direction,run,deviation_um\n" + "".join(f"{x},{d},{k},{.1 * x * d + k}\n" for k in (1, 2) for d in (1, -1) for x in (0, 9)))
+        cls.readings, cls.log = readings, logs["X"]
         cls.said("import", readings, "--axis", "X", "--u-um", "0.2", "--db", cls.daemon.database)
+        with open(os.path.join(cls.folder, "machine.toml"), "w") as file:
+            file.write(MACHINE)
+        cls.said("compensation", "build", "--machine", file.name, "--plane", "XY", "--step-mm", "5", "--incomplete", "--db", cls.daemon.database)
         cls.client = cls.daemon.start()
         cls.addClassCleanup(cls.daemon.stop)
         cls.addClassCleanup(cls.client.socket.close)
@@ -113,6 +121,17 @@ class SameDocument(unittest.TestCase):
                 found = differences(document, reply)
                 self.assertEqual([d for d in found if d[0] not in allowed], [], method)
 
+    def test_a_file_gives_the_same_document_to_both(self):
+        for method, path, params, options, allowed in (
+                ("run.import", self.readings, {"axis": "X", "u_um": 0.2}, ("--axis", "X", "--u-um", "0.2"), {"run"}),
+                ("run.replay", self.log, {"rig": open(RIG["X"]).read(), "rig_source": RIG["X"]}, ("--rig", RIG["X"]), {"run", "points", "started_utc"})):
+            with self.subTest(method):
+                reply = self.client.call(method, path=path, **params)
+                command = self.said(method.split(".")[1], path, *options, "--db", self.daemon.database, "--socket", self.daemon.socket, "--json")
+                found = differences(json.loads(command), reply)
+                self.assertEqual([d for d in found if d[0] not in allowed], [])
+                self.assertIn("notices", reply)
+
     # A comparison that sees no difference would prove nothing.
     def test_a_member_less_or_another_value_is_seen(self):
         self.assertEqual(differences({"a": [1, {"b": None}]}, {"a": [1, {"b": None}]}), [])
@@ -128,9 +147,9 @@ class SameDocument(unittest.TestCase):
             file.write("HEADER::\nFile type  : rtl\n\nTARGET DATA::\nFiletype : ISO\nTarget-count: 2\nTargets :\n0.0000 10.0000\n\nUSER-TEXT::\n" +
                        "".join(f"Remark {i}: {'x' * 40}\n" for i in range(3000)) +
                        "RUNS::\nRun-count: 2\n\nDEVIATIONS::\nRun Target Data:\n1 1 0.5\n1 2 0.7\n2 2 -0.3\n2 1 -0.5\nEOF::\n")
-        self.said("import", text, "--axis", "X", "--sense", "body", "--travel=-", "--db", self.daemon.database,
-                  "--socket", self.daemon.socket)
-        run = self.client.call("run.get", run=5)
+        imported = self.said("import", text, "--axis", "X", "--sense", "body", "--travel=-", "--db", self.daemon.database,
+                             "--socket", self.daemon.socket, "--json")
+        run = self.client.call("run.get", run=json.loads(imported)["run"])
         self.assertEqual((run["positioning_sense"], run["travel"], run["points_total"]), ("body", "-", 4))
         self.assertEqual(run["uncertainty"]["EXX_B_um"]["value"], 1)
 

@@ -3,9 +3,8 @@
 
 #include "daemon/history.h"
 #include "daemon/measure/imported/import.h"
-#include "daemon/words/words.h"
+#include "schema/base/json_writer.h"
 #include "schema/imported/series.h"
-#include "schema/notice/notice_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -24,23 +23,6 @@ struct ImportCommand {
   LimitOptions limits;
   bool json = false;
 };
-
-std::string stored_json(const Run& run) {
-  JsonWriter json;
-  json.begin_object()
-      .field("run", run.header.id)
-      .field("axis", std::string(1, letter(run.header.axis)));
-  json.field("error", run.header.provenance.model);
-  json.field("format",
-             run.header.provenance.recording_kind.substr(std::string("imported ").size()));
-  json.field("readings", static_cast<std::uint64_t>(run.points.size()));
-  json.field("file", run.header.provenance.recording_path);
-  json.field("sha256", run.header.provenance.recording_sha256);
-  json.field("simulated", run.header.simulated);
-  write_notices(json, "notices", run.header.notices, words::text);
-  json.end_object();
-  return json.take();
-}
 
 std::string params_of(const ImportCommand& command) {
   const daemon::ImportRequest& request = command.request;
@@ -87,7 +69,7 @@ Status import(ImportCommand command) {
       (positioning ? "build a compensation table with: mdof compensation build "
                    : "show the run with: mdof show ") +
       std::to_string(run.header.id));
-  if (command.json) return write_line(stored_json(run));
+  if (command.json) return write_line(daemon::import_document(run.header, run.points.size()));
   run.header.notices.clear();  // shown already
   return write_out(imported_text(run, {}, "", terminal_columns(), false));
 }

@@ -5,10 +5,10 @@
 #include "daemon/history.h"
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
+#include "daemon/measure/replay/replay_document.h"
 #include "daemon/measure/replay/replay_options.h"
-#include "daemon/words/words.h"
+#include "schema/base/json_writer.h"
 #include "schema/rig/calibrated.h"
-#include "schema/run_json.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
@@ -97,13 +97,7 @@ Status replay(ReplayCommand command) {
   MDOF_TRY(const StatedAt at, asked_reference(command, run));
   run = algo::restate(std::move(run), at);  // what is stored is stated at the fixture
   show_notices(run.header.notices, command.all_warnings);
-  if (command.json) {
-    const daemon::StatedRun stated = daemon::stated_run(run);
-    JsonWriter json;
-    json.begin_object();
-    write_run_members(json, {run, run.header, stated.points, stated.figures}, words::text);
-    return write_line(json.end_object().take());
-  }
+  if (command.json) return write_line(daemon::replay_document(run, daemon::stated_run(run)));
   run.header.notices.clear();  // shown already
   const daemon::StatedRun stated = daemon::stated_run(run);
   const std::size_t width = terminal_columns();

@@ -3,9 +3,7 @@
 #include <cmath>
 
 #include "algo/drift/drift_sentences.h"
-#include "algo/iso230/straightness.h"
 #include "algo/model/restate.h"
-#include "schema/run_json.h"
 #include "schema/units.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
@@ -71,42 +69,7 @@ std::string without_text(const Run& run, const std::vector<StraightnessFigure>& 
   return "straightness with and without drift, at the fixture\n" + table.text(width);
 }
 
-void write_series(JsonWriter& json, const algo::SeriesDrift& drift, double sign) {
-  json.begin_object()
-      .field("order", drift.order)
-      .field("change", drift.significant() ? to_key_unit(sign * drift.change) : std::nan(""))
-      .field("u_change", drift.significant() ? to_key_unit(drift.u_change) : std::nan(""))
-      .field("range", drift.significant() ? to_key_unit(drift.range) : std::nan(""))
-      .field("seen_from", to_key_unit(drift.least_found))
-      .field("steps", drift.steps)
-      .end_object();
-}
-
-void write_closures(JsonWriter& json, const Run& run, const std::vector<algo::Closure>& closures) {
-  json.begin_array();
-  for (const algo::Closure& c : closures) {
-    const Errors5 change = named_from_local(run.header.moving(), c.change);
-    json.begin_object()
-        .field("run", c.run)
-        .field("after_s", c.after_s)
-        .field("same_side", c.same_side);
-    for (std::size_t k = 0; k < kErrorCount; ++k)
-      json.field(error_names(run.header.axis)[k].key, to_key_unit(change[k]));
-    json.end_object();
-  }
-  json.end_array();
-}
-
 }  // namespace
-
-DriftOfStored drift_of(const Run& run) {
-  const Run at_fixture = algo::restate(run, kAtFixture);
-  const algo::DriftOfRun drift(at_fixture.points);
-  DriftOfStored out{drift.found(), {}};
-  if (out.found.removable())
-    out.without = algo::straightness(run.header.moving(), drift.without(at_fixture.points));
-  return out;
-}
 
 std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_t width) {
   const std::string changes = algo::changes_text(drift, run.header.moving(), false);
@@ -138,31 +101,6 @@ std::string drift_text(const Run& run, const DriftOfStored& drift, std::size_t w
   if (!drift.without.empty()) text += "\n" + without_text(run, drift.without, width);
   const std::string notice = drift_notice(run, drift.found, width);
   return notice.empty() ? text : text + "\n" + notice;
-}
-
-void write_drift(JsonWriter& json, const Run& run, const std::vector<std::string>& probes,
-                 const DriftOfStored& drift) {
-  const algo::RunDrift& found = drift.found;
-  json.begin_object().field("significant", found.significant()).key("not_seen");
-  found.not_seen.empty() ? json.null() : json.value(found.not_seen);
-  json.field("length_s", found.length_s).field("level", algo::kDriftLevel);
-  json.key("errors").begin_object();
-  const Errors5 signs = named_from_local(run.header.moving(), Errors5{1, 1, 1, 1, 1});
-  const auto& names = error_names(run.header.axis);
-  for (std::size_t k = 0; k < kErrorCount && found.not_seen.empty(); ++k) {
-    json.key(names[k].key);
-    write_series(json, found.errors[names[k].local], signs[k]);
-  }
-  json.end_object().key("probes").begin_object();
-  for (std::size_t k = 0; k < found.probes.size() && k < probes.size(); ++k) {
-    json.key(probes[k] + "_um");
-    write_series(json, found.probes[k], 1);
-  }
-  json.end_object().key("closures");
-  write_closures(json, run, found.closures);
-  json.key("straightness_without");
-  write_straightness(json, drift.without);
-  json.end_object();
 }
 
 }  // namespace mdof::tools

@@ -1,27 +1,20 @@
-// The drift of a stored run, made on reading: what is stored, and its hash, is as it was.
+// The drift of a stored run as text for people.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "algo/drift/run_drift.h"
-#include "schema/base/json_writer.h"
+#include "daemon/measure/analysis/stored_drift.h"
 #include "schema/run.h"
 
 namespace mdof::tools {
 
-// At the fixture, wherever `run` is stated.
-struct DriftOfStored {
-  algo::RunDrift found;
-  std::vector<StraightnessFigure> without;  // figures without it, where it can be removed
-};
-DriftOfStored drift_of(const Run& run);
+using daemon::drift_of;
+using daemon::DriftOfStored;
 
 // Sentences on a significant drift, lines; "": none.
 std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_t width);
 // What `mdof analyse` prints of it: closures, each error's drift, what it does to straightness.
 std::string drift_text(const Run& run, const DriftOfStored& drift, std::size_t width);
-void write_drift(JsonWriter& json, const Run& run, const std::vector<std::string>& probes,
-                 const DriftOfStored& drift);
 
 }  // namespace mdof::tools

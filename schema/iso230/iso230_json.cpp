@@ -134,7 +134,7 @@ void write_positioning_uncertainty(JsonWriter& json, const PositioningUncertaint
       .field("U_drift_um", to_um(U.drift))
       .field("U_E_M_A_um", to_um(U.E_M_A))
       .field("U_B_um", to_um(U.B))
-      .field("not_in_it", "temperature of the machine, alignment")
+      .field("not_covered", "temperature of the machine, alignment")
       .end_object();
 }
 

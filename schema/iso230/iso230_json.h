@@ -35,7 +35,7 @@ void write_positioning(JsonWriter& json, const Positioning& positioning, bool an
 void write_run_positioning_uncertainty(JsonWriter& json, const RunPositioningUncertainty& U,
                                        bool angle);
 
-// {"k", "U_device_um", "U_drift_um", "U_E_M_A_um", "U_B_um", "not_in_it"}
+// {"k", "U_device_um", "U_drift_um", "U_E_M_A_um", "U_B_um", "not_covered"}
 void write_positioning_uncertainty(JsonWriter& json, const PositioningUncertainty& U);
 
 }  // namespace mdof

@@ -64,7 +64,7 @@ void write_fit(JsonWriter& json, const Separation& fit) {
       .field("u_from", fit.u_reason)
       .field("u_covers", fit.u_reason)
       .field("noise_only", fit.noise_only)
-      .field("not_in_it", not_in_separation_u());
+      .field("not_covered", not_in_separation_u());
 }
 
 }  // namespace

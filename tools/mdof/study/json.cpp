@@ -146,7 +146,7 @@ std::string study_json(const StudyResult& result, const std::string& figures_jso
   head.begin_object();
   if (study) head.field("study", *study);
   head.field("state", to_string(result.state)).field("elapsed_s", result.elapsed_s);
-  head.field("started_utc", result.started_utc).field("software", result.software);
+  head.field("started_utc", result.started_utc).field("software_version", result.software);
   head.field("plan_toml", result.plan_toml);
   return head.take() + "," + figures_json.substr(1);
 }

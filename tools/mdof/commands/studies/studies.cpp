@@ -39,7 +39,7 @@ std::string rows_json(const std::vector<Row>& rows, std::int64_t total) {
     json.field("state", row.state).field("trials", row.trials).key("trials_wanted");
     row.record.trials_wanted ? json.value(*row.record.trials_wanted) : json.null();
     json.field("seed", row.record.seed).field("started_utc", row.record.started_utc);
-    json.field("software", row.record.software_version).field("source", row.record.source);
+    json.field("software_version", row.record.software_version).field("source", row.record.source);
     json.end_object();
   }
   json.end_array().end_object();

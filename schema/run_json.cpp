@@ -176,7 +176,9 @@ void write_sides(JsonWriter& json, const RunHeader& h) {
 
 void write_header_members(JsonWriter& json, const RunHeader& h, NoticeWords words) {
   const std::string axis(1, letter(h.axis));
-  json.field("run", h.id).field("axis", axis).field("model", h.provenance.model);
+  json.key("run");
+  h.id == 0 ? json.null() : json.value(h.id);
+  json.field("axis", axis).field("model", h.provenance.model);
   if (is_imported(h))
     json.key("reference").null().key("reference_mm").null();
   else

@@ -75,11 +75,15 @@ std::string head_text(const store::ChainHead& head) {
   return "link " + std::to_string(head.link) + ", SHA-256 " + head.sha256;
 }
 
-std::string verify_json(const SourceCheck& check) {
+std::string verify_json(const SourceCheck& check, const store::ChainHead& head) {
   JsonWriter json;
   json.begin_object().field("sound", check.findings.empty());
   write_texts(json, "findings", check.findings);
   write_notices(json, "notices", check.notices, words::text);
+  json.key("head");
+  head.link > 0 ? json.value(head.sha256) : json.null();
+  json.key("link");
+  head.link > 0 ? json.value(head.link) : json.null();
   json.end_object();
   return json.take();
 }
@@ -94,7 +98,7 @@ Status verify(const VerifyCommand& command) {
   if (!command.recording.empty()) MDOF_CHECK(verify_recording(command.recording, check));
   if (command.recording.empty() || !command.database.empty())
     MDOF_CHECK(verify_database(command.database, command.head, check, head));
-  if (command.json) MDOF_CHECK(write_line(verify_json(check)));
+  if (command.json) MDOF_CHECK(write_line(verify_json(check, head)));
   show_notices(check.notices, true);
   for (const auto& finding : check.findings) say(finding);
   if (!check.findings.empty())

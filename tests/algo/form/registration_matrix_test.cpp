@@ -15,7 +15,7 @@
 #include "algo/form/registration.h"
 #include "tests/algo/form/known_maps.h"
 
-namespace mdof::algo {
+namespace mdof::algo::registration_matrix {
 namespace {
 
 using Shape = std::function<double(double, double)>;
@@ -302,4 +302,4 @@ TEST(RegistrationMatrix, Profiles) {
 }
 
 }  // namespace
-}  // namespace mdof::algo
+}  // namespace mdof::algo::registration_matrix

@@ -79,8 +79,8 @@ Left without_plane(const SurfaceMap& a, const SurfaceMap& b) {
 
 SurfaceMap with_noise(SurfaceMap map, unsigned seed, double sd_m) {
   std::mt19937 engine(seed);
-  std::normal_distribution<double> normal(0, sd_m);
-  for (double& z : map.z_m) z += normal(engine);
+  std::normal_distribution<double> normal(0, 1);
+  for (double& z : map.z_m) z += sd_m * normal(engine);
   return map;
 }
 

@@ -182,7 +182,9 @@ TEST(RunTables, FitAnyTerminalWhateverTheNumbersAre) {
   for (const bool valid : {true, false}) {
     const auto run = one_point(valid, "five probes are needed, and of A, B, C two are left");
     for (const std::size_t width : {80u, 100u, 132u, 200u})
-      EXPECT_LE(widest(show_text(run, noise_of(run), std::string(64, 'a'), width)), width) << width;
+      for (const Extent extent : {Extent::brief, Extent::all})
+        EXPECT_LE(widest(show_text(run, noise_of(run), std::string(64, 'a'), width, extent)), width)
+            << width;
   }
 }
 

@@ -20,7 +20,7 @@ RunHeader shortened(RunHeader header);
 struct RunListRequest {
   std::int64_t offset = 0, count = 0;
   std::optional<Axis> axis = std::nullopt;
-  bool all = false;  // also the runs that another run supersedes
+  bool all = false;  // also runs whose targets were renumbered in a new run
 };
 // Newest first, as run.list and `mdof runs` give them; as many as fit into `most_bytes`. `explain`
 // may change a header before it is written.

@@ -336,16 +336,17 @@ void add_run_methods(rpc::MethodTable& table, Methods& m) {
        .example = R"({"run": 1})",
        .writes = true,
        .handler = [&m](const Params& p, Reply r) { stop_run(m, p, std::move(r)); }});
-  table.add({.name = "run.list",
-             .summary = "Lists runs, newest first, in pages.",
-             .params = {offset,
-                        count_param(kMaxRunsPage),
-                        {"axis", ParamType::string, "list only runs of this axis", false},
-                        {"all", ParamType::boolean, "also list runs that another run supersedes",
-                         false, "false"}},
-             .members = "{total, offset, runs: [{...run_header, superseded_by, shortened?}]}",
-             .example = R"({"offset": 0, "count": 10})",
-             .handler = on_query(m, list_runs)});
+  table.add(
+      {.name = "run.list",
+       .summary = "Lists runs, newest first, in pages.",
+       .params = {offset,
+                  count_param(kMaxRunsPage),
+                  {"axis", ParamType::string, "list only runs of this axis", false},
+                  {"all", ParamType::boolean,
+                   "also list runs whose targets were renumbered in a new run", false, "false"}},
+       .members = "{total, offset, runs: [{...run_header, superseded_by, shortened?}]}",
+       .example = R"({"offset": 0, "count": 10})",
+       .handler = on_query(m, list_runs)});
   table.add({.name = "run.get",
              .summary = "Returns a run without its points: header, provenance, straightness, "
                         "angles, plausibility, and who started and stopped the run.",

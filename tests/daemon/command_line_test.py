@@ -138,6 +138,9 @@ class Record(CommandLine):
         started = [r["started_utc"] for r in json.loads(self.done("runs", "--db", other.database, "--json"))["runs"]]
         self.assertEqual((len(set(started)), started[0]), (len(started), newest["started_utc"]))
         self.assertNotRegex(self.done("runs", "--db", other.database), rf"(?m)^ *{before} ")
+        self.assertNotIn(before, [r["run"] for r in client.call("run.list")["runs"]])
+        everything = {r["run"]: r["superseded_by"] for r in client.call("run.list", all=True)["runs"]}
+        self.assertEqual((everything[before], everything[newest["run"]]), (newest["run"], None))
         self.assertRegex(self.done("runs", "--all", "--db", other.database),
                          rf"(?m)^ *{before} +X +superseded by {newest['run']} ")
         for words in (("show",), ("show", "--csv"), ("show", "--json"), ("analyse",), ("analyse", "--json"), ("analyse", "--csv")):

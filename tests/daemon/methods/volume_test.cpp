@@ -69,7 +69,7 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndTakenBack) {
   EXPECT_EQ(stored.at("/result/nodes"), "25") << stored.text();
   EXPECT_EQ(stored.at("/result/active"), "true");
   ASSERT_EQ(stored.size("/result/points"), 1u);
-  EXPECT_EQ(stored.at("/result/points/0/0"), "20.0");
+  EXPECT_EQ(stored.at("/result/points/0/0"), "20");
   EXPECT_EQ(stored.size("/result/points/0"), 15u);
   EXPECT_EQ(table.size("/result/points"), 25u);
   const Answer list = call("compensation.list");

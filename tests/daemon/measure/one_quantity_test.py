@@ -129,7 +129,7 @@ class OneQuantity(unittest.TestCase):
         logs = {axis: os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz") for axis in "XY"}
         again = recorded_again(logs["X"], cls.folder.name)
         cls.replayed = [mdof("replay", log, "--rig", rigs["X"], *cls.db, *words)
-                        for log, words in ((logs["X"], ("--json",)), (again, ()))]
+                        for log, words in ((logs["X"], ("--json",)), (again, ("--all",)))]
         mdof("replay", logs["Y"], "--rig", rigs["Y"], *cls.db)
         cls.documents, cls.csvs, cls.texts, cls.replies = {}, {}, {}, {}
         cls.run_commands()

@@ -163,7 +163,7 @@ class Trouble(unittest.TestCase):
             nowhere = os.path.join(self.folder.name, "nowhere")
             code, out, _ = self.mdof("doctor", "--config", self.daemon.config, "--socket", nowhere)
             self.assertEqual(code, 1)
-            self.assertIn(f"in use by mdofd (process {self.daemon.process.pid})", out)
+            self.assertIn(f"in use by mdofd (process {self.daemon.process.pid})", " ".join(out.split()))
             code, _, err = self.mdof("device", "probe", "--config", self.daemon.config, "--socket", nowhere)
             self.assertEqual(code, 4)
             self.assertIn(f"in use by mdofd (process {self.daemon.process.pid})", err)

@@ -207,7 +207,7 @@ std::string flagged_text(const Run& run, const RunUncertainty& uncertainty, std:
   return wrapped("points: " + points +
                      "; with a flag or without errors: " + std::to_string(flagged) +
                      (flagged > rows.size()
-                          ? ", of which the first " + std::to_string(rows.size()) + " are shown"
+                          ? "; the first " + std::to_string(rows.size()) + " are shown"
                           : "") +
                      " (--all lists all points)",
                  width) +

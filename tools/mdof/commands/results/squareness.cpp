@@ -128,10 +128,10 @@ std::string squareness_text(const Said& said) {
   add_slope(table, said, pair.straightness_a(), pair.axes.a);
   add_slope(table, said, pair.straightness_b(), pair.axes.b);
   add_artefact(table, said);
-  table.add(line_row(said, said.name, said.name, urad_to_place(error, U)));
+  table.add(line_row(said, said.name, said.name, urad_to_place(error, u)));
   return noise_only_notice(flag(document, "noise_only")) +
          simulated_notice(flag(document, "simulated")) + table.text() + "\n" + said.name + " = " +
-         with_u(urad_to_place(error, U), urad_to_place(u, u)) +
+         with_u(urad_to_place(error, u), urad_to_place(u, u)) +
          " µrad, expanded U = " + urad_to_place(U, U) + " (k = " + fixed(number(document, "k"), 2) +
          ", 95 %)\n" + squareness_sense(pair.axes, "°") + "\nform " + in_urad(said.rad("form")) +
          " µrad: residual straightness of both axes\n" +

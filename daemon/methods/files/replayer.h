@@ -32,7 +32,7 @@ class Replayer {
     std::function<std::string(const Run&)> document;
   };
   // `make` runs on the thread and ends soon after the callback that it gets has returned false.
-  // `done`: the document of the stored run, or why there is none; on another thread, or at once
+  // `done` receives the document of the stored run, or the error; on another thread, or at once
   // with `conflict` while a file is under way.
   using Make = std::function<Result<Made>(const ProgressCallback&)>;
   using Done = std::function<void(Result<std::string>)>;

@@ -103,9 +103,16 @@ class Registration {
       directions = evidence_.determined(b_, pose);
     }
     undetermined_ = 3 - static_cast<std::size_t>(directions.cols());
+    const PoseFit moved = fit_at(few_, b_, pose), at_rest = fit_at(few_, b_, {});
+    const double before_m = left(at_rest, common(at_rest, moved)).size_m;
+    if (before_m > 0) left_by_movement_ = left(moved, common(moved, at_rest)).size_m / before_m;
+    moved_m_ = std::hypot(pose.shift_x_m, pose.shift_y_m) +
+               std::abs(std::remainder(pose.turn_rad, 2 * std::numbers::pi)) * few_.size_m / 2;
     return about_origin(pose, few_);
   }
   std::size_t undetermined() const { return undetermined_; }
+  double left_by_movement() const { return left_by_movement_; }
+  double moved_m() const { return moved_m_; }
 
  private:
   static SurfaceMap without_plane(SurfaceMap map) {
@@ -222,6 +229,7 @@ class Registration {
   PoseFit own_;  // A itself at the few places
   double most_m_ = 0;
   std::size_t undetermined_ = 0;
+  double left_by_movement_ = 1, moved_m_ = 0;
 };
 
 SurfaceMap difference_at(const SurfaceMap& a, const Surface& b, const MapPose& pose) {
@@ -272,6 +280,8 @@ Result<Comparison> compare(const SurfaceMap& a, const SurfaceMap& b, Register ho
     Registration registration(a, b, surface);
     result.pose = registration.found();
     result.undetermined = registration.undetermined();
+    result.left_by_movement = registration.left_by_movement();
+    result.moved_m = registration.moved_m();
   }
   result.difference = difference_at(a, surface, result.pose);
   MDOF_CHECK(check_overlap(a, b, result.difference.measured()));

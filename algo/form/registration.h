@@ -26,6 +26,10 @@ struct Comparison {
   // turn, and be tilted instead of shifted), and those in which the slopes of the two maps have
   // nothing in common: they were taken as 0.
   std::size_t undetermined = 0;
+  // Mean size of what is left at common places, as a share of what is left with B as it lies
+  // (piston and tilt taken out of both); 1 without a movement.
+  double left_by_movement = 1;
+  double moved_m = 0;          // by that movement, the most at the sides of A
   double pv_m = 0, rms_m = 0;  // rms about the mean
   std::size_t pixels = 0;
 };

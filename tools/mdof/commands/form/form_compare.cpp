@@ -1,5 +1,6 @@
 // mdof form compare A B: what a map differs by from another one.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <numbers>
 
 #include "algo/form/registration.h"
@@ -32,7 +33,11 @@ algo::Register register_from(const std::string& name) {
 struct Compared {
   algo::Comparison found;
   std::size_t measured = 0;  // pixels of A
+  double pixel_m = 0;        // of A, the smaller step
 };
+
+// Noise and small differences in form move the best pose by parts of a pixel, which is no notice.
+constexpr double kPixelsMoved = 1, kMuchLeft = 0.5;
 
 Notices notices_of(const Compared& compared, const FormCompareCommand& o) {
   const algo::Comparison& found = compared.found;
@@ -43,6 +48,10 @@ Notices notices_of(const Compared& compared, const FormCompareCommand& o) {
   if (found.undetermined > 0)
     notices.push_back(
         notice(NoticeCode::map_movements_undetermined, o.a, {{"directions", found.undetermined}}));
+  if (found.moved_m > kPixelsMoved * compared.pixel_m && found.left_by_movement > kMuchLeft)
+    notices.push_back(notice(NoticeCode::map_movement_gains_little, o.b,
+                             {{"moved_mm", to_mm(found.moved_m)},
+                              {"removed_percent", 100 * (1 - found.left_by_movement)}}));
   return notices;
 }
 
@@ -86,6 +95,7 @@ Status form_compare(const FormCompareCommand& o) {
   Compared compared;
   MDOF_TRY(compared.found, algo::compare(a, b, register_from(o.register_how)));
   compared.measured = a.measured();
+  compared.pixel_m = std::min(a.dx_m, a.dy_m);
   const algo::Comparison& found = compared.found;
   show_notices(notices_of(compared, o));
   if (!o.out.empty()) MDOF_CHECK(save_map(found.difference, o.out));

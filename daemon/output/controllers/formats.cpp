@@ -52,7 +52,7 @@ const std::vector<Format>& formats() {
        .source = "manual of the 808D, 01/2017; not tested on a control",
        .sign_confirmed = true,
        .quantum_m = 2e-9,
-       .takes_home = false,
+       .takes_home = true,
        .axes = {write_lec, read_lec},
        .volume = {},
        .square = {}},

@@ -78,10 +78,14 @@ Status add_errors(const CompensationTable& table, const ExportOptions& options, 
     text += cec_text(t++, table_of(s, e, e.forward, both ? 0 : 1), s.error);
     if (!both) text += cec_text(t++, table_of(s, e, e.reverse, -1), s.error);
     if (s.along == s.command) continue;
-    const std::string note = s.error + ": the CEC table does not contain the squareness of " +
-                             s.along + " and " + s.command;
-    out.notes.push_back(note);
-    text += "; NOT IN THIS FILE: " + note + "\n";
+    const std::string axes = std::string("the squareness of ") + s.along + " and " + s.command;
+    out.notes.push_back(s.error + ": " +
+                        (table.slope_removed
+                             ? "the CEC table does not contain " + axes
+                             : "the CEC table contains the slope of the straightness, which is "
+                               "part of " +
+                                   axes + "; do not correct this squareness again"));
+    text += (table.slope_removed ? "; NOT IN THIS FILE: " : "; ") + out.notes.back() + "\n";
   }
   if (t == before)
     return bad_input("table " + std::to_string(table.id) +
@@ -360,8 +364,8 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
                   [](const CecTable& one) { return one.multiply_by > 0; }))
     out.notes.emplace_back(
         "products (MULT_BY_TABLE): according to the example of the manual, the control adds only "
-        "the product of two tables; check on the machine that the control does not also add each "
-        "of the two tables. The values of each such table are at most " +
+        "the product of two tables; check on the machine that it does not also add the two tables "
+        "themselves: each table would then add up to " +
         plain_number(to_um(largest_factor(tables)), 2) + " um");
   MDOF_CHECK(check_count(tables.size(), options, out));
   count_nodes(t, out);

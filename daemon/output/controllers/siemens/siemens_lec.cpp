@@ -5,6 +5,7 @@
 #include "daemon/output/controllers/series.h"
 #include "daemon/output/controllers/siemens/siemens_steps.h"
 #include "daemon/output/controllers/text_lines.h"
+#include "daemon/words/words.h"
 #include "schema/base/number/number_text.h"
 #include "schema/units.h"
 
@@ -43,6 +44,30 @@ Status check_reversal(const CompensationTable& table, const Series& s, const Exp
                    " um). Use a format with both approaches, or export the mean (option "
                    "one-approach) and set the "
                    "backlash compensation of the control (MD32450 BACKLASH)");
+}
+
+// The control activates ENC_COMP when the axis is referenced: a value there is a jump.
+Series zeroed_at_home(Series s, const ExportOptions& options, Export& out) {
+  const std::optional<double> home_m = options.home_m(s.along);
+  const double there = mean_error_at(s, home_m.value_or(0.0));
+  const std::string um = plain_number(to_um(there)) + " um";
+  if (!home_m) {
+    if (std::abs(there) > kStepOfLec_m)
+      out.notes.push_back(s.error + ": the value at 0 mm is " + um + ", so the axis jumps by " +
+                          plain_number(-to_um(there)) + " um if its reference point is there; " +
+                          words::remedy(Remedy::give_home));
+    return s;
+  }
+  out.notes.push_back(s.error + ": " + um +
+                      " was subtracted from every value, so the value is 0 "
+                      "at home (" +
+                      plain_number(to_mm(*home_m)) +
+                      " mm) and the zero of the axis moves by this amount");
+  for (std::size_t i = 0; i < s.position_m.size(); ++i) {
+    s.forward[i] -= there;
+    s.reverse[i] -= there;
+  }
+  return s;
 }
 
 std::string lec_text(const CompensationTable& table, const Series& s, const EqualSteps& e,
@@ -119,7 +144,8 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
                          const ExportOptions& options) {
   MDOF_CHECK(check_one_table_an_axis(tables));
   Export out;
-  const ExportOptions as_measured = without_tolerance(options, out);
+  ExportOptions as_measured = without_tolerance(options, out);
+  as_measured.homes.clear();  // taken out below
   for (const CompensationTable& table : tables) {
     MDOF_TRY(const Series s, positioning_of(table, kMostBeforeSteps, as_measured, "ENC_COMP", out));
     const std::size_t told = out.left_out.size();
@@ -127,7 +153,8 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
     ExportOptions marked = options;
     for (std::size_t i = told; i < out.left_out.size(); ++i)
       marked.marks.push_back("REVERSAL NOT CORRECTED: " + out.left_out[i]);
-    MDOF_TRY(const EqualSteps e, equal_steps(mean_of_approaches(s), options, out));
+    MDOF_TRY(const EqualSteps e,
+             equal_steps(zeroed_at_home(mean_of_approaches(s), options, out), options, out));
     out.files.push_back({std::string(1, s.along) + "_EEC.INI", lec_text(table, s, e, marked)});
   }
   return out;

@@ -97,7 +97,7 @@ class BesideDaemon(unittest.TestCase):
     @classmethod
     def said(cls, database, *words):
         words = [word.replace("@", cls.folder) for word in words]
-        socket = ["--socket", cls.daemon.socket] if "--socket" in cls.help_of(words) else []
+        socket = ["--socket", cls.daemon.socket] if database == cls.held and "--socket" in cls.help_of(words) else []
         done = subprocess.run([MDOF, *words, "--db", database, *socket], capture_output=True, text=True, timeout=60)
         assert done.returncode == 0, (words, done.returncode, done.stderr)
         return done.stdout
@@ -152,9 +152,18 @@ class BesideDaemon(unittest.TestCase):
 
     def refused(self, database, *words):
         words = [word.replace("@", self.folder) for word in words]
-        socket = ["--socket", self.daemon.socket] if "--socket" in self.help_of(words) else []
+        socket = ["--socket", self.daemon.socket] if database == self.held and "--socket" in self.help_of(words) else []
         done = subprocess.run([MDOF, *words, "--db", database, *socket], capture_output=True, text=True, timeout=60)
         return done.returncode, done.stderr.replace(database, "DATABASE")
+
+    def test_a_socket_of_another_database_is_refused(self):
+        """Else a table that the user took for active would be active in a database that serves nobody."""
+        for words in (("activate", "1"), ("deactivate", "--axis", "X"), ("build", "1")):
+            done = subprocess.run([MDOF, "compensation", *words, "--db", self.free, "--socket", self.daemon.socket],
+                                  capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, BAD_INPUT, done.stderr)
+            self.assertIn(f"uses {self.held}", done.stderr)
+            self.assertIn("--db", done.stderr)
 
     def test_no_command_is_left_out(self):
         with open(os.path.join(ROOT, "tools", "mdof", "commands", "commands.inc")) as file:

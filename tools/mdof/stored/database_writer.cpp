@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "daemon/paths.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/json_read.h"
 
@@ -60,9 +61,11 @@ tl::unexpected<Error> held(const fs::path& database, const std::string& but) {
 Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database,
                                                      const std::string& socket) {
   MDOF_TRY(const bool busy, somebody_writes(database));
-  if (!busy) return std::nullopt;
+  const bool is_asked_for = socket != daemon::default_socket();
+  if (!busy && !is_asked_for) return std::nullopt;
   MDOF_TRY(const fs::path file, database_path(database));
   auto client = rpc::Client::connect(socket);
+  if (!client && !busy) return std::nullopt;
   if (!client)
     return held(file, "no mdofd answers at " + socket +
                           "; wait until the other program ends. If the other program is mdofd, "
@@ -72,6 +75,12 @@ Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database
   const std::string theirs = text(parser.parse(simdjson::padded_string(info)), "database");
   std::error_code ec;
   if (fs::equivalent(theirs, file, ec) && !ec) return std::optional(std::move(*client));
+  if (!busy)
+    return fail(ErrorCode::conflict,
+                "the mdofd at " + socket + " uses " + theirs + ", but this command uses " +
+                    file.string() +
+                    "; give the database of this mdofd with --db, or leave out "
+                    "--socket");
   return held(file, "the mdofd at " + socket + " uses " + theirs +
                         "; use --socket to give the socket of the mdofd that uses this database");
 }

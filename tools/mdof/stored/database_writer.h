@@ -11,8 +11,9 @@
 namespace mdof::tools {
 
 // A connection to the mdofd that holds the database, which is then asked to write; nothing where
-// nobody holds it: the command writes itself. Error (conflict), before anything was sent to it: the
-// mdofd at `socket` holds another database, or none is there and some other program writes.
+// nobody holds it: the command writes itself. Error, before anything was sent to it: the mdofd at
+// `socket` holds another database (conflict, if that is not the default socket), or none is there
+// and some other program writes.
 // `database` and `socket` are what the options gave.
 Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database,
                                                      const std::string& socket);

@@ -298,7 +298,7 @@ void write_squareness_members(JsonWriter& json, const Squareness& s,
   json.key("artefact_corner");
   s.artefact.corner == 0 ? json.null() : json.value(corner_text(s));
   write_stated(json, {budgets, ""});
-  json.field("slopes_over", "travel of the moving body along + of the axis")
+  json.field("slopes_over", "travel of the moving body in the + direction of the axis")
       .field("sense", squareness_sense(s.axes, " deg"))
       .field("simulated", s.simulated)
       .field("created_utc", s.created_utc);

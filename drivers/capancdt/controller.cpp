@@ -222,7 +222,7 @@ Status check_filter(double sample_time_us, int averaged_values, double settle_s)
   if (settle_s <= 0 || averaged_values < 2 || filter_s <= settle_s) return {};
   return wrong("the averaging takes " + plain_number(filter_s) +
                    " s, which is longer than settle_s = " + plain_number(settle_s) +
-                   " s, so the first readings of each standstill would still contain motion",
+                   " s, so the first readings of each stop would still contain motion",
                "lower averaged_values or sample_time_us, or raise [measure] settle_s to " +
                    plain_number(filter_s));
 }

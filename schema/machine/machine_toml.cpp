@@ -226,8 +226,8 @@ void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& fr
   if (!(std::abs(frame.ratio) <= kLargestRatio) || frame.ratio == 0)
     table.reject(
         "ratio",
-        "must be from -1000 to 1000, but not 0; ratio is the motion of the frame in mm along + of "
-        "the axis \"along\" when the command of the axis \"with\" increases by 1 mm");
+        "must be from -1000 to 1000, but not 0; ratio is the motion of the frame in mm in the + "
+        "direction of the axis \"along\" when the command of the axis \"with\" increases by 1 mm");
   const std::string point = table.string("point", "moving");
   frame.point_moves = point == "moving";
   if (point != "moving" && point != "standing")

@@ -129,7 +129,7 @@ class Progress {
       this.draw(page);
       // A daemon that was restarted sends no event of the end.
       const {state} = await call("run.get", {run: this.run});
-      if (state === "ended") setText(this.where, `Run ${this.run} has ended; mdofd waits for storage to store its end`);
+      if (state === "ended") setText(this.where, `Run ${this.run} has ended; mdofd has not stored the end of the run yet, because the storage is not available`);
       else if (state !== "open" && !this.over) this.ended({state, run: this.run});
     } catch (error) {
       if (this.points.length === 0) this.end.replaceChildren(problem(error));

@@ -237,11 +237,12 @@ std::vector<Diagnosis> check_sysfs_files(const Machine& machine, std::optional<g
 Diagnosis check_set_up(const Rig& rig) {
   const std::string what = "set-up of axis " + std::string(1, letter(rig.axis)) + ": ";
   const char* const remedy =
-      "check the set-up once by hand. Push the target towards each probe in turn: only the reading "
-      "of this probe may change. The change must be as large as the push: positive if the push is "
-      "along the direction of the probe (key \"measures\" or \"direction\" in the rig), negative "
-      "if it "
-      "is against this direction. Tilt the target by a known angle about each axis. Move the "
+      "check the set-up once by hand. Push the target along each direction in which probes "
+      "measure. "
+      "All probes of this direction must change by the length of the push, and no other probe may "
+      "change. The change must be positive if the push is along the direction of the probe (key "
+      "\"measures\" or \"direction\" in the rig), negative if it is against this direction. Tilt "
+      "the target by a known angle about each axis. Move the "
       "axis by a known length: the encoder must show this length and direction. To find a drift "
       "that follows the axis position, measure again with other dwell times, or with another order "
       "of targets";

@@ -76,8 +76,8 @@ Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
 const char* const kNotInR =
     "R (ISO 230-2) is calculated only from the repeated approaches to each target in this run. U "
     "does not include the uncertainty that comes from the small number of approaches. U of A is "
-    "unknown (null), because A contains 2 s at each of its ends, and so few approaches do not show "
-    "how well s is known";
+    "unknown (null), because A contains twice the standard deviation s at each end, and the "
+    "uncertainty of s cannot be estimated from so few approaches";
 
 }  // namespace
 

@@ -96,8 +96,8 @@ std::string check_text(const controllers::Check& check) {
   const std::size_t columns = terminal_columns();
   const std::string most = plain_number(check.most_residual_m * 1e6);
   std::string text =
-      "limit: the residual that the rounding of the format, --tolerance-um and "
-      "the causes below explain. The largest permitted residual is " +
+      "limit: the largest residual that can come from the rounding of the format, from "
+      "--tolerance-um and from the causes below. It is never larger than the permitted residual: " +
       most + " µm (angles: " + most + " µrad) and " + plain_number(check.share * 100) +
       " % of \"before\"; see --residual-um and --residual-percent\n";
   for (const CheckedError& e : check.errors) text += causes_text(e);

@@ -49,9 +49,10 @@ Notices notices_of(const Compared& compared, const FormCompareCommand& o) {
     notices.push_back(
         notice(NoticeCode::map_movements_undetermined, o.a, {{"directions", found.undetermined}}));
   if (found.moved_m > kPixelsMoved * compared.pixel_m && found.left_by_movement > kMuchLeft)
-    notices.push_back(notice(NoticeCode::map_movement_gains_little, o.b,
-                             {{"moved_mm", to_mm(found.moved_m)},
-                              {"removed_percent", 100 * (1 - found.left_by_movement)}}));
+    notices.push_back(
+        notice(NoticeCode::map_movement_gains_little, o.b,
+               {{"moved_mm", to_mm(found.moved_m)},
+                {"removed_percent", std::max(0.0, 100 * (1 - found.left_by_movement))}}));
   return notices;
 }
 

@@ -77,7 +77,7 @@ std::string cut_text(const algo::CuttingResult& found, const FormCutCommand& o) 
   if (found.factor)
     text += "optimal gain: " + fixed(*found.factor, 4) + " times the mean error of the passes\n";
   if (found.left_by_smoothing_rms_m)
-    text += "error that is not corrected because of the smoothing (squares of " +
+    text += "error that remains uncorrected, caused by the smoothing (squares of " +
             plain_number(o.smooth_mm) + " mm): RMS " + in_um(*found.left_by_smoothing_rms_m) +
             " µm\n";
   if (!found.converges) return text + kOnePass + "\nnext path: " + o.out + "\n";

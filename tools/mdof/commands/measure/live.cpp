@@ -121,7 +121,7 @@ Action declare_live(CLI::App& command) {
   command
       .add_flag("--ndjson", o->ndjson,
                 "Print one JSON object per line: updates, device faults (type \"trouble\"), "
-                "standstills that are not near a target (type \"left_out\")")
+                "stops that are not near a target (type \"left_out\")")
       ->excludes("--json");
   return [o] { return live(*o); };
 }

@@ -210,17 +210,16 @@ Action declare_record(CLI::App& command) {
 }  // namespace
 
 Command record_command() {
-  return {
-      .name = "record",
-      .summary = "Measure a run with mdofd and show its progress",
-      .footer =
-          "Without targets, mdofd records all samples and recognises the targets from the dwells.\n"
-          "Examples:\n"
-          "  mdof record --axis X --from-mm 0 --to-mm 60 --interval-mm 5 --jitter-mm 0.5 "
-          "--repeats 5\n"
-          "  mdof record --axis X --for-s 60 --note \"warm-up\"\n"
-          "  mdof record --resume 12",
-      .declare = declare_record};
+  return {.name = "record",
+          .summary = "Measure a run with mdofd and show its progress",
+          .footer =
+              "Without targets, mdofd records all samples and finds the targets from the stops.\n"
+              "Examples:\n"
+              "  mdof record --axis X --from-mm 0 --to-mm 60 --interval-mm 5 --jitter-mm 0.5 "
+              "--repeats 5\n"
+              "  mdof record --axis X --for-s 60 --note \"warm-up\"\n"
+              "  mdof record --resume 12",
+          .declare = declare_record};
 }
 
 }  // namespace mdof::tools

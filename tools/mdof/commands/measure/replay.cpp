@@ -148,7 +148,7 @@ Action declare_replay(CLI::App& command) {
   command
       .add_option("--targets-mm", o->request.targets_mm,
                   "Target positions [default: targets of the recording, else targets recognised "
-                  "from the dwells]")
+                  "from the stops]")
       ->delimiter(',');
   for (const ReplayOption& option : daemon::replay_options())
     add_option(command, option, o->request);

@@ -46,7 +46,7 @@ std::string effect_text(const daemon::ComparedFigure& figure) {
                 : urad_to_place(figure.at_targets, figure.change.U) + " µrad");
   if (figure.effect != daemon::Effect::reduced) return text;
   const double left = std::abs(figure.after.value), before = std::abs(figure.before.value);
-  return left > figure.after.U ? text + " to 1/" + fixed(before / left, 1)
+  return left > figure.after.U ? text + " by factor " + fixed(before / left, 1)
                                : text + " to a value within U";
 }
 

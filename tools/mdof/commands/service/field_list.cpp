@@ -11,8 +11,9 @@ namespace mdof::tools {
 namespace {
 
 constexpr const char* kHead =
-    "This list explains the members of the JSON replies of mdofd, and the columns of CSV files. If "
-    "mdof prints the same JSON document, the members are the same. A name ends in the unit of its "
+    "This list explains the members of the JSON replies of mdofd, and the columns of CSV files. A "
+    "document that both mdofd and mdof make has the same members in both. A name ends in the unit "
+    "of its "
     "value. In names, {linear} is X, Y or Z; {angular} is A, B or C; {axis} is X, Y, Z, A, B or "
     "C; {small} is x, y or z; {approach} is forward, reverse or mean; {probe} is the id of a "
     "probe; {number} is a number; {figure} is the name of a result; {field} is another name of "

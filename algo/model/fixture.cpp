@@ -137,7 +137,7 @@ Result<Fixture> make_fixture(const Rig& rig) {
     p.id = probe.id;
     p.p_MP = local_vector(rig.axis, probe.position_m);
     p.u_M = local_vector(rig.axis, probe.direction);
-    p.n_C = p.u_M;
+    p.n_C = local_vector(rig.axis, probe.nominal_direction.value_or(probe.direction));
     MDOF_TRY(const TargetPlane* plane, plane_of(rig, probe));
     if (plane) {
       p.n_C = local_vector(rig.axis, plane->normal);

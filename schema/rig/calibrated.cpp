@@ -106,6 +106,7 @@ void apply(const std::string& record, const CalibratedProbe& found, Probe& probe
     probe.uncertainty.position = {found.u_position_m};
   }
   if (found.direction) {
+    if (!probe.nominal_direction) probe.nominal_direction = probe.direction;
     probe.direction = *found.direction;
     probe.uncertainty.direction = {found.u_direction_rad};
   }

@@ -53,6 +53,9 @@ struct Probe {
   // By how much its readings come later than the encoder's: its amplifier's filter.
   double delay_s = 0;
   ProbeUncertainty uncertainty = {};
+  // What the rig states, where a calibration found another direction: without [[plane]] the target
+  // was made and set up square to this, not to what was found.
+  std::optional<Vec3> nominal_direction = {};
 };
 
 // Known flatness of a target plane: height above the plane on a grid, bilinear between, ends held
@@ -87,7 +90,7 @@ struct Rig {
   std::optional<double> encoder_um_per_V;
   Sides sides;                       // `moves` and `travel`
   Chain machine;                     // [machine]; may be not known
-  std::vector<TargetPlane> planes;   // empty: planes normal to the probes' directions
+  std::vector<TargetPlane> planes;   // empty: planes normal to the nominal directions
   std::optional<Vec3> tool_point_m;  // P in M at which tables are to hold
   // Of the square: the material encloses 90° + this at the corner of the two faces that the rigs of
   // X and Y look at; with its standard uncertainty.

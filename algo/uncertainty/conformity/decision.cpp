@@ -24,7 +24,8 @@ Guard guard_of(const Budget& budget, double limit) {
   const std::string standard = "ISO 14253-1:2017, 95 % conformance probability, ";
   if (budget.U_by_trials)
     return {budget.coverage_factor, standard + "guard band g = U from Monte Carlo trials"};
-  const bool one_end = limit >= kOneEnd * budget.u;
+  // Beyond the limit the other end is further away still.
+  const bool one_end = limit >= kOneEnd * budget.u || std::abs(budget.value) > limit;
   const double factor = one_end ? one_sided_factor(budget.freedom) : budget.coverage_factor;
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.3f u", factor);

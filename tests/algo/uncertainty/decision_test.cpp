@@ -40,6 +40,12 @@ TEST(Decision, ByTheOneSidedGuardBand) {
   EXPECT_NE(d.reason.find("within the guard band"), std::string::npos);
 }
 
+// What fails a tolerance fails a smaller one: with u = 0.1 the guard band is two-sided below 0.24.
+TEST(Decision, IsMonotoneInTheTolerance) {
+  for (double limit = 0.4; limit > 0.001; limit -= 0.001)
+    EXPECT_EQ(decision(budget_of(0.57), limit).conformity, Conformity::not_conform) << limit;
+}
+
 // What is said is true in 95 % of cases at the least, drawn about values at the edge of the rule.
 TEST(Decision, IsTrueWithTheProbabilityThatItNames) {
   std::mt19937_64 random(7);

@@ -64,6 +64,7 @@ TEST(CalibratedRig, TakesWhatTheRecordFoundAndKeepsTheRest) {
   EXPECT_EQ(rig.probes[0].position_m, plain.probes[0].position_m);
   EXPECT_NEAR(rig.probes[1].position_m[0], 1.0 / 3e4, 1e-19) << "to the last bits";
   EXPECT_EQ(rig.probes[1].direction, plain.probes[1].direction);
+  EXPECT_FALSE(rig.probes[1].nominal_direction);
   EXPECT_EQ(rig.probes[1].calibration.offset_um, 2.5);
   EXPECT_NEAR(rig.probes[1].uncertainty.calibration.u, 1e-8, 1e-20);
   EXPECT_NEAR(rig.uncertainty.installation_offset.u[1], 2e-5, 1e-18);

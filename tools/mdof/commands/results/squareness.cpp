@@ -136,7 +136,9 @@ std::string squareness_text(const Said& said) {
          ", 95 %)\n" + squareness_sense(pair.axes, "°") + "\nform " + in_urad(said.rad("form")) +
          " µrad: residual straightness of both axes\n" +
          wrapped("± is the standard uncertainty u. It contains " + text(document, "u_covers") +
-                     ". \"mdof budget\" lists the contributors. Slopes refer to the fixture.",
+                     ". \"mdof budget\" lists the contributors. Slopes refer to the fixture. The "
+                     "values of "
+                     "end points and minimum zone have no u, because mdof does not calculate it.",
                  terminal_columns()) +
          "\n";
 }

@@ -29,7 +29,7 @@ struct Comparison {
   // Mean size of what is left at common places, as a share of what is left with B as it lies
   // (piston and tilt taken out of both); 1 without a movement.
   double left_by_movement = 1;
-  double moved_m = 0;          // by that movement, the most at the sides of A
+  double moved_m = 0;          // upper bound of how far that movement takes a place of A
   double pv_m = 0, rms_m = 0;  // rms about the mean
   std::size_t pixels = 0;
 };

@@ -195,6 +195,13 @@ double mean_error_at(const Series& s, double position_m) {
   return mean(i - 1) + (mean(i) - mean(i - 1)) * ((position_m - x[i - 1]) / (x[i] - x[i - 1]));
 }
 
+std::string zeroed_at_home_note(const Series& s, const std::string& each, double taken_m,
+                                double home_m) {
+  return s.error + ": " + plain_number(to_um(taken_m)) + " um was subtracted from every " + each +
+         ", so the " + each + " is 0 at home (" + plain_number(to_mm(home_m)) +
+         " mm) and the zero of the axis moves by this amount";
+}
+
 std::string fixed(double x, int decimals) {
   std::array<char, 400> text{};
   const int size = std::snprintf(text.data(), text.size(), "%.*f", decimals, x);

@@ -36,6 +36,11 @@ std::string commented(const std::vector<std::string>& lines, const std::string& 
 
 // Mean of both approaches at a position: linear between the points, the ends held.
 double mean_error_at(const Series& series, double position_m);
+
+// What a file says whose numbers (`each`: "trim") had `taken_m` subtracted, so that they are 0 at
+// home.
+std::string zeroed_at_home_note(const Series& series, const std::string& each, double taken_m,
+                                double home_m);
 std::string fixed(double x, int decimals);  // never "-0"
 
 }  // namespace mdof::controllers

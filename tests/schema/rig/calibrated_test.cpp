@@ -79,6 +79,18 @@ TEST(CalibratedRig, TakesWhatTheRecordFoundAndKeepsTheRest) {
   EXPECT_TRUE(calibration_notices("no rig with a [[calibration_record]]").empty());
 }
 
+// The target is square to the nominal one.
+TEST(CalibratedRig, KeepsTheNominalDirectionWhereTheRecordFoundAnother) {
+  CalibrationRecord record = mounting();
+  record.probes[0].direction = Vec3{2e-4, -1e-4, 1};
+  const std::string text = record_text(record);
+  const auto rig = parse_rig(rig_text() + text.substr(text.find(kRecordHead)), "rig.toml");
+  ASSERT_TRUE(rig) << rig.error().message;
+  EXPECT_GT(rig->probes[0].direction[0], 1.9e-4);
+  ASSERT_TRUE(rig->probes[0].nominal_direction);
+  EXPECT_EQ(*rig->probes[0].nominal_direction, test::rig_x().probes[0].direction);
+}
+
 TEST(CalibratedRig, KeepsTheCovariancesOfWhatItTakes) {
   const auto covariance = [](const Rig& rig) { return rig.records.at(0).covariance; };
   const auto all = covariance(with_record());

@@ -79,8 +79,7 @@ Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database
     return fail(ErrorCode::conflict,
                 "the mdofd at " + socket + " uses " + theirs + ", but this command uses " +
                     file.string() +
-                    "; give the database of this mdofd with --db, or leave out "
-                    "--socket");
+                    "; give the database of this mdofd with --db, or leave out --socket");
   return held(file, "the mdofd at " + socket + " uses " + theirs +
                         "; use --socket to give the socket of the mdofd that uses this database");
 }

@@ -11,9 +11,9 @@
 namespace mdof::tools {
 
 // A connection to the mdofd that holds the database, which is then asked to write; nothing where
-// nobody holds it: the command writes itself. Error, before anything was sent to it: the mdofd at
-// `socket` holds another database (conflict, if that is not the default socket), or none is there
-// and some other program writes.
+// nobody holds it: the command writes itself. Errors, before anything was sent to it. io: some
+// other program writes, and the mdofd at `socket` is not there or holds another database. conflict:
+// nobody writes, and the mdofd at a `socket` that is not the default one holds another database.
 // `database` and `socket` are what the options gave.
 Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database,
                                                      const std::string& socket);

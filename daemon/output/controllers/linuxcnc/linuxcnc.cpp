@@ -48,9 +48,7 @@ double zero_of(const Series& s, const ExportOptions& options, Export& out) {
   const double there = s.factor * mean_error_at(s, home_m.value_or(0.0));
   const std::string um = plain_number(to_um(there)) + " um";
   if (home_m) {
-    out.notes.push_back(
-        s.error + ": " + um + " was subtracted from every trim, so the trim is 0 at home (" +
-        plain_number(to_mm(*home_m)) + " mm) and the zero of the axis moves by this amount");
+    out.notes.push_back(zeroed_at_home_note(s, "trim", there, *home_m));
     return there;
   }
   if (std::abs(there) > 1e-9)

@@ -50,19 +50,15 @@ Status check_reversal(const CompensationTable& table, const Series& s, const Exp
 Series zeroed_at_home(Series s, const ExportOptions& options, Export& out) {
   const std::optional<double> home_m = options.home_m(s.along);
   const double there = mean_error_at(s, home_m.value_or(0.0));
-  const std::string um = plain_number(to_um(there)) + " um";
   if (!home_m) {
     if (std::abs(there) > kStepOfLec_m)
-      out.notes.push_back(s.error + ": the value at 0 mm is " + um + ", so the axis jumps by " +
-                          plain_number(-to_um(there)) + " um if its reference point is there; " +
+      out.notes.push_back(s.error + ": the value at 0 mm is " + plain_number(to_um(there)) +
+                          " um, so the axis jumps by " + plain_number(-to_um(there)) +
+                          " um if its reference point is there; " +
                           words::remedy(Remedy::give_home));
     return s;
   }
-  out.notes.push_back(s.error + ": " + um +
-                      " was subtracted from every value, so the value is 0 "
-                      "at home (" +
-                      plain_number(to_mm(*home_m)) +
-                      " mm) and the zero of the axis moves by this amount");
+  out.notes.push_back(zeroed_at_home_note(s, "value", there, *home_m));
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {
     s.forward[i] -= there;
     s.reverse[i] -= there;
@@ -145,7 +141,7 @@ Result<Export> write_lec(const std::vector<CompensationTable>& tables,
   MDOF_CHECK(check_one_table_an_axis(tables));
   Export out;
   ExportOptions as_measured = without_tolerance(options, out);
-  as_measured.homes.clear();  // taken out below
+  as_measured.homes.clear();  // zeroed_at_home() takes the home into account
   for (const CompensationTable& table : tables) {
     MDOF_TRY(const Series s, positioning_of(table, kMostBeforeSteps, as_measured, "ENC_COMP", out));
     const std::size_t told = out.left_out.size();

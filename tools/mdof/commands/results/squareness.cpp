@@ -137,8 +137,8 @@ std::string squareness_text(const Said& said) {
          " µrad: residual straightness of both axes\n" +
          wrapped("± is the standard uncertainty u. It contains " + text(document, "u_covers") +
                      ". \"mdof budget\" lists the contributors. Slopes refer to the fixture. The "
-                     "values of "
-                     "end points and minimum zone have no u, because mdof does not calculate it.",
+                     "values of end points and minimum zone have no u, because mdof does not "
+                     "calculate it.",
                  terminal_columns()) +
          "\n";
 }

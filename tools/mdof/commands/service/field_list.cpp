@@ -13,8 +13,8 @@ namespace {
 constexpr const char* kHead =
     "This list explains the members of the JSON replies of mdofd, and the columns of CSV files. A "
     "document that both mdofd and mdof make has the same members in both. A name ends in the unit "
-    "of its "
-    "value. In names, {linear} is X, Y or Z; {angular} is A, B or C; {axis} is X, Y, Z, A, B or "
+    "of its value. In names, {linear} is X, Y or Z; {angular} is A, B or C; {axis} is X, Y, Z, A, "
+    "B or "
     "C; {small} is x, y or z; {approach} is forward, reverse or mean; {probe} is the id of a "
     "probe; {number} is a number; {figure} is the name of a result; {field} is another name of "
     "this list. Types are those of JSON; [number] is an array of numbers, a|b is a or b.";

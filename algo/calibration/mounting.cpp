@@ -15,8 +15,13 @@
 namespace mdof::algo {
 namespace {
 
-constexpr int kMaxIterations = 40;
-constexpr double kStepDone = 1e-7;  // in units of what is not known before
+constexpr int kMaxIterations = 100;
+// Steps that choose what is seen. A singular value near kSeenFrom can be on one side of it at one
+// step and on the other side at the next step: then the steps never end.
+constexpr int kChoosingSteps = 10;
+constexpr double kLeastShare = 1e-3, kRounding = 1e-12;
+// In units of what is not known before; once chi-square must descend, what its rounding allows.
+constexpr double kStepDone = 1e-7, kDescentDone = 1e-4;
 constexpr double kRankTolerance = 1e-9;
 // Root mean square of residuals over their uncertainties. Noise that is stated too small does not
 // make them as large; what does bends all readings in the same way, and Birge's factor covers
@@ -66,7 +71,7 @@ class Fit {
     for (int i = 0; i < kMaxIterations; ++i) {
       const double size = step();
       if (!(pose_.cwiseAbs().maxCoeff() < 25)) break;  // 0.25 rad, where the model ends
-      if (size < kStepDone) return {};
+      if (size < (steps_ > kChoosingSteps ? kDescentDone : kStepDone)) return {};
     }
     return fail(ErrorCode::check,
                 "no positions of the probes and no tilts of the target agree with these readings; "
@@ -84,24 +89,46 @@ class Fit {
   }
 
   // What the probes' unknowns are as a whole, not only their step, is taken from what is seen now:
-  // nothing is left in them of what was seen a step before and is not.
+  // nothing is left in them of what was seen a step before and is not. After kChoosingSteps what is
+  // seen stays.
   double step_of_all() {
     const auto lines = model_.linearised(pose_, probe_);
     const PoseSpace poses(lines.by_pose);
     const Eigen::MatrixXd shown = poses.without(lines.by_probe);
     const Eigen::VectorXd goal = poses.without(lines.misfit) + shown * probe_;
-    const SingularValues svd = singular_values(shown);
-    view_ = view_of(svd);
+    const bool choosing = steps_++ < kChoosingSteps || view_.singular.size() == 0;
+    const SingularValues svd = singular_values(choosing ? shown : shown * view_.seen);
+    if (choosing)
+      view_ = view_of(svd);
+    else
+      view_ = {view_.seen * svd.V, view_.unseen, svd.values};
     const auto n = view_.singular.size();
     const Eigen::VectorXd now =
         view_.seen * (svd.U.leftCols(n).transpose() * goal).cwiseQuotient(view_.singular);
     const Eigen::VectorXd change = now - probe_;
     const Eigen::VectorXd step =
         poses.fit.solve(Eigen::VectorXd(lines.misfit - lines.by_probe * change));
-    probe_ = now;
-    pose_ += step;
+    const double share = choosing ? 1 : descending_share(lines, step, change);
+    probe_ += share * change;
+    pose_ += share * step;
     pose_rank_ = poses.fit.rank();
     return std::max(change.cwiseAbs().maxCoeff(), step.cwiseAbs().maxCoeff());
+  }
+
+  // The readings contain the squares of the angles between the probes and the target. Where noise
+  // is as large as they are, a whole step of Gauss and Newton can go too far: chi-square descends
+  // by less than half of what the derivatives say (Armijo's rule).
+  double descending_share(const MountingModel::Linearised& lines, const Eigen::VectorXd& step,
+                          const Eigen::VectorXd& change) const {
+    const double now = lines.misfit.squaredNorm();
+    const double expected =
+        now - (lines.misfit - lines.by_probe * change - lines.by_pose * step).squaredNorm();
+    double share = 1;
+    while (share > kLeastShare &&
+           model_.linearised(pose_ + share * step, probe_ + share * change).misfit.squaredNorm() >
+               now - share * expected / 2 + kRounding * now)
+      share /= 2;
+    return share;
   }
 
   void judge(MountingCalibration& found) const;
@@ -115,6 +142,7 @@ class Fit {
   Eigen::VectorXd pose_, probe_;
   MountingView view_;
   Eigen::Index pose_rank_ = 0;
+  int steps_ = 0;  // of all unknowns
 };
 
 // What is not seen stays as uncertain as the rig says; NaN where it says nothing.
@@ -288,16 +316,27 @@ Status check_misfit(const Rig& rig, const MountingCalibration& found) {
               Remedy::calibrate_sensitivity);
 }
 
-Status check_seen(const MountingFit& fit) {
+Status check_seen(const MountingFit& fit, double u_reading_m) {
   const auto& probes = fit.found.probes;
   if (std::any_of(probes.begin(), probes.end(), [](const auto& p) { return p.position_seen; }))
     return {};
   return fail(ErrorCode::check,
-              "these clampings do not determine the position of any probe, because the tilts of "
-              "the target differ by at most " +
+              "these clampings do not determine the position of any probe. The tilts of the target "
+              "differ by at most " +
                   plain_number(fit.found.tilt_rad * 1e3, 3) +
-                  " mrad; clamp the target at three or more tilts that differ by several mrad "
-                  "about two axes");
+                  " mrad, and the standard uncertainty of a reading at a stop is " +
+                  plain_number(to_um(u_reading_m) * 1e3, 3) +
+                  " nm (median). Clamp the target at three or more tilts that differ by several "
+                  "mrad about two axes; let it move farther along each axis, or stand longer at "
+                  "each stop");
+}
+
+double median_u_m(const MountingModel& model) {
+  std::vector<double> all;
+  for (const TraverseReading& reading : model.readings()) all.push_back(reading.u_m);
+  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+  std::nth_element(all.begin(), middle, all.end());
+  return *middle;
 }
 
 }  // namespace
@@ -311,7 +350,7 @@ Result<MountingFit> fit_mounting(const Rig& rig, const std::vector<Clamping>& cl
   Fit fit(std::move(model));
   MDOF_CHECK(fit.run(rig.uncertainty.encoder.u));
   MountingFit result = fit.result(rig, clampings);
-  MDOF_CHECK(check_seen(result));
+  MDOF_CHECK(check_seen(result, median_u_m(fit.model())));
   MDOF_CHECK(check_places(rig, result));
   MDOF_CHECK(check_misfit(rig, result.found));
   return result;

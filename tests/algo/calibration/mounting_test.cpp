@@ -195,7 +195,7 @@ TEST(Mounting, WhatTheClampingsDoNotShowIsNotMadeUp) {
   const auto once = fit_mounting(rig, target.logs(rng));
   ASSERT_FALSE(once);
   EXPECT_EQ(once.error().code, ErrorCode::check);
-  EXPECT_NE(once.error().message.find("clamp the target at three"), std::string::npos);
+  EXPECT_NE(once.error().message.find("Clamp the target at three"), std::string::npos);
   // Two tilts show each probe along one direction only.
   target.clamp(2, kTilt_rad, rng);
   target.clampings.erase(target.clampings.begin());

@@ -62,6 +62,7 @@ struct TiltedTarget {
   std::vector<TrueClamping> clampings;
   double noise_m = 10e-9, range_m = 200e-6, reach_m = 4e-3;
   int stops = 5;
+  std::vector<Axis> travels = {Axis::x, Axis::y};
 
   // The default fixture, mounted by hand: places, directions, zeros.
   TiltedTarget(std::mt19937_64& rng, double u_place_m, double u_way_rad, double u_zero_m) {
@@ -106,7 +107,7 @@ struct TiltedTarget {
     std::vector<algo::Clamping> all;
     for (const TrueClamping& clamping : clampings) {
       algo::Clamping logs;
-      for (const Axis axis : {Axis::x, Axis::y}) {
+      for (const Axis axis : travels) {
         algo::Traverse traverse{axis, {}};
         for (int i = 0; i < stops; ++i) {
           const double at = reach_m * (2.0 * i / (stops - 1) - 1);

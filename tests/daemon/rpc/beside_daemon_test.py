@@ -158,8 +158,9 @@ class BesideDaemon(unittest.TestCase):
 
     def test_a_socket_of_another_database_is_refused(self):
         """Else a table that the user took for active would be active in a database that serves nobody."""
-        for words in (("activate", "1"), ("deactivate", "--axis", "X"), ("build", "1")):
-            done = subprocess.run([MDOF, "compensation", *words, "--db", self.free, "--socket", self.daemon.socket],
+        for words in (("compensation", "activate", "1"), ("compensation", "deactivate", "--axis", "X"),
+                      ("compensation", "build", "1"), ("runs",)):
+            done = subprocess.run([MDOF, *words, "--db", self.free, "--socket", self.daemon.socket],
                                   capture_output=True, text=True, timeout=60)
             self.assertEqual(done.returncode, BAD_INPUT, done.stderr)
             self.assertIn(f"uses {self.held}", done.stderr)

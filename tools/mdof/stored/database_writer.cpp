@@ -84,10 +84,11 @@ Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database
                         "; use --socket to give the socket of the mdofd that uses this database");
 }
 
-std::optional<rpc::Client> mdofd_that_serves(const std::string& database,
-                                             const std::string& socket) {
+Result<std::optional<rpc::Client>> mdofd_that_serves(const std::string& database,
+                                                     const std::string& socket) {
   auto mdofd = mdofd_that_writes(database, socket);
-  return mdofd ? std::move(*mdofd) : std::nullopt;
+  if (mdofd || mdofd.error().code == ErrorCode::conflict) return mdofd;
+  return std::nullopt;
 }
 
 std::string canonical_path(const std::string& file) {

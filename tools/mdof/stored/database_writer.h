@@ -19,9 +19,9 @@ Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database
                                                      const std::string& socket);
 
 // The same for a command that reads: nothing where no mdofd answers for the database, which the
-// command then reads itself.
-std::optional<rpc::Client> mdofd_that_serves(const std::string& database,
-                                             const std::string& socket);
+// command then reads itself. Error: conflict, as above.
+Result<std::optional<rpc::Client>> mdofd_that_serves(const std::string& database,
+                                                     const std::string& socket);
 
 // A file as mdofd opens it: absolute, without links.
 std::string canonical_path(const std::string& file);

@@ -69,7 +69,8 @@ std::string text_of(const SquareReversal& s, bool simulated) {
          angle(s.square_rad) + " µrad (key artefact_angle_error_urad of a rig)\n" +
          wrapped("± is the standard uncertainty u. It contains " + covers_of(s) +
                      ". Slopes refer to the fixture. The angle of the square is assumed to be "
-                     "equal in both set-ups.",
+                     "equal in both set-ups. What the rig files declare is counted for the angle "
+                     "of the square with its largest possible effect.",
                  terminal_columns()) +
          "\n";
 }

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "algo/uncertainty/coverage.h"
@@ -10,8 +9,8 @@
 namespace mdof::algo {
 namespace {
 
-// What u has beside noise, and degrees of freedom, where they are more than rounding.
-constexpr double kLeastPart = 1e-12, kMostFreedom = 1e15;
+// What u has beside noise, where it is more than rounding.
+constexpr double kLeastPart = 1e-12;
 
 double declared(const Budget& b) {
   const double square = b.u * b.u - b.u_random * b.u_random;
@@ -47,7 +46,6 @@ Result<SquareReversal> square_reversal(const SquareSetUp& first, const SquareSet
   out.u_rad = std::hypot(out.u_random_rad, out.u_declared_rad);
   const std::array<UncertaintyPart, 2> parts = {{{a.u / 2, a.freedom}, {b.u / 2, b.freedom}}};
   out.freedom = effective_freedom(parts);
-  if (out.freedom > kMostFreedom) out.freedom = std::numeric_limits<double>::infinity();
   out.coverage_factor = coverage_factor(out.freedom);
   out.U_rad = out.coverage_factor * out.u_rad;
   out.noise_only = a.noise_only && b.noise_only;

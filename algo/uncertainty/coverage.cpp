@@ -67,8 +67,8 @@ double fourth_by(double u_square, double freedom) {
 }
 
 double effective_freedom(double sum_of_squares, double sum_of_fourths) {
-  return sum_of_fourths > 0 ? sum_of_squares * sum_of_squares / sum_of_fourths
-                            : std::numeric_limits<double>::infinity();
+  const double freedom = sum_of_squares * sum_of_squares / sum_of_fourths;
+  return freedom < kAlmostNormal ? freedom : std::numeric_limits<double>::infinity();
 }
 
 double effective_freedom(std::span<const UncertaintyPart> parts) {

@@ -6,7 +6,8 @@
 namespace mdof::algo {
 
 // Effective degrees of freedom, Welch-Satterthwaite (GUM G.2b): u⁴ / Σ (u_i⁴ / ν_i) with u² = Σ
-// u_i². Infinite where nothing has a finite one, or u is 0.
+// u_i². Infinite where nothing has a finite one, or u is 0, or there are so many (1e7) that k is
+// that of the normal distribution.
 struct UncertaintyPart {
   double u = 0, freedom = 0;
 };

@@ -70,6 +70,8 @@ TEST(Coverage, EqualPartsAddTheirFreedom) {
   EXPECT_EQ(effective_freedom(std::vector<UncertaintyPart>{{3, kInfinite}, {3, kInfinite}}),
             kInfinite);
   EXPECT_EQ(effective_freedom(std::vector<UncertaintyPart>{}), kInfinite);
+  EXPECT_EQ(effective_freedom(std::vector<UncertaintyPart>{{1, kInfinite}, {1e-14, 10}}), kInfinite)
+      << "not 1e57";
 }
 
 // scipy.stats.t.ppf(0.95, ν).

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "algo/uncertainty/statistics/flatness.h"
+#include "algo/uncertainty/effects/flatness.h"
 #include "schema/base/result.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"

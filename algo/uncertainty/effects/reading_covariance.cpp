@@ -9,7 +9,7 @@
 #include "algo/model/rigid.h"
 #include "algo/sensitivity/plan/mounting.h"
 #include "algo/uncertainty/effects/expansion_contributors.h"
-#include "algo/uncertainty/statistics/flatness.h"
+#include "algo/uncertainty/effects/flatness.h"
 
 namespace mdof::algo {
 namespace {

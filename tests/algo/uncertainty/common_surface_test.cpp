@@ -6,7 +6,7 @@
 #include <random>
 
 #include "algo/uncertainty/budget/two_runs.h"
-#include "algo/uncertainty/statistics/plane_footprints.h"
+#include "algo/uncertainty/effects/plane_footprints.h"
 #include "tests/algo/rigs.h"
 #include "tests/algo/uncertainty/drawn_surface.h"
 #include "tests/algo/uncertainty/faulty_fixture.h"

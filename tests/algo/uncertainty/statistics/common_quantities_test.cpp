@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "algo/uncertainty/statistics/flatness.h"
+#include "algo/uncertainty/effects/flatness.h"
 #include "tests/algo/rigs.h"
 
 namespace mdof::algo {

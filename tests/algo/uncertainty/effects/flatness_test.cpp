@@ -1,7 +1,7 @@
 // The covariance of a surface against the closed form by the Bessel function of the standard
 // library, and against surfaces drawn as sums of many plane waves of random direction and phase,
 // read by the seed's own formulas (Eq. 8-12).
-#include "algo/uncertainty/statistics/flatness.h"
+#include "algo/uncertainty/effects/flatness.h"
 
 #include <gtest/gtest.h>
 

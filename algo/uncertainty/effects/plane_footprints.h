@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "algo/model/fixture.h"
+#include "algo/uncertainty/effects/flatness.h"
 #include "algo/uncertainty/point_sensitivity.h"
-#include "algo/uncertainty/statistics/flatness.h"
 #include "schema/rig/rig.h"
 #include "schema/run.h"
 

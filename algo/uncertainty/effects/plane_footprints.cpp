@@ -1,4 +1,4 @@
-#include "algo/uncertainty/statistics/plane_footprints.h"
+#include "algo/uncertainty/effects/plane_footprints.h"
 
 #include <map>
 

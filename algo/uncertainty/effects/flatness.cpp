@@ -1,6 +1,7 @@
-#include "algo/uncertainty/statistics/flatness.h"
+#include "algo/uncertainty/effects/flatness.h"
 
 #include <cmath>
+#include <numbers>
 
 #include "algo/sensitivity/plan/draws.h"
 #include "algo/uncertainty/statistics/independent_parts.h"
@@ -11,7 +12,6 @@ namespace {
 
 constexpr double kSeriesBelow = 16;  // both are right to 3e-11 there
 constexpr int kSeriesTerms = 40, kAsymptoticTerms = 12;
-constexpr double kPi = 3.14159265358979323846;
 
 // DLMF 10.2.2
 double by_series(double x) {
@@ -33,9 +33,9 @@ double by_asymptotic_expansion(double x) {
     const double sign = (k / 2) % 2 == 0 ? 1 : -1;
     (k % 2 == 0 ? even : odd) += sign * term;
   }
-  const double turns = x / (2 * kPi) - 0.125;
+  const double turns = x / (2 * std::numbers::pi) - 0.125;
   const double cosine = sine_of_turns(turns + 0.25), sine = sine_of_turns(turns);
-  return 1 - std::sqrt(2 / (kPi * x)) * (even * cosine - odd * sine);
+  return 1 - std::sqrt(2 / (std::numbers::pi * x)) * (even * cosine - odd * sine);
 }
 
 double distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -54,7 +54,7 @@ double FlatnessCovariance::semivariogram_m2(double apart_m) const {
     const auto wave = static_cast<double>(k);
     const double weight = 1 / (wave * wave * wave * wave);
     norm += weight;
-    sum += weight * one_minus_bessel_j0(2 * kPi * wave * apart_m / length_m_);
+    sum += weight * one_minus_bessel_j0(2 * std::numbers::pi * wave * apart_m / length_m_);
   }
   return variance_m2_ * sum / norm;
 }

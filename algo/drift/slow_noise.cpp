@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kLongest = 8;  // τ, by the length of the log: as good as a random walk
 
-// Rows without what the rows before predict of them, of variance 1: of independent noise.
+}  // namespace
+
 Eigen::MatrixXd whitened(const std::vector<double>& time_s, const SlowNoise& noise,
                          const Eigen::MatrixXd& rows, double& log_variances) {
   Eigen::MatrixXd white(rows.rows(), rows.cols());
@@ -30,8 +31,6 @@ Eigen::MatrixXd whitened(const std::vector<double>& time_s, const SlowNoise& noi
   }
   return white;
 }
-
-}  // namespace
 
 std::vector<SlowNoise> slow_noises(const std::vector<double>& time_s) {
   std::vector<SlowNoise> all = {{}};

@@ -19,6 +19,11 @@ struct SlowNoise {
 // From white noise to a random walk, for visits that are so far apart.
 std::vector<SlowNoise> slow_noises(const std::vector<double>& time_s);
 
+// Rows without what the rows before predict of them, of variance 1 and independent of each other.
+// `log_variances`: what the logarithm of the determinant of their covariance was.
+Eigen::MatrixXd whitened(const std::vector<double>& time_s, const SlowNoise& noise,
+                         const Eigen::MatrixXd& rows, double& log_variances);
+
 struct WeighedFit {
   SlowNoise noise;
   bool solved = false;

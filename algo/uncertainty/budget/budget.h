@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,10 +43,11 @@ class RunBudgets {
   // Targets times independent parts of contributors: the time of a figure grows with it.
   std::size_t cost() const;
   // First order (GUM 5). The part of noise and repeatability is what the visits' scatter does to
-  // the figure, independent from target to target, with the shift that all targets of a pass share
-  // (repeatability.h); and, where the variance of the figure by the scatter of the runs' own, s²/n,
-  // is more than kRunsScatterMore times that, what it has beyond it. U is k u; of a range it is
-  // that of range_interval.h; where all deviations are equal, so that first order sees nothing but
+  // the figure, by what their residuals show of noise that follows its neighbours
+  // (correlated_noise.h), with the shift that all targets of a pass share (repeatability.h); and,
+  // where the variance of the figure by the scatter of the runs' own, s²/n, is more than
+  // kRunsScatterMore times that, what it has beyond it. U is k u; of a range it is that of
+  // range_interval.h; where all deviations are equal, so that first order sees nothing but
   // rounding, u is the root mean square of the trials. A figure that is NaN has a budget of NaN.
   Budget of(const Figure& figure) const;
   // Of each; the trials are drawn once for all of them.
@@ -73,8 +75,9 @@ class RunBudgets {
  private:
   struct Random {
     double u = 0, freedom = 0;
+    UncertaintyPart
+        independent;     // of it, if the noise of the visits does not follow its neighbours
     double widened = 1;  // the noise of each target, to have this u
-    UncertaintyPart part() const { return {u, freedom}; }
   };
   struct Drawn {
     std::vector<double> values;   // of the figure
@@ -92,6 +95,7 @@ class RunBudgets {
                            std::uint32_t stream) const;
   double half_difference(const Figure& figure, const MeanShifts& shifts) const;
   Random random_of_targets(const Figure& figure) const;
+  std::optional<std::size_t> only_error(const Figure& figure, std::size_t i) const;
   Random random_of_runs(const Figure& figure) const;
   double by_removed_drift(const Figure& figure) const;
   Random random_of(const Figure& figure) const;

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "algo/drift/run_drift.h"
 #include "algo/iso230/target_changes.h"
 #include "algo/sequence/run_drifts.h"
 #include "algo/sequence/uneven_visits.h"
@@ -17,7 +18,8 @@ namespace {
 
 struct Visit {
   int target = 0, run = 0, way = 0;  // way: 1 forward
-  Errors5 error{}, noise{};          // noise: variance
+  double time_s = 0;
+  Errors5 error{}, noise{}, residual{};  // noise: variance
 };
 
 class Decomposition {
@@ -32,6 +34,7 @@ class Decomposition {
       visit.target = p.target;
       visit.run = p.run;
       visit.way = p.point.direction > 0 ? 1 : 0;
+      visit.time_s = time_of_s(p);
       visit.error = named_from_local(moving, p.errors.local);
       const Covariance5 covariance = named_from_local(moving.axis, p.errors.covariance);
       for (std::size_t k = 0; k < kErrorCount; ++k) visit.noise[k] = covariance[6 * k];
@@ -65,8 +68,7 @@ class Decomposition {
   std::map<int, Errors5> variances() const {
     std::map<int, Errors5> sums;
     for (const Visit& visit : visits_) {
-      const double n = (has_both(visit.target) ? 2 : 1) *
-                       static_cast<double>(visits_of_.at({visit.target, visit.way}));
+      const double n = visits_like(visit);
       Errors5& sum = sums[visit.target];
       for (std::size_t k = 0; k < kErrorCount; ++k) sum[k] += variance_of(visit, k) / (n * n);
     }
@@ -76,6 +78,19 @@ class Decomposition {
   bool has_one_way_only() const {
     return std::none_of(visits_.begin(), visits_.end(),
                         [this](const Visit& v) { return has_both(v.target); });
+  }
+
+  CorrelatedNoise correlated_noise(std::size_t k, const std::vector<TargetMean>& means) const {
+    std::map<int, std::size_t> index;
+    for (std::size_t i = 0; i < means.size(); ++i) index[means[i].target] = i;
+    std::vector<NoisyVisit> noisy;
+    for (std::size_t i = 0; i < visits_.size(); ++i)
+      if (const Visit& v = visits_[i]; index.contains(v.target))
+        noisy.push_back({index.at(v.target), pass_of_[i], v.time_s, 1 / visits_like(v),
+                         visits_of_.at({v.target, v.way}) > 1 ? v.residual[k] : kNaN});
+    std::stable_sort(noisy.begin(), noisy.end(),
+                     [](const NoisyVisit& a, const NoisyVisit& b) { return a.time_s < b.time_s; });
+    return {std::move(noisy), freedom_};
   }
 
   // Variance of the mean's shift, without what the scatter of the visits makes of it.
@@ -102,6 +117,11 @@ class Decomposition {
   }
 
  private:
+  // A visit's part of the mean of its target is one of so many.
+  double visits_like(const Visit& visit) const {
+    return (has_both(visit.target) ? 2 : 1) *
+           static_cast<double>(visits_of_.at({visit.target, visit.way}));
+  }
   bool has(int target, int way) const { return visits_of_.contains({target, way}); }
 
   void find_scatter() {
@@ -121,6 +141,7 @@ class Decomposition {
     for (std::size_t i = 0; i < visits_.size() && freedom_ > 0; ++i)
       for (std::size_t k = 0; k < kErrorCount; ++k) {
         const double off = settled[i][k] - means.at({visits_[i].target, visits_[i].way})[k];
+        visits_[i].residual[k] = off;
         scatter_[k] += off * off / freedom_;
       }
   }
@@ -209,7 +230,10 @@ Repeatability repeatability(const MovingAxis& moving, const std::vector<Measured
     for (std::size_t k = 0; k < kErrorCount; ++k) u[k] = std::sqrt(variance[k]);
   }
   if (visits.freedom() > 0) found.freedom = visits.freedom();
-  for (std::size_t k = 0; k < kErrorCount; ++k) found.by_scatter[k] = visits.by_scatter(k);
+  for (std::size_t k = 0; k < kErrorCount; ++k) {
+    found.by_scatter[k] = visits.by_scatter(k);
+    if (found.by_scatter[k]) found.correlated[k] = visits.correlated_noise(k, means);
+  }
   for (std::size_t k = 0; k < kErrorCount; ++k)
     found.u_visit[k] = std::sqrt(visits.pooled_variance(k));
   const Errors5 shift = visits.shift_variance();

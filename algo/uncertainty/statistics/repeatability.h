@@ -4,9 +4,11 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "algo/iso230/target_means.h"
+#include "algo/uncertainty/statistics/correlated_noise.h"
 #include "schema/point.h"
 
 namespace mdof::algo {
@@ -21,6 +23,8 @@ struct Repeatability {
   // one approach. [part][target]
   std::vector<std::vector<Errors5>> together, of_passes;
   double passes_freedom = std::numeric_limits<double>::infinity();
+  // Of those errors whose u is by the scatter; its targets are those of the means.
+  std::array<std::optional<CorrelatedNoise>, kErrorCount> correlated;
   Errors5 u_visit{};  // of a visit, pooled
   Errors5 u_shift{};  // of all means together
   double shift_freedom = std::numeric_limits<double>::infinity();

@@ -43,7 +43,7 @@ const std::vector<Format>& formats() {
        .square = {}},
       {.name = "siemens-lec",
        .of = "Siemens SINUMERIK, encoder error compensation (ENC_COMP)",
-       .holds = "positioning, one value for both approaches; one file per axis",
+       .holds = "positioning (one value for both approaches, one file per axis)",
        .limits =
            "200 points at equal steps (if MD38000 of the control has another limit, use the option "
            "siemens-points); linear interpolation between the points; constant value beyond "

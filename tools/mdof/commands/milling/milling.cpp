@@ -255,7 +255,7 @@ Action declare_milling(CLI::App& command) {
   auto* sensitivity =
       command.add_flag("--sensitivity", o->sensitivity,
                        "Also print the effect of each input on force and wall when the input "
-                       "changes by the declared u (by 1 % if no u is declared)");
+                       "changes by the declared u (by 1 % if no u of this input is declared)");
   command
       .add_option("--trials", o->trials,
                   "Number of trials for the sensitivity; each trial calculates the cut twice, and "

@@ -164,8 +164,22 @@ TEST(CorrelatedNoise, UIsTheSpreadOfSlopes) {
     EXPECT_NEAR(white.inside_percent, 95.5, 2.5);
     EXPECT_NEAR(some.inside_percent, 94, 3);
     EXPECT_NEAR(most.inside_percent, 94, 3);
+    EXPECT_LT(white.freedom, 25) << "of 32, as white noise is not certain";
     EXPECT_LT(some.freedom, 20) << "a correlation is known less well than a variance";
   }
+}
+
+// The level of a pass is neither in what the residuals show nor in the variance of a figure.
+TEST(CorrelatedNoise, LeavesOutTheLevelOfAPass) {
+  std::mt19937_64 engine(9);
+  std::vector<NoisyVisit> visits = log_of(0.9, 0, engine).visits;
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < kTargetsOfLog; ++i) weights.push_back(slope_weight(i));
+  const double square = CorrelatedNoise(visits, 32).of(weights).square;
+  EXPECT_EQ(CorrelatedNoise(visits, 32).of(std::vector<double>(kTargetsOfLog, 1)).square, 1);
+  for (NoisyVisit& visit : visits)
+    if (visit.pass == 1) visit.residual += 3;
+  EXPECT_NEAR(CorrelatedNoise(visits, 32).of(weights).square, square, 1e-9);
 }
 
 // Times that stand still say nothing of neighbours; a visit without another of its target, too.

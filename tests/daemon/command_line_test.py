@@ -277,7 +277,7 @@ class TheSame(unittest.TestCase):
             if match[0] not in seen:
                 seen.append(match[0])
             return str(seen.index(match[0]) + 1)
-        return re.sub(r"\b\d{10}\b", count, text)
+        return re.sub(r"(?<![\d.])\d{10}(?![\d.])", count, text)  # and no digits of a fraction
 
     def generation(self, reply):
         return int(self.counted("daemon", str(reply["generation"])))

@@ -52,7 +52,7 @@ Result<std::string> error_at(const Machine& machine, const algo::Command& at) {
   for (const auto& names : error.not_measured) algo::add_new(names, missing);
   for (const auto& names : error.no_u) algo::add_new(names, no_u);
   write_strings(json, "not_measured", missing);
-  write_strings(json, "u_not_declared", no_u);
+  write_strings(json, "not_declared", no_u);
   json.field("u_covers", covers_text(machine, !no_u.empty(), true))
       .field("noise_only", noise_only(machine, true) == NoiseOnly::all);
   write_strings(json, "beyond_tables", error.beyond);
@@ -131,7 +131,7 @@ void add_machine_methods(rpc::MethodTable& table, Methods& m) {
              .params = params,
              .members =
                  "{machine, simulated, error: tool_error, u: {{small}_um}, u_reason?, "
-                 "not_measured, u_not_declared, u_covers, noise_only, beyond_tables, ...notices}",
+                 "not_measured, not_declared, u_covers, noise_only, beyond_tables, ...notices}",
              .example = R"({"machine": "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n)"
                         R"([[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, 0]\npoint = \"moving\"\n)"
                         R"(EXX_um = 2\nu_EXX_um = 0.1\n", "X_mm": 10})",

@@ -61,7 +61,7 @@ std::string rig_json(const Rig& rig) {
         .field("valid_until", record.valid_until)
         .end_object();
   json.end_array();
-  write_strings(json, "u_not_declared", rig.undeclared_uncertainties());
+  write_strings(json, "not_declared", rig.undeclared_uncertainties());
   write_notices(json, "notices", overdue_calibrations(rig, utc_now()), words::text);
   json.end_object();
   return json.take();
@@ -84,7 +84,7 @@ void add_rig_methods(rpc::MethodTable& table, Methods& m) {
              .members = "{axis, rig, moves, travel, chain: string, probes: [{id: string, "
                         "position_mm: [number], direction: [number], reads, range_um, low_um, "
                         "high_um, certificate, laboratory, calibrated, due}], records: [{id: "
-                        "string, kind, date, valid_until}], u_not_declared, ...notices}",
+                        "string, kind, date, valid_until}], not_declared, ...notices}",
              .example = R"({"axis": "X"})",
              .handler = [&m](const Params& p) { return get_rig(m, p); }});
 }

@@ -64,7 +64,7 @@ export function measured(figure, unit, {with_k = true} = {}) {
 
 // What U contains; never left out beside a U.
 export function covers(of) {
-  const missing = of.u_not_declared ?? [];
+  const missing = of.not_declared ?? [];
   if (!of.u_covers && missing.length === 0) return null;
   const incomplete = missing.length > 0;
   return h("div", {class: incomplete ? "notice doubtful" : "quiet"},

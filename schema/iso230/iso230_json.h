@@ -31,7 +31,7 @@ void write_parallelism(JsonWriter& json, const Parallelism& parallelism);
 void write_positioning(JsonWriter& json, const Positioning& positioning, bool angle);
 
 // {"coverage", "U_B_um", "U_B_mean_um", "U_R_forward_um" ... "U_M_um", "u_covers",
-// "u_not_declared", "R_is_of"}
+// "not_declared", "R_is_of"}
 void write_run_positioning_uncertainty(JsonWriter& json, const RunPositioningUncertainty& U,
                                        bool angle);
 

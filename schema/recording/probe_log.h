@@ -13,7 +13,7 @@
 // encoder_um, encoder_m or, where the rig says its scale, encoder_V; in no other unit, and time in
 // seconds alone.
 //
-// A table may have the columns of words of mdof's own documents (u_covers, u_not_declared, flags,
+// A table may have the columns of words of mdof's own documents (u_covers, not_declared, flags,
 // reason, travel), which are not read and may be quoted; and positioning_sense with "command" or
 // "body", which is read as kCommandSense or kBodySense.
 #pragma once

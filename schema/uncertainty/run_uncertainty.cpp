@@ -67,7 +67,7 @@ bool is_noise_only(const RunUncertainty& uncertainty) {
 
 void write_covers(JsonWriter& json, const std::string& covers,
                   const std::vector<std::string>& not_declared) {
-  json.field("u_covers", covers).key("u_not_declared").begin_array();
+  json.field("u_covers", covers).key("not_declared").begin_array();
   for (const std::string& key : not_declared) json.value(key);
   json.end_array();
 }

@@ -39,7 +39,7 @@ struct RunUncertainty {
 // As of is_noise_only(Budget) of schema/uncertainty/budget.h, of all points.
 bool is_noise_only(const RunUncertainty& uncertainty);
 
-// "u_covers" and "u_not_declared" of an open object.
+// "u_covers" and "not_declared" of an open object.
 void write_covers(JsonWriter& json, const std::string& covers,
                   const std::vector<std::string>& not_declared);
 void write_covers(JsonWriter& json, const RunUncertainty& uncertainty);

@@ -103,7 +103,7 @@ TEST_F(CsvTableTest, SkipsColumnsOfWordsAndReadsTheSense) {
     return read_csv_table(path_.string(), kSeries, {"positioning_sense"});
   };
   const auto words = with(
-      "u_covers,position_mm,positioning_sense,deviation_um,u_not_declared\n"
+      "u_covers,position_mm,positioning_sense,deviation_um,not_declared\n"
       "\"a, \"\"b\"\", c\",1,command,2,\n"
       "none,3,body,4,\"u_x, u_y\"\n");
   ASSERT_TRUE(words) << words.error().message;

@@ -85,7 +85,7 @@ class Budget {
       if (turn !== this.turn) return;  // another one was chosen meanwhile
       const budget = reply.figures[figure], unit = unitOf(figure);
       this.place.replaceChildren(h("p", {class: "result"}, `${titleOf(figure)}: ${measured(budget, unit)}; u = ${fixed(budget.u, decimals(budget.u))} ${unit}`),
-        budgetBars(budget, unit), covers({u_covers: budget.u_covers, u_not_declared: budget.not_declared}) ?? "");
+        budgetBars(budget, unit), covers(budget) ?? "");
     } catch (error) {
       this.place.replaceChildren(problem(error));
     }

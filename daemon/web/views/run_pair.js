@@ -112,7 +112,7 @@ export function openSquareness(place, first, second) {
           heads.map((run) => h("p", {class: "quiet"}, `${run.axis}: run ${run.run}, ${time(run.started_utc)}, ${run.state}${run.simulated ? ", SIMULATED" : ""}`)),
           h("p", {}, h("button", {onclick: store}, "Store this squareness")), stored)),
       notices(found.notices) ?? "", h("h2", {}, "Uncertainty budget"), budgetBars(budget, "µrad"),
-      covers({u_covers: budget.u_covers, u_not_declared: budget.not_declared}) ?? "");
+      covers(budget) ?? "");
   }
   read().catch((error) => body.replaceChildren(problem(error)));
 }

@@ -94,7 +94,7 @@ function activeOf(volume, nodes) {
     h("p", {class: "result"}, largestText(nodes)),
     volume.simulated ? h("p", {class: "notice doubtful"}, "▲ SIMULATED: no machine was measured") : "",
     volume.not_measured.length ? h("p", {class: "notice doubtful"}, `▲ Not measured, so not corrected: ${volume.not_measured.join(", ")}`) : "",
-    covers({u_covers: volume.u_covers, u_not_declared: volume.not_declared}) ?? "", pictures(volume, nodes),
+    covers(volume) ?? "", pictures(volume, nodes),
     facts([["Rotary axes at", rotaryText(volume)], ["Tool point", placeText(volume.tool_point_mm)], ["Approach", volume.approach], ["Errors whose table does not cover the grid", volume.beyond_tables.join(", ")],
       ["Interpolation error", Object.entries(volume.interpolation).map(([k, x]) => `${k[0]} ${isNumber(x) ? fixed(x, 4) : "–"} µm`).join(", ")],
       ["Active since", `${time(volume.activated_utc)}, by ${volume.activated_by}`], ["Sense", volume.sense]]),

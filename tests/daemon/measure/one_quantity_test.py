@@ -176,7 +176,7 @@ class OneQuantity(unittest.TestCase):
         replies["run.get"] = client.call("run.get", run=1)
         replies["run.points"] = client.call("run.points", run=1, offset=0, count=100)
         whole = client.points(1)
-        replies["all points"] = {"points": whole, "u_covers": "", "u_not_declared": []}
+        replies["all points"] = {"points": whole, "u_covers": "", "not_declared": []}
         for name in ("EYX_slope_urad", "EZX_slope_urad", "EYX_straightness_um", "ECX_range_urad"):
             replies[f"run.budget {name}"] = client.call("run.budget", run=1, figure=name)
         replies["squareness.fit"] = client.call("squareness.fit", run_x=2, run_y=3)
@@ -330,15 +330,15 @@ class OneQuantity(unittest.TestCase):
                 covers = self.all_of(document, "u_covers")
                 self.assertTrue(covers, "no u_covers")
                 self.assertTrue(all("noise only" not in text and "repeatability only" not in text for text in covers))
-                keys = self.all_of(document, "u_not_declared")
-                self.assertTrue(keys, "no u_not_declared")
+                keys = self.all_of(document, "not_declared")
+                self.assertTrue(keys, "no not_declared")
                 if where != "all points":
                     self.assertTrue(all(any(key.endswith(k) for key in named) for k in NOT_DECLARED for named in keys), keys)
         for where, table_of in self.csvs.items():
             with self.subTest(where + " --csv"):
                 for r in table_of:
                     self.assertIn("declare", r["u_covers"])
-                    self.assertIn("u_flatness_um", r["u_not_declared"])
+                    self.assertIn("u_flatness_um", r["not_declared"])
 
     def all_of(self, document, key):
         if isinstance(document, list):

@@ -39,7 +39,7 @@ std::string points_csv(const Run& run, const RunUncertainty& uncertainty) {
   for (const auto& name : error_names(run.header.axis)) csv.cell(std::string_view(name.key));
   for (const std::string of : {"u_", "u_random_", "U_"})
     for (const auto& name : error_names(run.header.axis)) csv.cell(of + name.key);
-  csv.cells({"samples", "flags", "reason", "u_covers", "u_not_declared"}).end_row();
+  csv.cells({"samples", "flags", "reason", "u_covers", "not_declared"}).end_row();
   for (std::size_t j = 0; j < run.points.size(); ++j)
     add_point(csv, run.header.moving(), run.points[j], uncertainty.points[j], uncertainty);
   return csv.take();
@@ -85,7 +85,7 @@ std::string figures_csv(const Run& run, const StatedFigures& figures) {
              "u_range_urad",
              "U_range_urad",
              "u_covers",
-             "u_not_declared"});
+             "not_declared"});
   csv.end_row();
   for (const auto& f : run.straightness) {
     const std::string error = f.error_key.substr(0, 3);

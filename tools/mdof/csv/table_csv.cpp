@@ -59,7 +59,7 @@ std::string table_csv(const CompensationTable& t) {
     for (const Columns& columns : groups)
       csv.cell(columns.prefix + positioning_name(t.axis) + "_um");
   if (t.has_positioning()) csv.cell(kSenseColumn);
-  csv.cells({"u_covers", "u_not_declared"}).end_row();
+  csv.cells({"u_covers", "not_declared"}).end_row();
   const std::string covers = covers_text(t), not_declared = joined(t.not_declared, " ");
   for (std::size_t i = 0; i < t.position_m.size(); ++i) {
     csv.cell(to_mm(t.position_m[i]));

@@ -78,7 +78,7 @@ std::string error_json(const Machine& machine, const FoundError& found,
       .field("angle_urad", to_urad(e.bound.angle_rad))
       .end_object();
   write_by_component(json, "not_measured", e.not_measured);
-  write_by_component(json, "u_not_declared", e.no_u);
+  write_by_component(json, "not_declared", e.no_u);
   write_strings(json, "beyond_tables", e.beyond);
   if (found.compensating)
     write_compensating(json, machine, *found.compensating);

@@ -172,7 +172,7 @@ std::string map_json(const Machine& machine, const MachineMapCommand& o,
     json.begin_object().field("approach", found.approach);
     write_extremes(json, found.map);
     write_strings(json, "not_measured", found.map.not_measured);
-    write_strings(json, "u_not_declared", found.map.no_u);
+    write_strings(json, "not_declared", found.map.no_u);
     write_strings(json, "beyond_tables", found.map.beyond);
     write_grid(json, found.map);
     json.end_object();

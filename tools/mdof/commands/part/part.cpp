@@ -129,7 +129,7 @@ std::string part_json(const FoundPart& found) {
       .field("z_mm", to_mm(worst(2)))
       .end_object();
   write_strings(json, "not_measured", part.not_measured);
-  write_strings(json, "u_not_declared", part.no_u);
+  write_strings(json, "not_declared", part.no_u);
   write_strings(json, "beyond_tables", part.beyond_tables);
   write_strings(json, "tables_without_slope", part.tables_without_slope);
   json.field("points_off_form_map", static_cast<std::uint64_t>(part.points_off_form_map));

@@ -145,7 +145,7 @@ std::string squareness_text(const Said& said) {
 
 std::string undeclared_text(const element& document) {
   Budget budget;
-  budget.not_declared = texts(document, "u_not_declared");
+  budget.not_declared = texts(document, "not_declared");
   budget.noise_only = flag(document, "noise_only");
   // The words of a rig that declares nothing name no line of it.
   if (text(document, "u_covers").find(kNothingDeclared) == std::string::npos)

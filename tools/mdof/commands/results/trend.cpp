@@ -168,7 +168,7 @@ std::string json_of(const std::vector<daemon::Trend>& trends) {
 std::string csv_of(const std::vector<daemon::Trend>& trends) {
   CsvText csv;
   csv.cells({"figure", "runs", "started_utc", "value", "u", "u_random", "centre", "low", "high",
-             "signal", "u_covers", "u_not_declared"});
+             "signal", "u_covers", "not_declared"});
   csv.end_row();
   for (const daemon::Trend& trend : trends)
     for (std::size_t i = 0; i < trend.values.size(); ++i) {

@@ -180,7 +180,7 @@ std::string budgets_csv(const std::vector<Budget>& budgets) {
   CsvText csv;
   csv.cells({"figure", "value", "u", "u_random", "nu_eff", "k", "U", "contributor", "key",
              "contributor_u", "unit", "distribution", "sensitivity", "contribution", "share", "dof",
-             "u_covers", "u_not_declared"});
+             "u_covers", "not_declared"});
   csv.end_row();
   for (const Budget& b : budgets) {
     for (const BudgetLine& line : b.lines) {

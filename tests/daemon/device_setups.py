@@ -15,7 +15,6 @@ targets_mm = {targets}
 speed_mm_s = {speed_mm_s}
 acceleration_mm_s2 = 4000
 dwell_s = {dwell_s}
-repeats = 1000
 noise_um = 0.002
 [[machine.error]]
 name = "EYX"

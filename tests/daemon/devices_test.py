@@ -29,7 +29,6 @@ targets_mm = {targets}
 speed_mm_s = 100
 acceleration_mm_s2 = 4000
 dwell_s = 0.4
-repeats = 1000
 noise_um = 0.002
 [[machine.error]]
 name = "EYX"

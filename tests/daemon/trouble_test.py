@@ -32,7 +32,6 @@ targets_mm = {targets}
 speed_mm_s = 100
 acceleration_mm_s2 = 4000
 dwell_s = 0.35
-repeats = 1000
 noise_um = 0.002
 [[device]]
 name = "t7"

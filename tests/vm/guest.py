@@ -61,7 +61,7 @@ class Simulate:
         self.plan = os.path.join(FOLDER, name + ".toml")
         with open(self.plan, "w") as f:
             f.write(f'rig = "{RIG}"\n[machine]\ntargets_mm = [0, 2, 4.1, 6.2]\nspeed_mm_s = 100\n'
-                    f"acceleration_mm_s2 = 4000\ndwell_s = 1\nrepeats = 100000\n{devices}")
+                    f"acceleration_mm_s2 = 4000\ndwell_s = 1\n{devices}")
         self.process = None
 
     def start(self):

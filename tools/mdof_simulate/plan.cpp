@@ -28,6 +28,15 @@ Result<Served> read_device(TomlTable& table, const Wiring& wiring) {
   return served;
 }
 
+// Keys that only the driver `simulator` uses: here the machine moves without an end, and each
+// device has its own rate and faults.
+void refuse_keys_of_driver(TomlTable& machine) {
+  for (const char* key : {"repeats", "loop", "rate_hz", "packet_ms", "pace", "gap", "disconnect"})
+    if (machine.has(key))
+      machine.reject(
+          key, "has no effect in mdof-simulate (it belongs to the driver simulator); remove it");
+}
+
 }  // namespace
 
 Result<std::vector<Served>> load_plan(const std::filesystem::path& file) {
@@ -40,7 +49,10 @@ Result<std::vector<Served>> load_plan(const std::filesystem::path& file) {
     MDOF_TRY(wiring.rig, load_rig(wiring.folder / rig));
   }
   drivers::SimulatorOptions options;
-  if (auto machine = root.table("machine")) MDOF_CHECK(drivers::read_options(*machine, options));
+  if (auto machine = root.table("machine")) {
+    refuse_keys_of_driver(*machine);
+    MDOF_CHECK(drivers::read_options(*machine, options));
+  }
   MDOF_CHECK(drivers::fit_to_rig(options, wiring.rig));
   MDOF_TRY(auto forward, daemon::forward_model(wiring.rig));
   wiring.machine = std::make_shared<SensedMachine>(wiring.rig, options, std::move(forward));

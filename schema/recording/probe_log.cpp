@@ -101,8 +101,8 @@ Status check_unit(const CsvHeader& header, std::size_t column) {
 }
 
 bool is_of_words(std::string_view name) {
-  return name == "u_covers" || name == "not_declared" || name == "u_not_declared" || name == "flags" || name == "reason" ||
-         name == "travel";
+  return name == "u_covers" || name == "not_declared" || name == "u_not_declared" ||
+         name == "flags" || name == "reason" || name == "travel";
 }
 
 Status add_column(CsvHeader& header, std::size_t column) {

@@ -12,6 +12,7 @@
 #include "algo/sequence/run_drifts.h"
 #include "algo/sequence/uneven_visits.h"
 #include "algo/uncertainty/statistics/run_shifts.h"
+#include "schema/sample.h"
 
 namespace mdof::algo {
 namespace {

@@ -36,7 +36,7 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
       freedom = repeatability_.freedom;
       error = only_error(figure, i);
     }
-    if (error && part != 0) by_target[i] = part / repeatability_.u[i][*error];
+    if (error && repeatability_.u[i][*error] > 0) by_target[i] = part / repeatability_.u[i][*error];
     together.insert(together.end(), repeatability_.u_shift.begin(), repeatability_.u_shift.end());
   }
   const auto square_by = [&](const std::vector<std::vector<Errors5>>& parts) {
@@ -68,8 +68,9 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
   };
   const double more = of_targets - independent;
   const double u = std::sqrt(square + by_passes + shift * shift);
-  const UncertaintyPart without{std::sqrt(std::max(0.0, u * u - more)),
-                                effective_freedom(parts(square - more, scatter_freedom))};
+  const UncertaintyPart without{
+      std::sqrt(std::max(0.0, u * u - more)),
+      effective_freedom(parts(std::max(0.0, square - more), scatter_freedom))};
   return {u, effective_freedom(parts(square, freedom)), without, without.u > 0 ? u / without.u : 1};
 }
 

@@ -43,7 +43,7 @@ class RunBudgets {
   // Targets times independent parts of contributors: the time of a figure grows with it.
   std::size_t cost() const;
   // First order (GUM 5). The part of noise and repeatability is what the visits' scatter does to
-  // the figure, by what their residuals show of noise that follows its neighbours
+  // the figure, with the correlation in time that their residuals show
   // (correlated_noise.h), with the shift that all targets of a pass share (repeatability.h); and,
   // where the variance of the figure by the scatter of the runs' own, s²/n, is more than
   // kRunsScatterMore times that, what it has beyond it. U is k u; of a range it is that of

@@ -21,7 +21,7 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
   const std::size_t targets = means_.targets.size();
   double square = 0, freedom = kInfinity;
   bool asked = false;                // whether what the figure is made of is known by the scatter
-  std::optional<std::size_t> error;  // of which alone the figure is made
+  std::optional<std::size_t> error;  // the only one that the figure depends on
   std::vector<double> by_target(targets);
   MeanShifts together;
   for (std::size_t i = 0; i < targets; ++i) {
@@ -114,8 +114,8 @@ RunBudgets::Random RunBudgets::random_of(const Figure& figure) const {
   const Random targets = random_of_targets(figure), runs = random_of_runs(figure);
   const double seen = targets.u * targets.u + by_removed_drift(figure);
   if (!(runs.u * runs.u > kRunsScatterMore * seen)) return targets;
-  // What the runs show has few degrees of freedom, whatever of it the visits explain as noise that
-  // follows its neighbours.
+  // The variance that the runs show has the few degrees of freedom of the runs, even if the visits
+  // explain a part of it as correlated noise.
   const double square = targets.u * targets.u + runs.u * runs.u - seen, u = std::sqrt(square);
   const UncertaintyPart& without = targets.independent;
   const std::array<UncertaintyPart, 2> both = {

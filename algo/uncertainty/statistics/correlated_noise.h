@@ -1,5 +1,5 @@
-// Noise of the visits of a run that follows its neighbours in time, so that the means at
-// neighbouring targets are off together.
+// Correlated noise of the visits of a run: visits that are close in time have similar errors, so
+// the means at neighbouring targets have similar errors, too.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct NoisyVisit {
 
 // Each of slow_noises() has a probability by the restricted likelihood of the residuals, once their
 // level in each pass is left out (REML). A figure has the mean of the variances by all of them:
-// what a few visits show of a correlation is too little to choose one.
+// a few visits do not determine the correlation well enough to choose one.
 class CorrelatedNoise {
  public:
   // `visits` in the order of time; `freedom`: degrees of freedom of their residuals, more than 0.

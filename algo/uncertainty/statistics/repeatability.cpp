@@ -118,7 +118,7 @@ class Decomposition {
   }
 
  private:
-  // A visit's part of the mean of its target is one of so many.
+  // By how many equal parts the mean of its target is made; the visit is one of them.
   double visits_like(const Visit& visit) const {
     return (has_both(visit.target) ? 2 : 1) *
            static_cast<double>(visits_of_.at({visit.target, visit.way}));

@@ -175,7 +175,7 @@ double volume_p95_um(const Machine& machine) {
   return statistics.overall({0.95, {0.95}})[3].quantiles[0].value;
 }
 
-// Table 2 of the paper: three screws of ±0.5 µm, or as many causes as it has rows.
+// Table 2 of the paper: three screws of ±0.5 µm, or four causes.
 TEST(MachineBudget, OneScrewIsOneCause) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   EXPECT_NEAR(volume_p95_um(machine), 0.645, 0.001);

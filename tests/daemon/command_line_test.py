@@ -143,11 +143,12 @@ class Record(CommandLine):
         self.assertEqual((everything[before], everything[newest["run"]]), (newest["run"], None))
         self.assertRegex(self.done("runs", "--all", "--db", other.database),
                          rf"(?m)^ *{before} +X +superseded by {newest['run']} ")
-        for words in (("show",), ("show", "--csv"), ("show", "--json"), ("analyse",), ("analyse", "--json"), ("analyse", "--csv")):
+        for words in (("show",), ("show", "--csv"), ("show", "--json"), ("show", "--figures"),
+                      ("show", "--json", "--figures"), ("show", "--csv", "--figures")):
             _, _, err = mdof(words[0], before, *words[1:], "--db", other.database)
             self.assertIn(f"run {newest['run']} supersedes run {before}", err)
         for run, by in ((before, newest["run"]), (newest["run"], None)):
-            self.assertEqual(json.loads(self.done("analyse", run, "--json", "--db", other.database))["superseded_by"], by)
+            self.assertEqual(json.loads(self.done("show", run, "--figures", "--json", "--db", other.database))["superseded_by"], by)
 
 
 class Replay(CommandLine):

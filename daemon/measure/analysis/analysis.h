@@ -10,8 +10,8 @@
 
 namespace mdof::daemon {
 
-// As `mdof analyse --json` and run.analyse give it, of the run as it is stated. Error (bad_input):
-// an imported run.
+// Document of `mdof show --figures --json` and run.analyse, for the run as it is stated. Error
+// (bad_input): an imported run.
 Result<std::string> analysis_document(store::Store& store, const Run& run);
 
 }  // namespace mdof::daemon

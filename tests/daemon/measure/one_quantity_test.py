@@ -27,7 +27,7 @@ NOT_DECLARED = ["u_flatness_um", "[encoder] u_um", "u_offset_mm"]
 EXACT = 1e-12  # relative
 
 # What states the uncertainty of a run, of two, or of a table of runs is compared here ...
-COMPARED = {"analyse", "budget", "compare", "compensation build", "compensation show", "parallelism", "replay", "show",
+COMPARED = {"budget", "compare", "compensation build", "compensation show", "parallelism", "replay", "show",
             "squareness", "trend"}
 COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid", "compensation.status", "compensation.table",
                     "parallelism.fit", "run.budget", "run.compare", "run.get", "run.points", "run.trend", "squareness.budget", "squareness.fit"}
@@ -39,7 +39,7 @@ OTHERS = {"clearance", "completion", "demo", "help", "machine kinematics", "mach
           "device probe", "doctor", "drift", "encoder set", "export", "history", "import", "iso230-2", "live",
           "machine circle", "machine diagonal", "machine error", "machine map", "machine perpendicularity", "machine study", "record", "runs",
           "selftest", "sensitivity", "separate reversal", "separate shift", "separate square", "setup network",
-          "solve", "status", "stop", "straightness", "studies", "study", "token", "verify"}
+          "solve", "status", "stop", "straightness", "studies", "token", "verify"}
 OTHER_METHODS = {"compensation.activate", "compensation.build_volume", "compensation.deactivate", "compensation.list", "device.list", "encoder.set", "history.list",
                  "live.subscribe", "live.unsubscribe", "machine.at", "rig.get", "rpc.discover", "run.analyse", "run.import", "run.list", "run.replay", "run.resume",
                  "run.start", "run.stop", "server.health", "server.info"}
@@ -147,10 +147,10 @@ class OneQuantity(unittest.TestCase):
     def run_commands(cls):
         cls.documents["replay"], cls.texts["replay"] = json.loads(cls.replayed[0]), cls.replayed[1]
         # Run 1 and 2 are of X, of one log; run 3 is of Y.
-        for name, words, forms in (("squareness", (2, 3), "tj"), ("budget", (1,), "tjc"), ("parallelism", (1, 2), "tj"),
-                                   ("show", (1,), "tjc"), ("analyse", (1,), "tjc"),
+        for name, words, forms, *key in (("squareness", (2, 3), "tj"), ("budget", (1,), "tjc"), ("parallelism", (1, 2), "tj"),
+                                   ("show", (1,), "tjc"), ("show", (1, "--figures"), "tjc", "show --figures"),
                                    ("compensation build", (1,), "tj")):
-            cls.ask(name, words, forms)
+            cls.ask(name, words, forms, *key)
         cls.ask("compensation show", (1,), "tjc")
         cls.ask("trend", ("--axis", "X"), "tjc", "trend")
         cls.ask("trend", ("--figure", "EC0Y_urad"), "tjc", "trend of EC0Y")
@@ -206,7 +206,7 @@ class OneQuantity(unittest.TestCase):
             straightness(n, name, cls.documents[name]["straightness"])
             points(n, name, cls.documents[name]["points"])
         points(n, "run.points", cls.replies["all points"]["points"])
-        for where, block in (("analyse", cls.documents["analyse"]), ("run.get", cls.replies["run.get"])):
+        for where, block in (("show --figures", cls.documents["show --figures"]), ("run.get", cls.replies["run.get"])):
             figures(n, where, block["uncertainty"])
             straightness(n, where, block["straightness"])
         for where in ("budget", "budget of two", "parallelism"):
@@ -243,15 +243,15 @@ class OneQuantity(unittest.TestCase):
             last = {r["figure"]: r for r in cls.csvs[where]}
             for name, r in last.items():
                 n.add(name, where + " --csv", value=r["value"], u=r["u"])
-        for r in cls.csvs["analyse"]:
+        for r in cls.csvs["show --figures"]:
             if r["approach"] != "mean":
                 continue
             for figure, column in (("straightness_um", "least_squares_um"), ("slope_urad", "slope_least_squares_urad"),
                                    ("range_urad", "range_urad")):
                 if r[column]:
-                    n.add(f"{r['error']}_{figure}", "analyse --csv", value=r[column], u=r["u_" + column], U=r["U_" + column])
+                    n.add(f"{r['error']}_{figure}", "show --figures --csv", value=r[column], u=r["u_" + column], U=r["U_" + column])
             if r["form_urad"]:
-                n.add(f"{r['error']}_form_urad", "analyse --csv", value=r["form_urad"])
+                n.add(f"{r['error']}_form_urad", "show --figures --csv", value=r["form_urad"])
         for i, r in enumerate(cls.csvs["show"]):
             for key in [c[2:] for c in r if re.fullmatch(r"u_E.._u(m|rad)", c)]:
                 n.add(f"point {i} {key}", "show --csv", value=r[key], u=r["u_" + key], U=r["U_" + key])
@@ -269,13 +269,13 @@ class OneQuantity(unittest.TestCase):
             short = name.rsplit("_", 1)[0]
             value, u, U = re.search(rf"{short} = {number} ± {number} \S+, expanded U = {number}", cls.texts[where]).groups()
             n.add(name, where + " in text", True, value=value, u=u, U=U)
-        for where in ("replay", "analyse"):
+        for where in ("replay", "show --figures"):
             for error in ("EYX", "EZX"):
                 value, u, form = re.search(rf"{error} +mean +[\d.]+ +[\d.]+ +{number} ± {number} +{number} ",
                                            cls.texts[where]).groups()
                 n.add(f"{error}_slope_urad", where + " in text", True, value=value, u=u)
                 n.add(f"{error}_form_urad", where + " in text", True, value=form)
-        for where in ("replay", "analyse", "budget"):
+        for where in ("replay", "show", "show --figures", "budget"):
             found = re.findall(rf"(E\S+_\S+) +{number} ± {number} +(µm|µrad) +{number} ", cls.texts[where])
             assert len(found) == 7, (where, found)
             for short, value, u, unit, U in found:
@@ -293,7 +293,7 @@ class OneQuantity(unittest.TestCase):
     def test_one_value_one_u_one_U(self):
         self.assertEqual(self.notes.contradictions(), [])
         self.assertGreater(len(self.notes.said), 2500)
-        self.assertEqual(len(self.notes.places("EYX_slope_urad")), 22)
+        self.assertEqual(len(self.notes.places("EYX_slope_urad")), 23)
         self.assertEqual(len(self.notes.places("EC0Y_urad")), 12)
 
     # A comparison that finds nothing in numbers that differ would prove nothing.
@@ -318,11 +318,11 @@ class OneQuantity(unittest.TestCase):
 
     # Form and noise are no uncertainty of the slope: all three are there, and all three differ.
     def test_form_is_not_u(self):
-        f = self.documents["analyse"]["straightness"]["EYX_um"]["mean"]
+        f = self.documents["show --figures"]["straightness"]["EYX_um"]["mean"]
         budget = self.documents["budget"]["figures"]["EYX_slope_urad"]
         self.assertGreater(f["form_urad"], 10 * f["u_slope_least_squares_urad"])
         self.assertGreater(budget["u"], 2 * budget["u_random"])
-        self.assertIsNone(self.documents["analyse"]["straightness"]["EYX_um"]["forward"]["u_slope_least_squares_urad"])
+        self.assertIsNone(self.documents["show --figures"]["straightness"]["EYX_um"]["forward"]["u_slope_least_squares_urad"])
 
     def test_what_u_covers_is_in_every_document(self):
         for where, document in {**self.documents, **self.replies}.items():
@@ -368,13 +368,13 @@ class NothingDeclared(unittest.TestCase):
                 log = os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz")
                 texts[f"replay {axis}"] = mdof("replay", log, "--rig", RIG[axis], *db)
             mdof("replay", recorded_again(os.path.join(DATA, "five-probe", "log_X.csv.gz"), folder), "--rig", RIG["X"], *db)
-            for words in (("show", 1), ("analyse", 1), ("squareness", 1, 2), ("budget", 1), ("budget", 1, 2),
+            for words in (("show", 1), ("show", 1, "--figures"), ("squareness", 1, 2), ("budget", 1), ("budget", 1, 2),
                           ("budget", 1, "--figure", "EYX_slope_urad"), ("parallelism", 1, 3), ("trend",),
                           ("compensation", "build", 1), ("compensation", "show", 1)):
                 texts[words] = mdof(*words, *db)
             for words, text in texts.items():
                 self.assertTrue(text.startswith("NOISE ONLY: no declared uncertainty"), (words, text[:200]))
-            for words in (("show", 1), ("analyse", 1), ("budget", 1), ("trend",), ("compensation", "show", 1)):
+            for words in (("show", 1), ("show", 1, "--figures"), ("budget", 1), ("trend",), ("compensation", "show", 1)):
                 for r in rows(mdof(*words, "--csv", *db)):
                     self.assertRegex(r["u_covers"], "^noise( and repeatability)? only", words)
 

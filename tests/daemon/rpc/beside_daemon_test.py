@@ -29,7 +29,7 @@ WRITES = [("replay", LOG["X"], "--rig", RIG["X"]), ("replay", LOG["Y"], "--rig",
           ("compensation", "build", "1"), ("compensation", "build", "3"),
           ("compensation", "build", "--machine", "@/machine.toml", "--plane", "XY", "--step-mm", "10", "--incomplete"),
           ("compensation", "activate", "1"), ("compensation", "deactivate", "--axis", "X"), ("compensation", "activate", "1")]
-READS = [("runs",), ("show", "1"), ("show", "3"), ("analyse", "1"), ("parallelism", "1", "4"), ("compare", "1", "4"),
+READS = [("runs",), ("show", "1"), ("show", "3"), ("show", "1", "--figures"), ("parallelism", "1", "4"), ("compare", "1", "4"),
          ("iso230-2", "--run", "1"), ("trend", "--axis", "X"), ("budget", "1"), ("budget", "1", "2"),
          ("compensation", "show", "1"), ("compensation", "list"), ("machine", "error", "@/machine.toml", "--at", "X=10,Y=5"),
          ("machine", "map", "@/machine.toml", "--step-mm", "10"), ("machine", "diagonal", "@/machine.toml"),
@@ -42,8 +42,8 @@ FILES = [("plot", "1", "--out", "@/plots"), ("report", "1", "--out", "@/report.h
          ("form", "cut", "5", "5", "--out", "@/next.csv"),
          ("form", "path", "5", "--speed-rpm", "300", "--feed-mm-min", "300", "--out", "@/spiral.csv"),
          ("compensation", "export", "1", "--format", "json", "--out", "@/table.json")]
-# sensitivity writes checkpoints for hours, study shows them; shift and square take runs as separate reversal does.
-NOT_TRIED = {"sensitivity", "study", "separate shift", "separate square"}
+# sensitivity writes checkpoints for hours, studies shows them; shift and square take runs as separate reversal does.
+NOT_TRIED = {"sensitivity", "separate shift", "separate square"}
 MACHINE = """name = "m"
 machine = {chain = "w-Y-X-b-t"}
 squareness = 1

@@ -12,6 +12,7 @@
 #include "tools/mdof/csv/log_csv.h"
 #include "tools/mdof/csv/run_csv.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/analyses/run_text.h"
 #include "tools/mdof/text/notice_lines.h"
 #include "tools/mdof/text/run_tables.h"
 #include "tools/mdof/text/text_table.h"
@@ -182,9 +183,10 @@ TEST(RunTables, FitAnyTerminalWhateverTheNumbersAre) {
   for (const bool valid : {true, false}) {
     const auto run = one_point(valid, "five probes are needed, and of A, B, C two are left");
     for (const std::size_t width : {80u, 100u, 132u, 200u})
-      for (const Extent extent : {Extent::brief, Extent::all})
-        EXPECT_LE(widest(show_text(run, noise_of(run), std::string(64, 'a'), width, extent)), width)
-            << width;
+      for (const Extent extent : {Extent::brief, Extent::figures, Extent::all})
+        EXPECT_LE(widest(run_text(run, {noise_of(run), {{}, "too few"}}, std::string(64, 'a'),
+                                  width, extent)),
+                  width);
   }
 }
 

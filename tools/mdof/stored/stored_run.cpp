@@ -5,8 +5,8 @@
 #include "daemon/store/store.h"
 #include "tools/mdof/stored/json_read.h"
 #include "tools/mdof/terminal.h"
+#include "tools/mdof/text/analyses/run_text.h"
 #include "tools/mdof/text/history_text.h"
-#include "tools/mdof/text/run_tables.h"
 
 namespace mdof::tools {
 namespace {
@@ -20,7 +20,7 @@ Result<std::string> read_text(rpc::Client& daemon, std::int64_t id) {
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
   MDOF_TRY(const auto actions, store.actions_of_run(id));
   const std::size_t width = terminal_columns();
-  return show_text(run, daemon::uncertainty_of(run), sha256, width, Extent::brief) +
+  return run_text(run, daemon::stated_run(run), sha256, width, Extent::brief) +
          history_text(actions, width);
 }
 

@@ -117,11 +117,6 @@ std::string stated_text(const StatedAt& at) {
   return "straightness at the fixture\n";
 }
 
-std::string figures_text(const Run& run, const StatedFigures& figures, std::size_t width) {
-  return straightness_text(run.straightness, figures.budgets, width) + "\n" +
-         angles_text(run.angles, width) + "\n" + stated_figures_text(figures, width);
-}
-
 std::string head_text(const RunHeader& h, const std::string& result_sha256, std::size_t width,
                       bool all_warnings) {
   const auto& from = h.provenance;
@@ -227,14 +222,11 @@ std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::
          "\n" + stated_text(run.header.stated);
 }
 
-std::string show_text(const Run& run, const RunUncertainty& uncertainty,
-                      const std::string& result_sha256, std::size_t width, Extent extent,
-                      bool all_warnings) {
-  const std::string means = extent == Extent::all ? "" : means_text(run, width);
-  return noise_only_notice(uncertainty.noise_only) +
-         head_text(run.header, result_sha256, width, all_warnings) + "\n" +
-         (means.empty() ? points_text(run, uncertainty, width)
-                        : means + "\n" + flagged_text(run, uncertainty, width)) +
+std::string points_or_means_text(const Run& run, const RunUncertainty& uncertainty,
+                                 std::size_t width, bool means) {
+  const std::string by_target = means ? means_text(run, width) : "";
+  return (by_target.empty() ? points_text(run, uncertainty, width)
+                            : by_target + "\n" + flagged_text(run, uncertainty, width)) +
          (run.plausibility ? "\n" + plausibility_text(*run.plausibility) : "");
 }
 

@@ -25,14 +25,10 @@ std::string noise_only_comment(bool noise_only);
 
 std::string stated_text(const StatedAt& at);  // a line: where straightness is stated
 
-// What `mdof show` prints of a run. In short: means by target and the points that have flags or no
-// errors; all points where they give no means.
-enum class Extent { brief, all };
-std::string show_text(const Run& run, const RunUncertainty& uncertainty,
-                      const std::string& result_sha256, std::size_t width, Extent extent,
-                      bool all_warnings = false);
-// What `mdof analyse` and `mdof replay` print; `figures`: those of the mean of both approaches.
-std::string figures_text(const Run& run, const StatedFigures& figures, std::size_t width);
+// All points, or the means by target and the points that have flags or no errors; then what was
+// found plausible. All points, too, where they give no means.
+std::string points_or_means_text(const Run& run, const RunUncertainty& uncertainty,
+                                 std::size_t width, bool means);
 
 // Identity, provenance, notices. `result_sha256` may be empty.
 std::string head_text(const RunHeader& header, const std::string& result_sha256, std::size_t width,

@@ -16,9 +16,8 @@
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/stored/database_writer.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text/analyses/budget_text.h"
+#include "tools/mdof/text/analyses/run_text.h"
 #include "tools/mdof/text/notice_lines.h"
-#include "tools/mdof/text/run_tables.h"
 
 namespace mdof::tools {
 namespace {
@@ -99,13 +98,8 @@ Status replay(ReplayCommand command) {
   show_notices(run.header.notices, command.all_warnings);
   if (command.json) return write_line(daemon::replay_document(run, daemon::stated_run(run)));
   run.header.notices.clear();  // shown already
-  const daemon::StatedRun stated = daemon::stated_run(run);
-  const std::size_t width = terminal_columns();
-  const Extent extent = command.all ? Extent::all : Extent::brief;
-  return write_out(show_text(run, stated.points, "", width, extent) + "\n" +
-                   (command.all || !stated.figures.why.empty()
-                        ? figures_text(run, stated.figures, width)
-                        : stated_figures_text(stated.figures, width)));
+  return write_out(run_text(run, daemon::stated_run(run), "", terminal_columns(),
+                            command.all ? Extent::all : Extent::brief));
 }
 
 void add_option(CLI::App& command, const ReplayOption& option, daemon::ReplayRequest& request) {
@@ -152,8 +146,9 @@ Action declare_replay(CLI::App& command) {
       ->delimiter(',');
   for (const ReplayOption& option : daemon::replay_options())
     add_option(command, option, o->request);
-  command.add_flag("--all", o->all,
-                   "Show all points, and the figures of each approach and reference line");
+  command.add_flag(
+      "--all", o->all,
+      "Show all points, the figures of each approach and reference line, and the drift");
   add_all_warnings_flag(command, o->all_warnings);
   add_json_flag(command, o->json);
   return [o] { return replay(*o); };

@@ -3,6 +3,7 @@
 
 #include "daemon/store/store.h"
 #include "schema/run.h"
+#include "tools/mdof/text/analyses/run_text.h"
 
 namespace CLI {
 class App;
@@ -12,7 +13,8 @@ namespace mdof::tools {
 
 struct ChosenRun {
   std::string database, run, axis, reference = "fixture";
-  bool csv = false, json = false, all_warnings = false, all_points = false;
+  bool csv = false, json = false, all_warnings = false;
+  Extent extent = Extent::brief;
   std::string out;  // file to write; empty: standard output
 };
 

@@ -1,6 +1,7 @@
-// mdof show RUN: a stored run, whole.
+// mdof show RUN: a stored run, its points or its figures.
 #include <CLI/CLI.hpp>
 
+#include "daemon/measure/analysis/analysis.h"
 #include "daemon/measure/budgets.h"
 #include "daemon/measure/evaluation.h"
 #include "daemon/measure/imported/imported_run.h"
@@ -13,10 +14,8 @@
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
 #include "tools/mdof/terminal.h"
-#include "tools/mdof/text/analyses/drift_text.h"
 #include "tools/mdof/text/history_text.h"
 #include "tools/mdof/text/imported_text.h"
-#include "tools/mdof/text/run_tables.h"
 
 namespace mdof::tools {
 namespace {
@@ -40,12 +39,25 @@ Status show_imported(store::Store& store, Run run, const ChosenRun& choice) {
                    history_text(actions, width));
 }
 
+Status figures_csv_or_json(store::Store& store, const Run& run, const ChosenRun& choice) {
+  if (choice.csv) {
+    const StatedFigures stated = daemon::figure_budgets(run);
+    return write_csv_of(run, are_noise_only(stated.budgets), figures_csv(run, stated), choice);
+  }
+  MDOF_TRY(const std::string document, daemon::analysis_document(store, run));
+  return write_json(choice, document);
+}
+
 }  // namespace
 
 Status show_run(const ChosenRun& choice) {
   MDOF_TRY(store::Store store, open_to_read(choice.database));
   MDOF_TRY(const Run run, load_run(store, choice));
   MDOF_CHECK(warn_if_superseded(store, run.header.id));
+  if (choice.extent == Extent::figures) {
+    MDOF_CHECK(check_measured(run.header, "an analysis"));
+    if (choice.csv || choice.json) return figures_csv_or_json(store, run, choice);
+  }
   if (is_imported(run.header)) return show_imported(store, run, choice);
   if (choice.csv) {
     const RunUncertainty uncertainty = daemon::uncertainty_of(run);
@@ -53,17 +65,13 @@ Status show_run(const ChosenRun& choice) {
   }
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
-  if (choice.json) {
-    const daemon::StatedRun stated = daemon::stated_run(run);
+  const daemon::StatedRun stated = daemon::stated_run(run);
+  if (choice.json)
     return write_json(choice, daemon::run_document({run, run.header, stated.points, stated.figures},
                                                    sha256, actions));
-  }
   const std::size_t width = terminal_columns();
-  const std::string drift = drift_notice(run, drift_of(run).found, width);
-  const Extent extent = choice.all_points ? Extent::all : Extent::brief;
-  return write_out(
-      show_text(run, daemon::uncertainty_of(run), sha256, width, extent, choice.all_warnings) +
-      (drift.empty() ? "" : "\n" + drift) + history_text(actions, width));
+  return write_out(run_text(run, stated, sha256, width, choice.extent, choice.all_warnings) +
+                   history_text(actions, width));
 }
 
 namespace {
@@ -71,7 +79,16 @@ namespace {
 Action declare_show(CLI::App& command) {
   const auto choice = std::make_shared<ChosenRun>();
   add_chosen_run(command, *choice);
-  command.add_flag("--all", choice->all_points, "Show all points, not only the means by target");
+  const auto set = [choice](Extent extent) {
+    return [choice, extent](std::int64_t) { choice->extent = extent; };
+  };
+  auto* all = command.add_flag_function("--all", set(Extent::all),
+                                        "Show all points, then as with --figures");
+  command
+      .add_flag_function("--figures", set(Extent::figures),
+                         "Show straightness for each reference line and approach, angles, closure "
+                         "and drift, but no points")
+      ->excludes(all);
   return [choice] { return show_run(*choice); };
 }
 
@@ -79,12 +96,13 @@ Action declare_show(CLI::App& command) {
 
 Command show_command() {
   return {.name = "show",
-          .summary = "Show the errors of a run by target, or all its points, with uncertainty",
+          .summary = "Show the errors of a run by target, its straightness, angles and drift",
           .footer =
               "Examples:\n"
               "  mdof show 12\n"
-              "  mdof show 12 --all\n"
-              "  mdof show latest --axis X --csv > points_X.csv",
+              "  mdof show 12 --figures\n"
+              "  mdof show latest --axis X --csv > points_X.csv\n"
+              "  mdof show 12 --figures --csv > figures.csv",
           .declare = declare_show};
 }
 

@@ -1,22 +1,27 @@
-// mdof studies: the sensitivity studies that were stored.
+// mdof studies [STUDY]: the list of the stored sensitivity studies, or one of them.
 #include <CLI/CLI.hpp>
+#include <optional>
 
+#include "daemon/output/charts/study/study_plots.h"
 #include "schema/base/json_writer.h"
 #include "tools/mdof/commands/command.h"
 #include "tools/mdof/list_page.h"
 #include "tools/mdof/options.h"
 #include "tools/mdof/output.h"
 #include "tools/mdof/stored/database.h"
+#include "tools/mdof/study/json.h"
+#include "tools/mdof/study/output.h"
 #include "tools/mdof/terminal.h"
 #include "tools/mdof/text/text_table.h"
 
 namespace mdof::tools {
 namespace {
 
-struct ListStudiesCommand {
-  std::string database;
+struct StudiesCommand {
+  std::string database, plots;
+  std::optional<std::int64_t> study;  // without: the list
   ListPage page;
-  bool json = false;
+  bool json = false, csv = false;
 };
 
 struct Row {
@@ -57,7 +62,7 @@ std::string rows_text(const std::vector<Row>& rows, std::int64_t total) {
   return table.text(terminal_columns()) + left_out(rows.size(), total, "studies");
 }
 
-Status list_studies(const ListStudiesCommand& command) {
+Status list_studies(const StudiesCommand& command) {
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const std::int64_t total, store.count_studies());
   MDOF_TRY(auto records, store.list_studies(command.page.offset, command.page.count));
@@ -69,20 +74,56 @@ Status list_studies(const ListStudiesCommand& command) {
   return command.json ? write_line(rows_json(rows, total)) : write_out(rows_text(rows, total));
 }
 
+Status show_study(const StudiesCommand& command) {
+  MDOF_TRY(store::Store store, open_to_read(command.database));
+  MDOF_TRY(const store::StudyRecord record, store.study(*command.study));
+  MDOF_TRY(const auto outcome, store.study_outcome(*command.study));
+  const std::string id = std::to_string(*command.study);
+  if (!outcome)
+    return fail(ErrorCode::not_found, "study " + id +
+                                          ": there is no result yet; if the study is not running, "
+                                          "continue the study with: mdof sensitivity --continue " +
+                                          id);
+  StudyResult result;
+  MDOF_CHECK(read_study_figures(outcome->figures_json, "study " + id, result));
+  result.plan_toml = record.plan_toml;
+  result.software = outcome->software_version;
+  result.started_utc = record.started_utc;
+  result.elapsed_s = outcome->elapsed_s;
+  result.state = outcome->state;
+  if (!command.plots.empty()) MDOF_CHECK(charts::write_study_plots(result, command.plots));
+  const StudyForm form = command.json  ? StudyForm::json
+                         : command.csv ? StudyForm::csv
+                                       : StudyForm::text;
+  return print_study(result, outcome->figures_json, *command.study, form);
+}
+
 Action declare_studies(CLI::App& command) {
-  const auto o = std::make_shared<ListStudiesCommand>();
+  const auto o = std::make_shared<StudiesCommand>();
+  auto* study = command.add_option("STUDY", o->study, "Number of the study to show")->type_name("");
   add_database_option(command, o->database);
   add_page_options(command, o->page);
-  add_json_flag(command, o->json);
-  return [o] { return list_studies(*o); };
+  for (const char* of_list : {"--offset", "--count"}) command.get_option(of_list)->excludes(study);
+  auto* csv =
+      command
+          .add_flag("--csv", o->csv, "Print CSV with one row for each output and bin of the travel")
+          ->needs(study);
+  command.add_flag("--json", o->json, "Print one JSON document")->excludes(csv);
+  command.add_option("--plot", o->plots, "Draw the charts again as SVG files in this folder")
+      ->type_name("DIR")
+      ->needs(study);
+  return [o] { return o->study ? show_study(*o) : list_studies(*o); };
 }
 
 }  // namespace
 
 Command studies_command() {
   return {.name = "studies",
-          .summary = "List the stored studies, newest first",
-          .footer = "Example:\n  mdof studies --count 10",
+          .summary = "List the stored studies, newest first, or show the result of one",
+          .footer =
+              "Examples:\n"
+              "  mdof studies --count 10\n"
+              "  mdof studies 3 --csv > study.csv",
           .declare = declare_studies};
 }
 

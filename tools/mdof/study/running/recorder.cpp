@@ -45,7 +45,7 @@ Result<StoredStudy> study_to_continue(const std::string& database, std::int64_t 
     return fail(
         ErrorCode::conflict,
         "study " + std::to_string(id) +
-            (outcome ? ": the study is complete; see mdof study " + std::to_string(id)
+            (outcome ? ": the study is complete; see mdof studies " + std::to_string(id)
                      : ": the study ended before the first checkpoint; run the study again"));
   }
   stored.checkpoint = std::move(*checkpoint);

@@ -14,7 +14,7 @@ using daemon::DriftOfStored;
 
 // Sentences on a significant drift, lines; "": none.
 std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_t width);
-// What `mdof analyse` prints of it: closures, each error's drift, what it does to straightness.
+// What `mdof show --figures` prints of it: closures, each error's drift, what it does to straightness.
 std::string drift_text(const Run& run, const DriftOfStored& drift, std::size_t width);
 
 }  // namespace mdof::tools

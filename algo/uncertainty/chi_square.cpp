@@ -17,8 +17,8 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kLinearity = 1e-4;   // of the range
-constexpr double kLever_m = 0.02;     // that makes an angle a length
-constexpr double kLeastPart = 1e-11;  // of the largest variance: less is rounding
+constexpr double kLever_m = 0.02;     // converts an angle to a length
+constexpr double kLeastPart = 1e-11;  // of the largest variance; less is rounding
 
 bool flagged(const MeasuredPoint& p) {
   return has_flag(p.point, Flag::residual);
@@ -105,8 +105,8 @@ void Residuals::test(MeasuredPoint& p) const {
   if (!explained(p, point.probe_m, p.errors)) add_flag(p.point, Flag::residual);
 }
 
-// By noise and linearity alone, which costs little; where that does not do, by what is declared
-// too.
+// Tests noise and linearity alone first, which costs little. If they do not explain the readings,
+// the declared uncertainties are included.
 bool Residuals::explained(const MeasuredPoint& p, const std::vector<double>& readings_m,
                           const AxisErrors& errors) const {
   const double travel_m = sides_.target_travel_m(p.point.position_m);
@@ -120,9 +120,9 @@ bool Residuals::explained(const MeasuredPoint& p, const std::vector<double>& rea
   return agreement(solver_, travel_m, readings_m, covariance, errors).explained();
 }
 
-// Infinite where the others contradict each other too. Else the mean square distance of the errors
-// from those of the unsuspected points of the same target, since several probes may fit without any
-// one of them.
+// Infinite if the other readings contradict each other too. Otherwise the mean square distance of
+// the errors from those of the unflagged points of the same target. The distance selects among
+// several probes if the readings agree without any one of them.
 double Residuals::misfit_without(std::size_t probe, const MeasuredPoint& p,
                                  const std::vector<MeasuredPoint>& all) const {
   const double travel_m = sides_.target_travel_m(p.point.position_m);
@@ -160,7 +160,7 @@ std::optional<std::size_t> Residuals::suspect(const std::vector<const MeasuredPo
       next = std::min(next, misfit);
     }
   }
-  // Nobody is named where two are alike.
+  // No probe is named if two fit about equally well.
   return best && 2 * least < next ? best : std::nullopt;
 }
 

@@ -28,11 +28,11 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostEncoderParts = 256;  // more targets: neighbours share one
+constexpr std::size_t kMostEncoderParts = 256;  // with more targets, neighbours share a part
 constexpr auto kFixture = static_cast<std::size_t>(Part::fixture);
-constexpr double kQuarterTurn = 0.25;  // angles are small: turns of half a circle never come
+constexpr double kQuarterTurn = 0.25;  // second direction of a tilt, turns
 
-// What all contributors of a run share.
+// Data that all contributors of a run share.
 struct Basis {
   Rig rig;
   Solver solver;
@@ -53,7 +53,7 @@ Vec3 along_axis(std::size_t component, double value) {
   return v;
 }
 
-// `change_m(point, probe)`: what is added to that probe's reading.
+// `change_m(point, probe)`: change of that probe's reading.
 template <class Change>
 PointShifts by_readings(const Basis& basis, std::size_t first_probe, std::size_t end_probe,
                         Change change_m) {
@@ -83,7 +83,7 @@ PointShifts by_one_probe(const Basis& basis, std::size_t probe, Change change_m)
                      [&](std::size_t j, std::size_t) { return change_m(j); });
 }
 
-// Readings at every point by the probes of `fixture`, which is mounted so; empty: an angle is too
+// Readings of all probes of `nominal` at every point, with this mounting; empty if an angle is too
 // large.
 std::vector<double> readings_of(const Basis& basis, const Fixture& nominal,
                                 const Mounting& mounting) {
@@ -101,7 +101,7 @@ std::vector<double> readings_of(const Basis& basis, const Fixture& nominal,
   return readings;
 }
 
-// Half of what the readings differ by between `set(mounting, +1)` and `set(mounting, -1)`, of each
+// Half the difference of the readings between `set(mounting, +1)` and `set(mounting, -1)`, for each
 // probe of `fixture` at each point.
 template <class Set>
 std::vector<double> by_mounting(const Basis& basis, const Fixture& fixture, Set set) {
@@ -123,7 +123,7 @@ PointShifts by_mounting(const Basis& basis, Set set) {
       basis, [&](std::size_t j, std::size_t k) { return change[j * basis.probes() + k]; });
 }
 
-// `set(deviation, ±1)` of one probe: no other reads anything else.
+// `set(deviation, ±1)` for one probe; the readings of the other probes do not change.
 template <class Set>
 PointShifts by_probe_mounting(const Basis& basis, std::size_t probe, Set set) {
   const Fixture& all = basis.solver.fixture();
@@ -138,7 +138,7 @@ double middle_s(const MeasuredPoint& p) {
 }
 
 std::vector<PointShifts> of_encoder(const Basis& basis) {
-  std::map<int, std::size_t> part_of;  // by target
+  std::map<int, std::size_t> part_of;  // part number by target
   for (const auto& p : basis.run.points) part_of.emplace(p.target, 0);
   const std::size_t each = (part_of.size() + kMostEncoderParts - 1) / kMostEncoderParts;
   std::size_t n = 0;
@@ -161,7 +161,8 @@ PointShifts of_position(const Basis& basis, std::size_t probe, std::size_t axis,
   });
 }
 
-// By the component along the machine's axis of its direction. A probe's line keeps its point.
+// Shift by the component of the probe's direction along a machine axis. A probe's line keeps its
+// point.
 PointShifts of_direction(const Basis& basis, std::size_t probe, std::size_t axis, double size_rad) {
   const FixtureProbe& nominal = basis.solver.fixture().probes[probe];
   const Eigen::Vector3d change = basis.local(along_axis(axis, size_rad));
@@ -177,7 +178,7 @@ PointShifts of_direction(const Basis& basis, std::size_t probe, std::size_t axis
   });
 }
 
-// The places, directions and zeros that one calibration found together.
+// Positions, directions and zeros of probes that one calibration determined together.
 std::vector<PointShifts> of_covariance(const Basis& basis,
                                        const CalibrationCovariance& covariance) {
   std::vector<PointShifts> alone;  // by one standard uncertainty of each
@@ -224,7 +225,7 @@ class List {
                      [basis = basis_, parts] { return parts(*basis); }});
   }
 
-  // Its value is the largest standard uncertainty of them.
+  // The value shown is the largest standard uncertainty of its lengths.
   void add_covariance(const CalibrationRecord& record) {
     const CalibrationCovariance& covariance = record.covariance;
     DeclaredUncertainty largest;
@@ -292,7 +293,7 @@ class List {
           });
   }
 
-  // From the first point on.
+  // The drift begins at the first point.
   void add_drift() {
     const DeclaredUncertainty& u = basis_->rig.uncertainty.drift;
     for (std::size_t k = 0; k < basis_->probes(); ++k)
@@ -318,7 +319,7 @@ class List {
   }
 
   SharedBasis basis_;
-  std::set<std::string> together_;  // what has its covariances
+  std::set<std::string> together_;  // quantities whose covariances are declared
   std::vector<Contributor> list_;
 };
 
@@ -331,7 +332,7 @@ std::string name_of(const Run& run) {
   return "run " + std::to_string(run.header.id);
 }
 
-// What the mounted fixture does not take is refused before it is asked.
+// Rejects angles that MountedFixture does not accept.
 Status check_run(const Basis& basis) {
   const std::string run = name_of(basis.run);
   for (std::size_t j = 0; j < basis.points.size(); ++j)
@@ -358,7 +359,7 @@ Status check_angles(const Rig& rig) {
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run) {
   if (run.points.empty())
     return bad_input(name_of(run) + " has no points, so no budget can be calculated");
-  std::vector<Contributor> own = removed_drift(run);  // what does not need the rig to declare it
+  std::vector<Contributor> own = removed_drift(run);  // contributors that the rig does not declare
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);
   if (auto left_out = model_contributor(rig, run, model)) own.push_back(std::move(*left_out));

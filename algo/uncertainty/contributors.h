@@ -1,5 +1,6 @@
-// What a rig declares not to know (schema/rig/uncertainty.h), and by how much each of it changes
-// the errors of a run: GUM 5.1.3, the sensitivities by differences of the model itself.
+// The uncertainties that a rig declares (schema/rig/uncertainty.h) as contributors, and by how much
+// each one changes the errors of a run (GUM 5.1.3). The sensitivities are differences of the model
+// itself.
 #pragma once
 
 #include <functional>
@@ -15,38 +16,39 @@
 
 namespace mdof::algo {
 
-// Change of the errors of each point of the run: local frame, stated where the run is; 0 for a
-// point without errors.
+// Change of the errors of each point of the run: local frame, stated at the same place as the
+// errors of the run; 0 for a point without errors.
 using PointShifts = std::vector<Errors5>;
 
-// One line of a budget. Contributors are independent of each other. What one does is common to all
-// points of the run, and so cancels where a figure takes differences of points.
+// One line of a budget. Contributors are independent of each other. The effect of a contributor is
+// common to all points of the run, so it cancels where a figure takes differences of points.
 struct Contributor {
   ContributorName name;
-  std::string key;  // as the rig declares it: "u_sensitivity_ppm"; empty: seen in the run itself
+  std::string key;  // key in the rig: "u_sensitivity_ppm"; empty: found in the run itself
   DeclaredUncertainty declared;
   double to_unit = 1;  // from SI to the unit in which it is shown
   std::string unit;    // "ppm"
-  // The shifts by one standard uncertainty of it, as independent parts whose squares add: one part,
-  // but two for a direction (two axes across it), one a target for the encoder, and those of the
-  // covariances of a calibration or of the covariance of a flatness (flatness.h).
+  // Shifts by one standard uncertainty, as independent parts whose squares add. Most contributors
+  // have one part, a direction has two (about two axes across it), the encoder has one for each
+  // target. A calibration covariance and the covariance of a flatness (flatness.h) have several.
   std::function<std::vector<PointShifts>()> parts;
-  // Of what goes with a probe from set-up to set-up, as its certificate does: two rigs that have
-  // the same here have one quantity. Empty: each set-up has its own.
+  // Identifies a quantity that stays with a probe in each set-up, by its certificate: rigs with the
+  // same text here have one quantity. Empty: each set-up has its own quantity.
   std::string common_as = "";
-  // Of a flatness: several runs over the same plane need their parts made together.
+  // Only for a flatness: several runs over the same plane need their parts calculated together.
   std::shared_ptr<const PlaneFootprints> surface = nullptr;
-  std::string surface_as = "";  // of rigs that have the same here it is one surface
+  std::string surface_as = "";  // rigs with the same text here have one surface
 };
 
-// Of what `rig` declares, in its order, and of a removed drift; the run is of that rig. What moves
-// or turns a probe counts by what it changes after the zero at d = 0 without errors (simulation II
-// of algo/sensitivity): the zero itself is calibration's. So does a flatness, a random surface that
-// is the same for all visits of a place. Of a run by `simplified` what that model leaves out, last.
-// Error: a rig that cannot see all five errors, an angle beyond what the models take.
+// Contributors for the uncertainties that `rig` declares, then for a removed drift, and last for
+// the terms that the model of a run by `simplified` leaves out. `run` must be of that rig. A shift
+// or rotation of a probe counts by its change since the zero at d = 0 without errors (simulation II
+// of algo/sensitivity); the zero itself belongs to the calibration. A flatness counts in the same
+// way; it is a random surface that is the same for all visits of a target. Error: a run without
+// points, a rig that does not determine all five errors, an angle beyond the limit of the models.
 Result<std::vector<Contributor>> contributors(const Rig& rig, const Run& run);
 
-// Adds them to the errors of these points.
+// Adds `shifts` to the errors of these points.
 void shift(std::vector<MeasuredPoint>& points, const PointShifts& shifts);
 
 }  // namespace mdof::algo

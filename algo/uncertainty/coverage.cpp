@@ -8,20 +8,21 @@
 namespace mdof::algo {
 namespace {
 
-// What of Student's t lies beyond a quantile, and where it is of the normal distribution and of one
-// degree of freedom, between which it always lies.
+// Upper tail of Student's t: its probability, the quantile of the normal distribution, and limits
+// between which the quantile always lies (the largest is that of one degree of freedom).
 struct Tail {
   double probability, of_normal, below_all, above_all;
 };
-constexpr Tail kTwoSided = {0.025, 1.959963984540054, 1.9, 13};  // 12.71
-constexpr Tail kOneSided = {0.05, 1.6448536269514722, 1.6, 7};   // 6.31
-constexpr double kAlmostNormal = 1e7;  // degrees of freedom; k differs by less than 1e-6
+constexpr Tail kTwoSided = {0.025, 1.959963984540054, 1.9, 13};  // 12.71 for ν = 1
+constexpr Tail kOneSided = {0.05, 1.6448536269514722, 1.6, 7};   // 6.31 for ν = 1
+constexpr double kAlmostNormal = 1e7;  // degrees of freedom; above, k differs by less than 1e-6
 constexpr double kManyFreedom = 200;
 constexpr double kSettled = 1e-13;
 constexpr int kMostSteps = 100;
 
-// Student's t by its expansion in 1/ν (Cornish and Fisher; Abramowitz and Stegun 26.7.5): below
-// 1e-8 of k from 200 degrees of freedom on. Every point of a run asks for five of them.
+// Quantile of Student's t by its expansion in 1/ν (Cornish and Fisher; Abramowitz and Stegun
+// 26.7.5). From 200 degrees of freedom on its error is below 1e-8 of k. Each point of a run needs
+// five quantiles.
 double by_expansion(double z, double freedom) {
   const double z2 = z * z;
   const double first = z * (z2 + 1) / 4;
@@ -30,8 +31,8 @@ double by_expansion(double z, double freedom) {
   return z + (first + (second + third / freedom) / freedom) / freedom;
 }
 
-// The root of the tail's probability by regula falsi (Illinois), which never leaves its bracket: a
-// tenth of the steps of a bisection.
+// Root of the tail's probability by regula falsi (Illinois), which never leaves its bracket and
+// needs a tenth of the steps of a bisection.
 double quantile(double freedom, const Tail& tail) {
   if (!(freedom < kAlmostNormal)) return tail.of_normal;
   if (freedom >= kManyFreedom) return by_expansion(tail.of_normal, freedom);

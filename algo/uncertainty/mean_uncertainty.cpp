@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMeans = 256;
 
-// Sum of products at this distance, over all n: the estimate that keeps the sequence positive.
+// Autocovariance at this lag, with the divisor n, which keeps the sequence positive.
 double covariance_at(std::span<const double> x, std::size_t lag) {
   const double products =
       lane_sum(x.subspan(lag), [lag](const double* e) { return e[0] * *(e - lag); });
@@ -22,7 +22,7 @@ double covariance_at(std::span<const double> x, std::size_t lag) {
 double correlated_variance(std::span<const double> x) {
   const auto n = static_cast<double>(x.size());
   const double variance = covariance_at(x, 0);
-  const double noise = variance * std::sqrt(2 / n);  // of an autocovariance that is none
+  const double noise = variance * std::sqrt(2 / n);  // of an autocovariance that is 0
   double sum = -variance, before = 4 * variance;
   std::size_t window = 0;
   for (std::size_t lag = 0; window < x.size() / 4; lag += 2) {

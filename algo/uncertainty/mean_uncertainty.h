@@ -6,12 +6,13 @@
 
 namespace mdof::algo {
 
-// `deviations` of n readings from their mean, in the order of time, and their `sd`. Their
-// autocorrelation is summed up to where it is lost in its own noise (initial positive sequence of
-// pairs of lags: Geyer, Practical Markov chain Monte Carlo, Statist. Sci. 7 (1992) 473), of at most
-// 256 means of equal length, and widened for the lags that share the mean's own error. At least
-// sd/√n. It covers noise whose correlation lasts a tenth of the readings or less; what is slower
-// looks like a constant within one dwell, and only the scatter between runs shows it.
+// `deviations`: n readings minus their mean, in the order of time; `sd`: their standard deviation.
+// The function averages them to at most 256 means of equal length. It adds the autocovariances of
+// these means up to the lag where they are lost in their own noise (initial positive sequence of
+// pairs of lags: Geyer, Practical Markov chain Monte Carlo, Statist. Sci. 7 (1992) 473), and widens
+// the sum because all lags share the error of the mean. The result is at least sd/√n. It covers
+// noise whose correlation lasts at most a tenth of the readings. Slower noise looks constant within
+// one dwell, and only the scatter between runs shows it.
 double mean_uncertainty(std::span<const double> deviations, double sd);
 
 }  // namespace mdof::algo

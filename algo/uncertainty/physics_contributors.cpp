@@ -16,7 +16,7 @@
 namespace mdof::algo {
 namespace {
 
-// Of one probe at one point.
+// Gap and tilt of one probe at one point.
 struct Gap {
   double gap_m = 0;
   Eigen::Vector3d tilt = Eigen::Vector3d::Zero();  // tilt_of()
@@ -35,7 +35,7 @@ class Physics {
  private:
   const RigPhysics& physics() const { return *rig_.physics; }
 
-  // `change_m(point, probe)`: of the readings, by one standard uncertainty.
+  // `change_m(point, probe)`: change of the reading by one standard uncertainty.
   template <class Change>
   PointShifts shifts(Change change_m) const {
     PointShifts all(points_.size());
@@ -56,7 +56,7 @@ class Physics {
     return shifts([&](std::size_t j, std::size_t k) { return k == probe ? change_m(j) : 0.0; });
   }
 
-  // All of them are made at once: they are few, and share what is dear.
+  // All parts are calculated at once: they are few, and share results that take long to calculate.
   void add(ContributorName name, std::string key, const DeclaredUncertainty& declared,
            double to_unit, std::string unit, std::vector<PointShifts> parts) {
     if (!declared.declared()) return;
@@ -83,8 +83,8 @@ class Physics {
     add_left_out(k);
   }
 
-  // The reading that one unit of the factor makes, against the zero. Not corrected: its mean square
-  // about 0.
+  // Reading by one unit of the tilt factor, relative to the zero. If the tilt is not corrected, the
+  // factor counts by its root mean square about 0.
   void add_tilt(std::size_t k) {
     const ProbePhysics& probe = physics().probes[k];
     DeclaredUncertainty factor = probe.u_tilt_factor;
@@ -103,8 +103,8 @@ class Physics {
         })});
   }
 
-  // A probe that stands φ askew in its clamp sees |θ + φ|²: the product about two axes, and φ²,
-  // which changes as the gap does.
+  // A probe that is tilted by φ in its clamp reads a tilt of |θ + φ|²: the product about two axes,
+  // and φ², whose effect changes with the gap.
   void add_clamp(std::size_t k) {
     const ProbePhysics& probe = physics().probes[k];
     const DeclaredUncertainty& u = rig_.probes[k].uncertainty.direction;
@@ -127,8 +127,8 @@ class Physics {
         std::move(parts));
   }
 
-  // What is left of the curve after its correction, as waves over the range: its square is u² at
-  // every reading.
+  // Rest of the curve after its correction, as waves over the range: the sum of their squares is u²
+  // at every reading.
   void add_linearity(std::size_t k) {
     const DeclaredUncertainty& u = physics().probes[k].u_linearity;
     std::vector<PointShifts> parts;
@@ -145,7 +145,7 @@ class Physics {
         std::move(parts));
   }
 
-  // linearity = false: the correction that was not made.
+  // The correction that linearity = false omits.
   void add_left_out(std::size_t k) {
     if (physics().left_out.empty()) return;
     const Calibration& c = *physics().left_out[k];
@@ -161,7 +161,7 @@ class Physics {
         {of_probe(k, correction_m)});
   }
 
-  // By one unit of ε/ε of the calibration all gaps change in proportion to themselves.
+  // By a relative change `u` of the permittivity all gaps change in proportion to themselves.
   std::vector<PointShifts> by_permittivity(double u) const {
     return {shifts([&](std::size_t j, std::size_t k) { return -u * at(j, k).gap_m; })};
   }
@@ -170,7 +170,8 @@ class Physics {
     if (!physics().knows_air()) return;
     const DeclaredAir& air = *physics().air;
     const double calibration = air_permittivity(air.calibration);
-    Air run = air.calibration;  // of a log alone: its slopes are the same to a hundredth
+    // Replaces conditions of the run that only a log has: the slopes agree to a hundredth.
+    Air run = air.calibration;
     bool known = true;
     for (std::size_t q = 0; q < kAirQuantities; ++q) {
       known = known && air.run[q];

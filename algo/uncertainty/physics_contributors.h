@@ -1,5 +1,6 @@
-// What a rig declares of its probes' physics (schema/rig/effects/physics.h), as contributors: of
-// what is corrected its uncertainty, of what is known and not corrected the whole of it.
+// The physics of the probes that a rig declares (schema/rig/effects/physics.h), as contributors: a
+// corrected effect contributes the uncertainty of its correction, a known effect without correction
+// contributes as a whole.
 #pragma once
 
 #include <vector>
@@ -12,8 +13,9 @@
 
 namespace mdof::algo {
 
-// Tilt factors and linearities of the probes are independent of each other; the air is common to
-// all. `points`: as of point_sensitivities(). None where the rig says nothing.
+// Tilt factors and linearities of the probes are independent of each other; the ambient conditions
+// are common to all probes. `points`: as returned by point_sensitivities(). Empty if the rig
+// declares no physics.
 std::vector<Contributor> physics_contributors(const Rig& rig, const Solver& solver, const Run& run,
                                               const std::vector<PointSensitivity>& points);
 

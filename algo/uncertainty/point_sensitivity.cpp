@@ -9,8 +9,8 @@
 namespace mdof::algo {
 namespace {
 
-// Steps of the central differences: small beside what an error of 1 mrad bends (1e-6 of them),
-// large beside rounding (1e-16 of 0.1 m).
+// Steps of the central differences. They are small compared with the curvature by an error of 1
+// mrad (1e-6 of them), and large compared with rounding (1e-16 of 0.1 m).
 constexpr double kReadingStep_m = 1e-7, kTravelStep_m = 1e-5;
 
 class Differences {
@@ -59,8 +59,8 @@ class Differences {
     return slope(stated(above, travel_m), stated(below, travel_m), kReadingStep_m);
   }
 
-  // Of the errors that give the same readings where the target is a step further on, by the gain: a
-  // solution by iteration would cost more than all the rest.
+  // Slope of the errors that give the same readings if the target is a step further on. It uses the
+  // gain, because an iterative solution would cost more than all the rest.
   Errors5 by_travel(const AxisErrors& carriage, double travel_m,
                     const Eigen::MatrixXd& gain) const {
     const double ahead_m = travel_m + kTravelStep_m, behind_m = travel_m - kTravelStep_m;
@@ -74,7 +74,7 @@ class Differences {
     }
     return slope(stated(ahead, ahead_m), stated(behind, behind_m), kTravelStep_m);
   }
-  // The gain of the other models is right to 1e-3 only, and their solution cheap.
+  // The gain of the other models is accurate to 1e-3 only, and their solution costs little.
   Errors5 by_travel(double travel_m) const {
     const auto solved = [&](double at_m) {
       return stated(solver_.solve_alone(at_m, p_.point.probe_m, p_.point.probe_u_m), at_m);

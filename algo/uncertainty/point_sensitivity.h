@@ -1,4 +1,4 @@
-// By how much the errors of each point of a run change with what its probes and its encoder say.
+// Sensitivities of the errors of each point of a run to the readings of its probes and encoder.
 #pragma once
 
 #include <vector>
@@ -10,19 +10,20 @@ namespace mdof::algo {
 
 struct PointSensitivity {
   bool valid = false;   // false: a point without errors; the rest is then 0
-  double travel_m = 0;  // of the target
-  Errors5 carriage{};   // local
-  // Change of the errors, local frame and stated where the run is: by 1 m of each probe's reading
-  // (0 for a lost probe), and by 1 m of the travel.
+  double travel_m = 0;  // travel of the target
+  Errors5 carriage{};   // errors of the carriage, local frame
+  // Change of the errors, local frame, stated at the same place as the errors of the run: by 1 m of
+  // each probe's reading (0 for a lost probe), and by 1 m of the travel.
   std::vector<Errors5> by_probe;
   Errors5 by_travel{};
-  // By 1 m that the place of the point differs from that which the encoder says, in the travel's
-  // direction: by_travel, less what the errors themselves change along the axis.
+  // Change by 1 m of difference between the true position of the point and that of the encoder, in
+  // the travel's direction: by_travel minus the slope of the errors along the axis.
   Errors5 by_place{};
 };
 
-// One a point of the run: of a reading by the solver's gain, of the travel by differences of the
-// solver itself, of the place by local_slopes(), too. The solver is of the run's rig and model.
+// One element for each point of the run. The gain of the solver gives the sensitivities to the
+// readings, differences of the model give those to the travel, and local_slopes() those to the
+// position. `solver` has the rig and the model of the run.
 std::vector<PointSensitivity> point_sensitivities(const Solver& solver, const Run& run);
 
 }  // namespace mdof::algo

@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-// Of one normal quantity, χ² at 99.9 %.
+// 99.9 % point of χ² with one degree of freedom.
 constexpr double kMostOfDrift = 10.83;
 
 ErrorsUncertainty not_known() {
@@ -44,10 +44,10 @@ void PointUncertainties::leave_out_repeatability() {
   covered_ = VisitsCovered::left_out;
 }
 
-// The parts of one contributor are one contributor: their squares are added first.
+// All parts of a contributor share its degrees of freedom: their squares are added first.
 void PointUncertainties::add(const Contributor& contributor,
                              const std::vector<PointShifts>& parts) {
-  std::vector<Errors5> variance(sums_.size());  // local: the names differ in order and sign
+  std::vector<Errors5> variance(sums_.size());  // local: the named errors differ in order and sign
   for (const PointShifts& shifts : parts)
     for (std::size_t j = 0; j < sums_.size(); ++j)
       for (std::size_t e = 0; e < kErrorCount; ++e) variance[j][e] += shifts[j][e] * shifts[j][e];

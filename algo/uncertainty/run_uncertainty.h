@@ -1,5 +1,5 @@
-// The uncertainty of the five errors of each point of a run, of its noise and of what its rig
-// declares.
+// The uncertainty of the five errors of each point of a run, from its noise and from the
+// uncertainties that its rig declares.
 #pragma once
 
 #include <array>
@@ -13,39 +13,41 @@
 
 namespace mdof::algo {
 
-// Of the errors as the run states them. GUM 5.1.2: the squares of what is random and of each
-// contributor's part add. Random is the noise of the point's own stop (degrees of freedom: its
-// scans less one), or, where it is more, the variance of a visit that repeats of the targets show
-// (visit_scatter.h): it replaces that noise, which is part of it. What changes in proportion to
-// time is no repeatability where the declared drift explains it; where it is more than such a drift
-// shows by chance in one of a thousand runs, all of it is, less what the declared drift does. A
-// removed drift has the slow noise in its own part, and the noise stays. What the rig declares and
-// cannot be calculated leaves the random part alone, and `why` says so.
+// Uncertainty of the errors as the run states them. The squares of the random part and of each part
+// of each contributor add (GUM 5.1.2). The random part is the noise of the point's own stop
+// (degrees of freedom: its scans less one). If the repeated visits of the targets show a larger
+// variance of a visit (visit_scatter.h), this variance replaces the noise, which it includes.
+// A change in proportion to time does not count as repeatability if the declared drift explains it.
+// If it is larger than such a drift shows by chance in one of a thousand runs, all of it counts,
+// less the variance by the declared drift. The part of a removed drift includes the slow noise, so
+// the noise of the stop is kept. If the contributors cannot be calculated, only the random part is
+// left, and `why` contains the reason.
 RunUncertainty run_uncertainty(const Rig& rig, const Run& run);
-// A run with more points has none of the repeatability: its pages would take seconds.
+// Runs with more points omit the repeatability: their pages would take seconds.
 inline constexpr std::size_t kMostPointsOfRepeatability = 20'000;
 
-// Without the repeatability: of some points of a run, the first among them, where the drift begins.
+// Without the repeatability. `part`: some points of a run, including its first, where the drift
+// begins.
 RunUncertainty uncertainty_of_stops(const Rig& rig, const Run& part);
 
-// Where not all is declared, u of nothing at all is not known; else it is a declared 0.
+// Sets u and U from 0 to NaN (unknown), unless all uncertainties are declared and calculated.
 void take_zero_as_unknown(RunUncertainty& uncertainty);
 
-// The same step by step, where the contributors are at hand.
+// The same step by step, for callers that have the contributors.
 class PointUncertainties {
  public:
-  // Of what is random alone. Keeps a reference to `run`, which is whole.
+  // Starts with the random part. Keeps a reference to `run`, which must be a whole run.
   explicit PointUncertainties(const Run& run);
-  // `parts`: those of the contributor, made of that run.
+  // `parts`: the parts of the contributor, calculated for that run.
   void add(const Contributor& contributor, const std::vector<PointShifts>& parts);
-  // Takes the noise of the stops for all that is random.
+  // Uses the noise of the stops as the whole random part.
   void leave_out_repeatability();
   VisitsCovered visits() const { return covered_; }
-  std::vector<ErrorsUncertainty> stated() const;  // of each point; NaN of one without errors
+  std::vector<ErrorsUncertainty> stated() const;  // for each point; NaN for a point without errors
 
  private:
-  // Of one point and the named errors: the variance of the noise; of the contributors the sum of
-  // u_i², and that of u_i⁴/ν_i (GUM G.2b).
+  // Sums for one point and its named errors: the variance of the noise, and for the contributors
+  // the sums of u_i² and of u_i⁴/ν_i (GUM G.2b).
   struct Sums {
     Errors5 noise{}, square{}, fourth_by_freedom{};
   };
@@ -53,10 +55,10 @@ class PointUncertainties {
   std::vector<Sums> sums_;
   VisitScatter visits_;
   VisitsCovered covered_ = VisitsCovered::single;
-  VisitScatter::Pooled seen_;                      // of the named errors
-  VisitScatter::Pooled steady_;                    // the same without what grows with time
-  Errors5 explained_{};                            // of its variance, by the declared drift
-  std::array<bool, kErrorCount> repeatability_{};  // whether it is taken
+  VisitScatter::Pooled seen_;    // of the named errors
+  VisitScatter::Pooled steady_;  // the same without the change in proportion to time
+  Errors5 explained_{};          // the part of this variance that the declared drift explains
+  std::array<bool, kErrorCount> repeatability_{};  // whether the error uses it
 };
 
 }  // namespace mdof::algo

@@ -1,5 +1,5 @@
-// The uncertainty of a run's points and of its figures at once: both need the shifts of all
-// contributors, which are dear.
+// The uncertainty of a run's points and of its figures in one call: both need the shifts of all
+// contributors, which take long to calculate.
 #pragma once
 
 #include "algo/uncertainty/budget/budget.h"

@@ -19,9 +19,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::uint64_t kTrialsOfU = 2000;    // U is then right to 2 %
-constexpr std::uint64_t kTrialsOfBlock = 64;  // their shifts stay in the cache
-constexpr double kLeastFirstOrder = 0.01;     // of U: k is then 100
+constexpr std::uint64_t kTrialsOfU = 2000;    // U is then accurate to 2 %
+constexpr std::uint64_t kTrialsOfBlock = 64;  // so many that their shifts stay in the cache
+constexpr double kLeastFirstOrder = 0.01;     // u as a part of U; k is then 100
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
@@ -42,8 +42,8 @@ double sum_of_squares(const std::vector<double>& values) {
   return sum;
 }
 
-// Some parts, to be added to the shifts of all trials at once, one after the other: a sum is read
-// and written a fourth as often.
+// A few parts that are added to the shifts of all trials in one pass: each sum is read and written
+// a quarter as often.
 class SomeParts {
  public:
   void add(const std::vector<double>& part, std::vector<double> drawn) {
@@ -52,7 +52,7 @@ class SomeParts {
     drawn_[n_++] = std::move(drawn);
   }
   bool full() const { return n_ == kMost; }
-  // `sums`: of each trial.
+  // `sums`: shifts of all trials, trial after trial.
   void add_to(std::vector<double>& sums) {
     for (std::size_t t = 0; n_ > 0 && t < drawn_[0].size(); ++t) {
       double* sum = sums.data() + t * width_;
@@ -104,7 +104,7 @@ std::size_t RunBudgets::cost() const {
 
 void RunBudgets::add(const Contributor& contributor, const std::vector<PointShifts>& parts) {
   Shifted& shifted = shifted_.emplace_back(Shifted{contributor, {}});
-  shifted.contributor.parts = nullptr;  // they hold the whole run
+  shifted.contributor.parts = nullptr;  // they keep the whole run in memory
   for (const PointShifts& part : parts) {
     MeanShifts& shifts = shifted.parts.emplace_back();
     for (const Errors5& at_target : changes_.of(part))
@@ -172,7 +172,7 @@ Budget RunBudgets::of(const Figure& figure) const {
 std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
   std::vector<Budget> budgets;
   std::vector<Figure> ranges;
-  std::vector<std::size_t> place;  // of each range among the budgets
+  std::vector<std::size_t> place;  // index of each range among the budgets
   for (const Figure& figure : figures) {
     budgets.push_back(first_order(figure));
     if (!figure.is_range() || !std::isfinite(budgets.back().value)) continue;
@@ -187,8 +187,8 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
     const double U = range.U();
     if (!(U > 0)) continue;
     budget.U = U;
-    // Of deviations that are all equal the range changes as much up as down: first order has
-    // nothing, or what rounding leaves of it.
+    // If all deviations are equal, the range changes as much up as down, so first order gives 0 or
+    // rounding.
     if (!(budget.u > kLeastFirstOrder * U)) budget.u = range.root_mean_square();
     budget.coverage_factor = budget.U / budget.u;
     budget.U_by_trials = true;
@@ -196,7 +196,7 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
   return budgets;
 }
 
-// Of each trial the shifts of the means; `quantities`: of each contributor.
+// Shifts of the means, trial after trial. `quantities`: one for each contributor.
 std::vector<double> RunBudgets::moved_by(BlockOfDraws& draws, std::size_t trials,
                                          const std::vector<OneU>& quantities) const {
   std::vector<double> moved(trials * means_.targets.size() * kErrorCount);
@@ -214,7 +214,7 @@ std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figu
                                                  const TrialsRequest& request,
                                                  std::uint32_t stream) const {
   std::vector<Random> random;
-  std::map<double, OneU> noise;  // by degrees of freedom: a table of t is dear
+  std::map<double, OneU> noise;  // by degrees of freedom: a table of t takes long to calculate
   std::vector<std::vector<double>> measured;
   bool any_range = false;
   for (const Figure& figure : figures) {
@@ -242,7 +242,7 @@ std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figu
     for (std::size_t t = 0; t < trials; ++t) {
       const MeanErrors means = moved(std::span(shifts).subspan(t * width, width), 1);
       std::optional<MeanErrors> noisy;
-      double by = 0;  // of `noisy`
+      double by = 0;  // factor of the noise in `noisy`
       for (std::size_t f = 0; f < figures.size(); ++f) {
         if (measured[f].empty()) {
           all[f].values[first + t] =
@@ -297,7 +297,7 @@ void complete(Budget& budget) {
   budget.freedom = effective_freedom(parts);
   budget.coverage_factor = coverage_factor(budget.freedom);
   budget.U = budget.coverage_factor * budget.u;
-  // Nothing was found, and what may add something is not declared.
+  // All contributions are 0, but an uncertainty that is not declared may contribute.
   if (budget.u == 0 && !budget.not_declared.empty())
     budget.u = budget.U = budget.coverage_factor = std::numeric_limits<double>::quiet_NaN();
   budget.noise_only = is_noise_only(budget);

@@ -1,6 +1,6 @@
-// The uncertainty budget of the figures of a run: each figure is made again of the mean errors with
-// each contributor's shift added and taken off. So what is common to all points stays apart from
-// what is not, without a formula for each figure.
+// Uncertainty budgets of the figures of a run. Each figure is calculated again from the mean errors
+// with the shift of each contributor added and subtracted. So effects that are common to all points
+// are separated from the others without a formula for each figure.
 #pragma once
 
 #include <cstdint>
@@ -23,67 +23,66 @@
 namespace mdof::algo {
 
 struct TrialsRequest {
-  std::uint64_t trials = 0;  // 0: none
+  std::uint64_t trials = 0;  // 0: no trials
   std::uint64_t seed = 1;
 };
 
-// By chance, the scatter of runs is that much more than what their visits show in one of five logs
-// of three runs.
+// Ratio of the variance by the scatter of runs to that by their visits. Three runs exceed it by
+// chance in one of five logs.
 inline constexpr double kRunsScatterMore = 1.6;
 
 class RunBudgets {
  public:
-  // Of the run as it is stated. Error: as contributors().
+  // Budgets of the run, of its errors as it states them. Error: as contributors().
   static Result<RunBudgets> create(const Rig& rig, const Run& run);
-  // Of noise and repeatability alone, to which contributors of that run are added.
+  // Noise and repeatability alone; add() adds contributors of that run.
   RunBudgets(const Rig& rig, const Run& run);
   void add(const Contributor& contributor, const std::vector<PointShifts>& parts);
 
   const MeanErrors& means() const { return means_; }
-  // Targets times independent parts of contributors: the time of a figure grows with it.
+  // Targets times independent parts of contributors: the time to calculate a figure grows with it.
   std::size_t cost() const;
-  // First order (GUM 5). The part of noise and repeatability is what the visits' scatter does to
-  // the figure, with the correlation in time that their residuals show
-  // (correlated_noise.h), with the shift that all targets of a pass share (repeatability.h); and,
-  // where the variance of the figure by the scatter of the runs' own, s²/n, is more than
-  // kRunsScatterMore times that, what it has beyond it. U is k u; of a range it is that of
-  // range_interval.h; where all deviations are equal, so that first order sees nothing but
-  // rounding, u is the root mean square of the trials. A figure that is NaN has a budget of NaN.
+  // First order (GUM 5). The line of noise and repeatability is the effect of the visits' scatter
+  // on the figure. It includes the correlation in time that the residuals of the visits show
+  // (correlated_noise.h), and the shift that all targets of a pass share (repeatability.h). If the
+  // scatter of the runs gives the figure a variance s²/n that is more than kRunsScatterMore times
+  // this effect, the excess is added. U is k u, but for a range that of range_interval.h. If all
+  // deviations of a range are equal, first order gives only rounding, and u is the root mean square
+  // of the trials. A figure that is NaN has a budget of NaN.
   Budget of(const Figure& figure) const;
-  // Of each; the trials are drawn once for all of them.
+  // Budgets of all figures; the trials are drawn once for all of them.
   std::vector<Budget> of(const std::vector<Figure>& figures) const;
-  // By how much each independent part of each contributor changes the figure, with its sign.
+  // Changes of the figure by each independent part of each contributor, with their signs.
   struct Contribution {
     const Contributor* contributor = nullptr;
     std::vector<double> parts;
   };
   std::vector<Contribution> contributions(const Figure& figure) const;
-  // The line of a contributor whose parts contribute so.
+  // The line of a contributor. `parts`: the contributions of its parts.
   static BudgetLine line(const Contributor& contributor, const std::vector<double>& parts);
-  // The same without trials: U is k u of a range too.
+  // The same as of(), but without trials: U is k u for a range too.
   Budget first_order(const Figure& figure) const;
-  // JCGM 101: each figure of many trials, in each of which all contributors are drawn from their
-  // distributions, and what is random from Student's t; for a range, at each target by itself. Any
-  // other `stream` is independent. What a
-  // figure gets does not depend on which others are asked for.
+  // Values of each figure in many trials (JCGM 101). Each trial draws all contributors from their
+  // distributions and the random part from Student's t; for a range it draws the random part at
+  // each target. Different streams are independent. The values of a figure do not depend on the
+  // other figures.
   std::vector<std::vector<double>> draw(const std::vector<Figure>& figures,
                                         const TrialsRequest& request,
                                         std::uint32_t stream = 0) const;
-  // Their summary. Of a range the interval is that of its U by these trials.
+  // Summary of these trials. For a range the interval is value ± U, by these trials.
   BudgetTrials trials(const Figure& figure, const TrialsRequest& request) const;
 
  private:
   struct Random {
     double u = 0, freedom = 0;
-    UncertaintyPart
-        independent;     // of it, if the noise of the visits does not follow its neighbours
-    double widened = 1;  // the noise of each target, to have this u
+    UncertaintyPart independent;  // if the noise of the visits were independent
+    double widened = 1;           // factor of the noise of each target that gives this u
   };
   struct Drawn {
     std::vector<double> values;   // of the figure
-    std::vector<double> changes;  // of its deviations, trial after trial; of a range only
+    std::vector<double> changes;  // of its deviations, trial after trial; only for a range
   };
-  using MeanShifts = std::vector<double>;  // named, five by target
+  using MeanShifts = std::vector<double>;  // named errors, five for each target
   struct Shifted {
     Contributor contributor;  // without its parts
     std::vector<MeanShifts> parts;
@@ -103,16 +102,17 @@ class RunBudgets {
   MeanErrors means_;
   Repeatability repeatability_;
   TargetChanges changes_;
-  std::vector<MeanErrors> runs_;  // of each run of the sequence alone
+  std::vector<MeanErrors> runs_;  // means of each run of the sequence
   std::vector<Shifted> shifted_;
   std::vector<std::string> not_declared_;
 };
 
-// Of at least two trials.
+// Needs at least two trials.
 BudgetTrials summary_of(std::vector<double> trials, std::uint64_t seed);
 
-// What follows from all lines of a budget: u, shares, the largest first, degrees of freedom, k, U.
-// Where they are all 0, u is 0 only if nothing is left undeclared; else it is not known, NaN.
+// Calculates u, shares, degrees of freedom, k and U from the lines of a budget, and sorts the lines
+// by share, largest first. If all contributions are 0, u is 0 if all uncertainties are declared,
+// otherwise NaN (unknown).
 void complete(Budget& budget);
 
 }  // namespace mdof::algo

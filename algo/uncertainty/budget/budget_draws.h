@@ -12,14 +12,14 @@
 
 namespace mdof::algo {
 
-// A quantity of one standard uncertainty; Student's t where the degrees of freedom are few (6.4.9).
+// A quantity with the standard uncertainty 1. Few degrees of freedom give Student's t (6.4.9).
 class OneU {
  public:
   explicit OneU(const DeclaredUncertainty& declared);
-  // Normal, or t.
+  // Normal, or Student's t.
   explicit OneU(double freedom);
 
-  // Each probability by its quantile.
+  // Replaces each probability by its quantile.
   void quantiles(std::span<double> p) const;
 
  private:
@@ -27,12 +27,12 @@ class OneU {
   QuantileFunction quantile_;
 };
 
-// Quantity after quantity, the same numbers as draw() has.
+// Draws one quantity after another, with the same numbers as draw().
 class BlockOfDraws {
  public:
-  // Of the trials first ... first + trials - 1.
+  // For the trials first ... first + trials - 1.
   BlockOfDraws(const Stream& from, std::uint64_t first, std::uint64_t trials);
-  // Of each trial: a probability, or the quantity.
+  // One value for each trial: a probability, or the quantity.
   std::vector<double> next();
   std::vector<double> next(const OneU& quantity);
 

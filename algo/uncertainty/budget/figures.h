@@ -9,7 +9,7 @@
 
 namespace mdof::algo {
 
-// The mean of both approaches at each target, ascending; `sides` of the run.
+// The mean of both approaches at each target, ascending. `sides`: those of the run.
 struct MeanErrors {
   Sides sides;
   std::vector<TargetMean> targets;
@@ -17,15 +17,15 @@ struct MeanErrors {
 
 struct Figure {
   std::string name;                             // with its unit: "EYX_straightness_um"
-  std::function<double(const MeanErrors&)> of;  // SI; NaN where these targets do not have it
-  // What the figure is the highest minus the lowest of, linear in the means; none: it is no range.
-  // Noise makes a range larger, and first order does not see that.
+  std::function<double(const MeanErrors&)> of;  // SI; NaN if these targets do not determine it
+  // The values whose highest minus lowest is the figure, linear in the means; null: the figure is
+  // no range. Noise makes a range larger, and first order does not show that.
   std::function<std::vector<double>(const MeanErrors&)> deviations = nullptr;
 
   bool is_range() const { return static_cast<bool>(deviations); }
 };
 
-// `named`: place in error_names(axis).
+// `named`: index in error_names(axis).
 Figure straightness_figure(Axis axis, std::size_t named);  // peak to valley, least-squares line
 Figure slope_figure(Axis axis, std::size_t named);         // over the moving body's own travel
 Figure range_figure(Axis axis, std::size_t named);         // highest - lowest

@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-// A figure that is the sum of a slope of each of two runs, each with its factor.
+// A figure that is the sum of the slopes of two runs, each times its factor.
 class TwoSlopes {
  public:
   struct Of {
@@ -34,13 +34,13 @@ class TwoSlopes {
     }
     add_contributions(a, b);
   }
-  // As of all contributions so far.
+  // The budget of all contributions so far.
   Budget take() {
     complete(budget_);
     return std::move(budget_);
   }
   Budget& budget() { return budget_; }
-  // Slopes are linear in what shifts the means: trials are sums of the lines' quantities.
+  // Slopes are linear in the shifts of the means, so a trial is the sum of the lines' quantities.
   std::vector<double> trials(const TrialsRequest& request) const {
     std::vector<double> values(request.trials, budget_.value);
     BlockOfDraws draws({request.seed, 0}, 0, request.trials);
@@ -62,12 +62,13 @@ class TwoSlopes {
     line.contribution *= of.factor;
     add(std::move(line), drawn);
   }
-  // The sum of squares of many parts is drawn as a normal number.
+  // The sum of many parts is drawn as a normal number.
   static DeclaredUncertainty drawn_as(const RunBudgets::Contribution& of) {
     return of.parts.size() == 1 ? of.contributor->declared : DeclaredUncertainty{1};
   }
 
-  // What is common to both runs is one quantity: its contributions add with their signs.
+  // A contributor that is common to both runs is one quantity: its contributions add with their
+  // signs.
   void add_contributions(const Of& a, const Of& b) {
     const auto of_a = a.run.contributions(a.slope), of_b = b.run.contributions(b.slope);
     std::vector<bool> added(of_b.size(), false);
@@ -96,7 +97,7 @@ class TwoSlopes {
   }
 
   Budget budget_;
-  std::vector<DeclaredUncertainty> drawn_;  // of each line, by 1
+  std::vector<DeclaredUncertainty> drawn_;  // of each line, for u = 1
 };
 
 BudgetLine artefact_line(const SquareArtefact& artefact, int sign) {

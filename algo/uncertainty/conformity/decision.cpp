@@ -12,7 +12,8 @@
 namespace mdof::algo {
 namespace {
 
-// A limit so many u away: the chance that the true value lies beyond the other end is below 0.1 %.
+// If the limit is at least so many u, the chance that the true value lies beyond the other end is
+// below 0.1 %.
 constexpr double kOneEnd = 2.4;
 
 struct Guard {
@@ -24,7 +25,7 @@ Guard guard_of(const Budget& budget, double limit) {
   const std::string standard = "ISO 14253-1:2017, 95 % conformance probability, ";
   if (budget.U_by_trials)
     return {budget.coverage_factor, standard + "guard band g = U from Monte Carlo trials"};
-  // Beyond the limit the other end is further away still.
+  // If the value is beyond the limit, the other end is further away still.
   const bool one_end = limit >= kOneEnd * budget.u || std::abs(budget.value) > limit;
   const double factor = one_end ? one_sided_factor(budget.freedom) : budget.coverage_factor;
   std::array<char, 32> text{};
@@ -76,7 +77,7 @@ Decision decision(const Budget& budget, double limit, const std::string& against
     d.conformity = Conformity::conform;
   else if (size - d.guard_band > limit)
     d.conformity = Conformity::not_conform;
-  else  // and where the value is not known: NaN
+  else  // also if the value is NaN
     d.reason = "the value lies within the guard band of the tolerance";
   return d;
 }

@@ -1,4 +1,4 @@
-// Is a figure within its tolerance? ISO 14253-1:2017.
+// Decides whether a figure conforms to its tolerance: ISO 14253-1:2017.
 #pragma once
 
 #include <string>
@@ -8,13 +8,14 @@
 
 namespace mdof::algo {
 
-// Of a figure that must be at most `limit` in size. The standard's default is a probability of 95 %
-// that what is said is true, one-sided: conform is |value| + g <= limit, not conform |value| - g >
-// limit, with the guard band g = 1.645 u, or by Student's t where u has few degrees of freedom. The
-// editions before took U (k = 2). Two-sided where the limit is within 2.4 u of 0, so that either
-// end counts. Of a range, whose trials are not normal, g is U: the larger. Undecided between, and
-// wherever U is known to be incomplete, as rigs do not declare all or no target was visited again.
-// `against`: why nothing can be decided of the run itself; empty: nothing is against it.
+// `limit`: largest permitted size of the figure. The standard's default is a conformance
+// probability of 95 %, one-sided: conform if |value| + g <= limit, not conform if |value| - g >
+// limit. The guard band g is 1.645 u, or by Student's t if u has few degrees of freedom. Earlier
+// editions used U (k = 2). The rule is two-sided if the limit is less than 2.4 u, because then
+// either end counts. For a range, whose trials are not normal, g is U, which is larger. Between
+// these limits there is no decision, and also if U is known to be incomplete, because the rigs do
+// not declare all uncertainties or no target was visited again.
+// `against`: why the run itself permits no decision; empty: it permits one.
 Decision decision(const Budget& budget, double limit, const std::string& against = "");
 
 }  // namespace mdof::algo

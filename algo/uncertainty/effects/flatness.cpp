@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kSeriesBelow = 16;  // both are right to 3e-11 there
+constexpr double kSeriesBelow = 16;  // where both are accurate to 3e-11
 constexpr int kSeriesTerms = 40, kAsymptoticTerms = 12;
 
 // DLMF 10.2.2

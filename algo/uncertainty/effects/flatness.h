@@ -2,9 +2,9 @@
 //
 // Heights are normal, with standard deviation u, and two places r apart have the covariance
 //   C(r) = u² Σ k⁻⁴ J₀(2π k r/L) / Σ k⁻⁴,  k = 1 … kFlatnessWaves
-// That is a surface of waves of the lengths L, L/2, … of the weights 1/k² of a sensitivity study,
-// of every direction and phase alike: a wave of random direction has the covariance J₀. A reading
-// counts the height by what it changes since d = 0, where the probe was zeroed.
+// The surface consists of waves of the lengths L, L/2, … with the weights 1/k² of a sensitivity
+// study; all directions and phases are equally likely. A wave of random direction has the
+// covariance J₀. A reading counts the change of the height since d = 0, where the probe was zeroed.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,10 +15,11 @@
 
 namespace mdof::algo {
 
-// 1 - J₀(x) to 3e-11, and to rounding of itself for a small x.
+// 1 - J₀(x), accurate to 3e-11, and to rounding for a small x.
 double one_minus_bessel_j0(double x);
 
-// Where the line of a probe meets the plane, in C, and where it does at d = 0.
+// The points where the line of a probe meets the plane, now (`place`) and at d = 0 (`zero`); frame
+// C.
 struct Footprint {
   Eigen::Vector3d place, zero;
 };
@@ -28,20 +29,20 @@ class FlatnessCovariance {
   FlatnessCovariance(double u_m, double length_m) : variance_m2_(u_m * u_m), length_m_(length_m) {}
   // u² - C(r).
   double semivariogram_m2(double apart_m) const;
-  // Of two heights, each above its own at d = 0.
+  // Covariance of two heights, each relative to its own height at d = 0.
   double zeroed_m2(const Footprint& a, const Footprint& b) const;
 
  private:
   double variance_m2_, length_m_;
 };
 
-// The heights of the footprints above those at d = 0, as independent_parts(): kMostFlatnessParts
-// columns at most.
+// Heights of the footprints relative to those at d = 0, as in independent_parts():
+// kMostFlatnessParts columns at most.
 inline constexpr std::size_t kMostFlatnessParts = 256;
 Eigen::MatrixXd independent_heights(const FlatnessCovariance& covariance,
                                     const std::vector<Footprint>& footprints);
 
-// One plane in one run.
+// Footprints and readings of one plane in one run.
 struct PlaneFootprints {
   double u_m = 0, length_m = 0;
   std::vector<Footprint> footprints;  // of each probe at each target

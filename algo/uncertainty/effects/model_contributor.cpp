@@ -31,7 +31,7 @@ std::optional<Contributor> model_contributor(const Rig& rig, const Run& run, Mod
   if (model != Model::simplified) return std::nullopt;
   const auto simplified = Solver::create(rig, Model::simplified);
   const auto exact = Solver::create(rig, Model::exact);
-  if (!simplified || !exact) return std::nullopt;  // nothing was solved by it, either
+  if (!simplified || !exact) return std::nullopt;  // then no point was solved by it
   DeclaredUncertainty whole;
   whole.u = 1;
   std::vector<PointShifts> parts{left_out(*simplified, *exact, run)};

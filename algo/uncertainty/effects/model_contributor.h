@@ -1,4 +1,5 @@
-// What the simplified model leaves out, as a contributor: it is known, and not corrected.
+// The terms that the simplified model leaves out, as a contributor: they are known but not
+// corrected.
 #pragma once
 
 #include <optional>
@@ -9,9 +10,9 @@
 
 namespace mdof::algo {
 
-// Of a run by `simplified`: the difference from the exact solution of the same readings, at the
-// run's own angles, whole and with its sign (second order: 41 nm at 559 µrad). No key of the rig is
-// behind it. None of other models.
+// For a run by `simplified`: the difference from the exact solution of the same readings, at the
+// run's own angles, as a whole with its sign (second order: 41 nm at 559 µrad). It has no key in
+// the rig. Other models have no such contributor.
 std::optional<Contributor> model_contributor(const Rig& rig, const Run& run, Model model);
 
 }  // namespace mdof::algo

@@ -1,4 +1,4 @@
-// Where the probes of a run look at a plane of the target.
+// The points where the probes of a run measure a plane of the target.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace mdof::algo {
 
-// A footprint is that of the mean travel at its target: the visits of a place meet the same height.
-// `plane`: place in the rig; `points`: as of point_sensitivities().
+// A footprint is at the mean travel of its target, so all visits of a target share one height.
+// `plane`: index in the rig; `points`: as returned by point_sensitivities().
 PlaneFootprints plane_footprints(const Rig& rig, const Fixture& fixture, const Run& run,
                                  const std::vector<PointSensitivity>& points, std::size_t plane);
 

@@ -25,7 +25,7 @@ class Covariance {
         carriage_(carriage),
         sum_(Eigen::MatrixXd::Zero(size(), size())) {}
 
-  // The places, directions and zeros that one calibration found together.
+  // Positions, directions and zeros of probes that one calibration determined together.
   void add_calibration(const CalibrationCovariance& covariance) {
     together_.insert(covariance.of.begin(), covariance.of.end());
     const auto n = static_cast<Eigen::Index>(covariance.of.size());
@@ -60,7 +60,7 @@ class Covariance {
         mounting.probe[k].tilt_turns = turns;
       });
   }
-  // One random surface under all probes that look at the plane.
+  // One random surface is common to all probes of the plane.
   void add_flatness(std::size_t plane) {
     const TargetPlane& surface = rig_.planes[plane];
     if (!surface.u_flatness.declared()) return;
@@ -125,7 +125,7 @@ class Covariance {
                    {readings_m.data(), static_cast<std::size_t>(size())});
     return readings_m;
   }
-  // `set(mounting, u)`; half of what the readings differ by between u and -u.
+  // Half the difference of the readings between `set(mounting, u)` and `set(mounting, -u)`.
   template <class Set>
   Eigen::VectorXd change_by_mounting(double u, Set set) const {
     Mounting plus;
@@ -146,7 +146,7 @@ class Covariance {
   void add_place(std::size_t k, std::size_t axis, double u_m) {
     if (u_m > 0) add_together(change_by_place(k, axis, u_m));
   }
-  // By a component of its direction; the line keeps its point.
+  // Change by a component of the probe's direction; the probe's line keeps its point.
   Eigen::VectorXd change_by_direction(std::size_t k, std::size_t axis, double u_rad) const {
     const auto zeroed = [&](double by) {
       Fixture turned = fixture_;
@@ -156,7 +156,7 @@ class Covariance {
     };
     return (zeroed(u_rad) - zeroed(-u_rad)) / 2;
   }
-  // By `u` of a quantity of a calibration.
+  // Change by `u` of a quantity of a calibration.
   Eigen::VectorXd change_by(const std::string& quantity, double u) const {
     for (std::size_t k = 0; k < rig_.probes.size(); ++k) {
       const std::string& id = rig_.probes[k].id;
@@ -174,7 +174,7 @@ class Covariance {
   const Fixture& fixture_;
   double travel_m_;
   Errors5 carriage_;
-  std::set<std::string> together_;  // what has its covariances
+  std::set<std::string> together_;  // quantities whose covariances are declared
   Eigen::MatrixXd sum_;
 };
 

@@ -13,10 +13,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostTrials = 2000, kFewestTrials = 200;  // U is then right to 2 and 7 %
-constexpr std::size_t kMostDrawn = 4'000'000;                   // errors of visits of all trials
+constexpr std::size_t kMostTrials = 2000, kFewestTrials = 200;  // U is then accurate to 2 and 7 %
+constexpr std::size_t kMostDrawn = 4'000'000;                   // errors of visits, in all trials
 
-// The run with each target and approach as a target of its own, approached from one side.
+// The run with each pair of target and approach as a target of its own, approached from one side.
 Run approaches_apart(Run run) {
   for (MeasuredPoint& p : run.points) {
     p.target = 2 * p.target + (p.point.direction > 0 ? 1 : 0);
@@ -25,7 +25,7 @@ Run approaches_apart(Run run) {
   return run;
 }
 
-// The means of such a run, by the target that both approaches have.
+// The means of a run by approaches_apart(), by target.
 class Approaches {
  public:
   Approaches(const MeanErrors& means, std::size_t named, bool without_line) {
@@ -62,7 +62,7 @@ class Approaches {
     for (std::size_t i = 0; i < errors_[0].size(); ++i) B.push_back(errors_[1][i] - errors_[0][i]);
     return B;
   }
-  // Its range is the largest size of a reversal.
+  // The range of these values is the largest absolute reversal.
   std::vector<double> half_reversals_both_ways() const {
     std::vector<double> halves;
     for (const double B : reversals()) {
@@ -82,7 +82,7 @@ class Parameters {
  public:
   Parameters(const RunBudgets& run, std::size_t named, bool without_line)
       : run_(run), named_(named), without_line_(without_line) {}
-  // Of the range of deviations; NaN: one of them is not there.
+  // U of the range of these deviations; NaN if one of them is missing.
   double range(const Deviations& deviations) const {
     return U({"",
               [of = of(deviations)](const MeanErrors& means) {
@@ -122,8 +122,8 @@ class Parameters {
 
 struct Visits {
   VisitGroups groups;
-  std::vector<double> measured, noise;  // its standard uncertainty
-  std::vector<std::size_t> point;       // of the run
+  std::vector<double> measured, noise;  // noise: standard uncertainty
+  std::vector<std::size_t> point;       // index in the run
 };
 
 Visits visits_of(const Run& run, std::size_t named) {

@@ -1,4 +1,4 @@
-// The uncertainty of the parameters of ISO 230-2 of an error of a run.
+// Uncertainties of the ISO 230-2 parameters of one error of a run.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace mdof::algo {
 
-// Of the error at `named` in the order of error_names(), as readings_of_run() takes it. Each target
-// and approach has a mean, whose budget is that of RunBudgets: B is the largest of the sizes of
-// differences of two of them, E and M are ranges, and noise makes all of these larger. M is the
-// straightness, or the range of an angle, of the run's other budgets, and has their U. R by trials
-// (repeatability_interval.h) of the noise of each dwell and of what is declared.
+// `named`: index of the error in error_names(), as in readings_of_run(). Each target and approach
+// has a mean with a budget as in RunBudgets. B is the largest absolute difference of the two means
+// of a target; E and M are ranges; noise makes all of them larger. M is the straightness, or the
+// range of an angle, and has the U of the run's other budgets. The uncertainty of R comes from
+// trials (repeatability_interval.h) of the noise of each dwell and of the declared uncertainties.
 // Error: as contributors().
 Result<RunPositioningUncertainty> run_positioning_uncertainty(const Rig& rig, const Run& run,
                                                               std::size_t named, bool keep_slope);

@@ -8,7 +8,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr int kHalvings = 8;  // right to 1/256 of R
+constexpr int kHalvings = 8;  // U is then accurate to 1/256 of R
 
 struct Group {
   double n = 0, mean = 0, s = 0;
@@ -67,7 +67,7 @@ double repeatability_U(const VisitGroups& groups, const std::vector<double>& mea
   };
   const double as_measured = distance(1), of_none = distance(0);
   if (of_none >= R) return of_none;
-  double low = 0, high = 1;  // parts of R: within reach of the measured R from `high` on
+  double low = 0, high = 1;  // parts of R; from `high` on the measured R lies within c(T)
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = (low + high) / 2;
     (distance(middle) >= (1 - middle) * R ? high : low) = middle;

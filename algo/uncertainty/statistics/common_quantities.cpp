@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 6> kOfProbes = {"u_sensitivity_ppm", "u_l
                                                        "u_tilt_factor",     "tilt_factor",
                                                        "linearity",         "polynomial_um"};
 
-// The footprints of runs along different axes, of one place of the target.
+// Footprints in machine axes, so that runs along different axes have one frame.
 PlaneFootprints in_machine_axes(const PlaneFootprints& local, Axis axis) {
   const auto axes = local_axes(axis);
   const auto turned = [&](const Eigen::Vector3d& v) {

@@ -21,7 +21,7 @@ struct Place {
   }
 };
 
-// Along one approach, or both where `direction` is 0.
+// Errors along one approach, or along both if `direction` is 0.
 class ErrorCurve {
  public:
   ErrorCurve(const Run& run, int direction) {
@@ -36,7 +36,8 @@ class ErrorCurve {
   }
   bool has_slope() const { return places_.size() > 1; }
 
-  // Between the neighbours of the nearest place; at an end between it and its neighbour.
+  // Slope between the neighbours of the nearest place; at an end between this place and its
+  // neighbour.
   Errors5 slope_at(double travel_m) const {
     auto nearest =
         std::lower_bound(std::next(places_.begin()), std::prev(places_.end()), travel_m,

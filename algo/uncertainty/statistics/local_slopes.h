@@ -1,4 +1,4 @@
-// How steeply the errors of a run change along its axis.
+// Slopes of the errors of a run along its axis.
 #pragma once
 
 #include <vector>
@@ -7,10 +7,11 @@
 
 namespace mdof::algo {
 
-// Of each point the change of the errors, local frame and stated where the run is, by 1 m of the
-// target's travel: by the means of the neighbouring targets of its approach. Of an approach with
-// targets at one place only those of both count; 0 where this leaves one place, too. Targets that
-// are nearer than 2 % of the mean step are one place: what noise does between them is no slope.
+// Change of the errors of each point by 1 m of the target's travel: local frame, stated at the same
+// place as the errors of the run. The slope is that between the means of the neighbouring targets
+// of the point's approach. If this approach has targets at one place only, the means of both
+// approaches are used; if they have one place only, the slope is 0. Targets nearer than 2 % of the
+// mean step are one place, because noise between them is no slope.
 std::vector<Errors5> local_slopes(const Run& run);
 
 }  // namespace mdof::algo

@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr int kInversionSteps = 5;  // right to a hundredth of U
+constexpr int kInversionSteps = 5;  // U is then accurate to a hundredth of itself
 
 double point_of_95_percent(std::vector<double> off) {
   const auto at = off.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(off.size()));

@@ -58,14 +58,14 @@ class Decomposition {
   double freedom() const { return freedom_; }
   double runs() const { return static_cast<double>(visits_of_run_.size()); }
 
-  // χ²/ν beyond its 80 % point, by the normal distribution.
+  // Whether χ²/ν exceeds its 80 % point, by the normal distribution.
   bool by_scatter(std::size_t k) const {
     return freedom_ > 0 && scatter_[k] > noise_[k] * (1 + 0.84 * std::sqrt(2 / freedom_));
   }
 
   double pooled_variance(std::size_t k) const { return by_scatter(k) ? scatter_[k] : noise_[k]; }
 
-  // By target: of the mean of both approaches, or of the only one.
+  // Variance of the mean of both approaches, or of the only approach, by target.
   std::map<int, Errors5> variances() const {
     std::map<int, Errors5> sums;
     for (const Visit& visit : visits_) {
@@ -94,7 +94,7 @@ class Decomposition {
     return {std::move(noisy), freedom_};
   }
 
-  // Variance of the mean's shift, without what the scatter of the visits makes of it.
+  // Variance of the shift of the mean, less the part that the scatter of the visits explains.
   Errors5 shift_variance() const {
     Errors5 variance{};
     const double n = runs();
@@ -118,7 +118,7 @@ class Decomposition {
   }
 
  private:
-  // By how many equal parts the mean of its target is made; the visit is one of them.
+  // Number of equal parts of the mean of the visit's target; the visit is one of them.
   double visits_like(const Visit& visit) const {
     return (has_both(visit.target) ? 2 : 1) *
            static_cast<double>(visits_of_.at({visit.target, visit.way}));
@@ -157,12 +157,12 @@ class Decomposition {
   std::map<int, int> visits_of_run_;
   std::vector<Errors5> shifts_;       // by pass
   std::vector<std::size_t> pass_of_;  // by visit
-  Errors5 scatter_{}, noise_{};       // variance of a visit by the residuals, mean of the dwells'
+  Errors5 scatter_{}, noise_{};       // variances of a visit: by the residuals, mean of the dwells
   double freedom_ = 0;
 };
 
-// Changes of the means of each target and way by a unit, as those of the means of both approaches
-// by one u of each error. [part][target]
+// Changes of the means of both approaches by one u of each error: [part][target]. `by_unit`:
+// changes of the means of each target and approach by one unit.
 std::vector<std::vector<Errors5>> of_both_approaches(
     const TargetChanges& changes, const std::vector<MeasuredPoint>& counted,
     const std::vector<std::map<TargetAndWay, double>>& by_unit, const Errors5& u) {
@@ -194,7 +194,7 @@ double without_part(double u, double part) {
   return std::sqrt(std::max(0.0, u * u - part * part));
 }
 
-// Adds the changes of named error k as a part of its own, where there are any.
+// Adds the changes of named error k as a part of its own, unless all are 0.
 void add_alone(std::vector<std::vector<Errors5>>& parts, const std::vector<Errors5>& changes,
                std::size_t k) {
   std::vector<Errors5> part(changes.size());
@@ -218,7 +218,7 @@ Repeatability repeatability(const MovingAxis& moving, const std::vector<Measured
   const WithoutDrift without = uneven ? without_drift_of_runs(counted) : WithoutDrift{};
   const std::map<int, Errors5> variances = visits.variances();
   std::vector<Errors5> trend;  // by target
-  // Of runs that lack visits without their level, which is the shift.
+  // Runs that lack visits are taken without their level: it is the shift.
   for (const TargetMean& mean :
        uneven ? target_means(moving, without.points, Approach::both) : means) {
     Errors5& u = found.u.emplace_back(mean.u);

@@ -1,5 +1,5 @@
-// What the visits of a run show of its random errors: what is independent from visit to visit, and
-// shifts that all targets of a pass have in common, which cancel where a figure takes differences.
+// Random errors that the visits of a run show: errors that are independent from visit to visit, and
+// shifts that all targets of a pass have in common, which cancel if a figure takes differences.
 #pragma once
 
 #include <array>
@@ -15,27 +15,26 @@ namespace mdof::algo {
 
 struct Repeatability {
   std::vector<Errors5> u;  // of the means at the targets, independent of each other; named
-  // Of those errors whose u is by the scatter; a dwell's noise is that of many readings.
+  // For the errors whose u comes from the scatter; the noise of a dwell comes from many readings.
   double freedom = std::numeric_limits<double>::infinity();
   std::array<bool, kErrorCount> by_scatter{};
-  // What is not known of the shifts of runs that lack visits, and what levels of their passes do to
-  // several means together, by independent parts; and the trend of the reversal, where targets have
-  // one approach. [part][target]
+  // Effects on several means together, as independent parts: [part][target]. `together`:
+  // uncertainty of the shifts of runs that lack visits, and the trend of the reversal if targets
+  // have one approach. `of_passes`: levels of the passes of such runs.
   std::vector<std::vector<Errors5>> together, of_passes;
   double passes_freedom = std::numeric_limits<double>::infinity();
-  // Of those errors whose u is by the scatter; its targets are those of the means.
+  // For the errors whose u comes from the scatter; its targets are those of the means.
   std::array<std::optional<CorrelatedNoise>, kErrorCount> correlated;
-  Errors5 u_visit{};  // of a visit, pooled
-  Errors5 u_shift{};  // of all means together
+  Errors5 u_visit{};  // of one visit, pooled
+  Errors5 u_shift{};  // common to all means
   double shift_freedom = std::numeric_limits<double>::infinity();
 };
 
-// `means`: target_means() of both approaches of these points. By least squares error = of the
-// target and its approach + of the pass: the scatter that this leaves, over all targets together,
-// is the variance of a visit where it is larger than the noise of its dwell, by more than one in
-// five logs have by chance. The shift is that of the passes from run to run; where runs lack
-// visits, so that the means are made without the shifts of the runs, that of these
-// (uneven_visits.h).
+// `means`: target_means() of both approaches of these points. The least-squares fit error = of the
+// target and its approach + of the pass leaves a scatter, which is pooled over all targets. It is
+// the variance of a visit if it exceeds the noise of the dwells by more than chance gives in one of
+// five logs. The shift is that of the passes from run to run. If runs lack visits, the means are
+// calculated without the shifts of the runs, and the shift is the level of uneven_visits.h.
 Repeatability repeatability(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                             const std::vector<TargetMean>& means);
 

@@ -13,7 +13,7 @@
 namespace mdof::algo {
 namespace {
 
-// Of one target and approach: visits by the number of the run.
+// Visits of one target and approach, by the index of the run.
 using VisitsOfRuns = std::map<Eigen::Index, double>;
 
 TargetAndWay target_and_way(const MeasuredPoint& p) {
@@ -29,7 +29,7 @@ double number_of_visits(const VisitsOfRuns& visits) {
 }  // namespace
 
 // The mean of a target and approach without the shifts s of its runs r is ȳ - Σ (n_r/n) s_r. By
-// least squares s depends on what the visits differ by from ȳ, and so is independent of it; its
+// least squares s depends on the differences of the visits from ȳ, so it is independent of ȳ. Its
 // covariance is the inverse of the normal equations without the means.
 std::vector<std::map<TargetAndWay, double>> parts_by_run_shifts(
     const std::vector<MeasuredPoint>& counted) {
@@ -66,11 +66,11 @@ std::vector<std::map<TargetAndWay, double>> parts_by_run_shifts(
 
 namespace {
 
-// Half of what the passes of each run that has both differ by.
+// Half the difference of the two passes of each run that has both.
 struct HalfDifferences {
   std::vector<int> runs;
-  std::vector<Errors5> half;       // but for one constant of all
-  std::vector<double> by_a_visit;  // variance of it, by a variance of 1 of a visit
+  std::vector<Errors5> half;       // except for one constant common to all
+  std::vector<double> by_a_visit;  // variance of `half` by a variance of 1 of a visit
 };
 
 HalfDifferences half_differences(const MovingAxis& moving,
@@ -106,7 +106,7 @@ HalfDifferences half_differences(const MovingAxis& moving,
   return found;
 }
 
-// What the means change by if the forward pass of a run is 1 higher and its reverse pass 1 lower.
+// Changes of the means if the forward pass of a run is 1 higher and its reverse pass 1 lower.
 std::map<TargetAndWay, double> changed_by_half(const RunDrifts& drifts,
                                                const std::vector<MeasuredPoint>& counted, int run) {
   std::vector<Errors5> changes(counted.size());

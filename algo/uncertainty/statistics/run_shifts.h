@@ -1,5 +1,5 @@
-// How well least squares knows the shifts of runs against each other where runs lack visits
-// (uneven_visits.h), and what that does to the means at the targets.
+// Uncertainty of the shifts of runs against each other, by least squares, if runs lack visits
+// (uneven_visits.h), and its effect on the means at the targets.
 #pragma once
 
 #include <cstddef>
@@ -16,25 +16,25 @@ namespace mdof::algo {
 using TargetAndWay = std::pair<int, int>;  // way: 1 forward, 0 reverse
 
 // Changes of the mean of each target and approach by independent parts whose squares add, for noise
-// of variance 1 that is independent from visit to visit: beside what the noise of its own visits
-// does to a mean. `counted`: points that count in means. Nothing where no run lacks visits, as the
-// shifts then are the same in all means, and of more than kMostShiftedRuns runs, where one shift
-// has hardly a share in a mean.
+// of variance 1 that is independent from visit to visit. They come in addition to the noise of the
+// visits of the mean itself. `counted`: points that count in means. Empty if no run lacks visits,
+// because the shifts are then the same in all means, and for more than kMostShiftedRuns runs,
+// because one shift then hardly changes a mean.
 inline constexpr std::size_t kMostShiftedRuns = 256;
 std::vector<std::map<TargetAndWay, double>> parts_by_run_shifts(
     const std::vector<MeasuredPoint>& counted);
 
-// What levels of the passes do to the means, which are made without that of the whole run only. A
-// level of both passes of a run is that of the run; half of what they differ by, from run to run,
-// stays in the means where a run lacks a part of a pass.
+// Effect of the levels of the passes on the means, from which only the level of each whole run is
+// removed. A level that both passes of a run share is the level of the run. Half the difference of
+// the two passes varies from run to run, and stays in the means if a run lacks a part of a pass.
 struct PassLevels {
-  // By 1 of this half difference of one run each. Nothing where no run lacks visits, of more than
-  // kMostShiftedRuns runs, and where fewer than two runs have both passes.
+  // By a half difference of 1 in one run each. Empty if no run lacks visits, for more than
+  // kMostShiftedRuns runs, and if fewer than two runs have both passes.
   std::vector<std::map<TargetAndWay, double>> parts;
-  Errors5 u_half{};  // standard deviation of the half difference, without that of its noise; named
+  Errors5 u_half{};  // standard deviation of the half difference, less its noise; named
   double freedom = std::numeric_limits<double>::infinity();
 };
-// `u_visit`: of one visit, independent of the others; named.
+// `u_visit`: u of one visit, independent of the other visits; named errors.
 PassLevels pass_levels(const MovingAxis& moving, const std::vector<MeasuredPoint>& counted,
                        const Errors5& u_visit);
 

@@ -1,4 +1,4 @@
-// The noise of the means at the targets, and the shift that they share, of the trials of a block.
+// Noise of the means at the targets, and the shift that they share, in the trials of a block.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ class TargetNoise {
   // Keeps a reference to `random`.
   TargetNoise(BlockOfDraws& draws, const Repeatability& random);
   void add_to(MeanErrors& means, std::size_t trial, double factor) const;
-  // By which normal numbers of one trial become those of Student's t: √(ν/χ²), by Wilson and
-  // Hilferty.
+  // The factor that turns the normal numbers of one trial into those of Student's t: √(ν/χ²), by
+  // Wilson and Hilferty.
   double student(std::size_t trial, double freedom) const;
 
  private:
   const Repeatability& random_;
-  std::vector<std::vector<double>> drawn_;  // of each target, and of the shift; by trial
-  // Of each part that changes several targets.
+  std::vector<std::vector<double>> drawn_;  // of each target, then of the shift; by trial
+  // For each part that changes several targets.
   std::vector<const std::vector<Errors5>*> parts_;
   std::vector<std::vector<double>> together_;
   std::vector<double> for_freedom_;

@@ -13,7 +13,7 @@ namespace {
 
 using Numbers = std::map<std::pair<int, int>, std::size_t>;
 
-// The number of a group, from 0; counts its members.
+// Index of a group, from 0; counts its members.
 std::size_t number_of(std::pair<int, int> group, Numbers& numbers, std::vector<double>& members) {
   const auto [at, is_new] = numbers.emplace(group, numbers.size());
   if (is_new) members.push_back(0);
@@ -89,7 +89,8 @@ VisitScatter::Pooled VisitScatter::pooled(const std::vector<Errors5>& values, do
     if (freedom_of_passes > 0) fourths += fourth_by(of_passes / freedom, freedom_of_passes);
     if (freedom > freedom_of_passes)
       fourths += fourth_by((all[k] - of_passes) / freedom, freedom - freedom_of_passes);
-    // Where passes take all degrees of freedom, what lies within them has none of its own.
+    // If passes use all degrees of freedom, the part within them has no degrees of freedom of its
+    // own.
     pooled.freedom[k] = std::min(freedom, effective_freedom(pooled.variance[k], fourths));
   }
   return pooled;

@@ -1,4 +1,4 @@
-// What the repeats of a run's targets show of a single visit.
+// Variance of a single visit, from repeated visits of a run's targets.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +10,26 @@ namespace mdof::algo {
 
 class VisitScatter {
  public:
-  // Of the points that count in means (uneven_visits.h).
+  // Uses the points that count in means (uneven_visits.h).
   explicit VisitScatter(const std::vector<MeasuredPoint>& points);
 
   bool has_repeats() const { return freedom_ > 0; }  // of a target from the same side
   bool are_single() const { return !visits_.empty() && !has_repeats(); }
 
-  // Variance of a visit and its degrees of freedom, 0 without repeats.
+  // Variance of a visit and its degrees of freedom; 0 without repeats.
   struct Pooled {
     Errors5 variance{}, freedom{};
   };
-  // `values`: of each point of the run. Pooled over the visits of each target from each side. What
-  // all targets of a pass share has the few degrees of freedom of the passes: both parts add by
-  // Welch-Satterthwaite.
+  // `values`: of each point of the run. The variance is pooled over the visits of each target from
+  // each side. The part that all targets of a pass share has only the degrees of freedom of the
+  // passes; both parts add by Welch-Satterthwaite.
   Pooled of(const std::vector<Errors5>& values) const;
-  // Of what a change in proportion to time leaves, by least squares. `time_s`: of each point.
+  // The same, after a change in proportion to time is removed by least squares. `time_s`: of each
+  // point.
   Pooled of_steady(const std::vector<Errors5>& values, const std::vector<double>& time_s) const;
 
  private:
-  // `taken`: degrees of freedom that were fitted.
+  // `taken`: number of fitted degrees of freedom.
   Pooled pooled(const std::vector<Errors5>& values, double taken) const;
 
   struct Visit {

@@ -8,8 +8,8 @@
 namespace mdof::algo {
 namespace {
 
-// §7.9.2: u = c 10^l with c an integer of that many digits; the tolerance is half of 10^l.
-// Powers of ten by multiplication, so that it has the same bits everywhere.
+// §7.9.2: u = c 10^l, where c is an integer with that many digits; the tolerance is half of 10^l.
+// Powers of ten are products, so they have the same bits everywhere.
 double tolerance_of(double u, int digits) {
   double least = 1;  // least c: 10^(digits-1)
   for (int i = 1; i < digits; ++i) least *= 10;

@@ -11,14 +11,14 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kChunk = 128;  // trials of one task: of whole runs about a second
-constexpr double kSettled = 5e-4;    // bisection ends at this share of the scale
+constexpr std::size_t kChunk = 128;  // trials of one task: about a second for whole runs
+constexpr double kSettled = 5e-4;    // bisection ends at this part of the scale
 constexpr double kLargest = 0x1p20, kSmallest = 0x1p-20;
 constexpr double kTwoSided95 = 1.95996398454005423552;
 constexpr std::size_t kFrontierPoints = 8;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// The trials within the limit, for any scales of the quantities.
+// Counts the trials within the limit, for any scales of the quantities.
 class TrialsWithinLimit {
  public:
   TrialsWithinLimit(const ScalableExperiment& experiment, const PlannedAllocation& planned,
@@ -34,7 +34,7 @@ class TrialsWithinLimit {
       Columns out(experiment_.outputs().size(), n);
       experiment_.run_scaled(scale, first, 1, n, out.place());
       for (std::size_t j = 0; j < n; ++j)
-        if (std::abs(out.at(output_, j)) <= planned_.limit) ++within[c];  // NaN is not within
+        if (std::abs(out.at(output_, j)) <= planned_.limit) ++within[c];  // NaN does not count
     });
     return std::accumulate(within.begin(), within.end(), std::uint64_t{0});
   }
@@ -46,15 +46,15 @@ class TrialsWithinLimit {
   const ForEach& for_each_;
 };
 
-// Searches the largest factor upon some quantities, the others at `base`, by that count. Remembers
-// it: the three searches of one tolerance meet at the same factors.
+// Finds the largest factor of some quantities by this count, the others at `base`. Stores the
+// counts, because the three searches of one tolerance use the same factors.
 class FactorSearch {
  public:
   FactorSearch(const TrialsWithinLimit& within, std::vector<double> base,
                std::vector<std::size_t> which)
       : within_(within), base_(std::move(base)), which_(std::move(which)) {}
 
-  // The largest factor with at least `needed` trials within; 0: none, infinite: any.
+  // The largest factor with at least `needed` trials within the limit; 0: no factor, infinite: any.
   double largest(std::uint64_t needed) {
     if (count(0) < needed) return 0;
     double low = 1, high = 1;
@@ -93,7 +93,7 @@ class FactorSearch {
   std::map<double, std::uint64_t> known_;
 };
 
-// Counts of trials within that the limit asks for, and those of its order-statistic bounds.
+// Numbers of trials within the limit: for the probability, and for its order-statistic bounds.
 struct CountsNeeded {
   std::uint64_t nominal, more, fewer;
   CountsNeeded(std::uint64_t trials, double p) {
@@ -105,7 +105,7 @@ struct CountsNeeded {
   }
 };
 
-// A tolerance of no size (a constant 0) stays of no size whatever its factor.
+// A tolerance of size 0 (a constant 0) keeps this size for any factor.
 double times(double factor, double size) {
   return size == 0 ? 0 : factor * size;
 }

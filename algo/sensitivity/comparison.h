@@ -1,4 +1,4 @@
-// Two fixtures with the same random numbers: what remains is the difference of the fixtures.
+// Compares two fixtures with the same random numbers, so that only the fixtures differ.
 #pragma once
 
 #include <cstdint>
@@ -12,28 +12,28 @@
 
 namespace mdof::algo {
 
-// As SobolSums: blocks in any order from any thread, the same bits. Compared are the outputs that
-// both have.
+// Blocks may be added in any order from any thread and give the same bits, as in SobolSums.
+// Compares the outputs that both experiments have.
 class ComparisonSums {
  public:
-  // Runs the first block for the centres; sum_block_trials() says how long a block had best be.
+  // Runs the first block to find the centres; sum_block_trials() gives a good block length.
   ComparisonSums(const Experiment& ours, const Experiment& other, std::uint64_t block_trials);
   void add_block(const Experiment& ours, const Experiment& other, std::uint64_t block);
   void merge(const ComparisonSums& sums);
-  // The ratio's standard error is that of paired trials, from the scatter of the blocks.
+  // The standard error of the ratio is that of paired trials, from the scatter of the blocks.
   std::vector<ComparedOutput> result() const;
 
  private:
   struct Pair {
     std::string key;
-    std::size_t ours, other;  // place among the outputs of each
+    std::size_t ours, other;  // index among the outputs of each
     double centre_ours = 0, centre_other = 0;
   };
   struct Sums {  // of one output in one block, about the centres
     double n = 0, ours = 0, ours2 = 0, other = 0, other2 = 0;
   };
   std::uint64_t block_trials_;
-  std::size_t ours_, other_;  // outputs of each
+  std::size_t ours_, other_;  // number of outputs of each
   std::vector<Pair> pairs_;
   std::map<std::uint64_t, std::vector<Sums>> blocks_;
 };

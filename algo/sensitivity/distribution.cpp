@@ -13,10 +13,10 @@ namespace {
 using Kind = Distribution::Kind;
 
 constexpr double kNodesPerScore = 256;
-constexpr double kLastScore = 8.5;  // beyond any 52-bit uniform number
+constexpr double kLastScore = 8.5;  // above any 52-bit uniform number
 
-// The quantile of t whose upper tail is that of the normal score, by Newton's method on the
-// logarithm of the tail: nearly straight there, so it converges from any near start.
+// The quantile of t with the same upper tail as the normal score, by Newton's method on the
+// logarithm of the tail. The logarithm is nearly linear there, so any near start converges.
 double t_node(double score, double dof, double start) {
   const double tail = normal_cdf(-score);
   double x = start;
@@ -31,9 +31,10 @@ double t_node(double score, double dof, double start) {
 
 }  // namespace
 
-// t quantiles over the normal score, with their slope φ(score) / f(x); odd, so half is kept.
+// t quantiles over the normal score, with their slope φ(score) / f(x). They are odd, so half are
+// stored.
 struct QuantileFunction::StudentTable {
-  std::vector<double> x, slope;  // slope by node, not by score
+  std::vector<double> x, slope;  // slope per node, not per score
 
   explicit StudentTable(double dof) {
     const double h = 1 / kNodesPerScore;
@@ -103,11 +104,11 @@ double QuantileFunction::t_at_score(double score) const {
   return d_.centre + d_.spread * (score < 0 ? -x : x);
 }
 
-// JCGM 101 §6.4.4 with the ramps (1 - β)/2 of the width each.
+// JCGM 101 §6.4.4, each ramp (1 - β)/2 of the width.
 double QuantileFunction::trapezoidal(double p) const {
   const double width = d_.high - d_.low, ramp = width * (1 - d_.beta) / 2;
   const double height = 2 / (width * (1 + d_.beta));
-  const double share = height * ramp / 2;  // of each ramp
+  const double share = height * ramp / 2;  // probability of each ramp
   if (p < share) return d_.low + std::sqrt(2 * p * ramp / height);
   if (1 - p < share) return d_.high - std::sqrt(2 * (1 - p) * ramp / height);
   return d_.low + ramp + (p - share) / height;

@@ -1,6 +1,6 @@
-// Quantile functions of the distributions of a plan (JCGM 101 §6.4): every random number is made of
-// one uniform one by the inverse of its distribution function, which keeps stratified, correlated
-// and exchanged (Sobol) numbers the same thing.
+// Quantile functions of the distributions of a plan (JCGM 101 §6.4). Every random number comes from
+// one uniform number by the inverse of the distribution function, so stratified, correlated and
+// exchanged (Sobol) numbers need no special case.
 #pragma once
 
 #include <memory>
@@ -10,20 +10,20 @@
 
 namespace mdof::algo {
 
-// Accuracy, relative to the spread: 1e-15 closed forms; normal see gaussian(); t 4e-9 of the value
-// (cubic interpolation between exact nodes 1/256 of a standard deviation of the normal score
-// apart); empirical exact: value r of n sorted ones is the quantile at (r - 1/2)/n, linear between,
-// ends held.
+// Accuracy relative to the spread: 1e-15 for closed forms; for normal see gaussian(); for t 4e-9 of
+// the value (cubic interpolation between exact nodes at distances of 1/256 of a standard deviation
+// of the normal score). Empirical is exact: value r of n sorted values is the quantile at (r -
+// 1/2)/n, linear between them, constant beyond the ends.
 class QuantileFunction {
  public:
   explicit QuantileFunction(const Distribution& distribution);
 
   double at(double p) const;  // p in (0, 1)
-  // At p = Φ(score): for correlated quantities. For normal and t without a detour by p.
+  // At p = Φ(score), for correlated quantities. Normal and t do not calculate p.
   double at_score(double score) const;
 
-  // What a tolerance of this distribution is called by: |value| of a constant, standard deviation,
-  // scale of t, the largest |value| of a limited one.
+  // Size of a tolerance with this distribution: |value| of a constant, standard deviation, scale of
+  // t, the largest |value| of a limited distribution.
   double size() const;
 
  private:
@@ -33,7 +33,7 @@ class QuantileFunction {
   double empirical(double p) const;
 
   Distribution d_;
-  std::shared_ptr<const StudentTable> table_;  // t only
+  std::shared_ptr<const StudentTable> table_;  // only for t
 };
 
 }  // namespace mdof::algo

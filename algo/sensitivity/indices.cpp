@@ -94,7 +94,7 @@ OutputIndices SobolSums::result_of(std::size_t output) const {
     s1 += sums[output].s1;
   }
   const double mean = n > 0 ? s1 / (2 * n) : 0;
-  // Variance of A and B about their common mean, n times, of each block.
+  // For each block, the variance of A and B about their common mean, times n.
   std::vector<double> variance;
   for (const auto& [block, sums] : blocks_) {
     const Sums& s = sums[output];

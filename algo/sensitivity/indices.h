@@ -1,10 +1,10 @@
-// Variance-based sensitivity (Sobol): which cause makes how much of an output's variance.
+// Variance-based sensitivity (Sobol): the share of each cause in the variance of an output.
 //
-// With f_A, f_B two independent evaluations and f_ABi that of A with cause i from B, c a centre:
+// f_A and f_B are two independent evaluations, f_ABi is f_A with cause i from B, c is a centre:
 //   first order  S_i = mean((f_B - c)(f_ABi - f_A)) / V      (Saltelli et al., Comput. Phys.
 //                                                             Commun. 181 (2010), table 2 (b))
 //   total        T_i = mean((f_A - f_ABi)²) / 2V             (Jansen 1999, ibid. (f))
-//   V the variance of f_A and f_B together.
+//   V is the variance of f_A and f_B together.
 #pragma once
 
 #include <cstdint>
@@ -18,19 +18,18 @@
 
 namespace mdof::algo {
 
-// Sums of blocks of trials, kept apart so that the result is taken in the order of the blocks
-// whoever computed them: the same bits for any number of threads. Block b has the trials
-// b * block_trials ...; it costs 2 + causes evaluations a trial. sum_block_trials() says how long
-// a block had best be.
+// Sums of blocks of trials. The blocks are stored separately and added in their order, so the bits
+// are the same for any number of threads. Block b has the trials b * block_trials ...; each trial
+// costs 2 + causes evaluations. sum_block_trials() gives a good block length.
 class SobolSums {
  public:
-  // Runs the first block, 16 trials at least, for the centres.
+  // Runs the first block, at least 16 trials, to find the centres.
   SobolSums(const CausalExperiment& experiment, std::uint64_t block_trials);
   void add_block(const CausalExperiment& experiment, std::uint64_t block);
-  void merge(const SobolSums& other);  // of the same experiment
+  void merge(const SobolSums& other);  // must be of the same experiment
   std::uint64_t blocks() const { return blocks_.size(); }
-  // Standard errors from the scatter of the blocks, NaN below two. An output that does not vary
-  // has indices of 0. Trials that could not be solved are left out of their output.
+  // Standard errors come from the scatter of the blocks, NaN for fewer than two. An output that
+  // does not vary has indices of 0. An output ignores trials that it could not solve.
   std::vector<OutputIndices> result() const;
 
  private:

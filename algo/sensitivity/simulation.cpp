@@ -71,8 +71,8 @@ Result<SmallAngleFixture> nominal_fixture(const SimulationOptions& o) {
   return make_small_angle_fixture(fixture);
 }
 
-// The paper's small rotation and offset of the fixture, at each probe's point: z = 0 for the top
-// probes, y = h for the side ones.
+// The paper's small rotation and offset of the fixture, at the point of each probe: z = 0 for the
+// top probes, y = h for the side probes.
 void install(const SimulationOptions& o, SimulationConstants& s) {
   const double theta_y = from_mrad(o.theta_y_mrad), theta_p = from_mrad(o.theta_p_mrad);
   const double theta_r = from_mrad(o.theta_r_mrad);

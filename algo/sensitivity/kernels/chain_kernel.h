@@ -1,4 +1,4 @@
-// One vector of trials of a chain of frames, by the full product of rotations. SI inside.
+// Calculates one vector of trials of a chain of frames, by the full product of rotations. SI.
 #pragma once
 
 #include "algo/machine/tiny_angle.h"
@@ -13,7 +13,7 @@ struct ChainPoint {
 };
 
 struct TrialColumns {
-  const double* first;  // of the first column, at this vector of trials
+  const double* first;  // first column, at this vector of trials
   std::size_t stride;
 
   Vector sum(const ChainProgram& chain, const ChainSum& of) const {
@@ -26,7 +26,7 @@ struct TrialColumns {
   }
 };
 
-// Rz(c) Ry(b) Rx(a); a turn that is 0 in all trials is left out.
+// Rz(c) Ry(b) Rx(a); angles that are 0 in all trials are skipped.
 struct ChainTurn {
   bool turns[3];
   Vector sine[3], cosine[3];
@@ -55,7 +55,7 @@ struct ChainTurn {
   }
 };
 
-// x -> point + e + R (x - point), or back.
+// x -> point + e + R (x - point), or the inverse.
 inline void by_errors(const ChainProgram& chain, const ChainStep& step, const TrialColumns& columns,
                       ChainPoint& p) {
   const ChainTurn turn(chain, columns, &step.error[3]);

@@ -10,11 +10,11 @@ struct CirclePoint {
   Vector cosine, sine;
 };
 
-// cos and sin of 2π turns, turns in [0, 1]. The nearest quarter turn is taken off, then Taylor
-// polynomials to x¹⁷ and x¹⁶ on |x| <= π/4, whose rest is below 5e-17. Error below 2.5e-16.
+// cos and sin of 2π turns, turns in [0, 1]. Subtracts the nearest quarter turn, then uses Taylor
+// polynomials to x¹⁷ and x¹⁶ on |x| <= π/4, whose remainder is below 5e-17. Error below 2.5e-16.
 inline CirclePoint circle_point(Vector turns) {
   constexpr double kTwoPi = 6.283185307179586476925;
-  const Vector shifted = turns * 4.0 + 0x1.8p52;  // to the nearest integer, kept in the low bits
+  const Vector shifted = turns * 4.0 + 0x1.8p52;  // nearest integer, kept in the low bits
   const Vector quarters = shifted - 0x1.8p52;
   const Vector x = (turns - quarters * 0.25) * kTwoPi;
   const Vector y = x * x;

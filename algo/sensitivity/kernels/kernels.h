@@ -1,5 +1,5 @@
-// The compiled kernels of one instruction set. Each is written once on vectors (vector.h) and
-// compiled for every set; the bits are the same from all.
+// The compiled kernels of one instruction set. Each kernel is written once on vectors (vector.h)
+// and compiled for every set; all sets give the same bits.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace mdof::algo {
 
 struct ChainProgram;
 
-// What a trial of the paper's simulations needs, SI.
+// Constants of the paper's simulations, SI.
 struct SimulationConstants {
   Stream stream;
   std::uint64_t bins;
@@ -21,17 +21,17 @@ struct SimulationConstants {
   double angle_range, offset_range;
   double x[5], across[5];  // A to E as installed: x, and y (top) or z (side)
   double h;
-  double radius;   // 0: the angles are not drawn
+  double radius;   // 0: no angles are drawn
   double skew[5];  // of the unit: x += skew · Δacross, across -= skew · Δx
   SmallAngleFixture nominal;
 };
 
-// What a trial drew; for one taken apart.
+// Numbers drawn in a trial, for a detailed replay.
 struct SimulationDraws {
   double *travel, *truth[5], *turns[5];
 };
 
-// Of one cell of trials, in fixed order: Σu, Σu² and the extremes of x.
+// Sums of one cell of trials, in fixed order: Σu, Σu² and the extremes of x.
 struct CellSums {
   double power[2];
   double min, max;
@@ -41,15 +41,15 @@ struct Kernels {
   // draws 2 group and 2 group + 1 of trials first + step j
   void (*draw_pairs)(const Stream&, std::uint64_t group, std::uint64_t first, std::uint64_t step,
                      std::size_t n, double* even, double* odd);
-  // out: five errors (µm, µrad); draws: null, or where to put what was drawn
+  // out: five errors (µm, µrad); draws: null, or destination of the drawn numbers
   void (*simulate)(const SimulationConstants&, std::uint64_t first, std::uint64_t step,
                    std::size_t n, double* const* out, const SimulationDraws* draws);
-  // x: n > 0 values, room for a multiple of 8. With t = (x - low) per_width and u = t / 4096 - 1:
-  // the sums of u and u², and index[j] = 1 + the histogram bin of x[j], 0 below and 8193
-  // above them (NaN: 0).
+  // x: n > 0 values, with room for a multiple of 8. t = (x - low) per_width, u = t / 4096 - 1.
+  // sums: of u and u². index[j] = 1 + the histogram bin of x[j]; 0 below the bins, 8193 above them
+  // (NaN: 0).
   void (*scan)(double* x, std::size_t n, double low, double per_width, CellSums& sums,
                std::uint64_t* index);
-  // error: x, y, z of the tool, m. Columns: of `stride` numbers each, a multiple of 8 above n - 1.
+  // error: x, y, z of the tool, m. columns: each has `stride` numbers, a multiple of 8 above n - 1.
   void (*chain)(const ChainProgram&, const double* columns, std::size_t stride, std::size_t n,
                 double* const* error);
 };

@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-inline constexpr std::size_t kLanes = 8;  // sums run over j, j + 8, j + 16 ... whatever the width
+inline constexpr std::size_t kLanes = 8;  // sums run over j, j + 8, j + 16 ... for any width
 inline constexpr std::size_t kParts = kLanes / kPerVector;
 
 struct Lanes {

@@ -1,5 +1,5 @@
-// Philox4x32-10 on vectors, one trial a lane: the bits of schema/base/random.h. Included by the
-// translation units of one instruction set each.
+// Philox4x32-10 on vectors, one trial in each lane, with the bits of schema/base/random.h. Each
+// translation unit that includes it has one instruction set.
 #pragma once
 
 #include "algo/sensitivity/kernels/vector.h"
@@ -35,10 +35,9 @@ struct DrawPair {
   Vector even, odd;  // draws 2g and 2g + 1
 };
 
-// The pairs of some blocks, which go round by round side by side, so that the processor need not
-// wait for one product after the other.
-// Words beyond their lower half are rubbish until the end: the product ignores it, and what is
-// xored into them goes into the next product.
+// Draws the pairs of several blocks. The rounds of all blocks alternate, so the processor does not
+// wait for one product after the other. The upper halves of the words are invalid until the end:
+// the product ignores them, and the values that are xored into them go into the next product.
 template <std::size_t kPairs>
 inline void draw_blocks(const RoundKeys& keys, const Words (&trial)[kPairs],
                         const std::uint64_t (&group)[kPairs], std::uint64_t stream,
@@ -67,7 +66,7 @@ inline void draw_blocks(const RoundKeys& keys, const Words (&trial)[kPairs],
   }
 }
 
-// kVectors vectors of trials from i on, n - i of them at most.
+// kVectors vectors of trials, at most n trials.
 template <std::size_t kVectors>
 inline void draw_some_pairs(const RoundKeys& keys, Words trial, std::uint64_t step,
                             std::uint64_t group, std::uint64_t stream, std::size_t n, double* even,

@@ -1,4 +1,4 @@
-// One vector of trials of the paper's simulations. SI inside.
+// Calculates one vector of trials of the paper's simulations. SI.
 #pragma once
 
 #include "algo/model/small_angle/small_angle_kernel.h"
@@ -9,9 +9,9 @@
 namespace mdof::algo {
 namespace {
 
-// Exact outputs at any place (Eq. 2 and its counterpart for the side), with what does not depend
-// on the place computed once: Δz = (y - δy) q + (d - x) p + δz,
-// Δy = (d - x) along - (z - δz) up + bulge + δy.
+// Exact outputs at any place (Eq. 2 and its counterpart for the side). The terms that do not depend
+// on the place are calculated once: Δz = (y - δy) q + (d - x) p + δz, Δy = (d - x) along - (z - δz)
+// up + bulge + δy.
 struct Outputs {
   Vector p, q, along, up, bulge;
   Vector travel, dy, dz;
@@ -86,7 +86,7 @@ inline void errors_of(const SimulationConstants& s, const Drawn& drawn, Vector (
   for (int k = 0; k < 5; ++k) error[k] = (error[k] - drawn.truth[k]) * 1e6;
 }
 
-// The bins of trials from `first` on. Where the step is a multiple of the bins all are in one.
+// Bins of the trials from `first` on. If the step is a multiple of the bins, all are the same.
 inline Vector bins_of(std::uint64_t bins, std::uint64_t first, std::uint64_t step) {
   Vector bin = broadcast(0.0);
   for (std::size_t i = 0; i < kPerVector; ++i)

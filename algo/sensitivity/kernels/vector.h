@@ -1,5 +1,5 @@
-// The vectors of the kernels: as wide as the instruction set of the translation unit that includes
-// this. Internal linkage throughout, for the same names mean other types in the next one.
+// The vectors of the kernels: as wide as the instruction set of the including translation unit.
+// Everything has internal linkage, because the same names mean other types in other units.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ inline Words as_words(Vector v) {
 // Product of the lower halves; the upper ones are ignored.
 inline Words product32(Words a, Words b) {
 #if defined(__AVX512F__)
-  // Masked by all ones: the plain one makes g++ 12 warn of its own header (GCC bug 105593).
+  // With a mask of all ones: without a mask g++ 12 warns about its own header (GCC bug 105593).
   return __builtin_bit_cast(Words, _mm512_maskz_mul_epu32(0xFF, __builtin_bit_cast(__m512i, a),
                                                           __builtin_bit_cast(__m512i, b)));
 #elif defined(__AVX2__)
@@ -84,7 +84,7 @@ inline Words lane_numbers() {
   return w;
 }
 
-// The first n lanes, n <= kPerVector.
+// Writes the first n lanes, n <= kPerVector.
 inline void write_some(double* to, Vector v, std::size_t n) {
   if (n == kPerVector) {
     write(to, v);

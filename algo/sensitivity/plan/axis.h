@@ -18,11 +18,11 @@ namespace mdof::algo {
 
 inline constexpr double kNotSolved = std::numeric_limits<double>::quiet_NaN();
 
-// Trials of one request, [reading][error][trial] and [reading][trial]. Reading 0 is the point.
+// Trials of one request: [reading][error][trial] and [reading][trial]. Reading 0 is the point.
 struct AxisReadings {
   std::size_t n = 0, probes = 0;
-  std::vector<double> truth, estimate;      // local; kNotSolved where it is not
-  std::vector<double> travel_m, encoder_m;  // true and shown
+  std::vector<double> truth, estimate;      // local frame; kNotSolved without a solution
+  std::vector<double> travel_m, encoder_m;  // true travel, and travel of the encoder
   std::vector<double> probe_m;              // [reading][probe][trial]
   std::vector<double> square_rad;           // [trial]: error of the artefact's angle
 
@@ -33,18 +33,18 @@ struct AxisReadings {
 
 class PlanAxis {
  public:
-  // `point`, `series`: whether those readings are needed.
+  // `point`, `series`: whether the point and the series are needed.
   static Result<PlanAxis> create(const StudyPlan& plan, const Rig& rig, const std::string& prefix,
                                  bool point, bool series, std::vector<std::string>& causes);
 
-  // Any thread; `out` is resized.
+  // Any thread; resizes `out`.
   void run(const DrawRequest& request, AxisReadings& out) const;
 
-  // What one trial of `numbers` mounts, and its true errors' amplitudes and phases (turns).
+  // True errors of one trial: amplitudes, and phases in turns.
   struct TrueErrors {
     Errors5 amplitude{};
     std::array<double, 5> phase_turns{};
-    Errors5 at(double travel_m, double period_m) const;  // local
+    Errors5 at(double travel_m, double period_m) const;  // local frame
   };
   void deviate(const DrawnNumbers& numbers, std::size_t j, Mounting& mounting,
                TrueErrors& truth) const;
@@ -71,7 +71,7 @@ class PlanAxis {
   PlanDraws draws_;
   Forward forward_ = Forward::rigid;
   bool zero_at_start_ = true, point_ = true;
-  std::size_t positions_ = 0;  // of a series; 0: none
+  std::size_t positions_ = 0;  // positions of a series; 0: no series
   double from_m_ = 0, to_m_ = 0, period_m_ = 0, flatness_length_m_ = 0;
   double fixture_per_K_ = 0, target_per_K_ = 0;
 };

@@ -1,4 +1,4 @@
-// Outputs of consecutive trials, one column each, for the sums over blocks.
+// Outputs of consecutive trials, one column for each output, for the sums over blocks.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace mdof::algo {
 
-// Most trials of a block where a trial takes milliseconds.
+// Largest number of trials in a block if a trial takes milliseconds.
 inline constexpr std::uint64_t kSlowSumBlock = 8;
 
-// Fewer blocks than these leave a standard error uncertain by more than 13 %, 1/√(2(blocks - 1)).
+// With fewer blocks a standard error is uncertain by more than 13 %, 1/√(2(blocks - 1)).
 inline constexpr std::uint64_t kFewSumBlocks = 30;
 
 class Columns {
@@ -21,13 +21,13 @@ class Columns {
   Columns(std::size_t outputs, std::size_t n) : n_(n), value_(outputs * n) {
     for (std::size_t k = 0; k < outputs; ++k) place_.push_back(value_.data() + k * n);
   }
-  Columns(Columns&&) = default;  // the places stay where they are
+  Columns(Columns&&) = default;  // moving keeps the addresses in place_
   Columns(const Columns&) = delete;
 
   std::span<double* const> place() const { return place_; }
   double at(std::size_t output, std::size_t j) const { return value_[output * n_ + j]; }
 
-  // Of the trials that were solved; 0 if none was.
+  // Mean of the solved trials; 0 if no trial was solved.
   double mean(std::size_t output) const {
     double sum = 0, count = 0;
     for (std::size_t j = 0; j < n_; ++j) {
@@ -44,8 +44,9 @@ class Columns {
   std::vector<double*> place_;
 };
 
-// Trials of a block where `trials` in all are wanted: 64 blocks or more, as the standard errors
-// come from their scatter, or one a trial; and no longer than threads share well.
+// Number of trials in a block for `trials` in all. It gives at least 64 blocks, because the
+// standard errors come from their scatter, or one block for each trial; and it is short enough for
+// threads to share the work well.
 inline std::uint64_t sum_block_trials(std::uint64_t trials) {
   return std::clamp<std::uint64_t>(trials / 64, 1, 4096);
 }

@@ -29,7 +29,7 @@ bool has_angle(Effect effect) {
   return effect == Effect::probe_circle || effect == Effect::probe_tilt || effect == Effect::truth;
 }
 
-// A true error of a single position has no phase to vary.
+// A true error at a single position has no phase that varies.
 bool varies(const DrawnQuantity& q, const Distribution& d, bool series) {
   if (d.kind != Distribution::Kind::constant) return true;
   if (d.centre == 0) return false;
@@ -55,7 +55,7 @@ Result<PlanDraws> PlanDraws::create(const StudyPlan& plan, const Rig& rig,
   for (std::size_t i = 0; i < plan.quantities.size(); ++i) {
     draws.function_.emplace_back(plan.quantities[i].distribution);
     auto targets = resolve_quantity(plan.quantities[i].name, rig);
-    if (!targets) continue;  // of the other axis
+    if (!targets) continue;  // it belongs to the other axis
     for (QuantityTarget& target : *targets) {
       DrawnQuantity q;
       q.target = std::move(target);
@@ -80,7 +80,7 @@ Status PlanDraws::add_group(const PlannedCorrelation& planned) {
   for (const std::string& name : planned.quantities) {
     const auto found = std::find_if(drawn_.begin(), drawn_.end(),
                                     [&](const DrawnQuantity& q) { return q.target.name == name; });
-    if (found == drawn_.end()) continue;  // of the other axis
+    if (found == drawn_.end()) continue;  // it belongs to the other axis
     found->group = groups_.size();
     group.members.push_back(static_cast<std::size_t>(found - drawn_.begin()));
   }
@@ -101,7 +101,8 @@ Status PlanDraws::add_group(const PlannedCorrelation& planned) {
   return {};
 }
 
-// By the quantities' names in the plan, or those of each probe; a correlated group is one.
+// Names of causes are those of the quantities in the plan, or those of each probe; a correlated
+// group is one cause.
 void PlanDraws::name_causes(const StudyPlan& plan, std::vector<std::string>& causes) {
   const bool each = plan.indices && plan.indices->each_probe;
   const auto name_of = [&](const DrawnQuantity& q) {
@@ -127,8 +128,8 @@ std::uint32_t PlanDraws::stream(const DrawnQuantity& q, const DrawRequest& reque
   return 2 * reading + (second ? 1 : 0);
 }
 
-// Trial i of the first stream is in bin i % bins. The second stream goes through the bins in
-// another order, so that in bins² trials each pair of bins is met once.
+// Trial i of the first stream is in bin i % bins. The second stream visits the bins in another
+// order, so that each pair of bins occurs once in bins² trials.
 void PlanDraws::stratify(const DrawnQuantity& q, const DrawRequest& request,
                          std::span<double> u) const {
   const bool second = stream(q, request, 0) != 0;

@@ -1,9 +1,9 @@
 // The random numbers of a plan on one rig, in SI units.
 //
-// A quantity's numbers are addressed by its name: counter word 2 is the FNV-1a hash of the name,
-// word 3 twice the reading plus the stream. So they depend on seed, trial, name, reading and stream
-// only; another quantity more or less, or another order, changes none of them, and two rigs share
-// those of the names they share.
+// The name of a quantity addresses its numbers: counter word 2 is the FNV-1a hash of the name, word
+// 3 is twice the reading plus the stream. So the numbers depend only on seed, trial, name, reading
+// and stream. Another quantity or another order changes no other number, and two rigs share the
+// numbers of quantities with the same name.
 #pragma once
 
 #include <cstddef>
@@ -22,24 +22,24 @@ namespace mdof::algo {
 inline constexpr std::size_t kFlatnessWaves = 4;
 inline constexpr std::size_t kNoCause = static_cast<std::size_t>(-1);
 
-// Which trials, and what of them is other than usual. Empty spans: nothing.
+// Selects trials, and changes their numbers. Empty spans: no change.
 struct DrawRequest {
   std::uint64_t first = 0, step = 1;
   std::size_t n = 0;
-  std::span<const std::uint8_t> second;  // by cause: take the second stream
-  std::span<const double> scale;         // by quantity of the plan: value times this
+  std::span<const std::uint8_t> second;  // by cause: use the second stream
+  std::span<const double> scale;         // by quantity of the plan: factor of the value
 };
 
-// One random quantity of the rig and where its numbers are.
+// One random quantity of the rig and the place of its numbers.
 struct DrawnQuantity {
   QuantityTarget target;
-  std::size_t quantity = 0;      // place in the plan
-  std::size_t cause = kNoCause;  // kNoCause: does not vary
-  std::size_t group = kNoCause;  // of correlated ones
+  std::size_t quantity = 0;      // index in the plan
+  std::size_t cause = kNoCause;  // kNoCause: constant
+  std::size_t group = kNoCause;  // group of correlated quantities
   std::uint32_t hash = 0;
-  std::size_t readings = 1;  // numbers a trial; reading 0 is the point, 1 ... a series
-  bool turned = false;       // has an angle (or phase), in turns, beside its value
-  std::size_t slot = 0;      // first of its columns; a height's waves follow its value
+  std::size_t readings = 1;  // numbers in each trial; reading 0 is the point, 1 ... a series
+  bool turned = false;       // has an angle or phase, in turns, besides its value
+  std::size_t slot = 0;      // its first column; the waves of a height follow its value
 };
 
 // Columns of n numbers.
@@ -56,20 +56,21 @@ class DrawnNumbers {
 
 class PlanDraws {
  public:
-  // `prefix` goes before the names in their hashes; new causes are appended to `causes`. Refuses a
-  // correlation matrix that is none, or that ties noise to what is drawn once a trial.
+  // `prefix`: placed before the names in their hashes. Appends new causes to `causes`. Errors: a
+  // correlation matrix that is not positive definite; a correlation of noise with a quantity that
+  // has one number in each trial.
   static Result<PlanDraws> create(const StudyPlan& plan, const Rig& rig, const std::string& prefix,
                                   std::size_t readings, std::vector<std::string>& causes);
 
   const std::vector<DrawnQuantity>& drawn() const { return drawn_; }
   void fill(const DrawRequest& request, DrawnNumbers& numbers) const;
-  // One more reading of an uncorrelated quantity that has a number each reading.
+  // One more reading of an uncorrelated quantity that has a number for each reading.
   double reading(const DrawnQuantity& quantity, const DrawRequest& request,
                  std::uint32_t reading) const;
 
  private:
   struct Group {
-    std::vector<std::size_t> members;  // in drawn_
+    std::vector<std::size_t> members;  // indices in drawn_
     std::vector<double> factor;        // Cholesky, row-major
   };
   std::uint32_t stream(const DrawnQuantity& q, const DrawRequest& request,
@@ -90,12 +91,12 @@ class PlanDraws {
   std::vector<Group> groups_;
 };
 
-// What one trial drew: names after `prefix`, values in the unit of the name, directions in turns.
+// Numbers of one trial: names after `prefix`, values in the unit of the name, directions in turns.
 std::vector<std::pair<std::string, double>> drawn_inputs(const PlanDraws& draws,
                                                          std::uint64_t trial,
                                                          const std::string& prefix);
 
-// Whether any two names have one hash; the message has the remedy.
+// Error if two names have the same hash; the message has the remedy.
 Status check_hashes(const std::vector<const PlanDraws*>& all);
 
 }  // namespace mdof::algo

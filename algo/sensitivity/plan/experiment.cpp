@@ -13,7 +13,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kChunk = 128;  // trials at once: their columns stay in the cache
+constexpr std::size_t kChunk = 128;  // trials at once, so that their columns stay in the cache
 
 // The named error of one reading, estimated or true, in SI.
 double named_at(const std::vector<double>& local, const AxisReadings& r, const ErrorName& name,
@@ -21,7 +21,7 @@ double named_at(const std::vector<double>& local, const AxisReadings& r, const E
   return name.sign * local[r.at(reading, static_cast<std::size_t>(name.local)) + j];
 }
 
-// The same stated at the fixture, to first order: e(0) = (δy - d εz, δz + d εy).
+// The same error stated at the fixture, to first order: e(0) = (δy - d εz, δz + d εy).
 double named_at_fixture(const std::vector<double>& local, const AxisReadings& r,
                         const ErrorName& name, std::size_t reading, std::size_t j,
                         double travel_m) {
@@ -32,7 +32,7 @@ double named_at_fixture(const std::vector<double>& local, const AxisReadings& r,
   return at_carriage + name.sign * (across ? -turned : turned);
 }
 
-// Estimated and true series of one error over the positions, for the lines; at the fixture.
+// Estimated and true series of one error over the positions, at the fixture, for fits of lines.
 struct Series {
   std::vector<double> shown_m, found, travel_m, truth;
 
@@ -109,9 +109,9 @@ Result<std::unique_ptr<ScalableExperiment>> PlanExperiment::create(const StudyPl
 }
 
 // The error of EC0Y = -slope(EXY) - slope(EYX) + corner * artefact (schema/iso230/squareness.h),
-// with corner = -1: that of a fixture which is turned from X to Y with the axis. The slopes are
-// measured against the true artefact and corrected by the stated angle, so its error adds to that
-// of EC0Y.
+// with corner = -1: the fixture is turned from X to Y with the axis. The slopes are measured
+// against the true artefact and corrected by the stated angle, so the error of this angle adds to
+// the error of EC0Y.
 double PlanExperiment::squareness_error(const AxisReadings& x, const AxisReadings& y, std::size_t j,
                                         Series& series) const {
   double error = x.square_rad[j];
@@ -143,7 +143,7 @@ void PlanExperiment::run_chunk(const DrawRequest& request, std::span<double* con
   for (std::size_t k = 0; k < planned_.size(); ++k) {
     for (std::size_t j = 0; j < request.n; ++j) out[k][j] = value(planned_[k], x, y, j, series);
   }
-  // Where one output has no solution the trial has none.
+  // If one output has no solution, the trial has no solution.
   for (std::size_t j = 0; j < request.n; ++j) {
     const bool solved =
         std::all_of(out.begin(), out.end(), [&](const double* o) { return std::isfinite(o[j]); });

@@ -1,4 +1,4 @@
-// What every experiment made of a plan has in common.
+// Common base of all experiments of a plan.
 #pragma once
 
 #include <string>
@@ -44,7 +44,7 @@ class PlanExperimentBase : public ScalableExperiment {
  protected:
   virtual void run_all(const DrawRequest& request, std::span<double* const> out) const = 0;
 
-  std::vector<std::string> causes_;  // filled by the making of its draws
+  std::vector<std::string> causes_;  // filled when its draws are created
 
  private:
   std::vector<std::string> outputs_, quantities_;

@@ -67,7 +67,7 @@ double normal_cdf(double z) {
   const double a = std::abs(z);
   double upper = 0;  // P(Z > a)
   if (a < 3) {
-    // Φ - 1/2 = φ (a + a³/3 + a⁵/15 ...): terms of one sign
+    // Φ - 1/2 = φ (a + a³/3 + a⁵/15 ...): all terms have the same sign
     double term = a, sum = a;
     for (int k = 3; term > sum * 1e-17; k += 2) {
       term *= a * a / k;
@@ -88,7 +88,7 @@ double log_gamma(double x) {
   double product = 1;
   for (; x < 15; x += 1) product *= x;
   const double z = 1 / (x * x);
-  // Stirling's series, DLMF 5.11.1; the next term is below 1e-17 from 15 on
+  // Stirling's series, DLMF 5.11.1; from x = 15 on the next term is below 1e-17
   const double series =
       (1.0 / 12 -
        z * (1.0 / 360 -

@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// Weights of the waves: 1/k², made to sum to 1, so that the height keeps within its limits.
+// Weights of the waves: 1/k², scaled to the sum 1, so that the height stays within its limits.
 constexpr std::array<double, kFlatnessWaves> kWaveWeight = {144.0 / 205, 36.0 / 205, 16.0 / 205,
                                                             9.0 / 205};
 
@@ -30,8 +30,9 @@ void install(FixtureProbe& probe, const PartDeviation& part) {
   probe.u_M = R * probe.u_M;
 }
 
-// A⁻ᵀ, by which normals go from C to M: A = 1 + [ε]× is the upper left 3 × 3 part of the paper's
-// transform T (Eq. 1), and A⁻ᵀ is the matrix of the cofactors of A over the determinant of A.
+// A⁻ᵀ, which transforms normals from C to M: A = 1 + [ε]× is the upper left 3 × 3 part of the
+// paper's transform T (Eq. 1), and A⁻ᵀ is the matrix of the cofactors of A divided by the
+// determinant of A.
 Eigen::Matrix3d small_angle_normals(const Errors5& e) {
   const double x = e[kEx], y = e[kEy], z = e[kEz];
   Eigen::Matrix3d cofactors;
@@ -59,7 +60,7 @@ MountedFixture::MountedFixture(const Fixture& nominal, Forward forward, double f
       zero_m_(nominal.probes.size()) {
   for (const auto& probe : nominal.probes) {
     part_.push_back(part_of(probe));
-    // Across the direction: along the motion where there is one, and square to it.
+    // Two directions across the probe: along the motion if possible, and perpendicular to it.
     const bool along_x = std::abs(probe.u_M.x()) > 0.9;
     const Eigen::Vector3d start = along_x ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
     const Eigen::Vector3d level = start - start.dot(probe.u_M) * probe.u_M;
@@ -102,7 +103,7 @@ bool MountedFixture::mount(const Mounting& m) {
   return displacements(0, {}, zero_m_);
 }
 
-// Fixture and target grow about the origin of M.
+// Fixture and target expand about the origin of M.
 void MountedFixture::warm(double course) {
   if (mounting_.fixture_expansion == 0 && mounting_.target_expansion == 0) return;
   for (std::size_t k = 0; k < probes(); ++k) {
@@ -112,8 +113,8 @@ void MountedFixture::warm(double course) {
   }
 }
 
-// Random height where the probe looks. The place is found to first order in the errors; the second
-// is nanometres of place, on slopes of less than 1e-3.
+// Random height under the probe. The place is calculated to first order in the errors; the second
+// order is nanometres of place, on slopes below 1e-3.
 double MountedFixture::height(std::size_t k, double travel_m, const Errors5& e) const {
   const PlaneDeviation& plane = mounting_.plane[static_cast<std::size_t>(part_[k])];
   if (plane.flatness_m == 0) return 0;
@@ -154,7 +155,8 @@ bool MountedFixture::read(double travel_m, const Errors5& local, double course, 
   if (!displacements(travel_m, local, reading_m)) return false;
   for (std::size_t k = 0; k < reading_m.size(); ++k) {
     const ProbeDeviation& deviation = mounting_.probe[k];
-    // What the rig knows of (a height map, a plane's offset) stays in: the solution takes it off.
+    // A contribution of the rig itself (a height map, a plane's offset) is kept: the solution
+    // subtracts it.
     const double zero = zero_at_start ? zero_m_[k] - nominal_zero_m_[k] : 0.0;
     reading_m[k] =
         deviation.gain * (reading_m[k] - zero) + deviation.zero_m + deviation.drift_m * course;

@@ -1,5 +1,5 @@
-// A fixture and a target as they truly are, off their nominal ones, and what its probes read.
-// Local frame of the axis; m and rad.
+// A fixture and a target with their true deviations from the nominal ones, and the readings of the
+// probes. Local frame of the axis; m and rad.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,18 +15,18 @@ namespace mdof::algo {
 
 struct ProbeDeviation {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-  // Moved by circle_m across its direction, to the side at circle_turns (the paper's Eq. 13-15).
+  // Shift by circle_m across the probe's direction, towards circle_turns (the paper's Eq. 13-15).
   double circle_m = 0, circle_turns = 0;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-  double tilt_rad = 0, tilt_turns = 0;  // by tilt_rad to the side at tilt_turns
+  double tilt_rad = 0, tilt_turns = 0;  // tilt by tilt_rad towards tilt_turns
   double gain = 1, zero_m = 0, drift_m = 0;
 };
 struct PartDeviation {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
 };
-// The height of the plane at its point c is flatness_m / 2 · Σ w_k sin 2π(k c·e_k / L + phase_k) of
-// the waves k = 1 ... kFlatnessWaves. L is the longest wave (flatness_length_m); the w_k sum to 1,
-// so that no two heights differ by more than flatness_m.
+// The height of the plane at its point c is flatness_m / 2 · Σ w_k sin 2π(k c·e_k / L + phase_k)
+// over the waves k = 1 ... kFlatnessWaves. L is the longest wave (flatness_length_m). The w_k sum
+// to 1, so no two heights differ by more than flatness_m.
 struct PlaneDeviation {
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   double map_scale = 1, flatness_m = 0;
@@ -36,20 +36,21 @@ struct PlaneDeviation {
 struct Mounting {
   std::vector<ProbeDeviation> probe;
   std::array<PartDeviation, 3> part{};                 // by Part
-  std::array<PlaneDeviation, 3> plane{};               // by Part; fixture: none
-  double fixture_expansion = 0, target_expansion = 0;  // share of each length, at the reading
+  std::array<PlaneDeviation, 3> plane{};               // by Part; unused for the fixture
+  double fixture_expansion = 0, target_expansion = 0;  // relative, at the reading
 };
 
-// The fixture of one trial at a time. `course` says how far the trial is: 0 when the probes are
-// zeroed, 1 when all of the drift and the warming has come.
+// The fixture of one trial at a time. `course`: progress of the trial, from 0 when the probes are
+// zeroed to 1 when drift and warming are complete.
 class MountedFixture {
  public:
   MountedFixture(const Fixture& nominal, Forward forward, double flatness_length_m);
 
-  // False: an angle is beyond what the models take (0.25 rad).
+  // False: an angle exceeds the limit of the models (0.25 rad).
   bool mount(const Mounting& mounting);
-  // What the probes show: gain (displacement - zero) + zero error + drift. The zero is what
-  // mounting adds to the reading at d = 0 without errors of motion, or 0. False as mount().
+  // Readings of the probes: gain (displacement - zero) + zero error + drift. The zero is the
+  // contribution of the mounting to the reading at d = 0 without errors of motion, or 0. False: as
+  // mount().
   bool read(double travel_m, const Errors5& local, double course, bool zero_at_start,
             std::span<double> reading_m);
   std::size_t probes() const { return nominal_.probes.size(); }
@@ -61,13 +62,13 @@ class MountedFixture {
 
   Fixture nominal_;
   Fixture cold_;  // as mounted
-  Fixture now_;   // warmed
+  Fixture now_;   // with expansion
   Forward forward_;
   double flatness_length_m_;
-  std::vector<Part> part_;                       // of each probe: top, side or neither
-  std::vector<Eigen::Vector3d> first_, second_;  // across each nominal direction
+  std::vector<Part> part_;                       // of each probe: top, side or fixture
+  std::vector<Eigen::Vector3d> first_, second_;  // two directions across each nominal direction
   Mounting mounting_;
-  std::vector<double> nominal_zero_m_, zero_m_;  // readings at d = 0: as planned, as mounted
+  std::vector<double> nominal_zero_m_, zero_m_;  // readings at d = 0: nominal, as mounted
 };
 
 Part part_of(const FixtureProbe& probe);

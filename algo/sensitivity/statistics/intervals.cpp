@@ -7,14 +7,14 @@
 namespace mdof::algo {
 namespace {
 
-// q of §7.7: ranks between the ends of an interval, within 0 ... M - 1.
+// q of §7.7: difference of the ranks of the ends of an interval, within 0 ... M - 1.
 std::uint64_t covered(double coverage, std::uint64_t trials) {
   const auto q =
       static_cast<std::uint64_t>(std::floor(coverage * static_cast<double>(trials) + 0.5));
   return std::min(q, trials - 1);
 }
 
-// Looks ranks up in ascending order, in constant time each.
+// Finds values of ascending ranks, each in constant time.
 class Cursor {
  public:
   explicit Cursor(const OrderedTrials& trials) : trials_(&trials) {}
@@ -34,7 +34,7 @@ struct Shortest {
   std::uint64_t low = 1;
 };
 
-// Over the ranks r of one end of every slice; `shift`: r is that end less this.
+// Tries the ranks r at one end of every slice; `shift`: r is that end minus this.
 void look_at_ends(const OrderedTrials& trials, std::uint64_t q, std::uint64_t shift, bool last,
                   Shortest& best) {
   Cursor low(trials), high(trials);
@@ -56,11 +56,11 @@ std::uint64_t quantile_rank(double p, std::uint64_t trials) {
 
 IntervalRanks symmetric_ranks(double coverage, std::uint64_t trials) {
   const std::uint64_t q = covered(coverage, trials);
-  const std::uint64_t r = (trials - q + 1) / 2;  // of an even number less q its half
+  const std::uint64_t r = (trials - q + 1) / 2;  // half of trials - q if it is even
   return {r, r + q};
 }
 
-// Between the ends of slices y(r + q) - y(r) is linear in r, so that its least value is at one.
+// Between the ends of slices y(r + q) - y(r) is linear in r, so its minimum is at such an end.
 IntervalRanks shortest_ranks(double coverage, const OrderedTrials& trials) {
   const std::uint64_t q = covered(coverage, trials.size());
   Shortest best;
@@ -93,7 +93,7 @@ Histogram histogram_for_drawing(const OutputHistogram& counts, const OutputScale
   const double q_low = trials.value(quantile_rank(0.001, trials.size()));
   const double q_high = trials.value(quantile_rank(0.999, trials.size()));
   const double more = (q_high - q_low) / 10;
-  // Whole bins of the core.
+  // Bars consist of whole bins of the core.
   const auto bin = [&](double x) {
     const double i = std::floor((x - scale.low) / scale.width);
     return static_cast<std::size_t>(std::clamp(i, 0.0, static_cast<double>(kCoreBins - 1)));

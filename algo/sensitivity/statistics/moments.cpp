@@ -8,7 +8,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::array<double, 2> kPerUnit = {0x1p48, 0x1p40};
-// 2^40 cells of this size still fit 127 bits.
+// 2^40 cells of this size still fit in 127 bits.
 constexpr double kLargestCell = 0x1p86;
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
@@ -18,7 +18,7 @@ double average(const PowerSums& sums, std::size_t power, double n) {
   return static_cast<double>(sums.sum[power]) / kPerUnit[power] / n;
 }
 
-// μ4 / σ⁴ with every trial in the middle of its slice.
+// μ4 / σ⁴, with every trial in the middle of its slice.
 double kurtosis(const OrderedTrials& trials, const Moments& m) {
   double sum = 0;
   for (const OrderedTrials::Slice& s : trials.slices()) {

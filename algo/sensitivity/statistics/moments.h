@@ -11,10 +11,10 @@ namespace mdof::algo {
 
 __extension__ using Int128 = __int128;
 
-// Σ u and Σ u² of any number of cells in fixed point: integers, so that addition is associative. A
-// cell's sum is rounded to 2^-48 and 2^-40, near the rounding of its own double sum. A cell's sum
-// of 2^86 such steps or more (a single |u| beyond 3e11 for the mean, 8e6 for the sd) is left out
-// and marks its power as lost, in whatever order the cells come.
+// Σ u and Σ u² of any number of cells as fixed-point integers, so that addition is associative. The
+// sum of a cell is rounded to 2^-48 and 2^-40, which is near the rounding of its double sum. If a
+// cell's sum has 2^86 such steps or more (one |u| above 3e11 for the mean, above 8e6 for the sd),
+// it is omitted and its power is marked as lost, whatever the order of the cells.
 struct PowerSums {
   std::array<Int128, 2> sum{};
   std::array<bool, 2> lost{};
@@ -24,13 +24,14 @@ struct PowerSums {
   bool operator==(const PowerSums&) const = default;
 };
 
-// NaN where a power it needs was lost, or where there are too few trials.
+// NaN if a required power was lost, or if there are too few trials.
 struct Moments {
   double mean = 0, mean_se = 0, sd = 0, sd_se = 0;
 };
 
-// u = 0 is the middle of the histogram's core, u = 1 its upper end. `trials`, the same ones in
-// order, gives the fourth moment, which the standard error of the sd needs: to the width of a bin.
+// u = 0 is the middle of the histogram's core, u = 1 its upper end. `trials`: the same trials in
+// ascending order. They give the fourth moment for the standard error of the sd, to the width of a
+// bin.
 Moments moments_of(const PowerSums& sums, const OrderedTrials& trials, const OutputScale& scale);
 
 }  // namespace mdof::algo

@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// A tail's bins: 64 an octave of 64 + distance, the distance in widths of a core bin.
+// Bins of a tail: 64 for each octave of 64 + distance; the distance is in widths of a core bin.
 constexpr int kMantissaBits = 6;
 constexpr double kOffset = 64;
 
@@ -21,7 +21,7 @@ std::int32_t tail_bin(double distance) {
   return static_cast<std::int32_t>(top_bits(kOffset + distance) - top_bits(kOffset)) + 1;
 }
 
-// Where a tail's bin begins, in widths of a core bin.
+// Start of a tail's bin, in widths of a core bin.
 double tail_edge(std::int32_t bin) {
   const std::uint64_t bits = top_bits(kOffset) + static_cast<std::uint64_t>(bin - 1);
   return std::bit_cast<double>(bits << (52 - kMantissaBits)) - kOffset;
@@ -35,7 +35,7 @@ std::int32_t tail_key(double x, const OutputScale& scale) {
   return -tail_bin(std::max(0.0, (scale.low - x) / scale.width));
 }
 
-// Rounding puts a value this much of a bin on the wrong side of an edge, at most.
+// Largest part of a bin by which rounding moves a value to the wrong side of an edge.
 constexpr double kEdgeSlack = 1e-9;
 
 }  // namespace
@@ -52,7 +52,7 @@ OutputScale scale_for(std::vector<double> values) {
   }
   const double middle = from / 2 + to / 2, size = std::abs(middle);
   const bool constant = to - from <= size * 0x1p-44;
-  // Not so narrow that its edges would coincide, nor so wide that they would overflow.
+  // The core must be wide enough for distinct edges, and must not overflow.
   const double least = constant ? std::max(size, 1.0) / 512 : std::max(size * 0x1p-30, 1e-200);
   const double range = std::clamp(2 * (to - from), std::min(least, 1e300), 1e300);
   return {middle - range / 2, range / kCoreBins};
@@ -92,7 +92,7 @@ std::uint64_t& OutputHistogram::total_at(std::size_t bin) {
 
 std::size_t OutputHistogram::memory_bytes() const {
   constexpr std::size_t kNode =
-      64;  // of a map: three pointers, a colour, key and count, heap header
+      64;  // node of a map: three pointers, a colour, key and count, heap header
   return recent_.capacity() * sizeof(std::uint32_t) + flushed_.capacity() * sizeof(std::uint64_t) +
          tails_.size() * kNode;
 }
@@ -118,7 +118,7 @@ OrderedTrials::OrderedTrials(const OutputHistogram& counts, const OutputScale& s
   }
 }
 
-// An edge that overflowed, or that lies outside the extremes, becomes an extreme.
+// An edge that overflowed, or that lies outside the extreme values, becomes an extreme value.
 void OrderedTrials::append(double from, double to, std::uint64_t count) {
   if (!std::isfinite(from)) from = min_;
   if (!std::isfinite(to)) to = max_;

@@ -1,5 +1,5 @@
-// Order statistics from a histogram that loses no trial: equal bins over a core, and beyond it bins
-// that widen with the distance, out to the largest double.
+// Order statistics from a histogram that loses no trial: bins of equal width in a core, and beyond
+// it bins that become wider with the distance, up to the largest double.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,31 @@
 
 namespace mdof::algo {
 
-// Core of the histogram of one output: `low` and the width of one of its 8192 bins.
+// Core of the histogram of one output: `low`, and the width of each of its 8192 bins.
 struct OutputScale {
   double low = 0, width = 0;
   double high() const { return low + width * static_cast<double>(kCoreBins); }
   bool operator==(const OutputScale&) const = default;
 };
 
-// The core for these values (finite or not): twice as wide as their central 98 %, about its middle.
-// Values that are alike but for rounding say nothing of what will differ: 1/512 of them, or of the
-// unit if they are smaller. Sums then hold from pm and prad to beyond mm and mrad.
+// The core for these values (finite or not): twice as wide as their central 98 %, with the same
+// middle. Values that are equal except for rounding do not show how much later values differ: the
+// core is then 1/512 of the values, or 1/512 of the unit if they are smaller. Sums are then valid
+// from pm and prad to beyond mm and mrad.
 OutputScale scale_for(std::vector<double> values);
 
 // Counts of one output. Core bin i is [low + i width, low + (i+1) width]; a value on an edge may be
-// in either. A tail has bins of relative width 1/64: bin j starts where 64 + distance / width has j
-// in the top bits of its double. Positive keys are above the core, negative ones below.
+// in either bin. The bins of a tail have a relative width of 1/64: bin j starts where 64 + distance
+// / width has j in the top bits of its double. Tail keys above the core are positive, those below
+// are negative.
 class OutputHistogram {
  public:
-  // `recent_capacity`: how many trials the small counters take before they are moved to large ones.
+  // `recent_capacity`: number of trials after which the small counters are added to large ones.
   explicit OutputHistogram(
       std::uint64_t recent_capacity = std::numeric_limits<std::uint32_t>::max())
       : recent_capacity_(recent_capacity), recent_(kCoreBins + 2) {}
 
-  // A cell: indices from Kernels::scan; x is looked at only for what lies outside the core.
+  // Adds a cell. `index`: from Kernels::scan; x is read only for values outside the core.
   void add(std::span<const double> x, const std::uint64_t* index, const OutputScale& scale);
   void add(const OutputHistogram& other);
   void add_core(std::size_t bin, std::uint64_t n) { total_at(bin) += n; }
@@ -52,18 +54,18 @@ class OutputHistogram {
   std::uint64_t& total_at(std::size_t bin);
 
   std::uint64_t recent_capacity_;
-  std::vector<std::uint32_t> recent_;   // one below, core, one above; small, to stay in the cache
+  std::vector<std::uint32_t> recent_;   // below, core, above; small, to stay in the cache
   std::uint64_t recent_n_ = 0;          // flushed before a counter could overflow
-  std::vector<std::uint64_t> flushed_;  // empty until then
+  std::vector<std::uint64_t> flushed_;  // empty until the first flush
   std::map<std::int32_t, std::uint64_t> tails_;
 };
 
-// The trials of one output in ascending order, as far as the histogram knows it.
+// The trials of one output in ascending order, with the resolution of the histogram.
 class OrderedTrials {
  public:
   OrderedTrials(const OutputHistogram& counts, const OutputScale& scale, double min, double max);
 
-  // `count` trials in [from, to], the first of them the one of rank before + 1.
+  // `count` trials in [from, to]; the first one has the rank before + 1.
   struct Slice {
     double from, to;
     std::uint64_t before, count;
@@ -78,7 +80,7 @@ class OrderedTrials {
   // Estimate of the rank-th smallest value, evenly spread within its slice.
   double value(std::size_t slice, std::uint64_t rank) const;
   double value(std::uint64_t rank) const { return value(find(rank), rank); }
-  // How far value() may be from the rank-th smallest value itself.
+  // Largest distance of value() from the true rank-th smallest value.
   double resolution(std::uint64_t rank) const;
 
  private:

@@ -13,13 +13,13 @@
 namespace mdof::algo {
 namespace {
 
-using Values = std::vector<std::vector<double>>;  // [output][trial], in the order they were run
+using Values = std::vector<std::vector<double>>;  // [output][trial], in the order of calculation
 
 std::size_t bins_of(const Experiment& experiment) {
   return std::max<std::size_t>(experiment.binned().bins, 1);
 }
 
-// The trials first ... first + trials - 1 by bins and cells: visit(bin, cell's columns, n).
+// Runs trials first ... first + trials - 1 by bins and cells: visit(bin, columns of the cell, n).
 template <class Visit>
 void run_cells(const Experiment& experiment, std::uint64_t first, std::uint64_t trials,
                const Visit& visit) {
@@ -37,7 +37,7 @@ void run_cells(const Experiment& experiment, std::uint64_t first, std::uint64_t 
   }
 }
 
-// Moves the finite values to the front and gives their number.
+// Moves the finite values to the front and returns their number.
 std::size_t keep_finite(double* x, std::size_t n) {
   return static_cast<std::size_t>(
       std::remove_if(x, x + n, [](double y) { return !std::isfinite(y); }) - x);
@@ -57,7 +57,7 @@ void add_cell(const Kernels& kernels, const OutputScale& scale, double* x, std::
     kernels.scan(x, n, scale.low, per_width, sums, index.data());
   }
   to.n += n;
-  to.min = std::min(to.min, sums.min + 0.0);  // +0, whichever zero came first
+  to.min = std::min(to.min, sums.min + 0.0);  // +0 for either sign of a zero
   to.max = std::max(to.max, sums.max + 0.0);
   to.powers.add(sums);
   to.histogram.add({x, n}, index.data(), scale);
@@ -112,11 +112,11 @@ BlockFigures figures_of(std::vector<double> values, double coverage) {
   return f;
 }
 
-// 80 MB an output and thread; and one more, as 1 - 0.99999 is not exactly 1e-5.
+// 80 MB for each output and thread; + 1, because 1 - 0.99999 is not exactly 1e-5.
 constexpr double kMostAdaptiveBlock = 1e7 + 1;
 
 tl::unexpected<Error> coverage_too_high(double coverage) {
-  std::array<char, 32> digits;  // the shortest that read back to the same coverage
+  std::array<char, 32> digits;  // shortest digits that give the same coverage again
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), coverage);
   return bad_input("coverage " + std::string(digits.data(), end.ptr) +
                        ": a block of adaptive trials would have 100 / (1 - coverage) trials, more "

@@ -46,7 +46,7 @@ void put_accumulator(std::string& to, const Accumulator& a) {
   put_histogram(to, a.histogram);
 }
 
-// Reads a histogram; gives false where its counts cannot be those of n trials.
+// Reads a histogram; returns false if its counts cannot be those of n trials.
 bool read_histogram(ByteReader& in, std::uint64_t n, OutputHistogram& h) {
   std::uint64_t left = n, bin = 0;
   const auto take = [&](std::uint64_t count) {

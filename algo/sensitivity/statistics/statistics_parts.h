@@ -1,4 +1,4 @@
-// What StudyStatistics holds; for its two source files.
+// The data of StudyStatistics, for its two source files.
 #pragma once
 
 #include <array>

@@ -8,7 +8,7 @@
 namespace mdof::algo {
 
 // U such that 95 % of measured ranges R lie within U of the true range T, by inversion of
-// P(|range(t + change) - T| <= c(T)) = 95 %,  U = R - T where R - T = c(T),
+//   P(|range(t + change) - T| <= c(T)) = 95 %,  U = R - T where R - T = c(T),
 // over the trials of the change. The true deviations t of the range T are the measured ones, of
 // which (R - T)/2 is cut off at both ends. So U includes the bias; if c(0) >= R, U is c(0) and the
 // interval contains 0. U is at least c(R) of the measured deviations: errors that are similar at

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMostSteps = 50;
 constexpr double kStill_m = 1e-12;
-// Axes that are this near to parallel are parallel: cos 90° is 6e-17, and places are rounded.
+// Axes nearer to parallel than this count as parallel: cos 90° is 6e-17, and places are rounded.
 constexpr double kParallel = 1e-9;
 
 using Jacobian = Eigen::Matrix<double, 3, Eigen::Dynamic>;
@@ -35,8 +35,8 @@ Jacobian jacobian(const Machine& machine, const Command& at,
   return J;
 }
 
-// How far a command of 1 m takes the nominal tool against the work while all rotary axes are at 0;
-// without the rounding of a difference of places.
+// Motion of the nominal tool relative to the work by a command of 1 m while all rotary axes are at
+// 0. It has no rounding of a difference of places.
 Eigen::Vector3d motion_by_command(const Machine& machine, std::size_t direction) {
   Command unit{};
   unit[direction] = 1;
@@ -48,13 +48,13 @@ Eigen::Vector3d motion_by_command(const Machine& machine, std::size_t direction)
   return motion;
 }
 
-// The axis whose command it goes by; 0: none.
+// Letter of the axis whose command the frame uses; 0: no axis.
 char axis_of(const MachineFrame& frame) {
   if (frame.moves_with != 0) return frame.moves_with;
   return frame.kind == FrameKind::fixed ? '\0' : frame.id.front();
 }
 
-// Axes with an error that differs by approach.
+// Axes with an error that differs between the approaches.
 std::string axes_by_approach(const Machine& machine) {
   std::string axes;
   for (const MachineFrame& frame : machine.frames) {

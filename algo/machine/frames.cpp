@@ -17,8 +17,8 @@ double value_at(const ErrorFunction& f, const TablePlace& place, MachineApproach
 
 using Matrix6 = Eigen::Matrix<double, kBodyErrors, kBodyErrors>;
 
-// Root of a covariance: L Lᵀ. A pivot that rounding leaves of nothing is nothing, and no part is
-// larger than what is left of its variance, should rounding have made the matrix indefinite.
+// Root of a covariance: L Lᵀ. A pivot that is only rounding counts as 0. No part exceeds the
+// remaining variance, in case rounding has made the matrix indefinite.
 Matrix6 root_of(const Matrix6& covariance) {
   constexpr double kNothing = 1e-12;  // of the variance
   Matrix6 L = Matrix6::Zero();
@@ -46,8 +46,8 @@ Matrix6 matrix_of(const Covariance6& covariance) {
   return matrix;
 }
 
-// The covariance between two positions: a mean of theirs, with variances whose roots are linear. No
-// correlation of two values makes the interpolated one less certain.
+// The covariance between two positions: an interpolation whose standard deviations are linear. So
+// no correlation of two values makes the interpolated value less certain.
 Matrix6 between(const std::vector<Covariance6>& by_position, const TablePlace& place) {
   Matrix6 low = matrix_of(by_position[place.cell]);
   if (place.part == 0) return low;
@@ -76,7 +76,7 @@ SharedErrors shared_at(const ErrorCovariance& covariance, const TablePlace& plac
   return all;
 }
 
-// What a straight line between two positions may miss.
+// u of the error of the straight-line interpolation between two positions.
 double u_interpolation(const ErrorFunction& f, const TablePlace& place) {
   if (place.cell >= f.curvature.size() || place.part == 0 || place.part == 1) return 0;
   const double interval = f.position[place.cell + 1] - f.position[place.cell];
@@ -87,7 +87,7 @@ double squared(double x) {
   return x * x;
 }
 
-// u of the errors of the body, as FrameValues has it.
+// u of the errors of the body, for FrameValues.
 void set_uncertainty(const MachineFrame& frame, double at, FrameValues& v) {
   const ErrorCovariance& known = frame.covariance;
   Matrix6 all = Matrix6::Zero(), noise = Matrix6::Zero();
@@ -111,7 +111,7 @@ void set_uncertainty(const MachineFrame& frame, double at, FrameValues& v) {
   v.noise_parts = root_of(noise);
 }
 
-// Of the line of an axis; of angles, by the rotations one after the other.
+// Rotation of the axis line; its angles are those of successive rotations.
 Eigen::Matrix3d line_rotation(const FrameValues& v) {
   return tiny_rotation(v.location[3], v.location[4], v.location[5]);
 }

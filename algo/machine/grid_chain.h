@@ -1,5 +1,6 @@
-// The chain over a grid of the commands of two linear axes. What one axis does to a point depends
-// on its own command alone, so that it is found once a command and not once a point.
+// The chain over a grid of the commands of two linear axes. The effect of one axis on a point
+// depends on its own command only, so it is calculated once for each command and not for each
+// point.
 #pragma once
 
 #include <vector>
@@ -11,7 +12,7 @@ namespace mdof::algo {
 struct GridPlan {
   std::size_t first = 0, second = 1;  // directions of the two axes: X, Y, Z
   std::vector<double> first_m, second_m;
-  Command others{};  // where the other axes stand
+  Command others{};  // commands of the other axes
   MachineApproach approach = MachineApproach::mean;
 
   Command command(std::size_t i, std::size_t j) const;
@@ -21,22 +22,21 @@ struct GridPlan {
 class GridErrors {
  public:
   GridErrors(const Machine& machine, const GridPlan& plan);
-  void begin_line(std::size_t j);  // of the second axis, before at() of its points
+  void begin_line(std::size_t j);  // line j of the second axis; call it before at()
   Eigen::Vector3d at(std::size_t i) const { return actual_.at(i) - nominal_.at(i); }
 
  private:
   enum class Varies { nowhere, with_first, with_second };
-  // Frames beside one another that vary with the same axis, or not at all, are one displacement.
+  // Neighbouring frames that vary with the same axis, or with none, are one displacement.
   struct Segment {
     Varies varies = Varies::nowhere;
-    std::vector<Pose> poses;  // by command of that axis; one of what does not vary
+    std::vector<Pose> poses;  // by command of that axis; one pose for Varies::nowhere
   };
   struct Chain {
     Eigen::Vector3d tool;
-    std::vector<Segment> segments;  // as they take the tool's point to the work
+    std::vector<Segment> segments;  // in the order from the tool's point to the work
 
-    // Of a line: its number, where the first segments take the tool's point, and how many these
-    // are.
+    // The current line: its number, the tool's point after its first segments, and their number.
     std::size_t line = 0, in_line = 0;
     Eigen::Vector3d begin;
 
@@ -60,20 +60,20 @@ class GridErrors {
   Chain actual_, nominal_;
 };
 
-// Standard uncertainty of that place, as of error_uncertainty(). The arm of a linear axis' errors
-// is linear in the other axis' command, so that the variance which an axis adds is a polynomial of
-// second order in it; what a part that frames share (frames.h) does to the place is linear.
+// Standard uncertainty of the tool's place, as in error_uncertainty(). The arm of a linear axis'
+// errors is linear in the other axis' command, so the variance by an axis is a polynomial of second
+// order in it. The effect of a part that frames share (frames.h) on the place is linear.
 class GridVariances {
  public:
   GridVariances(const Machine& machine, const GridPlan& plan);
-  void begin_line(std::size_t j);                            // before u_at() of its points
-  Eigen::Vector3d u_at(std::size_t i, std::size_t j) const;  // m; NaN: none declared
+  void begin_line(std::size_t j);                            // call it before u_at()
+  Eigen::Vector3d u_at(std::size_t i, std::size_t j) const;  // m; NaN: no u is declared
 
  private:
-  // Of the part of a range from -1 to 1.
+  // Over a range as a coordinate from -1 to 1.
   struct Parabola {
     Eigen::Vector3d constant, linear, square;
-    double rounding = 0;  // what is below it is rounding
+    double rounding = 0;  // smaller values are rounding
     Eigen::Vector3d at(double part) const { return constant + part * (linear + part * square); }
   };
   struct Line {
@@ -91,9 +91,9 @@ class GridVariances {
   const Machine& machine_;
   const GridPlan& plan_;
   std::vector<double> first_part_, second_part_;
-  std::vector<Parabola> of_first_;  // of the frames that go with the first axis, along the second
-  Parabola of_line_;                // of all others, along the first axis
-  std::size_t shared_ = 0;          // how many parts frames share
+  std::vector<Parabola> of_first_;  // by frames that move with the first axis, along the second
+  Parabola of_line_;                // by all others, along the first axis
+  std::size_t shared_ = 0;          // number of parts that frames share
   std::vector<std::vector<Line>> shared_of_first_;
   std::vector<Line> shared_of_line_;
 };

@@ -37,8 +37,8 @@ void add_points(const Machine& machine, const PlaneMapRequest& request, PlaneMap
   map.extremes = extremes.found();
 }
 
-// A derivative is linear in the commands of two linear axes, so that one that counts anywhere
-// counts at a corner; so is a command beyond a table.
+// A derivative is linear in the commands of two linear axes, so a derivative that is not 0
+// somewhere is not 0 at a corner. A command beyond a table is also found at a corner.
 void add_names(const Machine& machine, const PlaneMapRequest& request, PlaneMap& map) {
   Command command = request.others;
   for (const double b : {map.second_m.front(), map.second_m.back()})
@@ -60,7 +60,7 @@ std::vector<double> steps_over(const std::array<double, 2>& range, double step_m
   const double count = std::max(1.0, std::round((range[1] - range[0]) / step_m));
   std::vector<double> at;
   for (double i = 0; i <= count; ++i) at.push_back(range[0] + (range[1] - range[0]) * i / count);
-  at.back() = range[1];  // not beyond it by rounding
+  at.back() = range[1];  // removes rounding beyond the range
   return at;
 }
 

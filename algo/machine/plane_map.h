@@ -9,16 +9,16 @@
 namespace mdof::algo {
 
 struct PlanePoint {
-  Eigen::Vector3d error, u;  // of the tool's place, m; u: NaN where nothing has one
+  Eigen::Vector3d error, u;  // of the tool's place, m; u: NaN if no error has one
 };
 
-// The error of the largest size of a component, with its sign and its u, and the range of it
-// (largest less smallest).
+// The largest magnitude of a component of the error, with its sign and its u, and the range of the
+// component (largest minus smallest).
 struct MapExtreme {
   std::size_t point = 0;
   double value = 0, u = 0, range = 0;
 };
-// Of points that are added one after the other: x, y, z.
+// Extremes of x, y, z over points that are added one after the other.
 class MapExtremes {
  public:
   void add(const PlanePoint& point);
@@ -35,36 +35,36 @@ class MapExtremes {
 struct PlaneMap {
   std::size_t first = 0, second = 1;  // directions of the two axes
   std::vector<double> first_m, second_m;
-  std::vector<PlanePoint> points;  // the first axis runs fastest; with extremes_only none
+  std::vector<PlanePoint> points;  // the first axis varies fastest; empty with extremes_only
   std::array<MapExtreme, 3> extremes;
-  std::vector<std::string> not_measured, no_u, beyond;  // of the components shown, anywhere
+  std::vector<std::string> not_measured, no_u, beyond;  // for the shown components, at any point
 
-  // Commands of the two axes at a point.
+  // Command of each axis at a point.
   double first_at(std::size_t point) const { return first_m[point % first_m.size()]; }
   double second_at(std::size_t point) const { return second_m[point / first_m.size()]; }
 };
 
-// Of the command that is used: range of the description, else what the tables of the axis have in
-// common. Error: neither.
+// Range of the axis' command: the range in the description, otherwise the common range of the axis'
+// tables. Error: neither is given.
 Result<std::array<double, 2>> range_of(const MachineFrame& frame);
 
-// From end to end in equal steps of about step_m, at least one.
+// Positions from end to end, in equal steps of about step_m, at least one step.
 std::vector<double> steps_over(const std::array<double, 2>& range, double step_m);
 
 struct PlaneMapRequest {
   std::size_t first = 0, second = 1;
   double step_m = 0.01;
-  Command others{};  // where the other axes stand
+  Command others{};  // commands of the other axes
   MachineApproach approach = MachineApproach::mean;
-  bool without_angles = false;  // positions, straightness and squareness alone (Eq. 1 of Hwang)
-  bool extremes_only = false;   // a million points take longer to keep than to find
+  bool without_angles = false;  // only positions, straightness and squareness (Eq. 1 of Hwang)
+  bool extremes_only = false;   // storing a million points takes longer than calculating them
 };
-// As tool_error() at each point, to rounding (1e-16 m; u to 1e-9 of its largest), in a time that
-// hardly depends on the chain (grid_chain.h).
-// Error: an axis that the chain has not; no range; a million points or more.
+// As tool_error() at each point, to rounding (1e-16 m; u to 1e-9 of its largest value), in a time
+// that hardly depends on the chain (grid_chain.h). Error: an axis that the chain does not have; no
+// range; a million points or more.
 Result<PlaneMap> plane_map(const Machine& machine, const PlaneMapRequest& request);
 
-// Without the errors that turn a body; squareness stays.
+// Removes the errors that turn a body; squareness is kept.
 Machine without_angles(Machine machine);
 
 }  // namespace mdof::algo

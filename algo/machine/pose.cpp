@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kTurn_rad = 2 * std::numbers::pi;
 
-// asin of a small number: the root of sin(x) = s by Newton's method with the slope 1 - s²/2, which
-// gains two orders and more a step.
+// asin of a small number: the root of sin(x) = s by Newton's method, which gains two orders or more
+// in each step.
 double small_asin(double s) {
   double x = s + s * s * s / 6;
   for (int i = 0; i < 4; ++i) x -= (tiny_sin(x) - s) / tiny_cos(x);

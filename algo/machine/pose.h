@@ -21,10 +21,10 @@ Eigen::Vector3d vector_of(const Vec3& v);
 
 // Rz(c) Ry(b) Rx(a) of the errors of a body, |angles| <= 0.1 rad.
 Eigen::Matrix3d tiny_rotation(double a_rad, double b_rad, double c_rad);
-// A turn of any size about X, Y, Z (0, 1, 2).
+// Rotation of any size about X, Y, Z (0, 1, 2).
 Eigen::Matrix3d turn_about(std::size_t direction, double angle_rad);
-// The angles a, b, c of R = Rz(c) Ry(b) Rx(a) for small ones, to first order of which they are R's
-// axial vector; exact to rounding below 0.1 rad.
+// The angles a, b, c of R = Rz(c) Ry(b) Rx(a), exact to rounding below 0.1 rad. To first order they
+// are the axial vector of R.
 Eigen::Vector3d small_angles_of(const Eigen::Matrix3d& R);
 
 }  // namespace mdof::algo

@@ -1,7 +1,7 @@
 // Kinematics of a co-planar machine with tilt drives (Wang et al., "co-planar multi-DOF micro
 // machine tool"): screws A, B and C move the platform along X and Z and turn it about Y; screw D
-// moves the spindle seat along Y. README.md has the equations and where the paper's print differs.
-// m, rad.
+// moves the spindle seat along Y. README.md has the equations and the corrections of the paper's
+// misprints. m, rad.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ struct CoPlanarDrive {
   double arm_m = 0;     // from the platform's centre to the rods that turn it
 };
 
-// The value, its first and its second derivative by time.
+// Position, and its first and second derivative by time.
 struct Motion {
   double position = 0, velocity = 0, acceleration = 0;
 };
@@ -25,21 +25,22 @@ enum Screw : std::size_t { kScrewA, kScrewB, kScrewC, kScrewD };
 using PlatformMotion = std::array<Motion, 4>;  // X, Y, Z (m), B (rad)
 using ScrewMotion = std::array<Motion, 4>;     // A, B, C, D (m)
 
-// Errors: a turn of ±90° or more, which the arms cannot make.
+// Error: an angle of ±90° or more, which the arms cannot reach.
 Result<ScrewMotion> screws_for(const CoPlanarDrive& drive, const PlatformMotion& platform);
-// Errors: screws A and C so far apart that sin B would reach 1.
+// Error: screws A and C so far apart that sin B would reach 1.
 Result<PlatformMotion> platform_for(const CoPlanarDrive& drive, const ScrewMotion& screws);
 
-// What a step or an error of a screw becomes, to the factor (X and Z; Y).
+// Factor from a step or an error of a screw to the motion of the platform (X and Z), or of the
+// spindle seat (Y).
 double platform_ratio(const CoPlanarDrive& drive);
 double spindle_ratio(const CoPlanarDrive& drive);
 
-// The turn from `angle_rad` upwards for one step of the platform's edge (Eq. 5 and 6 of the paper).
-// Errors: the step is longer than the arm can take from there.
+// The rotation from `angle_rad` upwards by one step of the platform's edge (Eq. 5 and 6 of the
+// paper). Error: the arm cannot turn by the whole step.
 Result<double> rotation_step(const CoPlanarDrive& drive, double angle_rad, double screw_step_m);
 
-// How far the position moves at a travel of the platform or of the spindle seat for an error of the
-// tilt angle while the screw stands still: -X tan θ δθ; Y δθ / (sin θ cos θ).
+// Change of position at a travel of the platform, or of the spindle seat, by an error of the tilt
+// angle while the screw does not move: -X tan θ δθ; Y δθ / (sin θ cos θ).
 double platform_tilt_effect(const CoPlanarDrive& drive, double travel_m, double tilt_error_rad);
 double spindle_tilt_effect(const CoPlanarDrive& drive, double travel_m, double tilt_error_rad);
 

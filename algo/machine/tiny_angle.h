@@ -3,8 +3,8 @@
 
 namespace mdof::algo {
 
-// Sine and cosine for |x| <= 0.1 rad, within 1 ulp, of additions and products alone: the same bits
-// everywhere, and several at a time. V: double, or several of them.
+// Sine and cosine for |x| <= 0.1 rad, within 1 ulp, by additions and products only: the same bits
+// everywhere. V: double, or a vector of double.
 template <class V>
 inline V tiny_sin(V x) {
   const V z = x * x;

@@ -13,8 +13,8 @@ double size_of(const std::array<double, kBodyErrors>& errors, std::size_t from) 
   return std::abs(errors[from]) + std::abs(errors[from + 1]) + std::abs(errors[from + 2]);
 }
 
-// The bodies between the bed and the work, or the bed and the tool, the outermost from the bed
-// first: what they take a point of the work or the tool to. `pose` gives that of one frame.
+// Pose of the bodies between the bed and the work, or between the bed and the tool. `pose`: pose of
+// one frame.
 template <class PoseOf>
 Pose bodies(const Machine& machine, bool of_work, PoseOf pose) {
   Pose all;
@@ -35,8 +35,8 @@ Eigen::Vector3d unit(std::size_t k) {
   return Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k % 3));
 }
 
-// What a unit of an error does to a point that is at `at` when the body has moved: displacement and
-// turn, before the bodies further out have moved it.
+// Effect of a unit of an error on a point whose place after the motion of the body is `at`:
+// displacement and rotation, before the bodies nearer to the bed move it.
 struct Effect {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
 };
@@ -58,11 +58,12 @@ Effect effect_of_line(const MachineFrame& frame, std::size_t k, const Eigen::Vec
   return {about.cross(arm), about};
 }
 
-// The nominal machine: where the tool's point is behind each frame, and the bodies further out.
+// The nominal machine: the tool's point after each frame, and the rotations of the frames nearer to
+// the bed.
 struct Walk {
   std::vector<Eigen::Vector3d> at;     // by frame, after its own motion
-  std::vector<Eigen::Matrix3d> outer;  // turns of the frames nearer to the bed
-  Eigen::Matrix3d to_work;             // bed to work coordinates
+  std::vector<Eigen::Matrix3d> outer;  // rotations of the frames nearer to the bed
+  Eigen::Matrix3d to_work;             // from bed to work coordinates
 };
 
 Walk walk(const Machine& machine, const Command& command) {
@@ -85,7 +86,7 @@ Walk walk(const Machine& machine, const Command& command) {
   Eigen::Vector3d point = vector_of(machine.tool_m);
   for (std::size_t i = n; i-- > 0;)
     if (!machine.frames[i].carries_work) w.at[i] = point = pose(i) * point;
-  point = work.inverse() * point;  // the point of the work that the tool is at
+  point = work.inverse() * point;  // the point of the work at the tool
   for (std::size_t i = 0; i < n; ++i)
     if (machine.frames[i].carries_work) w.at[i] = point = pose(i) * point;
   w.to_work = work.R.transpose();
@@ -100,12 +101,12 @@ bool has_u(const MachineFrame& frame, const ErrorDerivative& d) {
   return d.of_line ? frame.location[d.k].u.has_value() : !frame.error[d.k].u.empty();
 }
 
-// One of the two errors of a squareness is enough.
+// One of the two errors of a squareness is sufficient.
 bool stands_for_another(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
   if (!d.of_line || frame.kind != FrameKind::linear || is_known(frame, d)) return false;
   const MachineFrame* axis = other_of_square(machine, d);
-  if (!axis) return true;  // no two axes to be square
+  if (!axis) return true;  // the squareness does not exist
   return axis->location[d.k].value.has_value() || frame.direction < axis->direction;
 }
 
@@ -114,7 +115,7 @@ std::string name_of(const Machine& machine, const ErrorDerivative& d) {
   return d.of_line ? location_name(frame, d.k) : error_name(frame, d.k);
 }
 
-// A fixed frame has the errors that are given, and no others are looked for.
+// For a fixed frame only the given errors count; no other error is missing.
 bool counts_as_missing(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
   return frame.kind != FrameKind::fixed && !is_known(frame, d) && !stands_for_another(machine, d);
@@ -143,7 +144,7 @@ void add_new(const std::vector<std::string>& names, std::vector<std::string>& to
 const MachineFrame* other_of_square(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
   if (!d.of_line || frame.kind != FrameKind::linear) return nullptr;
-  const std::size_t other = 3 - frame.direction - d.k % 3;  // k's own turn is about the third
+  const std::size_t other = 3 - frame.direction - d.k % 3;  // rotation k is about the third
   return machine.find(std::string(1, "XYZ"[other]));
 }
 
@@ -198,7 +199,7 @@ Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,
 
 namespace {
 
-// By frame and independent part of its body's errors.
+// Sums the squares by frame and by independent part of its body's errors.
 Vector6 body_variance(const std::vector<ErrorDerivative>& derivatives,
                       const std::vector<FrameValues>& values) {
   std::vector<Eigen::Matrix<double, 6, kBodyErrors>> parts(
@@ -241,7 +242,8 @@ LinearBound linear_bound(const Machine& machine, const Command& command,
   for (std::size_t i = 0; i < machine.frames.size(); ++i) {
     const MachineFrame& frame = machine.frames[i];
     const FrameValues& v = values[i];
-    // A line that is turned or shifted counts twice where the body goes there and back.
+    // A rotation or shift of a rotary axis' line counts twice, because the body goes there and
+    // back.
     const double twice = frame.kind == FrameKind::rotary ? 2 : 1;
     shifts += size_of(v.error, 0) + twice * size_of(v.location, 0);
     turns += size_of(v.error, 3) + twice * size_of(v.location, 3);
@@ -263,7 +265,7 @@ ToolError tool_error(const Machine& machine, const Command& command, MachineAppr
                   {},
                   {}};
   name_missing_errors(machine, all, error);
-  for (std::size_t c = 0; c < 6; ++c)  // 0 where all that counts is declared as 0
+  for (std::size_t c = 0; c < 6; ++c)  // u stays 0 if all contributing errors are declared as 0
     if (double& u = error.u[static_cast<Eigen::Index>(c)];
         u == 0 && !(error.no_u[c].empty() && error.not_measured[c].empty()))
       u = kNaN;

@@ -32,8 +32,8 @@ constexpr const char* unit_of(std::size_t k) {
   return k < 3 ? "um" : "urad";
 }
 
-// An error of a body with a declared u is a cause of its own, with the correlated part of the
-// errors behind it; in µm or µrad.
+// A part of a measured error with a declared u is a cause of its own. It also contains the
+// correlated parts of the errors after it. In µm or µrad.
 void add_measured_error(BudgetModel& model, std::size_t i, std::size_t q) {
   const auto& parts = model.values[i].u_parts;
   const auto column = static_cast<Eigen::Index>(q);
@@ -51,7 +51,7 @@ void add_measured_error(BudgetModel& model, std::size_t i, std::size_t q) {
   model.causes.push_back(std::move(cause));
 }
 
-// A cause for each quantity that the errors of several bodies have; u is 1 of its own.
+// One cause for each quantity that the errors of several bodies share; its u is 1.
 void add_shared(BudgetModel& model) {
   for (std::size_t p = 0;; ++p) {
     BudgetCause cause{"", "u", 1, SourceShape::normal, {}, Eigen::Vector3d::Zero()};
@@ -92,7 +92,7 @@ double reach(SourceShape shape) {
     case SourceShape::normal:
       break;
   }
-  return 8.5;  // beyond any normal number of 52 bits
+  return 8.5;  // larger than any normal number of 52 bits
 }
 
 Status check_sizes(const BudgetModel& model) {
@@ -125,7 +125,7 @@ bool has_cause(const BudgetModel& model, const MachineFrame& frame, const ErrorD
   });
 }
 
-// A squareness is named once, of the later of its two axes.
+// A squareness is named once, for the later of its two axes.
 void name_not_declared(const std::vector<ErrorDerivative>& all, BudgetModel& model) {
   for (const ErrorDerivative& d : all) {
     const MachineFrame& frame = model.machine.frames[d.frame];

@@ -11,13 +11,13 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kTrials = 256;  // at once: 84 causes stay in the second cache
+constexpr std::size_t kTrials = 256;  // at once: 84 causes stay in the second-level cache
 
-// Of one cause: how a uniform number becomes its deviation.
+// How a uniform number becomes the deviation of one cause.
 struct Drawing {
   SourceShape shape = SourceShape::normal;
   double u = 0;
-  std::shared_ptr<const QuantileFunction> function;  // of a triangle or a U, with u = 1
+  std::shared_ptr<const QuantileFunction> function;  // triangular or U-shaped, with u = 1
 };
 
 Drawing drawing_of(const BudgetCause& cause) {
@@ -33,7 +33,8 @@ Drawing drawing_of(const BudgetCause& cause) {
   return drawing;
 }
 
-// Numbers of unit u; a rectangle stays uniform in (0, 1), its term of the chain does the rest.
+// Numbers with u = 1. A rectangular number stays uniform in (0, 1): its term of the chain scales
+// it.
 void shape_numbers(const Drawing& drawing, std::span<double> p) {
   if (drawing.shape == SourceShape::normal) gaussians(p);
   if (!drawing.function) return;
@@ -135,7 +136,7 @@ class BudgetTrials : public ScalableExperiment {
 
   std::size_t columns_count() const { return causes_.size() + causes_.size() % 2; }
 
-  // Draws 2g and 2g + 1 come together.
+  // One call gives draws 2g and 2g + 1.
   void draw_all(std::span<const std::uint8_t> second, std::uint64_t first, std::uint64_t step,
                 std::size_t n, std::vector<double>& columns) const {
     std::array<double, kTrials> other{};
@@ -180,7 +181,7 @@ class BudgetTrials : public ScalableExperiment {
   std::vector<std::string> outputs_ = {"x_um", "y_um", "z_um", "volume_um"}, causes_;
   BinnedQuantity binned_;
   std::vector<double> sizes_;
-  std::vector<Drawing> drawings_;  // by cause, whose column has its number
+  std::vector<Drawing> drawings_;  // by cause; a cause has the column of its number
   std::vector<ChainStep> steps_;   // from the tool to the work
   std::vector<ChainTerm> terms_;
   ChainProgram chain_;

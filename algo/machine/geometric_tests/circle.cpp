@@ -23,7 +23,7 @@ struct Circle {
   }
 };
 
-// Of one or both paths, each deviation with the weight 1.
+// Circle of one or both paths; each deviation has the weight 1.
 Circle circle_of(const CircularPath& path, bool ccw, bool cw) {
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
@@ -47,7 +47,7 @@ struct Extent {
   double range() const { return high - low; }
 };
 
-// Of a path less the circle, or less the part of it that its centre makes.
+// Extent of a path minus `circle`.
 Extent extent_about(const CircularPath& path, const std::vector<double>& deviations,
                     const Circle& circle) {
   Extent extent;
@@ -83,7 +83,8 @@ Status check_path(const CircularPath& path) {
   return {};
 }
 
-// Each axis by the way that it comes at this angle; where it turns, by the way before.
+// Values with the approach of each axis at this angle; where an axis reverses, with the approach
+// before it.
 std::vector<FrameValues> values_on(const Machine& machine, const CircleRequest& request,
                                    const Command& command, double angle_rad, double way) {
   std::vector<FrameValues> values;

@@ -1,4 +1,4 @@
-// The circular test (ISO 230-4): predicted from the errors of the machine, and evaluated.
+// The circular test (ISO 230-4): prediction from the errors of the machine, and evaluation.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 namespace mdof::algo {
 
 // Radial deviations (actual radius - nominal radius, m) by the angle of the commands about the
-// centre, from the first axis of the plane towards the second. Counter-clockwise is that way.
+// centre. The angle, and the counter-clockwise path, go from the first axis of the plane towards
+// the second.
 struct CircularPath {
   std::vector<double> angle_rad;
   std::vector<double> ccw_m, cw_m;  // one of them may be empty: not measured
@@ -19,28 +20,29 @@ struct CircularPath {
 
 // Figures of ISO 230-4:2005, about least-squares circles; NaN where a path is missing.
 //   G    circular deviation: range of the radial deviations about the circle of that path alone
-//   Gb   bi-directional circular deviation: range of both paths about the circle of both
+//   Gb   bi-directional circular deviation: range of both paths about their common circle
 //   H    circular hysteresis: largest distance of the two paths at an angle
-//   D    mean bi-directional radial deviation: radius of the circle of both - nominal radius
+//   D    mean bi-directional radial deviation: radius of the common circle - nominal radius
 //   F    radial deviations, largest and smallest of a path, about the centre of the circle of all
-//        that was measured
+//        measured paths
 struct CircularFigures {
   double G_ccw_m = 0, G_cw_m = 0, Gb_m = 0, H_m = 0, D_m = 0;
   std::array<double, 2> F_ccw_m{}, F_cw_m{};  // largest, smallest
-  std::array<double, 2> centre_m{};  // of that circle, along the two axes: an offset of the set-up
+  // Centre of the circle of F, along the two axes: an offset of the set-up.
+  std::array<double, 2> centre_m{};
 };
 
-// The circle is the fit of r + a cos + b sin, to first order in the deviations: a centre that is c
-// beside the nominal one is off by c² / (2 R) at most, 6 nm for 50 µm at R = 200 mm, 63 nm at 20
-// mm. Errors: no path, fewer than 8 angles, a gap of more than a quarter of the circle, lengths
-// that differ.
+// The circle is the fit of r + a cos + b sin, to first order in the deviations. If its centre is c
+// beside the nominal one, the error is at most c² / (2 R): 6 nm for 50 µm at R = 200 mm, 63 nm at
+// 20 mm. Errors: no path, fewer than 8 angles, a gap of more than a quarter of the circle,
+// different lengths.
 Result<CircularFigures> circular_figures(const CircularPath& path);
-// The deviations with that centre taken out.
+// The deviations relative to the centre of the figures.
 CircularPath centred(const CircularPath& path, const CircularFigures& figures);
 
 struct CircleRequest {
   std::size_t first = 0, second = 1;  // directions of the axes of the plane
-  Command centre{};                   // of the circle, and where the other axes stand
+  Command centre{};                   // of the circle, and commands of the other axes
   double radius_m = 0;
   std::size_t angles = 360;
 };
@@ -48,10 +50,10 @@ struct PredictedCircle {
   CircularPath path;
   std::vector<std::string> not_measured, beyond;
 };
-// As a ball bar has it between the tool and a ball on the work that is where the tool was at the
-// centre: by the full product of the frames, each axis with the errors of the way that it comes.
-// Error: an axis that the chain has not; a radius of 0 or less or above 10 m; fewer than 8 angles
-// or more than 100,000.
+// The deviations that a ball bar measures between the tool and a ball on the work; the ball is at
+// the place of the tool at the centre. By the full product of the frames, with the errors of each
+// axis for its direction of motion. Error: an axis that the chain does not have; a radius of 0 or
+// less or above 10 m; fewer than 8 angles or more than 100,000.
 Result<PredictedCircle> predicted_circle(const Machine& machine, const CircleRequest& request);
 
 }  // namespace mdof::algo

@@ -61,9 +61,9 @@ Length length_of(const MeasuredLine& line) {
   return l;
 }
 
-// What the repetition of the lines makes of their slopes (∂ angle / ∂ length), with its degrees of
-// freedom. A line that was read once has the noise of the others: then one estimate from all of
-// them holds for every line, so that no part is independent of another.
+// u by the repetition of the lines with these slopes (∂ angle / ∂ length), and its degrees of
+// freedom. A line that was measured once has the noise of the others. One estimate from all lines
+// is then used for every line, so the parts are not independent.
 std::vector<UncertaintyPart> by_repetition(const std::array<Length, 4>& lines,
                                            const std::array<double, 4>& slope) {
   double squares = 0, freedom = 0, by_variance = 0;

@@ -1,5 +1,5 @@
-// Diagonals of the machine: as the chain predicts them (ISO 230-6), and squareness from measured
-// ones.
+// Diagonals of the machine: prediction by the chain (ISO 230-6), and squareness from measured
+// diagonals.
 #pragma once
 
 #include <span>
@@ -8,40 +8,40 @@
 
 namespace mdof::algo {
 
-// Of a plane from one corner to the other, in equal steps; the deviation is the error of the tool
-// along the diagonal, less that at its first point.
+// One diagonal of a plane, from corner to corner in equal steps. The deviation is the error of the
+// tool along the diagonal, minus the error at its first point.
 struct Diagonal {
-  std::string name;                // "X+Y+": the ways that the commands go
-  std::vector<double> position_m;  // along it, from its first corner
+  std::string name;                // "X+Y+": the directions of the commands
+  std::vector<double> position_m;  // along the diagonal, from its first corner
   std::vector<double> deviation_m;
-  double range_m = 0;  // E_D of ISO 230-6 for one approach: largest less smallest
+  double range_m = 0;  // E_D of ISO 230-6 for one approach: largest minus smallest
   std::vector<std::string> not_measured, beyond;
 };
-// Both of the plane of two axes. Errors as of plane_map().
+// Both diagonals of the plane of two axes. Errors: as plane_map().
 Result<std::vector<Diagonal>> plane_diagonals(const Machine& machine, std::size_t first,
                                               std::size_t second, std::size_t steps,
                                               MachineApproach approach);
 
-// Repeated measurements of one line: lengths over which the machine moved, m.
+// Repeated measurements of one line: lengths of the motion, m.
 struct MeasuredLine {
   std::vector<double> length_m;
 };
 struct SquarenessOfDiagonals {
   double angle_error_rad = 0;  // angle between the axes - 90°: EC0Y of X and Y
   double u_rad = 0, U_rad = 0, k = 0, freedom = 0;
-  double u_repeat_rad = 0;     // of it by repetition
-  bool two_diagonals = false;  // then the lengths of the axes hardly count
+  double u_repeat_rad = 0;     // part of it by repetition
+  bool two_diagonals = false;  // then the lengths of the axes have hardly any effect
 };
-// The angle between the axes by the law of cosines: Eq. 2 of Hwang, Song and Park of one diagonal
-// from (0, 0) to (Px, Py), the mean of both where the other, from (Px, 0) to (0, Py), is there too:
+// The angle between the axes by the law of cosines: Eq. 2 of Hwang, Song and Park for one diagonal
+// from (0, 0) to (Px, Py); the mean of both diagonals if that from (Px, 0) to (0, Py) is given too:
 //   cos θ12 = (Pd² - Px² - Py²) / (2 Px Py),   cos θ12 = (Pd² - Pe²) / (4 Px Py)
-// Uncertainty: of each line by repetition, where a line was read once by that of all lines
-// together, and the declared u_line of its length; degrees of freedom by Welch-Satterthwaite. An
-// error of the scale that all lines have in common turns nothing. Errors: a line without a reading,
-// lengths that no triangle has, no uncertainty at all.
+// The uncertainty includes the repetition of each line (that of all lines together if a line was
+// measured once) and the declared u_line of its length; degrees of freedom by Welch-Satterthwaite.
+// A scale error that all lines have in common does not change the angle. Errors: a line without a
+// reading, lengths that form no triangle, no uncertainty at all.
 struct DiagonalLines {
   MeasuredLine first, second, diagonal, other;  // other may be empty
-  double u_line_m = 0;                          // of each line on its own, declared
+  double u_line_m = 0;                          // of each line independently, declared
 };
 Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines);
 

@@ -31,7 +31,7 @@ double widest_gap(const std::vector<double>& angles) {
   return widest;
 }
 
-// The shorter way from each reading to the next.
+// Sum of the turns between successive readings, each by the shorter way.
 double turns_of(const std::vector<double>& angles) {
   double turns = 0;
   for (std::size_t i = 1; i < angles.size(); ++i) {
@@ -41,7 +41,7 @@ double turns_of(const std::vector<double>& angles) {
   return turns;
 }
 
-// Share of the whole time at each reading, 0 to 1.
+// Time of each reading as a share of the total time, 0 to 1.
 Result<Eigen::VectorXd> times_of(const CircleReadings& r) {
   const auto n = static_cast<Eigen::Index>(r.angle_rad.size());
   if (r.time_s.empty()) return Eigen::VectorXd::LinSpaced(n, 0, 1);

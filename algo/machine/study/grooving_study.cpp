@@ -21,7 +21,7 @@ constexpr MachineApproach kApproach = MachineApproach::mean;
 // ---- the machine ----
 
 struct Wave {
-  double size = 0, length = 0, phase_turns = 0;  // m or rad; m or turns; 0: at the middle
+  double size = 0, length = 0, phase_turns = 0;  // m or rad; m or rad; turns
 };
 
 ErrorFunction function_of(double length, std::size_t steps, double slope_size,
@@ -68,7 +68,7 @@ MachineFrame axis_x(const ChainAxis& chain) {
 
 MachineFrame axis_y(const ChainAxis& chain) {
   MachineFrame y = linear_axis(chain, 1);
-  y.at_m = {kCentre_m, 0, 0};  // the middle of the table, where the laser reads
+  y.at_m = {kCentre_m, 0, 0};  // the middle of the table, where the laser measures
   y.error = {along_axis(0, {{0.9e-6, 0.43, 0.35}, {0.1e-6, 0.12, 0.1}}),
              along_axis(-4.6e-6, {{0.45e-6, 0.17, 0.6}}),
              along_axis(0, {{0.25e-6, 0.28, 0.15}}),
@@ -95,7 +95,7 @@ MachineFrame axis_c(const ChainAxis& chain) {
   return c;
 }
 
-// What is not given is known to be nothing, but for the lines of X and Y in height.
+// Errors that are not given are set to 0 as known.
 void know_the_rest(Machine& machine) {
   for (MachineFrame& frame : machine.frames)
     for (std::size_t k = 0; k < kBodyErrors; ++k) {
@@ -132,7 +132,7 @@ struct Plant {
   const Machine& machine;
   const VolumetricTable* corrections = nullptr;
 
-  // Of the tool in the work, against the command that was wanted.
+  // Error of the tool relative to the work, for the wanted command.
   Eigen::Vector3d error_at(double x, double y) const {
     Command wanted{}, given{};
     wanted[0] = given[0] = x;
@@ -149,11 +149,11 @@ struct Plant {
   }
 };
 
-// Along one axis in the middle of the other: errors of the tool along X, Y and Z, m.
+// Readings along one axis in the middle of the other: errors of the tool along X, Y and Z, m.
 struct AxisReading {
   std::vector<double> at;
   std::array<std::vector<double>, 3> error;
-  double slope = 0;  // of the straightness in the plane, which is taken from it
+  double slope = 0;  // of the straightness in the plane, from which it is removed
 };
 
 AxisReading read_axis(const Plant& plant, std::size_t axis, Noise& noise, double sd) {
@@ -169,7 +169,7 @@ AxisReading read_axis(const Plant& plant, std::size_t axis, Noise& noise, double
     std::vector<double>& e = reading.error[k];
     const Line line = end_point_line(reading.at, e);
     const bool straightness = k < 2 && k != axis;
-    const double zero = e.front();  // a laser begins at 0, as an indicator over a plate does
+    const double zero = e.front();  // a laser starts at 0, like an indicator over a plate
     for (std::size_t i = 0; i < e.size(); ++i) e[i] -= straightness ? line.at(reading.at[i]) : zero;
     if (straightness) reading.slope = line.slope;
   }
@@ -190,7 +190,7 @@ DiagonalLines read_lines(const Plant& plant, Noise& noise, double sd) {
   return lines;
 }
 
-// ---- what is made of the readings ----
+// ---- evaluation of the readings ----
 
 void set(MachineFrame& frame, std::size_t k, const AxisReading& reading, double sign, double u) {
   ErrorFunction& f = frame.error[k];
@@ -200,7 +200,7 @@ void set(MachineFrame& frame, std::size_t k, const AxisReading& reading, double 
   f.u.assign(reading.at.size(), u);
 }
 
-// The description that the readings give: no angles, as in Eq. 1.
+// The machine as the readings describe it: no angles, as in Eq. 1.
 Machine found_machine(const Machine& machine, const AxisReading& x, const AxisReading& y,
                       const GroovingState& state, double u) {
   Machine found = machine;
@@ -209,7 +209,7 @@ Machine found_machine(const Machine& machine, const AxisReading& x, const AxisRe
     for (ErrorFunction& f : frame.error) f = {};
     frame.location = {};
     const bool is_x = frame.id == "X";
-    // Bodies that carry the work count with -.
+    // Errors of bodies that carry the work count with -.
     for (std::size_t k = 0; k < 2; ++k) set(frame, k, is_x ? x : y, frame.carries_work ? -1 : 1, u);
     if (is_x) frame.location[5] = {-state.angle_error_rad, state.u_angle_rad};
   }
@@ -263,7 +263,7 @@ Result<GroovingState> read_state(const Plant& plant, const GroovingInstruments& 
   GroovingState state;
   const AxisReading x = read_axis(plant, 0, noise, by.position_m);
   const AxisReading y = read_axis(plant, 1, noise, by.position_m);
-  // A turn of the work as a whole is in both slopes, with opposite signs.
+  // A rotation of the whole work is in both slopes, with opposite signs.
   state.angle_error_rad = -(x.slope + y.slope) + noise.of_one(by.square_rad);
   state.u_angle_rad = std::hypot(
       by.square_rad, 2 * noise.u_of_mean(by.position_m) / kWidth_m);  // two ends of two lines
@@ -297,7 +297,8 @@ double value_at(const AxisReading& reading, std::size_t k, double at) {
   return reading.error[k][i] + part * (reading.error[k][i + 1] - reading.error[k][i]);
 }
 
-// X, Y and C keep the indicator over one spot; it reads the height of the table against the tool.
+// X, Y and C keep the indicator over one spot; it measures the height of the table relative to the
+// tool.
 CircleReadings read_circle(const Machine& machine, const Plant& plane, Noise& noise,
                            const GroovingInstruments& by) {
   const AxisReading along_x = read_axis(plane, 0, noise, by.height_m);
@@ -367,8 +368,8 @@ Machine grooving_machine() {
   machine.name = "grooving machine of Hwang, Song and Park, simulated";
   machine.simulated = true;
   machine.chain = parse_chain("w-C-Y-b-X-t").value();
-  machine.chain.axes[1].against_command = true;  // the table goes back as the command grows
-  machine.tool_m = {0, 0, 0.12};                 // above the guides, as the laser's beam is
+  machine.chain.axes[1].against_command = true;  // the table moves against its command
+  machine.tool_m = {0, 0, 0.12};                 // above the guides, like the laser beam
   machine.frames = {axis_c(machine.chain.axes[0]), axis_y(machine.chain.axes[1]),
                     axis_x(machine.chain.axes[2])};
   know_the_rest(machine);

@@ -16,7 +16,7 @@ SurfaceMap scaled(const SurfaceMap& map, double factor) {
   return result;
 }
 
-// Missing where `other` has no height: all parts have the same pixels.
+// Marks pixels without a height in `other` as missing, so that all parts have the same pixels.
 void keep_common(SurfaceMap& map, const SurfaceMap& other) {
   for (std::size_t k = 0; k < map.z_m.size(); ++k)
     if (std::isnan(other.z_m[k])) map.z_m[k] = SurfaceMap::kMissing;

@@ -13,10 +13,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kGrowth = 1.5;     // of an error that varies at its floor
-constexpr double kInACorner = 0.2;  // of the square of smoothing, which has a quarter there
+constexpr double kGrowth = 1.5;     // tolerated growth of an error that varies at its floor
+constexpr double kInACorner = 0.2;  // share of the square; a quarter of it is inside at a corner
 
-// Actual - wanted of each pass, over the pixels that all have.
+// Actual - wanted of each pass, over the pixels that all passes have.
 Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
   std::vector<SurfaceMap> errors;
   for (const SurfaceMap& cut : passes.cuts) {
@@ -35,7 +35,7 @@ Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
   return errors;
 }
 
-// Pixels that do not determine a parabola stay as they are.
+// Pixels that do not determine a parabola are not changed.
 SurfaceMap smoothed(const SurfaceMap& map, double side_m) {
   if (side_m <= 0) return map;
   const LocalParabola square(map, side_m, kInACorner);
@@ -48,7 +48,7 @@ SurfaceMap smoothed(const SurfaceMap& map, double side_m) {
   return result;
 }
 
-// What each pass left against its own path, and the correction of the next path.
+// Error of each pass relative to its own path, and the correction of the next path.
 struct Shares {
   std::vector<SurfaceMap> left;
   SurfaceMap correction;  // the next path is wanted - correction
@@ -56,7 +56,7 @@ struct Shares {
   double left_by_smoothing_rms_m = 0;
 };
 
-// Of repeated passes, about their mean, as RMS.
+// RMS of repeated passes about their mean.
 double spread_rms_m(const std::vector<SurfaceMap>& left, const SurfaceMap& mean) {
   double variance = 0;
   for (SurfaceMap off : left) {
@@ -66,8 +66,8 @@ double spread_rms_m(const std::vector<SurfaceMap>& left, const SurfaceMap& mean)
   return std::sqrt(variance);
 }
 
-// Takes the share of the correction out that is random, by its RMS over n passes: Wiener's filter
-// in one number. The piston stays.
+// Removes the random share of the correction, given by its RMS over n passes: Wiener's filter with
+// one number. The piston is kept.
 double shrink(SurfaceMap& correction, double random_rms_m, std::size_t n) {
   const MapFigures figures = figures_of(correction);
   const double random = random_rms_m * random_rms_m / static_cast<double>(n);
@@ -79,7 +79,7 @@ double shrink(SurfaceMap& correction, double random_rms_m, std::size_t n) {
 
 Shares shares_of(std::vector<SurfaceMap> errors, const CuttingPasses& passes) {
   Shares shares;
-  SurfaceMap found = errors.front();  // the correction before it is smoothed
+  SurfaceMap found = errors.front();  // the correction before smoothing
   std::fill(found.z_m.begin(), found.z_m.end(), 0.0);
   shares.correction = found;
   for (std::size_t pass = 0; pass < errors.size(); ++pass) {
@@ -127,7 +127,8 @@ void split(std::vector<SurfaceMap>& left, CuttingResult& result) {
   if (result.factor) result.floor_optimal_m = random * std::sqrt(1 + *result.factor / n);
 }
 
-// Repeated: whether the next pass will be better than those. Else: whether the passes became so.
+// For repeated passes: whether the next pass will be better than they are. Else: whether the passes
+// became better.
 bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
   const std::vector<MapFigures>& error = result.error;
   if (passes.repeated) {
@@ -139,7 +140,7 @@ bool is_converging(const CuttingPasses& passes, const CuttingResult& result) {
                                                             : *result.floor_optimal_m;
     return floor < std::sqrt(square) || square == 0;
   }
-  if (error.back().rms_m == 0) return true;  // nothing is left
+  if (error.back().rms_m == 0) return true;  // no error is left
   double least = error[1].rms_m;
   for (std::size_t k = 1; k < error.size(); ++k) least = std::min(least, error[k].rms_m);
   return error.back().rms_m < error.front().rms_m && error.back().rms_m <= kGrowth * least;

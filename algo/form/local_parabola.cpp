@@ -14,7 +14,7 @@ std::array<double, kTerms> terms(double u, double v) {
   return {{1, u, v, u * u, u * v, v * v}};
 }
 
-// Of half a side; a square beyond the map is one as large as the map.
+// Pixels in half a side; a square larger than the map is as large as the map.
 std::ptrdiff_t pixels(double half_side_m, double pixel_m, std::size_t of_map) {
   return static_cast<std::ptrdiff_t>(
       std::min(std::floor(half_side_m / pixel_m + 1e-9), static_cast<double>(of_map)));
@@ -32,7 +32,7 @@ LocalParabola::LocalParabola(const SurfaceMap& map, double side_m, double least_
   const bool fits = 2 * ni_ < static_cast<std::ptrdiff_t>(map.nx) &&
                     2 * nj_ < static_cast<std::ptrdiff_t>(map.ny);
   if (!is_large_enough() || !fits) return;
-  // Of a whole square the same weights everywhere.
+  // A complete square has the same weights everywhere.
   Eigen::MatrixXd A(static_cast<Eigen::Index>(size()), kTerms);
   Eigen::Index row = 0;
   for (std::ptrdiff_t b = -nj_; b <= nj_; ++b)
@@ -72,7 +72,7 @@ Parabola LocalParabola::in_m(const std::array<double, 4>& c) const {
           c[2] / (half_x_m_ * half_y_m_)};
 }
 
-// Of what is measured in the square: normal equations by Cholesky's method.
+// Fit to the measured pixels of the square: normal equations by Cholesky's method.
 bool LocalParabola::fitted(std::ptrdiff_t i, std::ptrdiff_t j, Parabola& found) const {
   std::array<std::array<double, kTerms + 1>, kTerms> A{};
   std::size_t count = 0;

@@ -1,6 +1,6 @@
-// The parabola through the heights about a pixel, by least squares over a square of a stated side:
-// its height and curvatures. Little noise, and exact for constant curvature, at edges and holes
-// too. README.md says what it does to waves. SI.
+// Least-squares parabola through the heights about a pixel, over a square of given side: its height
+// and curvatures. It reduces noise, and is exact for constant curvature, also at edges and holes.
+// README.md describes the effect on waves. SI.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@ struct Parabola {
 
 class LocalParabola {
  public:
-  // The map must outlive it. `least_share`: of the square's pixels that must be measured.
+  // Keeps a reference to `map`. `least_share`: required share of measured pixels in the square.
   LocalParabola(const SurfaceMap& map, double side_m, double least_share);
 
-  // False: the side is below two pixels, so that the square is smaller than 3 x 3.
+  // False: the side is below two pixels, so the square is smaller than 3 x 3.
   bool is_large_enough() const { return ni_ >= 1 && nj_ >= 1; }
-  // False: too few pixels, or they do not determine a parabola.
+  // False: too few pixels, or pixels that do not determine a parabola.
   bool at(std::size_t i, std::size_t j, Parabola& found) const;
 
  private:
@@ -33,7 +33,7 @@ class LocalParabola {
   const SurfaceMap& map_;
   std::ptrdiff_t ni_, nj_;
   double half_x_m_, half_y_m_, least_share_;
-  std::array<std::vector<double>, 4> weight_;  // of 1, u^2, u v, v^2 in a whole square
+  std::array<std::vector<double>, 4> weight_;  // for 1, u^2, u v, v^2 in a complete square
 };
 
 }  // namespace mdof::algo

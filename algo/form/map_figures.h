@@ -1,4 +1,4 @@
-// What a map is like: its peak to valley and root mean square, and a plane taken out of it. SI.
+// Figures of a map: peak to valley and root mean square; removal of a plane. SI.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ struct MapFigures {
   double pv_m = 0;   // largest - smallest height
   double rms_m = 0;  // about the mean
   double mean_m = 0;
-  std::size_t pixels = 0;  // measured
+  std::size_t pixels = 0;  // measured pixels
 };
 MapFigures figures_of(const SurfaceMap& map);
 
-// z = piston + tilt_x (x - x_mean) + tilt_y (y - y_mean) by least squares over the measured pixels;
-// a tilt that they do not determine (a single row or column) is 0.
+// z = piston + tilt_x (x - x_mean) + tilt_y (y - y_mean) by least squares over the measured pixels.
+// A tilt that the pixels do not determine (a single row or column) is 0.
 struct Plane {
   double x_mean_m = 0, y_mean_m = 0, piston_m = 0, tilt_x = 0, tilt_y = 0;
   double at(double x_m, double y_m) const {

@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLeastOfSquare = 0.5;  // of the square
+constexpr double kLeastOfSquare = 0.5;  // share of the square that must be measured
 
 double von_mises_Pa(const Parabola& c, const Plate& plate) {
   const double stiffness = plate.youngs_modulus_Pa * plate.thickness_m / 2;

@@ -20,21 +20,21 @@ namespace {
 
 constexpr std::size_t kForSearch = 1500, kForCourse = 50'000, kForFit = 250'000;  // pixels
 constexpr double kLeastOverlap = 0.1;                                             // of A's pixels
-constexpr double kSearchOverlap = 0.6;  // of a start that was searched for
-constexpr double kSearchShift = 0.2;    // of the size of A, to each side
+constexpr double kSearchOverlap = 0.6;  // for poses found by search
+constexpr double kSearchShift = 0.2;    // part of the size of A, to each side
 constexpr int kSearchSteps = 10;        // to each side
-constexpr double kSearchTurn_deg = 2;   // a step; five to each side
-// All other turns, by fewer pixels and larger steps; the best of them are fitted.
+constexpr double kSearchTurn_deg = 2;   // in each step; five steps to each side
+// All other turns use fewer pixels and larger steps; only the best are fitted.
 constexpr std::size_t kForTurns = 400;
-constexpr int kTurnSteps = 4;  // of the shift, to each side
+constexpr int kTurnSteps = 4;  // for the shift, to each side
 constexpr double kTurnStep_deg = 5;
 constexpr std::size_t kTurnsFitted = 6;
-constexpr double kAlike = 5e-3;     // of the mean size of A: no search is needed
-constexpr double kMostOfPlace = 4;  // times the mean size of A: a single place counts for no more
-// A pose elsewhere has to leave less than this of what is left at first, and of A.
+constexpr double kAlike = 5e-3;     // part of the mean size of A: below it no search is needed
+constexpr double kMostOfPlace = 4;  // times the mean size of A: limit of the residual of one place
+// A pose found by search must leave less than this part of the first residual, and of A.
 constexpr double kMuchBetter = 0.5;
 
-// The best of starts over shifts and turns, by a few pixels.
+// The best pose of a grid of shifts and turns, with few pixels.
 MapPose searched(const Places& a, const Surface& b) {
   MapPose best;
   double least = -1;
@@ -51,8 +51,8 @@ MapPose searched(const Places& a, const Surface& b) {
   return best;
 }
 
-// The best shift of each turn beyond those of searched(), the best turn first: a part that was laid
-// into the machine the other way round.
+// The best shift for each turn outside the grid of searched(), the best turn first: the part may
+// lie in the machine in another orientation.
 std::vector<MapPose> turned_starts(const Places& a, const Surface& b) {
   std::vector<std::pair<double, MapPose>> starts;
   const double step_m = kSearchShift * a.size_m / kTurnSteps;
@@ -75,7 +75,7 @@ std::vector<MapPose> turned_starts(const Places& a, const Surface& b) {
   return poses;
 }
 
-// B laid onto A. Poses are about the middle of A.
+// Registration of B to A. Poses are about the middle of A.
 class Registration {
  public:
   Registration(const SurfaceMap& a, const SurfaceMap& b, const Surface& surface)
@@ -120,8 +120,9 @@ class Registration {
     return map;
   }
 
-  // From 0, in the directions that the shape determines there. Where it determines fewer of them
-  // at the end, again in these alone; where more, on from there.
+  // Starts at pose 0, in the directions that the shape determines there. If the shape determines
+  // fewer directions at the end, the fit starts again in these directions; if it determines more,
+  // the fit continues from there.
   MapPose fitted_at_rest() const {
     MapPose pose;
     Eigen::MatrixXd directions = evidence_.determined(b_, pose);
@@ -142,7 +143,7 @@ class Registration {
   PoseFit fitted_few(const MapPose& start, const Eigen::MatrixXd& directions) const {
     return fitted_from(few_, b_, start, directions, pixel_m_, 30);
   }
-  // From a start elsewhere; what the shape does not determine at its end is taken as 0.
+  // Fit from another start; directions that the shape does not determine at its end are taken as 0.
   PoseFit fitted_elsewhere(const MapPose& start) const {
     PoseFit fit = fitted_few(start, Eigen::MatrixXd::Identity(3, 3));
     const Eigen::MatrixXd directions = evidence_.determined(b_, fit.pose);
@@ -163,8 +164,8 @@ class Registration {
            j < static_cast<double>(flat_.ny) &&
            !std::isnan(flat_.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j)));
   }
-  // Places that are measured in both poses, and so is, in the other one, what this one compares
-  // them with: otherwise a difference at the border of B would be left behind.
+  // Places that are measured in both poses, and whose counterpart in one pose is measured in the
+  // other pose too. Otherwise a difference at the border of B would be ignored.
   std::vector<bool> common(const PoseFit& fit, const PoseFit& other) const {
     std::vector<bool> counts(fit.left_m.size());
     const Turn here(fit.pose.turn_rad), back(-other.pose.turn_rad);
@@ -188,8 +189,8 @@ class Registration {
     return mean_left(fit, counts, most_m_);
   }
 
-  // The form of both may differ, so that a little better is not enough; and what is better must
-  // be so where both are measured.
+  // The forms of both maps may differ, so the pose must be much better, and must be so where both
+  // are measured.
   bool is_much_better(const PoseFit& other, const PoseFit& fit) const {
     if (overlap(other) < kSearchOverlap) return false;
     const std::vector<bool> counts = measured(other);
@@ -204,7 +205,7 @@ class Registration {
            left(fit, counts).size_m <= kAlike * left(own_, counts).size_m;
   }
 
-  // True: a pose elsewhere is much better.
+  // True: a pose found elsewhere is much better.
   bool search(PoseFit& fit) const {
     if (is_found(fit) || !evidence_.has_shape()) return false;
     bool is_elsewhere = false;
@@ -226,7 +227,7 @@ class Registration {
   SurfaceMap flat_;
   Places few_, course_;
   ShapeEvidence evidence_;
-  PoseFit own_;  // A itself at the few places
+  PoseFit own_;  // A itself at `few_`
   double most_m_ = 0;
   std::size_t undetermined_ = 0;
   double left_by_movement_ = 1, moved_m_ = 0;

@@ -1,4 +1,4 @@
-// Two maps of the same part, laid onto each other: B - A at the pixels of A. SI.
+// Registration of two maps of the same part: B - A at the pixels of A. SI.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 namespace mdof::algo {
 
 enum class Register {
-  rigid,  // shift, turn, piston and tilt of B against A are taken out
-  plane,  // piston and tilt
+  rigid,  // removes shift, turn, piston and tilt of B relative to A
+  plane,  // removes piston and tilt
   none
 };
 
-// How B lies against A: what is at p in A is at R(turn) p + shift in B.
+// Pose of B relative to A: the place p in A is the place R(turn) p + shift in B.
 struct MapPose {
   double shift_x_m = 0, shift_y_m = 0, turn_rad = 0;
 };
@@ -22,14 +22,14 @@ struct MapPose {
 struct Comparison {
   SurfaceMap difference;  // B - A, over the pixels of A
   MapPose pose;
-  // Directions among shift x, shift y and turn that the shape does not determine (a sphere can
-  // turn, and be tilted instead of shifted), and those in which the slopes of the two maps have
-  // nothing in common: they were taken as 0.
+  // Number of directions among shift x, shift y and turn that were taken as 0: the shape does not
+  // determine them (a sphere can turn, and be tilted instead of shifted), or the slopes of the two
+  // maps have nothing in common in them.
   std::size_t undetermined = 0;
-  // Mean size of what is left at common places, as a share of what is left with B as it lies
-  // (piston and tilt taken out of both); 1 without a movement.
+  // Mean size of the residual at common places, divided by the residual without a movement of B
+  // (piston and tilt removed in both); 1 without a movement.
   double left_by_movement = 1;
-  double moved_m = 0;          // upper bound of how far that movement takes a place of A
+  double moved_m = 0;          // upper bound of the displacement of a place of A by that movement
   double pv_m = 0, rms_m = 0;  // rms about the mean
   std::size_t pixels = 0;
 };
@@ -37,8 +37,8 @@ struct Comparison {
 // Error bad_input: less than a tenth of A's pixels has a counterpart in B.
 Result<Comparison> compare(const SurfaceMap& a, const SurfaceMap& b, Register how);
 
-// B - A where both have pixels, B between its pixels where they do not coincide; nothing taken out.
-// The same error.
+// B - A where both have pixels, with B interpolated between its pixels; nothing is removed. Error:
+// as compare().
 Result<SurfaceMap> difference(const SurfaceMap& a, const SurfaceMap& b);
 
 }  // namespace mdof::algo

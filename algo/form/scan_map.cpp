@@ -11,12 +11,12 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kLeastReach = 1.5, kFarthestReach = 6, kReachStep = 1.5;  // in pixels
-constexpr double kMostOneSided = 0.3;  // of the reach: how far the mean of the points may be off
+constexpr double kMostOneSided = 0.3;  // of the reach: largest distance of the mean of the points
 constexpr double kRankTolerance = 0.02;
 constexpr int kParabolaTerms = 6, kLeastCells = 9;
 constexpr std::size_t kCellsOfPixel = 4;
 
-// The points of a quarter of a pixel: their mean place and height.
+// Mean place and height of the points of a quarter of a pixel.
 struct Cell {
   double n = 0, x = 0, y = 0, z = 0;
 };
@@ -42,7 +42,8 @@ class Cells {
         if (cell.n > 0) *sum /= cell.n;
   }
 
-  // Those whose mean place is within the reach, with x and y from there in units of the reach.
+  // Finds cells whose mean place is within the reach; x and y are relative to (x_m, y_m), in units
+  // of the reach.
   void around(double x_m, double y_m, double reach_m, std::vector<Cell>& found) const {
     found.clear();
     const std::size_t left = row(x_m - reach_m, x0_m_, nx_), right = row(x_m + reach_m, x0_m_, nx_);
@@ -76,11 +77,11 @@ bool is_one_sided(const std::vector<Cell>& cells) {
   return std::hypot(x, y) > kMostOneSided * static_cast<double>(cells.size());
 }
 
-// The parabola at the middle of its points.
+// Fitted parabola at the middle of its points.
 struct Fitted {
   double z_m = SurfaceMap::kMissing;  // missing: the points do not determine it
-  double variance = 0;                // of z, of points of variance 1
-  double squares = 0, freedom = 0;    // of what it leaves, a point
+  double variance = 0;                // of z, for points of variance 1
+  double squares = 0, freedom = 0;    // sum of squares of the residuals, per point
 };
 
 Fitted fitted(const std::vector<Cell>& cells) {
@@ -118,7 +119,7 @@ Fitted pixel_height(const Cells& cells, double x_m, double y_m, double pixel_m,
   return {};
 }
 
-// Pixels at whole multiples, one beyond the points.
+// Pixels are at integer multiples, one beyond the points.
 void set_range(const std::vector<double>& at_m, double pixel_m, double& from_m, double& count) {
   const auto [least, most] = std::minmax_element(at_m.begin(), at_m.end());
   const double first = std::floor(*least / pixel_m), last = std::ceil(*most / pixel_m);
@@ -126,7 +127,7 @@ void set_range(const std::vector<double>& at_m, double pixel_m, double& from_m, 
   count = last - first + 1;
 }
 
-// Outer rows and columns without a height are left out: the map ends where the scan does.
+// Removes outer rows and columns without a height, so that the map ends where the scan ends.
 ScanMap without_empty_edges(ScanMap scan) {
   const SurfaceMap map = scan.map, u = scan.u;
   std::size_t left = map.nx, right = 0, low = map.ny, high = 0;

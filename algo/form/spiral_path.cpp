@@ -15,22 +15,21 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kMostPoints = 1e10;
-constexpr double kTouching = 1e-6;  // of the tool's radius: the last step of the contact
+constexpr double kTouching = 1e-6;  // of the tool's radius: the last step of the contact iteration
 constexpr int kMostSteps = 40;
 constexpr double kNowhere = -std::numeric_limits<double>::infinity();
-constexpr double kHigher_m = 1e-9;    // than the place that was found from the middle
-constexpr double kBetweenPixels = 4;  // times as curved as pixels the surface may be between them
+constexpr double kHigher_m = 1e-9;    // above the place that the iteration found
+constexpr double kBetweenPixels = 4;  // largest curvature between pixels relative to that at pixels
 constexpr int kFewestPlaces = 64, kMostPlaces = 2000;
 
-// Eq. 9 over s in [0, L], from height and slope at one end to those at the other.
+// Eq. 9 over s in [0, L], with height and slope at both ends.
 double hermite(double s, double L, double z0, double slope0, double z1, double slope1) {
   const double t = s / L, u = 1 - t;
   return (1 + 2 * t) * u * u * z0 + (3 - 2 * t) * t * t * z1 +
          L * t * u * (u * slope0 - t * slope1);
 }
 
-// Largest second derivative along rows, columns and diagonals: how narrow the surface's valleys
-// are.
+// Largest second derivative along rows, columns and diagonals: curvature of the narrowest valley.
 double sharpest_valley_per_m(const SurfaceMap& map) {
   double sharpest = 0;
   const auto nx = static_cast<std::ptrdiff_t>(map.nx), ny = static_cast<std::ptrdiff_t>(map.ny);
@@ -49,7 +48,7 @@ double sharpest_valley_per_m(const SurfaceMap& map) {
   return sharpest;
 }
 
-// The off, |off| < r, where height(off) is largest: the best of equally spaced places, then refined
+// The offset with |off| < r and the largest height(off): the best of equally spaced places, refined
 // between its neighbours.
 template <class Height>
 double highest(const Height& height, double r, int places) {
@@ -97,10 +96,10 @@ Result<SpiralPath> SpiralPath::over(const SurfaceMap& map, const SpiralRequest& 
                     plain_number(kMostPoints) +
                     "); use a smaller radius, a larger feed or fewer points per turn");
   SpiralPath path(map, request);
-  // A radius that is a whole number of turns ends in the centre, whatever was rounded.
+  // A radius of a whole number of turns ends in the centre, in spite of rounding.
   path.points_ = static_cast<std::size_t>(std::floor(steps * (1 + 1e-12) + 1e-9)) + 1;
-  // The first that is on the part is not found twice: each() looks for it again, which is cheap
-  // where it is near the edge.
+  // The first point on the part is not stored: each() searches for it again, which costs little
+  // near the edge.
   Touch found;
   for (std::size_t k = 0; k < path.points_; ++k)
     if (path.touch(k, found)) return path;
@@ -126,9 +125,10 @@ bool SpiralPath::at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part
   return request_.extend_pixels > 0 && surface_.at(x_m, y_m, request_.extend_pixels, point);
 }
 
-// In the plane of rho and z: the circle of the tool's edge touches where the surface is steeper by
-// d / sqrt(r^2 - d^2), d from its lowest point; z is that point's. Where the surface is curved more
-// than the tool there are several such places. The highest of them stops the tool.
+// In the plane of rho and z: the circle of the tool's edge touches the surface at the distance d
+// from the tool's lowest point, where the slope is d / sqrt(r^2 - d^2); z is the height of the
+// lowest point. If the surface is curved more than the tool, there are several such places. The
+// highest of them stops the tool.
 bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) const {
   const double r = request_.tool_radius_m;
   const auto surface_at = [&](double rho, SurfacePoint& point, OnPart& on_part) {
@@ -163,7 +163,7 @@ bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) con
       found.is_too_sharp = true;
     }
   }
-  // The path turns: its direction is across rho.
+  // The direction of the rotating path is perpendicular to rho.
   found.along = point.slope_y * cos - point.slope_x * sin;
   return true;
 }
@@ -174,7 +174,7 @@ bool SpiralPath::touch(std::size_t index, Touch& found) const {
   return contact(rho_m(index), cos_[k], sin_[k], found);
 }
 
-// Of the projection onto the plane: rho dtheta, and the feed, which is small beside it.
+// Length in the projection onto the plane: rho dtheta, and the feed, which is small in comparison.
 double SpiralPath::arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const {
   const double steps = static_cast<double>(to - from);
   const double angle = 2 * std::numbers::pi * steps / static_cast<double>(request_.points_per_turn);
@@ -185,15 +185,15 @@ double SpiralPath::arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const {
   return std::sqrt(around * around + across * across);
 }
 
-// Points that are on no pixel, between two that are: Eq. 9 over their arc. One of more than a turn
-// goes to the mean of both heights within half a turn and stays there, as a slope would carry a
-// cubic of that length far away; one at the end of the path keeps the height before it. At the
-// beginning of the path what comes before is taken from the end of the first turn, as if a turn at
-// the same radius went before: a servo that held the first height would have to jump.
+// Bridges points that are on no pixel, between two that are: Eq. 9 over their arc. A gap of more
+// than a turn goes to the mean of both heights within half a turn and stays there, because a slope
+// would carry a cubic of that length far away. A gap at the end of the path keeps the height before
+// it. For a gap at the beginning, the end of the first turn is used as the height before it, as if
+// a turn with the same radius preceded it: a servo that held the first height would have to jump.
 struct SpiralPath::Gap {
   const SpiralPath& path;
   bool has_before = false, has_after = false;
-  std::ptrdiff_t before_at = 0, after_at = 0;  // before: may be negative
+  std::ptrdiff_t before_at = 0, after_at = 0;  // before_at may be negative
   Touch before, after;
 
   double z_m(std::ptrdiff_t index) const {
@@ -217,7 +217,7 @@ struct SpiralPath::Gap {
 
 void SpiralPath::look_back(std::size_t first, Gap& gap) const {
   const std::size_t turn = request_.points_per_turn;
-  for (std::size_t k = std::min(turn, points_); k-- > first;)  // a turn on, behind the beginning
+  for (std::size_t k = std::min(turn, points_); k-- > first;)  // back from the end of the turn
     if (touch(k, gap.before)) {
       gap.has_before = true;
       gap.before_at = static_cast<std::ptrdiff_t>(k) - static_cast<std::ptrdiff_t>(turn);

@@ -1,6 +1,7 @@
-// The path of a fast tool servo over a map: a spiral from outside in, the round tool touching the
-// surface, the gaps outside of the part bridged. README.md has the equations. SI, rad; computed
-// point by point, so that its memory does not grow with its length.
+// The path of a fast tool servo over a map: a spiral from outside to inside, with the round tool in
+// contact with the surface, and with bridges over gaps outside the part. README.md has the
+// equations. SI, rad. Points are calculated one by one, so the memory does not grow with the length
+// of the path.
 #pragma once
 
 #include <cstddef>
@@ -17,33 +18,33 @@ namespace mdof::algo {
 struct SpiralRequest {
   double x_centre_m = 0, y_centre_m = 0;  // of the spindle, in the coordinates of the map
   double outer_radius_m = 0;
-  double feed_m = 0;  // towards the centre, a turn
+  double feed_m = 0;  // towards the centre, for each turn
   std::size_t points_per_turn = 720;
   double tool_radius_m = 0;       // 0: a pointed tool
-  std::size_t extend_pixels = 3;  // beyond the edge the surface goes on by so many
+  std::size_t extend_pixels = 3;  // extrapolation beyond the edge
 };
 
 enum class OnPart : std::uint8_t { bridged = 0, measured = 1, extended = 2 };
 
 struct PathPoint {
   double rho_m = 0, z_m = 0;
-  std::size_t index = 0;  // turns times points a turn
+  std::size_t index = 0;  // number of turns times points per turn
   OnPart on_part = OnPart::bridged;
 };
 
 struct SpiralCounts {
   std::size_t points = 0, measured = 0, extended = 0, bridged = 0;
-  std::size_t too_sharp = 0;  // the tool is stopped elsewhere: its radius is above the surface's
+  std::size_t too_sharp = 0;  // the surface is sharper than the tool, so the tool touches elsewhere
 };
 
 class SpiralPath {
  public:
-  // Errors: nothing of the spiral is on the part (holes over the whole of it, a centre elsewhere);
+  // Errors: no point of the spiral is on the part (it lies in holes, or the centre is elsewhere);
   // more than 10^10 points.
   static Result<SpiralPath> over(const SurfaceMap& map, const SpiralRequest& request);
 
   std::size_t points() const { return points_; }
-  // One after the other, from the outermost in; an error of `take` ends it.
+  // Calls `take` for each point, from the outermost inwards; an error of `take` stops it.
   Result<SpiralCounts> each(const std::function<Status(const PathPoint&)>& take) const;
 
  private:
@@ -58,17 +59,17 @@ class SpiralPath {
   bool touch(std::size_t index, Touch& found) const;
   bool contact(double rho_m, double cos, double sin, Touch& found) const;
   bool at(double x_m, double y_m, SurfacePoint& point, OnPart& on_part) const;
-  // Along the path from the first index on.
+  // Length of the path between two indices.
   double arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const;
-  // The last touch before `first`, as if the first turn had another one before it.
+  // Searches the last contact before `first`, as if another turn preceded the first turn.
   void look_back(std::size_t first, Gap& gap) const;
 
   SpiralRequest request_;
   Surface surface_;
   bool may_touch_twice_ = false;  // the surface is somewhere curved more than the tool
-  int places_ = 0;                // over the tool's width, to look for the highest
+  int places_ = 0;                // places over the tool's width, to search the highest
   std::size_t points_ = 0;
-  std::vector<double> cos_, sin_;  // of the points of a turn
+  std::vector<double> cos_, sin_;  // for the points of a turn
 };
 
 // The middle of the measured part.
@@ -77,17 +78,18 @@ struct MapMiddle {
 };
 MapMiddle middle_of(const SurfaceMap& map);
 
-// The measured pixel that is farthest from the centre.
+// The measured pixel with the largest distance from the centre.
 struct FarthestPixel {
   double radius_m = 0, x_m = 0, y_m = 0;
 };
 FarthestPixel farthest_pixel(const SurfaceMap& map, double x_centre_m, double y_centre_m);
 
-// No pixel of the outermost rows and columns has a height: the part may be larger than its map.
+// True: no pixel of the outermost rows and columns has a height, so the part may be larger than its
+// map.
 bool is_edge_missing(const SurfaceMap& map);
 
-// Roughness that a round tool leaves between two turns: height and mean deviation of arcs of the
-// radius r, feed apart: Rt = r - sqrt(r^2 - feed^2 / 4), Ra = 4 Rt / (9 sqrt 3).
+// Roughness that a round tool leaves between two turns: height and mean deviation of arcs of radius
+// r at the distance feed: Rt = r - sqrt(r^2 - feed^2 / 4), Ra = 4 Rt / (9 sqrt 3).
 struct FeedRoughness {
   double Rt_m = 0, Ra_m = 0;
 };

@@ -7,14 +7,14 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kForSlopes = 6;  // rings more, so that slopes have their pixels at corners
-constexpr double kOnPixel = 1e-9;      // of a pixel: no neighbour has a part
-// Of a pixel: a neighbour with so little a part need not be measured. Rounding of a movement would
-// otherwise lose the outermost pixels.
+constexpr std::size_t kForSlopes = 6;  // more rings, so that slopes at corners have their pixels
+constexpr double kOnPixel = 1e-9;      // of a pixel: no neighbour contributes
+// Part of a pixel: a neighbour with a smaller contribution may be missing. Otherwise the rounding
+// of a movement would remove the outermost pixels.
 constexpr double kLittle = 0.01;
 
-// Weights of the pixels -2 ... 3 of a row for the height at t in [0, 1] between 0 and 1, and for
-// its derivative.
+// Weights of the pixels -2 ... 3 of a row for the height at t in [0, 1] between pixels 0 and 1, and
+// for its derivative.
 struct Weights {
   std::array<double, 6> value{}, slope{};
 };
@@ -51,7 +51,7 @@ Weights two(double t) {
   return {{{0, 0, 1 - t, t, 0, 0}}, {{0, 0, -1, 1, 0, 0}}};
 }
 
-// From the next pixel on away from the place that is filled.
+// Weights from the next pixel outwards, seen from the filled pixel.
 constexpr std::array<std::array<double, 4>, 4> kLine = {
     {{{1, 0, 0, 0}}, {{2, -1, 0, 0}}, {{4. / 3, 1. / 3, -2. / 3, 0}}, {{1, 0.5, 0, -0.5}}}};
 constexpr std::array<std::array<double, 4>, 4> kParabola = {
@@ -62,7 +62,7 @@ constexpr std::array<std::array<double, 4>, 4> kParabola = {
 Surface::Surface(const SurfaceMap& map, std::size_t extension, Extension how)
     : dx_m_(map.dx_m), dy_m_(map.dy_m) {
   const std::size_t rings = std::min<std::size_t>(extension + kForSlopes, kNone - 1);
-  const std::size_t pad = rings + 3;  // at() reads three pixels beyond any other
+  const std::size_t pad = rings + 3;  // at() reads three pixels beyond every other pixel
   nx_ = map.nx + 2 * pad;
   ny_ = map.ny + 2 * pad;
   x0_m_ = map.x_m(0);
@@ -85,7 +85,7 @@ void Surface::extend(std::size_t rings, Extension how) {
   const std::array<std::ptrdiff_t, 4> ways = {
       {1, -1, static_cast<std::ptrdiff_t>(nx_), -static_cast<std::ptrdiff_t>(nx_)}};
   std::vector<std::size_t> front, next;
-  // All missing pixels beside a filled one; afterwards those beside what was filled last.
+  // All missing pixels beside a measured one; in later rounds those beside the pixels filled last.
   for (std::size_t k = 3 * nx_; k + 3 * nx_ < z_m_.size(); ++k)
     if (ring_[k] == kNone)
       for (const auto way : ways)
@@ -167,7 +167,7 @@ bool Surface::at(double x_m, double y_m, std::size_t rings, SurfacePoint& point)
     return !std::isnan(value) && !std::isnan(slope_x) && !std::isnan(slope_y);
   };
   if (sum(six(tx), six(ty), 0, 5) || sum(four(tx), four(ty), 1, 4)) return true;
-  // What has no part in the place may be missing.
+  // Pixels that do not contribute at this place may be missing.
   const auto pixel = [&](std::size_t a, std::size_t b, double otherwise) {
     const double found = z[(b + 2) * nx_ + a + 2];
     return std::isnan(found) ? otherwise : found;

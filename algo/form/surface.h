@@ -1,5 +1,5 @@
-// A height map as a smooth surface: heights and slopes between the pixels, and beyond the measured
-// ones as far as they were extended.
+// A height map as a smooth surface: heights and slopes between the pixels, and on extrapolated
+// pixels beyond the measured ones.
 #pragma once
 
 #include <cstddef>
@@ -10,27 +10,27 @@
 
 namespace mdof::algo {
 
-// How a missing pixel gets its height from measured ones beside it in its row or column. Where
-// several sides have some, it is their mean.
+// How a missing pixel gets its height from measured pixels beside it in its row or column. If
+// several sides have measured pixels, the mean is used.
 enum class Extension {
-  line,     // the line through the last four pixels (least squares): little noise
-  parabola  // through the last three: keeps the interpolation at the edge as it is within
+  line,     // line through the last four pixels (least squares): little noise
+  parabola  // through the last three: interpolates at the edge as it does inside
 };
 
 struct SurfacePoint {
   double z_m = 0, slope_x = 0, slope_y = 0;
 };
 
-// Hermite's cubics between the pixels, with slopes at them by differences over five (of fourth
-// order): continuous with its slopes, exact at the pixels. Where it lacks pixels for that, over
-// three, or straight.
+// Cubic Hermite polynomials between the pixels. The slopes at the pixels are differences over five
+// pixels (fourth order). The surface and its slopes are continuous, and it is exact at the pixels.
+// If pixels are missing, the differences are over three pixels, or the interpolation is linear.
 class Surface {
  public:
-  // The outermost `extension` pixels are heights; a few more are there for the slopes alone.
+  // The outermost `extension` pixels are heights; a few more are used for the slopes only.
   Surface(const SurfaceMap& map, std::size_t extension, Extension how);
 
-  // False: a pixel with a part in this place is farther than `rings` pixels from a measured one
-  // (0: all of them are measured).
+  // False: a pixel that contributes at this place is more than `rings` pixels away from a measured
+  // one (0: all contributing pixels must be measured).
   bool at(double x_m, double y_m, std::size_t rings, SurfacePoint& point) const;
 
  private:

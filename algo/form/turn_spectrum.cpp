@@ -10,11 +10,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kRounding = 1e-13;  // of the largest height: amplitudes below it are none
+constexpr double kRounding = 1e-13;  // of the largest height: smaller amplitudes count as 0
 constexpr double kOfABend =
-    1.0 / 16;  // what a bend from turn to turn leaves beside its line: 1 / 2 pi^2
+    1.0 / 16;  // part of a bend between turns that its line leaves: 1 / 2 pi^2
 
-// The operator of the library looks for infinities first.
+// The operator of the library tests for infinities first.
 Complex times(const Complex& a, const Complex& b) {
   return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
 }
@@ -33,7 +33,7 @@ Dft::Dft(std::size_t n) : n_(n), out_(n) {
   room_.resize(factors_.empty() ? 1 : factors_.back());
 }
 
-// Of every stride-th value of `in`; n is what is left of the length.
+// Transforms every stride-th value of `in`; n is the remaining length.
 void Dft::step(const Complex* in, Complex* out, std::size_t n, std::size_t stride,
                std::size_t factor, bool inverse) const {
   if (n == 1) {
@@ -43,7 +43,7 @@ void Dft::step(const Complex* in, Complex* out, std::size_t n, std::size_t strid
   const std::size_t p = factors_[factor], m = n / p;
   for (std::size_t q = 0; q < p; ++q)
     step(in + q * stride, out + q * m, m, stride * p, factor + 1, inverse);
-  const auto root = [&](std::size_t k) {  // of n
+  const auto root = [&](std::size_t k) {  // root of order n
     const Complex& w = root_[k % n * stride];
     return inverse ? Complex(w.real(), -w.imag()) : w;
   };

@@ -1,4 +1,5 @@
-// Harmonics of a path turn by turn: how fast a servo has to move, and what a slow one leaves out.
+// Harmonics of a path, turn by turn: the bandwidth that a servo needs, and the part that a slow
+// servo omits.
 #pragma once
 
 #include <complex>
@@ -25,22 +26,22 @@ class Dft {
 };
 
 struct PassedBand {
-  double pv = 0, rms = 0;  // of what is left out
+  double pv = 0, rms = 0;  // of the omitted part
 };
 
-// Takes the heights of a path point by point.
+// Receives the heights of a path point by point.
 class TurnSpectrum {
  public:
-  // What lies above `band_harmonic` is what a low pass leaves out; a negative one: no low pass.
+  // The omitted part is that above `band_harmonic`; if it is negative, there is no low pass.
   TurnSpectrum(std::size_t points_per_turn, double band_harmonic);
-  // Points of the last turn that is not whole have no part in it. A turn ends at another height
-  // than it begins, by the feed: the line from its start to the start of the next is no undulation.
+  // Points of an incomplete last turn are ignored. The feed makes the end of a turn higher or lower
+  // than its start: the line from its start to the start of the next turn is subtracted.
   void add(double z);
-  // A last turn that is whole, but has no next one, drifts as the turn before it.
+  // Ends the path. A complete last turn without a next one gets the drift of the turn before.
   void finish();
 
   // The largest harmonic whose amplitude in any turn is at least `share` of the largest amplitude
-  // of any harmonic and turn; 0: nothing moves.
+  // of all harmonics and turns; 0: no motion.
   std::size_t undulations(double share) const;
   PassedBand left_out() const;
   std::size_t turns() const { return turns_; }
@@ -54,7 +55,7 @@ class TurnSpectrum {
   std::size_t turns_ = 0;
   double squares_ = 0, least_ = 0, most_ = 0, height_ = 0;
   double change_ = 0;  // from the start of a turn to the start of the next
-  double bend_ = 0;    // the largest by which that differs from turn to turn
+  double bend_ = 0;    // largest difference of `change_` between successive turns
 };
 
 }  // namespace mdof::algo

@@ -1,4 +1,4 @@
-// Whether the shape of two maps or their noise determines how they lie against each other.
+// Decides whether the shape of two maps, and not their noise, determines their relative pose.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,14 +13,14 @@ namespace mdof::algo {
 
 class ShapeEvidence {
  public:
-  // Poses are about the middle of `about`, which are places of A.
+  // Poses are about the middle of `about`, the places of A.
   ShapeEvidence(const SurfaceMap& a, const Places& about);
 
-  // The directions that the shape determines at this pose, one a column (shift x, shift y, turn
-  // times size), orthonormal: across those in which the slopes of the two maps have nothing in
-  // common (README.md, "Surfaces and registration").
+  // The directions that the shape determines at this pose, one in each column (shift x, shift y,
+  // turn times size), orthonormal. They are orthogonal to the directions in which the slopes of the
+  // two maps have nothing in common (README.md, "Surfaces and registration").
   Eigen::MatrixXd determined(const Surface& b, const MapPose& about_middle) const;
-  // Whether A alone has slopes that no tilt explains.
+  // Whether A alone has slopes that a tilt does not explain.
   bool has_shape() const;
 
  private:

@@ -1,4 +1,5 @@
-// Some of the measured pixels of a map, spread evenly, about the middle of all of them. SI.
+// A selection of the measured pixels of a map, spread evenly, relative to the middle of all of
+// them. SI.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,8 @@ struct Places {
 
 Places places_of(const SurfaceMap& a, std::size_t most);
 
-// Of poses about the middle of A: what is at p in A is at R p + shift in B, both about that middle.
+// Rotation of poses about the middle of A: p in A is at R p + shift in B, both relative to that
+// middle.
 struct Turn {
   double cos = 1, sin = 0;
   explicit Turn(double rad);
@@ -24,7 +26,7 @@ struct Turn {
   double y_m(double x, double y) const { return sin * x + cos * y; }
 };
 
-// The same pose about (0, 0), its turn in (-pi, pi].
+// The same pose about (0, 0), with its turn in (-pi, pi].
 MapPose about_origin(const MapPose& about_middle, const Places& a);
 
 }  // namespace mdof::algo

@@ -9,9 +9,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kNeededOverlap = 0.6;     // of A's places, unless the start has less
-constexpr double kFitUndetermined = 1e-7;  // share of the slopes that no plane explains
-constexpr double kFitted_pixels = 1e-5;    // the last step
+constexpr double kNeededOverlap = 0.6;     // of A's places, unless the start has fewer
+constexpr double kFitUndetermined = 1e-7;  // share of the slopes that a plane does not explain
+constexpr double kFitted_pixels = 1e-5;    // length of the last step
 // Huber, Robust Statistics (1981), 1.345 sd: 95 % of the efficiency for normal noise. sd = 1.4826
 // times the median of the sizes.
 constexpr double kHuberLimit = 1.345 * 1.4826;
@@ -41,7 +41,8 @@ double huber_loss(double left_m, double limit_m) {
   return size <= limit_m ? size * size / 2 : limit_m * (size - limit_m / 2);
 }
 
-// Takes the plane out of what is left, anew from what was taken before, and sets the limit.
+// Removes the plane from the residuals, in addition to the plane removed before, and sets the
+// limit.
 void take_plane(const Places& a, PoseFit& fit, int most) {
   const double scale = 1 / a.size_m;
   for (int step = 0; step < most; ++step) {
@@ -99,7 +100,7 @@ PoseFit left_at(const Places& a, const Surface& b, const MapPose& pose,
 }
 
 struct PoseSums {
-  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3, 3), C = P, M = P;  // plane, both, movements
+  Eigen::MatrixXd P = Eigen::MatrixXd::Zero(3, 3), C = P, M = P;  // plane, mixed, movements
   Eigen::VectorXd p = Eigen::VectorXd::Zero(3), m = p;
 };
 
@@ -136,7 +137,7 @@ PoseSums pose_sums(const Places& a, const PoseFit& fit) {
   return sums;
 }
 
-// Of shift x, shift y, turn times size; in the directions alone.
+// Step of shift x, shift y, turn times size, only in these directions.
 Eigen::VectorXd pose_step(const Places& a, const PoseFit& fit, const Eigen::MatrixXd& directions) {
   const PoseSums sums = pose_sums(a, fit);
   const LeastNorm plane(sums.P, 1e-12);
@@ -145,9 +146,9 @@ Eigen::VectorXd pose_step(const Places& a, const PoseFit& fit, const Eigen::Matr
       directions.transpose() * (sums.M - sums.C.transpose() * plane.solve(sums.C)) * directions;
   const Eigen::VectorXd right =
       directions.transpose() * (sums.m - sums.C.transpose() * plane.solve(sums.p));
-  // Each unknown in its own scale, so that directions can be compared by their eigenvalues.
+  // Each unknown has its own scale, so that eigenvalues of directions are comparable.
   Eigen::VectorXd scale(all.rows());
-  const double least = kFitUndetermined * kFitUndetermined * all.trace();  // below it, rounding
+  const double least = kFitUndetermined * kFitUndetermined * all.trace();  // less is rounding
   for (Eigen::Index u = 0; u < all.rows(); ++u)
     scale(u) = all(u, u) > least ? 1 / std::sqrt(all(u, u)) : 0;
   const SingularValues found = singular_values(scale.asDiagonal() * left * scale.asDiagonal());
@@ -160,7 +161,7 @@ Eigen::VectorXd pose_step(const Places& a, const PoseFit& fit, const Eigen::Matr
   return directions * change;
 }
 
-// Over the places that are measured in both, so that a place that is lost counts for neither.
+// Compares over the places that are measured in both, so that a lost place counts for neither.
 bool is_better(const PoseFit& next, const PoseFit& now) {
   double sum = 0, before = 0;
   for (std::size_t k = 0; k < now.left_m.size(); ++k) {

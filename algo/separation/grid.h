@@ -1,4 +1,4 @@
-// The places of machine and target that the readings of all set-ups share.
+// The places of machine and target that the readings of all set-ups have in common.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,15 @@ namespace mdof::algo {
 struct Grid {
   std::vector<double> position_m;  // of the encoder, ascending
   std::vector<double> place_m;     // on the target, ascending
-  double step_m = 0;  // of both, where a set-up is shifted or turned end for end; 0: any steps
-  // Of each reading, set-up after set-up: where in those two.
+  double step_m = 0;  // of both, if a set-up is shifted or turned end for end; 0: any steps
+  // For each reading, set-up after set-up: its indices in position_m and place_m.
   std::vector<std::size_t> at_position, at_place;
 };
 
-// Positions within `match_m` of each other are one. Where a set-up is shifted or turned end for
-// end, they are taken to be equally spaced, and the shift to be whole steps: only so does a place
-// on the target come back under the probe. Errors (bad input): they are not, by more than match_m.
+// Positions within `match_m` of each other are one position. If a set-up is shifted or turned end
+// for end, the positions must be equally spaced and the shift must be a multiple of the step: only
+// then does the probe measure the same places of the target again. Errors (bad input): a deviation
+// of more than match_m from this.
 Result<Grid> grid_of(const ReadAt& at, const std::vector<SetUp>& set_ups, double match_m);
 
 }  // namespace mdof::algo

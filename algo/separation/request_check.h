@@ -1,4 +1,4 @@
-// What a separation cannot be made of.
+// Checks of a request for a separation.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace mdof::algo {
 
-// Fewer than two set-ups, or all alike; fewer than three readings in one, or too many; numbers that
-// are none.
+// Errors: fewer than two set-ups, or identical set-ups; fewer than three readings in one, or too
+// many readings; numbers that are not finite.
 Status check_request(const SeparationRequest& request);
 
-// Set-ups that share no place of the machine, or none of the target, say nothing of each other.
+// Error: the set-ups share no place of the machine, or no place of the target.
 Status check_shared(const Grid& grid, const std::vector<SetUp>& set_ups);
 
 }  // namespace mdof::algo

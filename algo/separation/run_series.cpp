@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kAcrossPlane = 0.5;  // cosine
 
-// The points with a probe's reading in the place of the first named error, so that means and
-// uncertainties are those of every other figure. `along`: of the reading, +1 or -1.
+// The points with a probe's reading instead of the first named error, so that means and
+// uncertainties are calculated as for every other figure. `along`: direction of the reading, +1 or
+// -1.
 std::vector<MeasuredPoint> with_reading(const Run& run, std::size_t probe, double along) {
   const MovingAxis moving = run.header.moving();
   const auto local = static_cast<std::size_t>(error_names(moving.axis)[0].local);
@@ -42,7 +43,7 @@ SetUp series_of(const Run& run, const std::vector<MeasuredPoint>& points, std::s
   return set_up;
 }
 
-// Of points whose local errors change so.
+// Changes at the targets if the local errors of the points change by `shifts`.
 std::vector<double> at_targets(const TargetChanges& changes, const std::vector<Errors5>& shifts,
                                std::size_t named) {
   std::vector<double> at;
@@ -50,12 +51,12 @@ std::vector<double> at_targets(const TargetChanges& changes, const std::vector<E
   return at;
 }
 
-// Each part of a contributor is a quantity.
+// Each part of a contributor is a separate quantity.
 std::string name_of_part(const Contributor& contributor, std::size_t part) {
   return contributor.common_as.empty() ? "" : contributor.common_as + " " + std::to_string(part);
 }
 
-// Of the readings themselves, as with_reading() has them.
+// Declared uncertainties of the readings themselves, as in with_reading().
 Result<std::vector<DeclaredShift>> declared_of_probe(const Run& run, const Rig& rig,
                                                      std::size_t probe, double along) {
   MDOF_TRY(const auto declared, contributors(rig, run));

@@ -25,21 +25,21 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t kMostUnknowns = 1000;  // some seconds
-// Coefficients are of the order of 1, and places lie on an exact grid: what is not seen is at the
-// rounding, and what is seen far above this.
+constexpr std::size_t kMostUnknowns = 1000;  // takes some seconds
+// Coefficients are of the order of 1, and places are on an exact grid: singular values of
+// undetermined shapes are at the rounding, those of determined shapes far above this limit.
 constexpr double kSeenAbove = 1e-9;
 
 Index in(std::size_t i) {
   return static_cast<Index>(i);
 }
 
-// Columns: the machine's places, the target's, then offset and slope of each set-up.
+// Columns: places of the machine, places of the target, then offset and slope of each set-up.
 struct Equations {
   Grid grid;
   MatrixXd A;
-  VectorXd errors, u;  // of each reading; u: NaN where it is not known
-  MatrixXd declared;   // a column a quantity: change of each reading by one standard uncertainty
+  VectorXd errors, u;  // of each reading; u: NaN if unknown
+  MatrixXd declared;   // [reading][quantity]: change of each reading by one standard uncertainty
   Index machine() const { return in(grid.position_m.size()); }
   Index target() const { return in(grid.place_m.size()); }
 };
@@ -98,7 +98,7 @@ Equations equations_of(const SeparationRequest& request, Grid grid) {
   return e;
 }
 
-// Equal weights where u is not known; a reading counts at most 1e6 times as much as another.
+// Equal weights if u is unknown; a reading has at most 1e6 times the weight of another.
 VectorXd root_weights(const VectorXd& u) {
   if (!u.allFinite()) return VectorXd::Ones(u.size());
   return (u.minCoeff() / u.array()).max(1e-3);
@@ -106,7 +106,7 @@ VectorXd root_weights(const VectorXd& u) {
 
 struct Solution {
   MatrixXd from_readings;  // unknowns = this times the readings
-  MatrixXd null;           // orthonormal: what no reading determines
+  MatrixXd null;           // orthonormal shapes that no reading determines
   Index rank = 0;
 };
 
@@ -116,7 +116,7 @@ Solution solve(const Equations& e) {
   return {fit.inverse() * w.asDiagonal(), fit.null_space(), fit.rank()};
 }
 
-// Orthonormal columns of what these rows of the null space can be.
+// Orthonormal columns that span these rows of the null space.
 MatrixXd unseen_part(const MatrixXd& null, Index from, Index count) {
   constexpr double kLeast = 1e-7;
   if (null.cols() == 0) return MatrixXd(count, 0);
@@ -125,7 +125,7 @@ MatrixXd unseen_part(const MatrixXd& null, Index from, Index count) {
   return svd.U.leftCols(rank);
 }
 
-// u of each reading, by which u of the results is made, and how many degrees of freedom it has.
+// u of each reading for the u of the results, and its degrees of freedom.
 struct ReadingUncertainty {
   VectorXd u;
   double freedom = std::numeric_limits<double>::infinity();
@@ -155,9 +155,9 @@ SeenSeries seen_part(const Equations& e, const Solution& solution, Index from,
   return series;
 }
 
-// χ² of all set-ups together: the least of ((errors - A x - declared q)/u)² + q² over the unknowns
-// and the declared quantities q, each of standard uncertainty 1. The fit is that of the weights
-// 1/u, so that x has gone from what it leaves of errors and declared.
+// χ² of all set-ups together: the minimum of ((errors - A x - declared q)/u)² + q² over the
+// unknowns and the declared quantities q, each with standard uncertainty 1. The fit has the weights
+// 1/u, so x is eliminated from the residuals of errors and declared.
 double chi_square_of(const Equations& e, const Solution& solution, const VectorXd& left) {
   const VectorXd weight = e.u.cwiseInverse();
   const VectorXd misfit = weight.asDiagonal() * left;
@@ -198,9 +198,9 @@ ReadingUncertainty judge(const Equations& e, const Solution& solution, Separatio
   return {VectorXd::Constant(e.u.size(), result.residual_m), static_cast<double>(freedom)};
 }
 
-// Of two set-ups that look the same way, by how much one is shifted against the other: what comes
-// back after that is hidden. Where there are no such two, what changes its sign over the shift is,
-// and comes back after twice of it.
+// Shifts between two set-ups with the same height sign: a shape that repeats after such a shift is
+// hidden. If there are no such set-ups, a shape that changes its sign over the shift is hidden; it
+// repeats after twice the shift.
 std::vector<double> returns_of(const std::vector<SetUp>& set_ups, double step_m) {
   std::vector<double> alike, turned;
   for (const SetUp& a : set_ups)

@@ -1,4 +1,4 @@
-// How the target lay in each measurement, and what that does to a reading (README.md derives it).
+// Pose of the target in each measurement, and its effect on a reading (README.md derives it).
 #pragma once
 
 #include <string>
@@ -9,48 +9,48 @@
 
 namespace mdof::algo {
 
-// What half a turn of the target does to the surface that is looked at.
+// Effect of a half turn of the target on the measured surface.
 struct HalfTurn {
-  double height_sign = 1;    // -1: it looks the other way, so that its hills read as valleys
-  bool end_for_end = false;  // what was first along the motion comes last
+  double height_sign = 1;  // -1: the surface faces the opposite direction, so hills read as valleys
+  bool end_for_end = false;  // the order along the motion is reversed
 };
 
-// Turned by 180° about a machine axis. `motion`: the axis that moves; `normal`: across the surface,
-// another one.
+// Half turn (180°) about a machine axis. `motion`: the axis that moves; `normal`: across the
+// surface, another axis.
 HalfTurn half_turn(Axis motion, Axis normal, Axis about);
 
-// The machine axis across this surface, along whose + heights and errors count, and the place of
-// the error along it in the order of error_names().
+// The machine axis across this surface, whose + direction is that of heights and errors, and the
+// index of the error along it in error_names().
 struct AcrossSurface {
   Axis normal = Axis::y;
   std::size_t named = 0;
 };
 AcrossSurface across(Axis motion, Surface surface);
 
-// By how much one standard uncertainty of a declared quantity changes each reading of a set-up.
+// Change of each reading of a set-up by one standard uncertainty of a declared quantity.
 struct DeclaredShift {
-  std::string common_as;  // set-ups that have the same here share the quantity; empty: their own
+  std::string common_as;  // set-ups with the same text share the quantity; empty: not shared
   std::vector<double> shift_m;
 };
 
-// One measurement: errors of the moving body at positions of the encoder, and how the target lay.
+// One measurement: errors of the moving body at positions of the encoder, and the target's pose.
 struct SetUp {
   std::vector<double> position_m, error_m;
   std::vector<double> u_m;  // standard uncertainties; empty: not known
   std::vector<DeclaredShift> declared;
   HalfTurn turn;
-  // In C along the motion: where the zero of the target's own length lies, which in the
-  // first set-up is that of C.
+  // Zero of the target's own length, in C along the motion; in the first set-up it is the zero of
+  // C.
   double shift_m = 0;
 };
 
-// Where the reading is taken, common to all set-ups.
+// Place of the readings, common to all set-ups.
 struct ReadAt {
   Sides sides;
   double place_m = 0;  // of the probe in M along the motion
 };
 
-// The place on the target that is read at this position of the encoder, in its own length.
+// The measured place on the target at this position of the encoder, in the target's own length.
 double place_on_target(const ReadAt& at, const SetUp& set_up, double position_m);
 
 }  // namespace mdof::algo

@@ -17,12 +17,13 @@ using Eigen::VectorXd;
 
 constexpr double kNothing = 1e-6;  // of a shape of length 1
 
-// Orthonormal directions of the unseen that have a name by now.
+// Orthonormal directions of the unseen shapes that already have a name.
 class Named {
  public:
   explicit Named(const MatrixXd& unseen) : unseen_(unseen), basis_(unseen.rows(), 0) {}
 
-  // How many new directions these shapes are, all of them unseen; 0: one is seen, or none is new.
+  // Number of new directions of these shapes if all of them are unseen; 0: one is seen, or none is
+  // new.
   std::size_t take(const std::vector<VectorXd>& shapes) {
     MatrixXd fresh(unseen_.rows(), 0);
     for (VectorXd v : shapes) {
@@ -35,7 +36,7 @@ class Named {
     return static_cast<std::size_t>(fresh.cols());
   }
 
-  // Orthonormal directions of the unseen without a name.
+  // Orthonormal directions of the unseen shapes without a name.
   MatrixXd rest() const {
     MatrixXd rest(unseen_.rows(), 0);
     for (Index i = 0; i < unseen_.cols(); ++i)
@@ -44,7 +45,7 @@ class Named {
   }
 
  private:
-  // Twice: Gram-Schmidt loses digits the first time.
+  // Twice, because Gram-Schmidt loses digits the first time.
   static VectorXd less(const VectorXd& v, const MatrixXd& basis) {
     const VectorXd once = v - basis * (basis.transpose() * v);
     return once - basis * (basis.transpose() * once);
@@ -59,7 +60,7 @@ class Named {
   MatrixXd basis_;
 };
 
-// Of the places: from -1 to 1.
+// The places, scaled to -1 ... 1.
 VectorXd scaled(const std::vector<double>& places_m) {
   const double middle = (places_m.front() + places_m.back()) / 2;
   const double half = std::max((places_m.back() - places_m.front()) / 2, 1e-12);
@@ -83,7 +84,7 @@ std::string mm_text(double m) {
   return plain_number(to_mm(m), 7) + " mm";
 }
 
-// +1, -1: all columns are symmetric, antisymmetric about the middle of the places; 0: neither.
+// +1, -1: all columns are symmetric or antisymmetric about the middle of the places; 0: neither.
 int symmetry(const std::vector<double>& places_m, const MatrixXd& shapes) {
   const std::size_t n = places_m.size();
   const double sum = places_m.front() + places_m.back();

@@ -1,4 +1,4 @@
-// Names for the shapes of a series that no reading determines.
+// Names of the shapes of a series that no reading determines.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,14 +8,15 @@
 
 namespace mdof::algo {
 
-// `unseen`: orthonormal columns, one row a place. Tried by name: offset, slope, parabola, and the
-// periods `periods_m`; what is left is named by its symmetry about the middle, or by where it is.
+// `unseen`: orthonormal columns, one row for each place. The names are tried in this order: offset,
+// slope, parabola, the periods `periods_m`. The name of the rest is its symmetry about the middle,
+// or its range of places.
 std::vector<UnseenShape> named_shapes(const std::vector<double>& places_m,
                                       const Eigen::MatrixXd& unseen,
                                       const std::vector<double>& periods_m);
 
-// Periods that may be hidden where what comes back after each of these ways is: s, s/2, s/3 ... of
-// their greatest common divisor s, down to two steps.
+// Periods that may be hidden if a shape repeats after each of these distances: s, s/2, s/3 ... down
+// to two steps, with their greatest common divisor s.
 std::vector<double> hidden_periods(const std::vector<double>& ways_m, double step_m,
                                    double match_m);
 

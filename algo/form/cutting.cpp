@@ -52,7 +52,7 @@ SurfaceMap smoothed(const SurfaceMap& map, double side_m) {
 struct Shares {
   std::vector<SurfaceMap> left;
   SurfaceMap correction;  // the next path is wanted - correction
-  double factor = 1;      // of the mean
+  double factor = 1;      // factor of the mean
   double left_by_smoothing_rms_m = 0;
 };
 

@@ -37,7 +37,7 @@ struct CuttingResult {
   // share of the mean.
   std::optional<double> repeatable_rms_m, random_rms_m;
   std::optional<double> floor_gain_one_m, floor_mean_m,
-      floor_optimal_m;  // of the next pass and of all later ones
+      floor_optimal_m;  // errors of the next pass and of all later ones
   std::optional<bool> converges;
   std::size_t pixels = 0;        // pixels that all maps have
   SurfaceMap next;               // path of the next pass, over the pixels of `wanted`

@@ -19,8 +19,8 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kForSearch = 1500, kForCourse = 50'000, kForFit = 250'000;  // pixels
-constexpr double kLeastOverlap = 0.1;                                             // of A's pixels
-constexpr double kSearchOverlap = 0.6;  // for poses found by search
+constexpr double kLeastOverlap = 0.1;   // share of A's pixels
+constexpr double kSearchOverlap = 0.6;  // share for poses found by search
 constexpr double kSearchShift = 0.2;    // part of the size of A, to each side
 constexpr int kSearchSteps = 10;        // to each side
 constexpr double kSearchTurn_deg = 2;   // in each step; five steps to each side

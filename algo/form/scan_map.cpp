@@ -11,7 +11,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kLeastReach = 1.5, kFarthestReach = 6, kReachStep = 1.5;  // in pixels
-constexpr double kMostOneSided = 0.3;  // of the reach: largest distance of the mean of the points
+constexpr double kMostOneSided = 0.3;  // largest offset of the points' mean, relative to the reach
 constexpr double kRankTolerance = 0.02;
 constexpr int kParabolaTerms = 6, kLeastCells = 9;
 constexpr std::size_t kCellsOfPixel = 4;
@@ -80,7 +80,7 @@ bool is_one_sided(const std::vector<Cell>& cells) {
 // Fitted parabola at the middle of its points.
 struct Fitted {
   double z_m = SurfaceMap::kMissing;  // missing: the points do not determine it
-  double variance = 0;                // of z, for points of variance 1
+  double variance = 0;                // variance of z, for points of variance 1
   double squares = 0, freedom = 0;    // sum of squares of the residuals, per point
 };
 

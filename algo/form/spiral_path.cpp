@@ -15,7 +15,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kMostPoints = 1e10;
-constexpr double kTouching = 1e-6;  // of the tool's radius: the last step of the contact iteration
+constexpr double kTouching = 1e-6;  // last step of the iteration, relative to the tool's radius
 constexpr int kMostSteps = 40;
 constexpr double kNowhere = -std::numeric_limits<double>::infinity();
 constexpr double kHigher_m = 1e-9;    // above the place that the iteration found

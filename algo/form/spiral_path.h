@@ -16,7 +16,7 @@
 namespace mdof::algo {
 
 struct SpiralRequest {
-  double x_centre_m = 0, y_centre_m = 0;  // of the spindle, in the coordinates of the map
+  double x_centre_m = 0, y_centre_m = 0;  // axis of the spindle, in the coordinates of the map
   double outer_radius_m = 0;
   double feed_m = 0;  // towards the centre, for each turn
   std::size_t points_per_turn = 720;

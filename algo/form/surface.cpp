@@ -8,7 +8,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kForSlopes = 6;  // more rings, so that slopes at corners have their pixels
-constexpr double kOnPixel = 1e-9;      // of a pixel: no neighbour contributes
+constexpr double kOnPixel = 1e-9;      // in pixels: no neighbour contributes
 // Part of a pixel: a neighbour with a smaller contribution may be missing. Otherwise the rounding
 // of a movement would remove the outermost pixels.
 constexpr double kLittle = 0.01;

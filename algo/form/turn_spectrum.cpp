@@ -10,7 +10,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kRounding = 1e-13;  // of the largest height: smaller amplitudes count as 0
+// Relative to the largest height; smaller amplitudes count as 0.
+constexpr double kRounding = 1e-13;
 constexpr double kOfABend =
     1.0 / 16;  // part of a bend between turns that its line leaves: 1 / 2 pi^2
 

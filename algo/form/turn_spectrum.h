@@ -26,7 +26,7 @@ class Dft {
 };
 
 struct PassedBand {
-  double pv = 0, rms = 0;  // of the omitted part
+  double pv = 0, rms = 0;  // figures of the omitted part
 };
 
 // Receives the heights of a path point by point.

@@ -20,7 +20,7 @@ using Matrix6 = Eigen::Matrix<double, kBodyErrors, kBodyErrors>;
 // Root of a covariance: L Lᵀ. A pivot that is only rounding counts as 0. No part exceeds the
 // remaining variance, in case rounding has made the matrix indefinite.
 Matrix6 root_of(const Matrix6& covariance) {
-  constexpr double kNothing = 1e-12;  // of the variance
+  constexpr double kNothing = 1e-12;  // relative to the variance
   Matrix6 L = Matrix6::Zero();
   const auto left = [&](Eigen::Index k, Eigen::Index q) {
     return covariance(k, k) - L.row(k).head(q).squaredNorm();

@@ -12,11 +12,11 @@ namespace mdof::algo {
 
 // Commands of X Y Z (m) and A B C (rad); 0 for an axis that the chain does not have.
 using Command = std::array<double, 6>;
-enum class MachineApproach { mean, forward, reverse };  // of all commands
+enum class MachineApproach { mean, forward, reverse };  // approach of all axes
 
 // Values of a frame's description at a command.
 struct FrameValues {
-  double travel = 0;                             // of the body, along + of its axis, m or rad
+  double travel = 0;                             // travel of the body along + of its axis, m or rad
   std::array<double, kBodyErrors> error{};       // 0 where not measured
   std::array<double, kBodyErrors> location{};    // 0 where not measured
   std::array<double, kBodyErrors> u_location{};  // 0 where not declared

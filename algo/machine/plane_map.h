@@ -9,7 +9,7 @@
 namespace mdof::algo {
 
 struct PlanePoint {
-  Eigen::Vector3d error, u;  // of the tool's place, m; u: NaN if no error has one
+  Eigen::Vector3d error, u;  // at the tool's place, m; u: NaN if no error has one
 };
 
 // The largest magnitude of a component of the error, with its sign and its u, and the range of the

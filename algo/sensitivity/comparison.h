@@ -29,7 +29,7 @@ class ComparisonSums {
     std::size_t ours, other;  // index among the outputs of each
     double centre_ours = 0, centre_other = 0;
   };
-  struct Sums {  // of one output in one block, about the centres
+  struct Sums {  // sums for one output in one block, about the centres
     double n = 0, ours = 0, ours2 = 0, other = 0, other2 = 0;
   };
   std::uint64_t block_trials_;

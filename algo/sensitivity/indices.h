@@ -36,7 +36,7 @@ class SobolSums {
   struct Cause {
     double first = 0, total = 0;
   };
-  struct Sums {  // of one output in one block
+  struct Sums {  // sums for one output in one block
     double n = 0, s1 = 0, s2 = 0;
     std::vector<Cause> causes;
   };

@@ -10,9 +10,9 @@
 namespace mdof::algo {
 
 struct Grid {
-  std::vector<double> position_m;  // of the encoder, ascending
-  std::vector<double> place_m;     // on the target, ascending
-  double step_m = 0;  // of both, if a set-up is shifted or turned end for end; 0: any steps
+  std::vector<double> position_m;  // positions of the encoder, ascending
+  std::vector<double> place_m;     // places on the target, ascending
+  double step_m = 0;  // step of both, if a set-up is shifted or turned end for end; 0: any steps
   // For each reading, set-up after set-up: its indices in position_m and place_m.
   std::vector<std::size_t> at_position, at_place;
 };

@@ -25,7 +25,7 @@ Result<std::vector<DeclaredShift>> declared_shifts(const Run& run, const Rig& ri
 // of other probes.
 struct ProbeSeries {
   SetUp set_up;
-  Vec3 position_m{};  // of the probe in M, machine axes
+  Vec3 position_m{};  // position of the probe in M, machine axes
 };
 // The declared uncertainties are its sensitivity, and its drift since the start of the run. Errors:
 // the rig has no such probe; the probe does not measure along `normal`.

@@ -38,7 +38,7 @@ Index in(std::size_t i) {
 struct Equations {
   Grid grid;
   MatrixXd A;
-  VectorXd errors, u;  // of each reading; u: NaN if unknown
+  VectorXd errors, u;  // error and u of each reading; u: NaN if unknown
   MatrixXd declared;   // [reading][quantity]: change of each reading by one standard uncertainty
   Index machine() const { return in(grid.position_m.size()); }
   Index target() const { return in(grid.place_m.size()); }

@@ -47,7 +47,7 @@ struct SetUp {
 // Place of the readings, common to all set-ups.
 struct ReadAt {
   Sides sides;
-  double place_m = 0;  // of the probe in M along the motion
+  double place_m = 0;  // place of the probe in M along the motion
 };
 
 // The measured place on the target at this position of the encoder, in the target's own length.

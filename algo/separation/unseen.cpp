@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNothing = 1e-6;  // of a shape of length 1
+constexpr double kNothing = 1e-6;  // relative to a shape of length 1
 
 // Orthonormal directions of the unseen shapes that already have a name.
 class Named {

@@ -16,9 +16,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLinearity = 1e-4;   // of the range
+constexpr double kLinearity = 1e-4;   // relative to the range
 constexpr double kLever_m = 0.02;     // converts an angle to a length
-constexpr double kLeastPart = 1e-11;  // of the largest variance; less is rounding
+constexpr double kLeastPart = 1e-11;  // relative to the largest variance; less is rounding
 
 bool flagged(const MeasuredPoint& p) {
   return has_flag(p.point, Flag::residual);

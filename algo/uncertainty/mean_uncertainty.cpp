@@ -22,7 +22,7 @@ double covariance_at(std::span<const double> x, std::size_t lag) {
 double correlated_variance(std::span<const double> x) {
   const auto n = static_cast<double>(x.size());
   const double variance = covariance_at(x, 0);
-  const double noise = variance * std::sqrt(2 / n);  // of an autocovariance that is 0
+  const double noise = variance * std::sqrt(2 / n);  // sd of an autocovariance of 0
   double sum = -variance, before = 4 * variance;
   std::size_t window = 0;
   for (std::size_t lag = 0; window < x.size() / 4; lag += 2) {

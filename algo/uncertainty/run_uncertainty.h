@@ -55,7 +55,7 @@ class PointUncertainties {
   std::vector<Sums> sums_;
   VisitScatter visits_;
   VisitsCovered covered_ = VisitsCovered::single;
-  VisitScatter::Pooled seen_;    // of the named errors
+  VisitScatter::Pooled seen_;    // scatter of the named errors
   VisitScatter::Pooled steady_;  // the same without the change in proportion to time
   Errors5 explained_{};          // the part of this variance that the declared drift explains
   std::array<bool, kErrorCount> repeatability_{};  // whether the error uses it

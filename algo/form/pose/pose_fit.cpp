@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kNeededOverlap = 0.6;     // of A's places, unless the start has fewer
+constexpr double kNeededOverlap = 0.6;     // share of A's places, unless the start has fewer
 constexpr double kFitUndetermined = 1e-7;  // share of the slopes that a plane does not explain
 constexpr double kFitted_pixels = 1e-5;    // length of the last step
 // Huber, Robust Statistics (1981), 1.345 sd: 95 % of the efficiency for normal noise. sd = 1.4826
@@ -18,7 +18,7 @@ constexpr double kHuberLimit = 1.345 * 1.4826;
 constexpr double kLeastLimit_m = 1e-12;
 constexpr std::size_t kForMedian = 20'000;
 constexpr int kPlaneSteps = 30, kPlaneStepsAgain = 4;
-constexpr double kPlaneFitted = 1e-6;  // of the limit
+constexpr double kPlaneFitted = 1e-6;  // relative to the limit
 
 double median_left(const std::vector<double>& left_m) {
   const std::size_t every = std::max<std::size_t>(1, left_m.size() / kForMedian);

@@ -34,7 +34,7 @@ enum class BudgetStage { designed, measured };
 struct BudgetModel {
   Machine machine;
   Command at{};
-  std::vector<FrameValues> values;  // of the measured errors
+  std::vector<FrameValues> values;  // values of the measured errors
   std::vector<BudgetCause> causes;
   std::vector<std::string> replaced;      // "screw B on EXX"
   std::vector<std::string> not_declared;  // errors that act on the tool without a cause or a u

@@ -42,7 +42,7 @@ CircularPath centred(const CircularPath& path, const CircularFigures& figures);
 
 struct CircleRequest {
   std::size_t first = 0, second = 1;  // directions of the axes of the plane
-  Command centre{};                   // of the circle, and commands of the other axes
+  Command centre{};                   // centre of the circle, and commands of the other axes
   double radius_m = 0;
   std::size_t angles = 360;
 };

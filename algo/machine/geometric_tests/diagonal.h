@@ -41,7 +41,7 @@ struct SquarenessOfDiagonals {
 // reading, lengths that form no triangle, no uncertainty at all.
 struct DiagonalLines {
   MeasuredLine first, second, diagonal, other;  // other may be empty
-  double u_line_m = 0;                          // of each line independently, declared
+  double u_line_m = 0;                          // declared u of each line, independent
 };
 Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines);
 

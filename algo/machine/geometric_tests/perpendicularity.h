@@ -13,9 +13,9 @@ namespace mdof::algo {
 struct CircleReadings {
   double radius_m = 0;
   std::vector<double>
-      angle_rad;  // of the spot about the table's axis, from +X to +Y, in the machine
+      angle_rad;  // angle of the spot about the table's axis, from +X to +Y, in the machine
   std::vector<double> height_m;
-  std::vector<double> time_s;  // of each reading; empty: equal time intervals
+  std::vector<double> time_s;  // time of each reading; empty: equal time intervals
   // Measured separately, or empty: rotations of the table about X and Y at this angle (its tilt
   // motion), and the height by the errors of the two linear axes.
   std::vector<double> tilt_a_rad, tilt_b_rad, axes_m;
@@ -27,8 +27,8 @@ struct Harmonic {
 struct Perpendicularity {
   double EA0C_rad = 0,
          EB0C_rad = 0;  // the axis is tilted against the normal of the plane by these turns
-  double u_rad = 0, U_rad = 0, k = 0, freedom = 0;  // of each of EA0C and EB0C
-  double size_rad = 0;                              // of both together
+  double u_rad = 0, U_rad = 0, k = 0, freedom = 0;  // for each of EA0C and EB0C
+  double size_rad = 0;                              // size of both together
   double mean_m = 0, residual_sd_m = 0;
   double turns = 0;  // total turns of the spot, in either direction
   // Linear drift of the height between the turns, from the first reading to the last. It is not

@@ -153,7 +153,7 @@ struct Plant {
 struct AxisReading {
   std::vector<double> at;
   std::array<std::vector<double>, 3> error;
-  double slope = 0;  // of the straightness in the plane, from which it is removed
+  double slope = 0;  // slope of the straightness in the plane, from which it is removed
 };
 
 AxisReading read_axis(const Plant& plant, std::size_t axis, Noise& noise, double sd) {

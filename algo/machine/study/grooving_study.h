@@ -22,7 +22,7 @@ struct GroovingInstruments {
   double line_m = 100e-9;      // along a line or a diagonal, mirrors set up again each time
   double height_m = 20e-9;     // indicator over the table
   double tilt_rad = 0.1e-6;    // level on the table
-  std::size_t repeats = 5;     // of each reading
+  std::size_t repeats = 5;     // repeats of each reading
 };
 
 // C and Y carry the work, X the tool; 400 mm x 400 mm. The sizes of the errors, including the yaw
@@ -46,16 +46,16 @@ struct GroovingState {
   SquarenessOfDiagonals square;                 // by Eq. 2, with both diagonals
   double angle_of_one_diagonal_rad = 0;         // by Eq. 2 as the paper uses it
   PlaneRange estimated;                         // by Eq. 1
-  PlaneRange actual;  // of the simulated machine itself, including its angles
+  PlaneRange actual;  // by the simulated machine itself, including its angles
   std::vector<DiagonalRange> diagonals;
 };
 
 // Fig. 9: the readings over one turn.
 struct GroovingTable {
-  double EA0C_rad = 0, EB0C_rad = 0;  // of the simulated machine
+  double EA0C_rad = 0, EB0C_rad = 0;  // true values of the simulated machine
   double radius_m = 0;
   Perpendicularity raw, without_tilt, without_both;
-  double range_m = 0, range_without_tilt_m = 0;  // of the readings
+  double range_m = 0, range_without_tilt_m = 0;  // ranges of the readings
   double range_left_m = 0;  // without tilt and perpendicularity: the errors of X and Y
 };
 

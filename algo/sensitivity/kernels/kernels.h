@@ -22,7 +22,7 @@ struct SimulationConstants {
   double x[5], across[5];  // A to E as installed: x, and y (top) or z (side)
   double h;
   double radius;   // 0: no angles are drawn
-  double skew[5];  // of the unit: x += skew · Δacross, across -= skew · Δx
+  double skew[5];  // skew of the unit: x += skew · Δacross, across -= skew · Δx
   SmallAngleFixture nominal;
 };
 

@@ -25,7 +25,7 @@ inline RoundKeys round_keys(std::uint64_t seed) {
   return keys;
 }
 
-// From the bits of a uniform of schema/base/random.h: (bits + 1/2) 2⁻⁵². All steps are exact.
+// Uniform number of schema/base/random.h from its bits: (bits + 1/2) 2⁻⁵². All steps are exact.
 inline Vector uniform_of(Words high, Words low) {
   const Words word = (high << 32) | (low & 0xFFFFFFFFu);
   return as_doubles((word >> 12) | 0x3FF0000000000000u) - (1.0 - 0x1p-53);

@@ -79,12 +79,12 @@ class RunBudgets {
     double widened = 1;           // factor of the noise of each target that gives this u
   };
   struct Drawn {
-    std::vector<double> values;   // of the figure
-    std::vector<double> changes;  // of its deviations, trial after trial; only for a range
+    std::vector<double> values;   // values of the figure
+    std::vector<double> changes;  // changes of its deviations, trial after trial; only for a range
   };
   using MeanShifts = std::vector<double>;  // named errors, five for each target
   struct Shifted {
-    Contributor contributor;  // without its parts
+    Contributor contributor;  // its `parts` are null
     std::vector<MeanShifts> parts;
   };
   MeanErrors moved(std::span<const double> shifts, double factor) const;

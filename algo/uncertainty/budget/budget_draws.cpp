@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMostFreedom = 10000;  // of Student's t; normal beyond
+constexpr double kMostFreedom = 10000;  // limit of Student's t; normal above
 
 Distribution distribution_of(const DeclaredUncertainty& declared) {
   Distribution d;

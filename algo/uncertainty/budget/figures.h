@@ -27,8 +27,8 @@ struct Figure {
 
 // `named`: index in error_names(axis).
 Figure straightness_figure(Axis axis, std::size_t named);  // peak to valley, least-squares line
-Figure slope_figure(Axis axis, std::size_t named);         // over the moving body's own travel
-Figure range_figure(Axis axis, std::size_t named);         // highest - lowest
+Figure slope_figure(Axis axis, std::size_t named);  // slope over the moving body's own travel
+Figure range_figure(Axis axis, std::size_t named);  // highest - lowest
 Figure error_figure(Axis axis, std::size_t named, int target);
 
 // Straightness and slope of the two straightness errors, then the range of each angle.

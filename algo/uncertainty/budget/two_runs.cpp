@@ -97,7 +97,7 @@ class TwoSlopes {
   }
 
   Budget budget_;
-  std::vector<DeclaredUncertainty> drawn_;  // of each line, for u = 1
+  std::vector<DeclaredUncertainty> drawn_;  // distribution of each line, for u = 1
 };
 
 BudgetLine artefact_line(const SquareArtefact& artefact, int sign) {

@@ -45,7 +45,7 @@ Eigen::MatrixXd independent_heights(const FlatnessCovariance& covariance,
 // Footprints and readings of one plane in one run.
 struct PlaneFootprints {
   double u_m = 0, length_m = 0;
-  std::vector<Footprint> footprints;  // of each probe at each target
+  std::vector<Footprint> footprints;  // one for each probe at each target
   struct Reading {
     std::size_t point, footprint;
     Errors5 by_height;  // change of the point's errors by 1 m of height

@@ -14,7 +14,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAQuarter = 0.25;  // of a turn
+constexpr double kAQuarter = 0.25;  // turns
 
 class Covariance {
  public:

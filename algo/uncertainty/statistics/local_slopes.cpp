@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kOnePlaceShare = 0.02;  // of the mean step
+constexpr double kOnePlaceShare = 0.02;  // relative to the mean step
 
 // The mean of some points.
 struct Place {

@@ -20,14 +20,14 @@ class RangeTrials {
   // `changes`: trial after trial, each with as many values as `measured`; at least one trial.
   RangeTrials(std::vector<double> measured, std::vector<double> changes);
   double U() const;
-  double standard_deviation() const;  // of the ranges of the trials
-  double root_mean_square() const;    // of the differences from the measured range
+  double standard_deviation() const;  // standard deviation of the ranges of the trials
+  double root_mean_square() const;    // of the ranges, relative to the measured range
 
  private:
   // c(T)
   double distance_of_95_percent(double true_range) const;
   double distance_of_ends() const;
-  std::vector<double> ranges(double cut) const;  // of each trial
+  std::vector<double> ranges(double cut) const;  // range of each trial
 
   std::vector<double> measured_, changes_;
   double lowest_ = 0, highest_ = 0;

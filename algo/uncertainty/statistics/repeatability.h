@@ -14,7 +14,7 @@
 namespace mdof::algo {
 
 struct Repeatability {
-  std::vector<Errors5> u;  // of the means at the targets, independent of each other; named
+  std::vector<Errors5> u;  // u of the means at the targets, independent of each other; named errors
   // For the errors whose u comes from the scatter; the noise of a dwell comes from many readings.
   double freedom = std::numeric_limits<double>::infinity();
   std::array<bool, kErrorCount> by_scatter{};
@@ -25,8 +25,8 @@ struct Repeatability {
   double passes_freedom = std::numeric_limits<double>::infinity();
   // For the errors whose u comes from the scatter; its targets are those of the means.
   std::array<std::optional<CorrelatedNoise>, kErrorCount> correlated;
-  Errors5 u_visit{};  // of one visit, pooled
-  Errors5 u_shift{};  // common to all means
+  Errors5 u_visit{};  // u of one visit, pooled
+  Errors5 u_shift{};  // u common to all means
   double shift_freedom = std::numeric_limits<double>::infinity();
 };
 

@@ -21,7 +21,8 @@ class TargetNoise {
 
  private:
   const Repeatability& random_;
-  std::vector<std::vector<double>> drawn_;  // of each target, then of the shift; by trial
+  // Normal numbers for each target, then for the shift; by trial.
+  std::vector<std::vector<double>> drawn_;
   // For each part that changes several targets.
   std::vector<const std::vector<Errors5>*> parts_;
   std::vector<std::vector<double>> together_;

@@ -10,8 +10,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLeastRatio = 0.5, kMostRatio = 2;  // of two scales that are one probe's
-constexpr double kSameScale = 3;                     // u
+// Limits of the ratio of two scales of one probe.
+constexpr double kLeastRatio = 0.5, kMostRatio = 2;
+constexpr double kSameScale = 3;  // in units of u
 constexpr const char* kMeasured = "basic_measuredValue";
 constexpr const char* kReference = "basic_referenceValue";
 constexpr const char* kError = "basic_measurementError";
@@ -52,8 +53,8 @@ double half_span_um(const Rows& rows) {
   return ((*most)[0] - (*least)[0]) / 2;
 }
 
-// Whether the corrections grow with the readings by so much: by the ends of the table or by its
-// least-squares line, as a laboratory may define a sensitivity by either.
+// Whether the corrections contain this scale: by the two ends of the table or by its least-squares
+// line, because a laboratory may define a sensitivity by either.
 bool contains_scale(const Rows& rows, double scale_1, double within_1) {
   const auto [least, most] = std::minmax_element(rows.begin(), rows.end());
   const double by_ends = ((*most)[1] - (*least)[1]) / ((*most)[0] - (*least)[0]);
@@ -184,7 +185,7 @@ class CertificateReader {
         "the rig");
   }
 
-  // The zero is a voltage: with another scale it is at another raw_um.
+  // The zero is a voltage. With another scale it is at another raw_um.
   void take_zero() {
     const Calibration& c = own_.calibration;
     if (!c.um_per_V || c.offset_um == 0) return;
@@ -195,7 +196,7 @@ class CertificateReader {
         notice(NoticeCode::certified_zero, "", {{"offset_um", *probe.offset_um}}));
   }
 
-  // um of a reading or an error, as the amplifier shows it.
+  // Scale of a reading or an error, um per unit.
   Result<double> scale(const DccQuantity& quantity) const {
     if (quantity.unit.is(1, 0)) return to_um(1);
     const auto& um_per_V =
@@ -208,7 +209,7 @@ class CertificateReader {
   }
 
   struct Column {
-    std::vector<double> um, u_um;  // u_um empty: not stated
+    std::vector<double> um, u_um;  // u_um empty: the certificate states no u
   };
   Result<Column> column(const DccQuantity* quantity, std::size_t rows) const {
     Column column;
@@ -256,7 +257,7 @@ class CertificateReader {
     return {};
   }
 
-  // Errors against readings less reference values; readings grow with reference values.
+  // Checks that errors are reading minus reference, and that readings grow with reference values.
   Status check_rows(const Table& table, const Column& read, const Column& error,
                     const Column& reference) const {
     if (!table.reference) return {};
@@ -271,7 +272,7 @@ class CertificateReader {
                        own_.id + "\" in " + rig_.source +
                        ", and check the units of the table in the certificate");
     for (std::size_t i = 0; table.error && i < read.um.size(); ++i) {
-      // Rounding of the three columns is below the uncertainty of the error.
+      // The rounding of the three columns is smaller than the uncertainty of the error.
       const double off = std::abs(read.um[i] - reference.um[i] - error.um[i]);
       if (error.u_um.empty() || off <= 2 * error.u_um[i]) continue;
       return bad_input(
@@ -282,8 +283,8 @@ class CertificateReader {
     return {};
   }
 
-  // The new um_per_V must not correct a second time what the table corrects. Readings of a table
-  // that contains the change of um_per_V were read with that of the rig.
+  // The new um_per_V must not correct a scale that the table corrects already. A table that
+  // contains the change of um_per_V was read with the um_per_V of the rig.
   Status match_scale(const DccQuantity& read, double u_um, Rows& rows) {
     const CalibratedProbe& probe = found_.probe;
     const double within_1 =
@@ -309,7 +310,7 @@ class CertificateReader {
     return {};
   }
 
-  // Rows by t = reading - offset, ascending, 0 at t = 0.
+  // Makes rows of t = reading - offset, ascending, with the correction 0 at t = 0.
   Status about_zero(Rows& rows, long line) const {
     const double offset_um = found_.probe.offset_um.value_or(own_.calibration.offset_um);
     for (auto& row : rows) row[0] -= offset_um;
@@ -326,7 +327,7 @@ class CertificateReader {
     return {};
   }
 
-  // Of the errors, where it is stated; else of readings and reference values together.
+  // u of the errors if the certificate states it, otherwise of readings and references combined.
   double largest_u(const Table& table, const Column& read, const Column& error,
                    const Column& reference) {
     if (table.error && !error.u_um.empty())

@@ -16,20 +16,21 @@ namespace mdof::algo {
 namespace {
 
 constexpr int kMaxIterations = 100;
-// Steps that choose what is seen. A singular value near kSeenFrom can be on one side of it at one
-// step and on the other side at the next step: then the steps never end.
+// Number of steps that may choose the seen combinations. A singular value near kSeenFrom can be
+// above it at one step and below it at the next, and then the steps never end.
 constexpr int kChoosingSteps = 10;
 constexpr double kLeastShare = 1e-3, kRounding = 1e-12;
-// In units of what is not known before; once chi-square must descend, what its rounding allows.
+// In units of scale(). Rounding of chi-square limits kDescentDone, used when chi-square must
+// descend.
 constexpr double kStepDone = 1e-7, kDescentDone = 1e-4;
 constexpr double kRankTolerance = 1e-9;
-// Root mean square of residuals over their uncertainties. Noise that is stated too small does not
-// make them as large; what does bends all readings in the same way, and Birge's factor covers
-// nothing of it.
+// Root mean square of residuals divided by their uncertainties. Noise that is stated too small does
+// not give such a value. Errors that give it change all readings in the same way, and Birge's
+// factor does not cover them.
 constexpr double kMostMisfit = 20;
-constexpr double kFarthest_m = 1e-3;  // from the rig's place: no clamping by hand is as bad
+constexpr double kFarthest_m = 1e-3;  // from the rig's position; clamping by hand is better
 
-// The least-squares solution in the clampings' unknowns alone.
+// The space of the unknowns of the clampings, with its least-squares solution.
 struct PoseSpace {
   LeastSquares fit;
   Eigen::MatrixXd basis;
@@ -88,9 +89,9 @@ class Fit {
     return step.cwiseAbs().maxCoeff();
   }
 
-  // What the probes' unknowns are as a whole, not only their step, is taken from what is seen now:
-  // nothing is left in them of what was seen a step before and is not. After kChoosingSteps what is
-  // seen stays.
+  // Solves for the probes' unknowns as a whole, not only for their change, in the combinations that
+  // are seen at this step. Nothing remains of combinations that were seen only at an earlier step.
+  // After kChoosingSteps the seen combinations are fixed.
   double step_of_all() {
     const auto lines = model_.linearised(pose_, probe_);
     const PoseSpace poses(lines.by_pose);
@@ -115,9 +116,10 @@ class Fit {
     return std::max(change.cwiseAbs().maxCoeff(), step.cwiseAbs().maxCoeff());
   }
 
-  // The readings contain the squares of the angles between the probes and the target. Where noise
-  // is as large as they are, a whole step of Gauss and Newton can go too far: chi-square descends
-  // by less than half of what the derivatives say (Armijo's rule).
+  // The readings contain the squares of the angles between the probes and the target. If noise is
+  // as large as these squares, a full Gauss-Newton step can go too far: chi-square descends by less
+  // than half of the descent that the derivatives predict (Armijo's rule). Returns the share of the
+  // step.
   double descending_share(const MountingModel::Linearised& lines, const Eigen::VectorXd& step,
                           const Eigen::VectorXd& change) const {
     const double now = lines.misfit.squaredNorm();
@@ -145,7 +147,7 @@ class Fit {
   int steps_ = 0;  // of all unknowns
 };
 
-// What is not seen stays as uncertain as the rig says; NaN where it says nothing.
+// The unseen part keeps the rig's uncertainty; NaN: the rig does not declare it.
 double Fit::u_of(Eigen::Index unknown, const Unseen& unseen,
                  const Eigen::MatrixXd& covariance) const {
   const double share = unseen.share(unknown), scale = model_.scale()(unknown);
@@ -203,8 +205,8 @@ void Fit::report_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
                     [&](const TraverseReading& reading) { return reading.probe == k; }));
 }
 
-// Of the places and directions along the machine's axes and the zeros that are seen, with the
-// diagonal of u_of().
+// Covariance of the seen positions and directions along the machine's axes and of the seen zeros.
+// Its diagonal agrees with u_of().
 void Fit::report_covariance(const Rig& rig, const Unseen& unseen, const Eigen::MatrixXd& covariance,
                             MountingCalibration& found) const {
   Eigen::MatrixXd all = covariance;
@@ -214,7 +216,7 @@ void Fit::report_covariance(const Rig& rig, const Unseen& unseen, const Eigen::M
   }
   const auto axes = local_axes(rig.axis);
   std::vector<Eigen::VectorXd> rows;
-  // The component along a machine's axis of two unknowns along these vectors of the local frame.
+  // The component along a machine axis of two unknowns, which are along these local vectors.
   const auto add_component = [&](const std::string& name, std::size_t m, Eigen::Index first,
                                  const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
     Eigen::VectorXd row = Eigen::VectorXd::Zero(all.rows());
@@ -223,7 +225,7 @@ void Fit::report_covariance(const Rig& rig, const Unseen& unseen, const Eigen::M
       row(first) += axes[m][l] * one(i);
       row(first + 1) += axes[m][l] * other(i);
     }
-    if (row.norm() < kRankTolerance) return;  // across both
+    if (row.norm() < kRankTolerance) return;  // perpendicular to both
     found.covariance.of.push_back(name);
     rows.push_back(std::move(row));
   };
@@ -245,7 +247,7 @@ void Fit::report_covariance(const Rig& rig, const Unseen& unseen, const Eigen::M
       found.covariance.m2[i][j] = found.covariance.m2[j][i] = rows[i].dot(all * rows[j]);
 }
 
-// Residuals that the readings' uncertainties do not explain widen all that follows (Birge).
+// If the uncertainties of the readings do not explain the residuals, result() widens all u (Birge).
 void Fit::judge(MountingCalibration& found) const {
   const auto lines = model_.linearised(pose_, probe_);
   found.readings = model_.readings().size();

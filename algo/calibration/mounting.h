@@ -1,16 +1,19 @@
-// Where the probes of a fixture sit, from a target that was clamped at several small tilts.
+// Calibrates the mounting of the probes of a fixture with a target that is clamped at several small
+// tilts.
 //
-// At each clamping the machine's axes move the target by known millimetres: how the readings change
-// gives its tilt. Each probe's readings over the tilts of all clampings then give its place and
-// zero. One weighted least-squares solution of the rigid model's readings (algo/model/rigid.h) by
-// Gauss-Newton has as unknowns of each probe: place (two components on its plane), zero, direction
-// (two), scale; and of each clamping the target's three angles and, for each traverse, its offset,
-// so that an axis that is elsewhere, or a slow drift between traverses, has no effect.
+// At each clamping the machine's axes move the target by known distances. The change of the
+// readings gives the tilt of the target, and the readings of a probe over the tilts of all
+// clampings give its position and zero. One weighted least-squares solution (Gauss-Newton) of the
+// readings of the rigid model (algo/model/rigid.h) has these unknowns: for each probe its position
+// (two components in its plane), zero, direction (two components) and scale; for each clamping the
+// three angles of the target; for each traverse the offset of the target. Because of these offsets
+// an axis at another position, or a slow drift between traverses, has no effect.
 //
-// The unknowns of the clampings are eliminated; the singular values of what is left, in units of
-// what the rig declares not to know, say which combinations the logs show: those they know at
-// least twice as well. All others stay as the rig has them, and are named. Never shown is what a
-// clamping can do as well: all probes of a plane moved together along it, or their zeros together.
+// The unknowns of the clampings are eliminated. The singular values of the remaining matrix, in
+// units of the rig's prior uncertainties, show which combinations the logs determine: those that
+// they determine at least twice as well as the rig. All other combinations keep the rig's values,
+// and the result names them. The logs can never determine what a clamping does as well: a common
+// shift of all probes of a plane along it, or a common change of their zeros.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,10 +26,10 @@
 
 namespace mdof::algo {
 
-// A stop of the axis that traverses.
+// A stop of the traversing axis.
 struct TraverseStop {
-  double travel_m = 0;              // of the target along + of the axis, from any origin
-  std::vector<double> reading_m;    // by probe; NaN: not to be used
+  double travel_m = 0;              // of the target in the + direction of the axis, from any origin
+  std::vector<double> reading_m;    // by probe; NaN: do not use
   std::vector<double> u_reading_m;  // standard uncertainty
 };
 struct Traverse {
@@ -39,18 +42,19 @@ struct Clamping {
 
 struct MountingFit {
   MountingCalibration found;
-  // Of all unknowns in the order of the probes: place along the two directions (m), zero (m),
-  // direction (rad, towards the two), scale (1). As found minus the rig's; the covariance of what
-  // the logs show; and the projector (unknowns x unknowns) onto that part of the true values.
+  // Of all unknowns in the order of the probes: position along the two directions (m), zero (m),
+  // direction (rad, towards the two vectors), scale (1). `change`: found minus the rig's value;
+  // `covariance`: of the part that the logs determine; `seen`: projector (unknowns x unknowns) onto
+  // this part of the true values.
   Eigen::VectorXd change;
   Eigen::MatrixXd covariance;
   Eigen::MatrixXd seen;
 };
-inline constexpr Eigen::Index kMountingUnknowns = 6;  // of a probe
+inline constexpr Eigen::Index kMountingUnknowns = 6;  // per probe
 
-// Errors: the clampings show no probe's place (all at one tilt, too few); the places would be
-// farther from the rig's than any clamping by hand leaves them: an axis that counts the other way,
-// probes exchanged; the fit does not settle.
+// Errors: the clampings determine no probe's position (all at one tilt, too few); the positions are
+// farther from the rig's than any clamping by hand (an axis that counts the other way, exchanged
+// probes); the fit does not converge.
 Result<MountingFit> fit_mounting(const Rig& rig, const std::vector<Clamping>& clampings);
 
 }  // namespace mdof::algo

@@ -10,17 +10,17 @@
 namespace mdof::algo {
 namespace {
 
-// What clamping by hand leaves, where a rig does not say it.
+// Typical uncertainty of clamping by hand, used if the rig does not declare it.
 constexpr double kByHand_m = 50e-6, kByHand_rad = 2e-3;
 constexpr double kAngleUnit_rad = 0.01;
-constexpr double kExactReading_m = 1e-10;  // a log of exact numbers has no noise to weigh them by
+constexpr double kExactReading_m = 1e-10;  // an exact log has no noise for the weights
 
 Eigen::Vector3d local(Axis axis, const Vec3& machine) {
   const Vec3 l = to_local(axis, machine);
   return {l[0], l[1], l[2]};
 }
 
-// Two unit vectors across v, along the two local axes from which it is farther.
+// Two unit vectors perpendicular to v, from the two local axes that are farther from it.
 std::array<Eigen::Vector3d, 2> across(const Eigen::Vector3d& v) {
   Eigen::Index nearest = 0;
   v.cwiseAbs().maxCoeff(&nearest);
@@ -72,8 +72,8 @@ void MountingModel::take(const std::vector<Clamping>& clampings) {
   }
 }
 
-// The zero is that of a probe that was clamped at some height: what its amplifier's certificate
-// declares says nothing of it.
+// The zero depends on the height at which the probe was clamped, so the certificate of its
+// amplifier does not give its uncertainty.
 void MountingModel::set_scales(const Rig& rig) {
   scale_ = Eigen::VectorXd::Zero(unknowns());
   declared_.assign(static_cast<std::size_t>(unknowns()), false);
@@ -85,7 +85,7 @@ void MountingModel::set_scales(const Rig& rig) {
     const ProbeUncertainty& u = rig.probes[k].uncertainty;
     const auto axes = local_axes(rig.axis);
     for (std::size_t j = 0; j < 2; ++j) {
-      double squared = 0;  // of the components along the machine's axes
+      double squared = 0;  // along the machine's axes
       for (std::size_t m = 0; m < 3; ++m) {
         double part = 0;
         for (std::size_t l = 0; l < 3; ++l)
@@ -134,7 +134,8 @@ Errors5 MountingModel::angles_of(const Eigen::VectorXd& pose, std::size_t clampi
   return errors;
 }
 
-// The target's travel is part of the carriage's position: that along x is `travel_m` of the model.
+// The target's travel is part of the carriage's position; its x component is `travel_m` of the
+// model.
 Errors5 MountingModel::pose_of(const Eigen::VectorXd& pose, const TraverseReading& at) const {
   Errors5 errors = angles_of(pose, at.clamping);
   const auto first = static_cast<Eigen::Index>(3 * clampings_ + 2 * at.traverse);
@@ -177,7 +178,7 @@ MountingModel::Linearised MountingModel::linearised(const Eigen::VectorXd& pose,
     const double weight = gain / seen.u_m;
     out.by_pose.row(row).segment(angles, 3) = by_errors.row(0).tail(3) * kAngleUnit_rad * weight;
     out.by_pose.row(row).segment(offsets, 2) = by_errors.row(0).head(2) * weight;
-    // s n·u = k - n·(P - t): a place along e gives ds = -n·e / n·u, a direction ds = -s n·du / n·u.
+    // s n·u = k - n·(P - t): position along e: ds = -n·e / n·u; direction: ds = -s n·du / n·u.
     const auto set = [&](MountingUnknown which, double slope) {
       out.by_probe(row, unknown_of(k, which)) = slope / seen.u_m * scale_(unknown_of(k, which));
     };
@@ -186,7 +187,7 @@ MountingModel::Linearised MountingModel::linearised(const Eigen::VectorXd& pose,
     set(kZero, 1);
     for (std::size_t j = 0; j < 2; ++j) {
       const Eigen::Vector3d& e = towards_[k][j];
-      const Eigen::Vector3d du = e - e.dot(p.u_M) * p.u_M;  // its length stays 1
+      const Eigen::Vector3d du = e - e.dot(p.u_M) * p.u_M;  // keeps the length 1
       set(j == 0 ? kTowards1 : kTowards2, -gain * s * n_M.dot(du) / facing);
     }
     set(kScale, s);

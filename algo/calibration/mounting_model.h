@@ -1,4 +1,4 @@
-// The unknowns of a mounting and what the probes read by them.
+// The unknowns of a mounting and the readings that they give.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +18,7 @@ inline Eigen::Index unknown_of(std::size_t probe, MountingUnknown which) {
 
 // One reading that is used.
 struct TraverseReading {
-  std::size_t clamping, traverse;  // traverse counts over all clampings
+  std::size_t clamping, traverse;  // traverse: index over all clampings
   std::size_t probe;
   Eigen::Vector3d way_M;  // unit vector of the axis, local frame
   double travel_m;
@@ -36,27 +36,30 @@ class MountingModel {
   std::size_t probes() const { return nominal_.probes.size(); }
   Eigen::Index unknowns() const;  // of the probes
   Eigen::Index pose_unknowns()
-      const;  // of the clampings: angles of each, δy and δz of each traverse
+      // of the clampings: three angles each, and δy and δz of each traverse
+      const;
 
-  // In the local frame: along the plane of a probe, and towards which its direction turns.
+  // In the local frame: the vectors along the plane of a probe, and those that its direction turns
+  // to.
   const Eigen::Vector3d& along(std::size_t probe, std::size_t which) const;
   const Eigen::Vector3d& towards(std::size_t probe, std::size_t which) const;
   Eigen::Vector3d turned_direction(std::size_t probe, double towards1, double towards2) const;
 
-  // How much is not known of each unknown before the logs; 0: it is exact.
+  // Prior standard uncertainty of each unknown, before the logs; 0: exact.
   const Eigen::VectorXd& scale() const { return scale_; }
-  bool declared(Eigen::Index unknown) const;  // by the rig; else that of clamping by hand
+  // True: the rig declares the prior uncertainty; false: it is typical for clamping by hand.
+  bool declared(Eigen::Index unknown) const;
 
-  // What is left of the readings, over their uncertainties, and its derivatives by the unknowns of
-  // the poses (angles in units of 0.01 rad, so that columns compare) and of the probes (in units of
-  // scale()), both with the sign of the reading.
+  // The residuals of the readings divided by their uncertainties, and the derivatives by the
+  // unknowns of the poses (angles in units of 0.01 rad, so that columns are comparable) and of the
+  // probes (in units of scale()). Residuals and derivatives have the sign of the reading.
   struct Linearised {
     Eigen::VectorXd misfit;
     Eigen::MatrixXd by_pose, by_probe;
   };
   Linearised linearised(const Eigen::VectorXd& pose, const Eigen::VectorXd& probe) const;
 
-  // Adds what the encoder's declared uncertainty makes of a tilt to those of the readings.
+  // Adds the effect of the encoder's declared uncertainty at a tilt to the u of the readings.
   void widen_by_encoder(const Eigen::VectorXd& pose, double u_encoder_m);
   Errors5 angles_of(const Eigen::VectorXd& pose, std::size_t clamping) const;
 

@@ -10,11 +10,11 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kWhole = 0.99;       // of a combination lies in what is not seen
+constexpr double kWhole = 0.99;       // share of a combination in the unseen space
 constexpr double kSamePlane = 1e-9;   // 1 - cosine
-constexpr double kIndependent = 0.1;  // what is left of a combination beside others
+constexpr double kIndependent = 0.1;  // remainder of a combination outside others
 
-using Group = std::vector<std::size_t>;  // probes that look at one plane
+using Group = std::vector<std::size_t>;  // probes with one plane of the target
 
 std::vector<Group> groups_of(const Fixture& fixture) {
   std::vector<Group> groups;
@@ -37,7 +37,7 @@ std::string ids_of(const MountingModel& model, const Group& group) {
   return ids;
 }
 
-// In machine axes.
+// To machine axes.
 Vec3 machine(const MountingModel& model, const Eigen::Vector3d& local) {
   const auto axes = local_axes(model.nominal().axis);
   Vec3 v{};
@@ -67,7 +67,7 @@ class Naming {
   Unseen take() { return std::move(out_); }
 
  private:
-  // Whether all of `v`, in the unknowns' own units, is unseen. It is then one of those together.
+  // Whether `v`, in the unknowns' own units, is entirely unseen. Then adds it to the common shifts.
   bool is_unseen(const Eigen::VectorXd& v, double& length) {
     Eigen::VectorXd scaled = v;
     for (Eigen::Index i = 0; i < v.size(); ++i)
@@ -120,7 +120,7 @@ class Naming {
   }
 
   void find_apart() {
-    // To the precision of what is called unseen, what is left of a column is all of it or nothing.
+    // Within the precision of kWhole, what remains of a column is all of it or nothing.
     const Eigen::MatrixXd left =
         view_.unseen - together_ * (together_.transpose() * view_.unseen).eval();
     const SingularValues svd = singular_values(left);

@@ -1,4 +1,4 @@
-// Which combinations of a mounting's unknowns the logs show, and the names of the others.
+// Which combinations of a mounting's unknowns the logs determine, and sentences about the others.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,25 +9,26 @@
 
 namespace mdof::algo {
 
-// From the singular values of the derivatives, once the clampings' unknowns are eliminated.
+// From the singular values of the derivatives, after the unknowns of the clampings are eliminated.
 struct MountingView {
   Eigen::MatrixXd seen, unseen;  // orthonormal columns, in units of MountingModel::scale()
-  Eigen::VectorXd singular;      // of the seen ones
+  Eigen::VectorXd singular;      // of the columns of `seen`
 
   Eigen::MatrixXd projector() const { return seen * seen.transpose(); }
 };
-// Seen: known by the logs at least this many times as well as before.
+// A combination is seen if the logs determine it at least this many times as well as the rig.
 inline constexpr double kSeenFrom = 2;
 
 struct Unseen {
-  Eigen::MatrixXd apart;  // unseen but for the probes of a plane together, orthonormal columns
-  Vec3 u_together_m{};    // machine axes; NaN: not declared
+  // Unseen, without common shifts of the probes of a plane; orthonormal columns.
+  Eigen::MatrixXd apart;
+  Vec3 u_together_m{};  // common shift, machine axes; NaN: not declared
   std::vector<std::string> sentences;
 
-  // Part of this unknown that is not seen, beside moving together; 0 to 1.
+  // Share of this unknown that is not seen, without common shifts; 0 to 1.
   double share(Eigen::Index unknown) const { return apart.row(unknown).squaredNorm(); }
 };
-inline constexpr double kUnseenShare = 0.05;  // from here an unknown is not seen
+inline constexpr double kUnseenShare = 0.05;  // an unknown with a larger share is not seen
 
 Unseen unseen_of(const MountingModel& model, const MountingView& view);
 

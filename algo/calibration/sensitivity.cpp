@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kFewest = 3;
 constexpr double kShortest = 0.05;         // of the range
-constexpr double kLeast = 0.5, kMost = 2;  // sensitivities that a probe may have
-constexpr double kOnePlace = 1e-3;         // of the range: stops nearer than this are one
+constexpr double kLeast = 0.5, kMost = 2;  // sensitivities that a probe can have
+constexpr double kOnePlace = 1e-3;         // of the range; nearer stops are one position
 
 // Displacement along the probe's direction for a travel along the axis.
 Result<double> facing(const Rig& rig, std::size_t probe, Axis axis) {
@@ -32,7 +32,8 @@ struct Reading {
   double true_m, read_m, u_m;
 };
 
-// By place along the axis, ascending: visits that are nearer than a fifth of a step.
+// Groups by position along the axis, ascending. A group ends at a gap of more than a fifth of a
+// step.
 std::vector<std::vector<Reading>> visits_of_places(std::vector<Reading> all, double apart_m) {
   std::sort(all.begin(), all.end(),
             [](const Reading& a, const Reading& b) { return a.true_m < b.true_m; });
@@ -51,7 +52,7 @@ struct SlopeUncertainty {
   double u = 0, freedom = std::numeric_limits<double>::infinity();
 };
 
-// `u_encoder_m`: as displacement along the probe.
+// `u_encoder_m`: as a displacement along the probe.
 SlopeUncertainty slope_uncertainty(const std::vector<std::vector<Reading>>& places, double slope,
                                    double u_encoder_m) {
   double n = 0, mean = 0, square = 0;
@@ -98,7 +99,7 @@ std::vector<std::string> blind_to(const Rig& rig) {
   return sentences;
 }
 
-// In the order of the readings; those of one place as their mean.
+// In the order of the readings; the readings of one position are replaced by their mean.
 std::vector<Reading> places_of(std::vector<Reading> all, double apart_m) {
   std::sort(all.begin(), all.end(),
             [](const Reading& a, const Reading& b) { return a.read_m < b.read_m; });
@@ -129,8 +130,9 @@ Status check(const Probe& probe, const Line& line) {
   return fail(ErrorCode::check, wrong + "; check um_per_V in the rig and the unit of the encoder");
 }
 
-// Beyond the calibrated places the correction goes on as the line does: a rig would hold that of
-// the last place, and a sensitivity is wrong everywhere. `slope`: of the correction.
+// Extends the corrections to the range with the slope of the line. Without this a rig would keep
+// the correction of the last position, but a wrong sensitivity acts everywhere. `slope`: of the
+// correction.
 void extend_to_range(const Probe& probe, double slope, SensitivityCalibration& found) {
   const auto [low_um, high_um] = readings_of_range(probe);
   auto& table = found.linearity;
@@ -142,7 +144,7 @@ void extend_to_range(const Probe& probe, double slope, SensitivityCalibration& f
     table.push_back({high_um, last_correction_um + slope * (high_um - last_um)});
 }
 
-// Where the probe is in volts its scale takes the sensitivity; the rest is a table.
+// If the probe reads volts, um_per_V takes the sensitivity; the table takes the rest.
 void propose(const Probe& probe, const std::vector<Reading>& places, const Line& line,
              SensitivityCalibration& found) {
   const Calibration& c = probe.calibration;

@@ -1,13 +1,16 @@
-// The sensitivity of a probe in place: the approaching axis moves the target along its direction,
-// and the encoder of that axis says by how much.
+// Calibrates the sensitivity of a mounted probe: the approaching axis moves the target along the
+// direction of the probe, and the encoder of this axis gives the travel.
 //
-// With n the normal of the probe's plane and e the axis, a travel x is the displacement
-// z = x (n·e)/(n·u) along the probe's direction u. Reading = a + g z by least squares; a correction
-// is true - reading, and 0 on the line where the reading is 0: the zero stays what it is. Without a
-// scale of volts the sensitivity is in the corrections, too: beyond the places they go on with the
-// slope 1/g - 1 of the line up to the ends of the range.
+// n is the normal of the probe's plane, e the axis and u the direction of the probe. A travel x
+// gives the displacement z = x (n·e)/(n·u) along u. The line is reading = a + g z by least squares.
+// A correction is true - reading; it is 0 where the line reads 0, so the zero does not change. If
+// the rig has no scale in um/V, the corrections contain the sensitivity, too: outside the
+// calibrated positions they continue with the slope 1/g - 1 to the ends of the range.
 //
-// u of g is the larger of two: what the noise of the stops and the declared [encoder] u_um make of
+// u(g) is the larger of two values. The first is from the noise of the stops and the declared
+// [encoder] u_um; the encoder's error is the same at each visit of a position. The second is from
+// the residuals of the mean of each position, s/√Σ(z - z̄)², with (positions - 2) degrees of
+// freedom.
 // it, the encoder's error being one at each place however often it is visited; and what the line
 // leaves of the places' means, s/√Σ(z - z̄)², with two degrees of freedom less than places.
 #pragma once
@@ -19,13 +22,14 @@
 
 namespace mdof::algo {
 
-// `rig`: without linearity and polynomial of the probe, which are found anew; the stops' readings
-// are by it. Errors: fewer than three places, too short a way, an axis that does not approach, a
-// sensitivity that no probe has (another unit, the other way).
+// `rig`: without linearity and polynomial of this probe, because they are determined here; the
+// readings of the stops are calculated with this rig. Errors: fewer than three positions; travel
+// too short; an axis that does not approach; a sensitivity outside 0.5 to 2 (other unit, other
+// direction).
 Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe,
                                                const Traverse& traverse);
 
-// The axis that approaches the probe's plane.
+// The axis that moves the target most towards or away from the probe.
 Result<Axis> approaching_axis(const Rig& rig, std::size_t probe);
 
 }  // namespace mdof::algo

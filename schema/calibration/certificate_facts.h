@@ -1,5 +1,6 @@
-// What the certificate of a laboratory states of a probe beside its figures: keys of the one probe
-// in its calibration record (schema/calibration/record.h), and of [[probe]] in a rig.
+// Facts that the certificate of a laboratory states about a probe in addition to its values: keys
+// of the only probe in its calibration record (schema/calibration/record.h), and of [[probe]] in a
+// rig.
 #pragma once
 
 #include <string>
@@ -9,15 +10,15 @@
 
 namespace mdof {
 
-// Empty: not stated. Dates as YYYY-MM-DD.
+// Empty: not stated. Dates are YYYY-MM-DD.
 struct CertificateFacts {
   std::string certificate, laboratory, serial_number, calibrated, due;
-  double u_linearity_m = 0;  // of a displacement after the table's correction; 0: not known
+  double u_linearity_m = 0;  // of a displacement after the table's correction; 0: unknown
 };
 
 CertificateFacts read_certificate(TomlTable& probe);
 
-// As record_text(record), of a record of one probe.
+// Same as record_text(record), for a record of one probe.
 std::string record_text(const CalibrationRecord& record, const CertificateFacts& facts);
 
 }  // namespace mdof

@@ -1,4 +1,4 @@
-// Covariances of what one calibration found together.
+// Covariances of the quantities that one calibration determined together.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +8,11 @@
 
 namespace mdof {
 
-// "A.x": the place of probe A along X, "A.zero": its zero, m; "A.nx": the component of its
-// direction along X, rad.
+// Names: "A.x" is the position of probe A along X, m; "A.zero" its zero, m; "A.nx" the component of
+// its direction along X, rad.
 struct CalibrationCovariance {
   std::vector<std::string> of;
-  std::vector<std::vector<double>> m2;  // symmetric, a row and a column each
+  std::vector<std::vector<double>> m2;  // symmetric; a row and a column for each name
 
   void erase(const std::string& quantity) {
     const auto at = std::find(of.begin(), of.end(), quantity);

@@ -1,4 +1,4 @@
-// What a calibration of the mounting has found (algo/calibration/mounting.h).
+// The result of a mounting calibration (algo/calibration/mounting.h).
 #pragma once
 
 #include <string>
@@ -9,32 +9,33 @@
 
 namespace mdof {
 
-// Uncertainties are standard ones, beside a shift of all probes of a plane together. NaN: the logs
-// do not show it, and the rig does not say how well it is known.
+// Uncertainties are standard uncertainties and exclude a common shift of all probes of a plane.
+// NaN: the logs do not determine the value, and the rig does not declare its uncertainty.
 struct MountedProbe {
   std::string id;
   Vec3 position_m{}, u_position_m{};  // in M, machine axes
   Vec3 direction{};                   // unit vector
-  double u_direction_rad = 0;         // the larger of those about its two axes
-  double zero_m = 0, u_zero_m = 0;    // displacement that it reads at the nominal surface
-  double scale_1 = 0, u_scale_1 = 0;  // found minus 1; 0 and 0 where the rig says it is exact
+  double u_direction_rad = 0;         // the larger one of its two axes
+  double zero_m = 0, u_zero_m = 0;    // displacement that the probe reads at the nominal surface
+  double scale_1 = 0, u_scale_1 = 0;  // found minus 1; both 0 if the rig declares the scale exact
   bool position_seen = false, direction_seen = false, zero_seen = false;  // by the logs
-  std::size_t readings = 0;                                               // that were used
+  std::size_t readings = 0;                                               // number used
 };
 
 struct MountingCalibration {
   std::vector<MountedProbe> probes;  // in the order of the rig
-  // What cannot be seen and stays as the rig has it, one sentence each.
+  // Sentences about what the logs do not determine; the rig's values remain.
   std::vector<std::string> not_seen;
-  // How far the probes of a plane may be off together; NaN: the rig does not say.
+  // u of the common shift of the probes of a plane; NaN: the rig does not declare it.
   Vec3 u_together_m{};
-  CalibrationCovariance covariance;  // of the places, directions and zeros that the logs show
+  CalibrationCovariance covariance;  // of the seen positions, directions and zeros
   std::size_t clampings = 0, readings = 0;
-  double tilt_rad = 0;  // largest angle between two clampings' tilts
+  double tilt_rad = 0;  // largest angle between the tilts of two clampings
   double chi_square = 0;
   int freedom = 0;
   bool explained =
-      true;  // by the readings' uncertainties; else those above are widened to explain it
+      // By the readings' uncertainties. If false, the uncertainties above are widened (Birge).
+      true;
 };
 
 }  // namespace mdof

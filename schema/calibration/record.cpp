@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::string_view kHashKey = "sha256 = \"";
 constexpr std::size_t kIdDigits = 8;
-constexpr double kUm2 = 1e12;  // in a square metre
+constexpr double kUm2 = 1e12;  // square micrometres in a square metre
 
-// Numbers, strings and lists of TOML are written as those of JSON, to the last bit.
+// Writes numbers, strings and lists of TOML as in JSON, to the last bit.
 template <class T>
 std::string line(const char* key, const T& value) {
   JsonWriter json;
@@ -200,7 +200,7 @@ CalibratedProbe read_probe(TomlTable& table) {
   return probe;
 }
 
-// A row and a column for each name, symmetric, no correlation beyond 1.
+// Checks: a row and a column for each name, symmetric, no correlation above 1.
 CalibrationCovariance read_covariance(TomlTable& table) {
   CalibrationCovariance covariance{table.strings("covariance_of"), table.matrix("covariance_um2")};
   const std::size_t n = covariance.of.size();

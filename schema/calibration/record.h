@@ -1,11 +1,11 @@
-// A calibration in place as it is kept: a TOML file that a rig refers to.
+// A stored calibration: a TOML file that a rig refers to.
 //
 //   [[calibration_record]]
-//   sha256 = "…"            of all that follows this line, to the next record or the end
+//   sha256 = "…"            of all bytes after this line, up to the next record or the end
 //   id = "mounting-2026-11-23-5c0e8b51"
 //   kind = "mounting"       or "sensitivity"
 //   …
-// The text of a rig that refers to records has them behind it, so that it is whole by itself.
+// The text of a rig that refers to records has these records appended, so that it is complete.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@
 
 namespace mdof {
 
-// What of a probe was found; nothing where the calibration did not show it. SI.
+// The values found for a probe. A value is empty if the calibration did not determine it. SI units.
 struct CalibratedProbe {
   std::string id;
   std::optional<Vec3> position_m;
@@ -34,7 +34,7 @@ struct CalibratedProbe {
   double u_offset_m = 0;
   std::optional<double> um_per_V;
   std::vector<std::array<double, 2>> linearity;  // as in the rig
-  // Readings, as in the first column of `linearity`, between which the probe was calibrated.
+  // First and last calibrated reading, in units of the first column of `linearity`.
   std::optional<std::array<double, 2>> calibrated_um;
   double u_sensitivity_1 = 0;
   double sensitivity_freedom = std::numeric_limits<double>::infinity();  // degrees of freedom
@@ -43,11 +43,11 @@ struct CalibratedProbe {
 struct CalibrationRecord {
   std::string id;
   std::string kind;         // "mounting", "sensitivity"
-  std::string rig;          // its name
+  std::string rig;          // name of the rig
   char axis = 'X';          // of the rig
   std::string date;         // YYYY-MM-DD
-  std::string valid_until;  // the last day on which it holds
-  std::string software;     // that made it
+  std::string valid_until;  // last day of validity
+  std::string software;     // software that wrote the record
   struct Source {
     std::string file, sha256;
   };
@@ -55,24 +55,24 @@ struct CalibrationRecord {
   double chi_square = 0;
   std::int64_t freedom = 0;
   std::vector<std::string> not_seen;
-  std::optional<Vec3> u_together_m;  // of all probes together, along X, Y, Z
+  std::optional<Vec3> u_together_m;  // common shift of all probes along X, Y, Z
   std::vector<CalibratedProbe> probes;
-  // Of places, directions and zeros of the probes; empty in records of older versions. In the file
-  // lengths in µm, directions in µrad.
+  // Of positions, directions and zeros of the probes; empty in records of older versions. The file
+  // has lengths in µm and directions in µrad.
   CalibrationCovariance covariance;
 };
 
 inline constexpr std::string_view kRecordHead = "[[calibration_record]]";
 
-// The file, with its id and hash; `record.id` is not looked at.
+// The text of the file with its id and hash; `record.id` is ignored.
 std::string record_text(const CalibrationRecord& record);
 
-// Reads one [[calibration_record]]; what is wrong is recorded in the table.
+// Reads one [[calibration_record]]; errors are recorded in the table.
 CalibrationRecord read_record(TomlTable& table);
 
-// Each record in a text, from its head to the next or the end.
+// Each record of a text, from its head to the next head or the end.
 std::vector<std::string_view> record_parts(std::string_view text);
-// Whether a part is as it was made.
+// Whether the hash of a record matches its text.
 bool is_unchanged(std::string_view record_part);
 
 }  // namespace mdof

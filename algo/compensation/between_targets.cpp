@@ -10,10 +10,12 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kRoughest = 4;
-constexpr std::size_t kFewestOfRoughness = 7;  // values: three second differences over two steps
-constexpr std::size_t kFew = 5;                // of which the scatter of the curvature is known
+// three second differences over two steps need this many values
+constexpr std::size_t kFewestOfRoughness = 7;
+constexpr std::size_t kFew = 5;  // with fewer the scatter of the curvature is unknown
 constexpr double kFactorOfFew = 2;
-constexpr double kWeightOfAll = 6;  // of the mean square of all, in second differences nearby
+// weight of the mean square of all, as a number of nearby second differences
+constexpr double kWeightOfAll = 6;
 
 struct Finite {
   std::vector<double> x, y, u;
@@ -31,8 +33,8 @@ Finite finite_of(const std::vector<double>& x, const std::vector<double>& y,
   return finite;
 }
 
-// Of the curvature at i by the values `step` before and behind it: its square, less what noise adds
-// to it.
+// The square of the curvature at i from the values `step` before and behind it, minus the
+// contribution of noise.
 double square_at(const Finite& f, std::size_t i, std::size_t step) {
   const std::size_t before = i - step, behind = i + step;
   const double of_before = 2 / ((f.x[i] - f.x[before]) * (f.x[behind] - f.x[before]));
@@ -49,7 +51,7 @@ struct SquareSum {
   double mean() const { return count > 0 ? std::max(0.0, sum / count) : 0; }
 };
 
-// Of the places first ... last that have `step` values on either side.
+// Over the positions first ... last that have `step` values on either side.
 SquareSum squares(const Finite& f, std::size_t first, std::size_t last, std::size_t step) {
   SquareSum all;
   for (std::size_t i = std::max(first, step); i <= last && i + step < f.x.size(); ++i) {
@@ -59,7 +61,7 @@ SquareSum squares(const Finite& f, std::size_t first, std::size_t last, std::siz
   return all;
 }
 
-// The curvature that half a step would show, by that over one step.
+// The ratio R of the curvature at half a step to the curvature at one step.
 double of_half_a_step(const Finite& f) {
   if (f.x.size() < kFewestOfRoughness) return f.x.size() < kFew ? kRoughest : kFactorOfFew;
   const double one = squares(f, 0, f.x.size() - 1, 1).mean(),

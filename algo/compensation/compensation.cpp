@@ -27,8 +27,8 @@ double smallest_step(const std::vector<double>& x) {
   return step;
 }
 
-// All points of all runs with targets numbered on the first run's grid, and repeats on from those
-// of the run before.
+// All points of all runs. Targets are numbered on the first run's grid; repeats continue from the
+// run before.
 Result<std::vector<MeasuredPoint>> on_one_grid(const std::vector<Run>& runs,
                                                const std::vector<double>& grid) {
   std::vector<MeasuredPoint> points;
@@ -65,7 +65,7 @@ double mean_at(const std::vector<double>& x, const std::vector<double>& y, doubl
   return mean;
 }
 
-// What is subtracted from each named error: a line for straightness, the start for angles.
+// The value to subtract from each named error: a line for straightness, the start for angles.
 std::array<Line, 5> references(Axis axis, const std::vector<TargetMean>& mean,
                                const TableOptions& options) {
   std::array<Line, 5> lines{};
@@ -97,8 +97,8 @@ void fill_side(const MovingAxis& moving, const std::vector<MeasuredPoint>& point
   }
 }
 
-// Where a position lies on the grid: between `below` and `below` + 1, at a share of the way; held
-// at the ends.
+// A position on the grid: between `below` and `below` + 1, at a share of the interval; held at the
+// ends.
 struct Place {
   std::size_t below = 0;
   double share = 0;
@@ -112,7 +112,7 @@ Place place_on(const std::vector<double>& x, double at) {
   return {i, (at - x[i]) / (x[i + 1] - x[i])};
 }
 
-// The rare way, for a series with holes: linear over the grid points that have a value.
+// For the rare series with gaps: linear over the grid points that have a value.
 double over_holes(const std::vector<double>& x, const std::vector<double>& y, double at) {
   std::size_t below = x.size(), above = x.size();
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -133,8 +133,8 @@ double interpolate(const std::vector<double>& x, const std::vector<double>& y, d
   return place.share == 1.0 ? high : low + (high - low) * place.share;
 }
 
-// Between the first and the last position at which a column has values, or at one of them, as far
-// as a stop is at its target.
+// Whether the position is between the first and the last position with a value of this column, or
+// within the tolerance of a stop at its target.
 bool spans(const std::vector<double>& x, const std::vector<double>& y, double at) {
   std::size_t first = 0, last = x.size();
   while (first < x.size() && !std::isfinite(y[first])) ++first;
@@ -245,13 +245,13 @@ Result<Notices> uneven_visits_of(const std::vector<Run>& runs) {
 
 namespace {
 
-// Of an approach.
+// The columns of one approach.
 struct Side {
   const std::array<std::vector<double>, 5>&values, &u, &curvature;
 };
 
-// Where a series has its nearest values on either side of a position; the same one twice at it,
-// and where there is none on one side.
+// The nearest positions with a value on both sides of a position. Both are the same at such a
+// position, and if one side has no value.
 struct Neighbours {
   std::size_t below = 0, above = 0;
 };
@@ -268,7 +268,7 @@ Neighbours neighbours(const std::vector<double>& x, const std::vector<double>& y
   return {below, above};
 }
 
-// Of one error of one approach; NaN where it has no value at all.
+// One error of one approach; NaN if it has no value.
 struct ValueOfSide {
   double error = kNaN, u = kNaN, u_interpolation = kNaN;
 };

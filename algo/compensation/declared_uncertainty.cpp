@@ -12,14 +12,14 @@
 namespace mdof::algo {
 namespace {
 
-// About a second: points alone, whose sensitivities are differences of the solver, and points times
-// parts.
+// Limits for about a second: points alone, whose sensitivities are differences of the solver, and
+// points times parts.
 constexpr std::size_t kMostPoints = 20'000, kMostCost = 1'000'000;
 
-// Of one contributor: its parts, each with the shifts of every run; a run without it has none.
+// The parts of one contributor, each with the shifts of every run; empty for a run without it.
 using PartsOfRuns = std::vector<std::vector<PointShifts>>;
 
-// What is seen in a run itself is of that run alone.
+// A contributor without a key is seen in one run only and belongs to this run.
 std::string identity(const Contributor& c, std::size_t run) {
   if (c.key.empty()) return std::to_string(run) + " " + contributor_text(c.name);
   return contributor_text(c.name) + " " + c.key + " " + std::to_string(c.declared.u * c.to_unit) +

@@ -1,4 +1,4 @@
-// What the rigs of a table's runs declare not to know, carried to the values of the table.
+// Propagates the uncertainties that the rigs of a table's runs declare to the values of the table.
 #pragma once
 
 #include <vector>
@@ -11,17 +11,17 @@
 
 namespace mdof::algo {
 
-// Sets `u_declared` of a table that build_table() made of these runs and options; `rigs` are those
-// of the runs, one each. The table is built again with each contributor's shift: so what is common
-// to all points cancels where the table takes differences (the line, the first angle). A
-// contributor that several rigs declare alike is the same fixture's: it shifts their runs together.
-// Nothing is set where no rig declares anything and no drift was removed. What the removal of a
-// drift adds is in it, too. Errors: those of contributors(); so many points and contributors that
-// it would take long.
+// Sets `u_declared` of a table that build_table() made from these runs and options; `rigs` has the
+// rig of each run. The table is built again with the shift of each contributor, so that shifts
+// common to all points cancel where the table takes differences (the line, the first angle). A
+// contributor that several rigs declare identically belongs to one fixture and shifts their runs
+// together. u_declared contains the uncertainty of a removed drift, too. It is not set if no rig
+// declares an uncertainty and no drift was removed. Errors: those of contributors(); too many
+// points and contributors, because this takes long.
 Status add_declared_uncertainty(CompensationTable& table, const std::vector<Rig>& rigs,
                                 const std::vector<Run>& runs, const TableOptions& options);
 
-// The same as the covariance of the five errors at each position, of each approach; empty where
+// The same uncertainty as covariance of the five errors at each position, by approach; empty if
 // nothing is declared.
 struct DeclaredCovariance {
   std::vector<Covariance5> forward, reverse;  // named errors

@@ -13,7 +13,7 @@ constexpr std::size_t at(std::size_t k, std::size_t l) {
   return k * kErrorCount + l;
 }
 
-// Coefficients of a covariance; 0 beside a variance of 0.
+// Correlation coefficients of a covariance; 0 if a variance is 0.
 Covariance5 coefficients(const Covariance5& covariance) {
   Covariance5 all{};
   for (std::size_t k = 0; k < kErrorCount; ++k)
@@ -24,7 +24,7 @@ Covariance5 coefficients(const Covariance5& covariance) {
   return all;
 }
 
-// Of noise that all probes have alike, in a point without references.
+// Covariance from equal noise of all probes, in a point without references.
 Result<Covariance5> of_noise(const Rig& rig, const Run& run) {
   Model model = Model::rigid;
   model_from(run.header.provenance.model, model);
@@ -42,8 +42,8 @@ Result<Covariance5> of_noise(const Rig& rig, const Run& run) {
   return coefficients(sum);
 }
 
-// What is left of a correlation where two values refer to other shares of the means: the cosine of
-// the weights of independent targets.
+// Factor of a correlation if two values refer to different shares of the means: the cosine between
+// their weights of independent targets.
 Covariance5 of_weights(const std::array<std::vector<std::vector<double>>, kErrorCount>& references,
                        std::size_t row) {
   Covariance5 products{};
@@ -58,7 +58,8 @@ Covariance5 of_weights(const std::array<std::vector<std::vector<double>>, kError
   return coefficients(products);
 }
 
-// Of both approaches; NaN: the largest of the other positions, 0 where none is known.
+// Of both approaches. NaN is replaced by the largest of the other positions, or 0 if all are
+// unknown.
 std::array<std::vector<double>, kErrorCount> noise_of(const CompensationTable& table) {
   std::array<std::vector<double>, kErrorCount> u;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
@@ -73,8 +74,9 @@ std::array<std::vector<double>, kErrorCount> noise_of(const CompensationTable& t
   return u;
 }
 
-// The covariance of an approach, its variances raised to those of the other where these are larger.
-// An approach without values has no variances: then it is the other's.
+// The covariance of the forward approach with its variances raised to those of the reverse approach
+// where these are larger. An approach without values has no variances; then the result is the
+// other's.
 Covariance5 larger_of(const Covariance5& forward, const Covariance5& reverse) {
   if (forward == Covariance5{}) return reverse;
   Errors5 scale;

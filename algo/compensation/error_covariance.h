@@ -1,5 +1,5 @@
-// Covariance of the errors of a table: one set of probes shows all five, so that a fault of a probe
-// moves several at once. u of a place with a lever needs it.
+// Covariance of the errors of a table. One set of probes measures all five errors, so a fault of
+// one probe changes several of them. The u of a point with a lever arm needs this covariance.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,18 @@
 
 namespace mdof::algo {
 
-// Of the named errors, by position; of both approaches the larger variance, so that it holds for
-// the value of either and of their mean.
+// Of the named errors, by position. Each variance is the larger one of the two approaches, so that
+// it holds for the value of either approach and for their mean.
 struct ErrorCovariances {
-  std::vector<Covariance5> noise;     // and repeatability
-  std::vector<Covariance5> declared;  // by what the rigs declare; empty: nothing
+  std::vector<Covariance5> noise;     // noise and repeatability
+  std::vector<Covariance5> declared;  // declared by the rigs; empty: nothing declared
 };
 
-// What rigs declare goes in as it shifts the table; noise as equal noise of all probes makes it,
-// through the solver and what the values refer to. `table` is build_table() of these runs and
-// options; noise that is not known (NaN) counts as the largest of the other positions. Errors: as
-// of declared_covariance(); a rig that cannot see all five errors.
+// The declared part is propagated by shifts of the table. Noise is taken as equal for all probes
+// and propagated through the solver and the references of the values. `table` is the result of
+// build_table() for these runs and options. Unknown noise (NaN) is replaced by the largest of the
+// other positions. Errors: those of declared_covariance(); a rig that does not measure all five
+// errors.
 Result<ErrorCovariances> error_covariances(const CompensationTable& table,
                                            const std::vector<Rig>& rigs,
                                            const std::vector<Run>& runs,

@@ -56,7 +56,7 @@ Status check_sources(const std::vector<Run>& runs) {
   return {};
 }
 
-// By which the readings of each run count.
+// The sign of the readings of each run.
 Result<std::vector<double>> signs_of(const std::vector<Run>& runs,
                                      std::optional<bool> against_command) {
   std::vector<double> signs;
@@ -111,7 +111,7 @@ double u_of_mean(const std::vector<double>& x) {
   return std::sqrt(squares / (n - 1) / n);
 }
 
-// NaN: a run declares none.
+// The largest declared u; NaN: a run declares none.
 double declared_of(const std::vector<Run>& runs) {
   double largest = 0;
   for (const Run& run : runs)

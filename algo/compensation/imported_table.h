@@ -1,4 +1,4 @@
-// Imported runs of an axis' positioning -> a table, which holds EXX (EYY, EZZ) alone.
+// Builds a table from imported runs of the positioning of an axis. It holds only EXX (EYY, EZZ).
 #pragma once
 
 #include <optional>
@@ -12,23 +12,24 @@
 
 namespace mdof::algo {
 
-// distinct_targets() of their positions.
+// distinct_targets() of the positions of the readings.
 std::vector<double> imported_targets(const std::vector<ImportedReading>& readings);
 
-// The mean deviation at each target by approach, as measured: no line is taken from it. A reading
-// whose approach was not said counts for both. u: s/√n of the repeats (n - 1); NaN where there is
-// one reading. What was declared at import stands beside it, the largest of the runs', where each
-// has it. Errors: a run that was not imported, of another axis or error, of the same file; other
-// targets; fewer than two.
+// The table has the mean deviation at each target by approach, as measured, without removal of a
+// line. A reading with unknown approach counts for both approaches. u is s/√n of the repeats (n - 1
+// degrees of freedom); NaN if there is one reading. u_declared is the largest uncertainty declared
+// at import, if each run declares one. Errors: a run that was not imported, is of another axis or
+// error, or is of the same file; different targets; fewer than two targets.
 //
-// The table has the sense of the command; a run in that of the body is turned by its travel, or by
-// `against_command` of a machine. Errors besides: neither is known, or they differ.
+// The table has the sense of the command. A run in the sense of the body is converted with its
+// travel direction, or with `against_command` of a machine if the run does not state one. Further
+// errors: both are unknown, or they differ.
 Result<CompensationTable> build_positioning_table(
     const std::vector<Run>& runs, std::optional<bool> against_command = std::nullopt);
-// Error: the run says another travel.
+// Error: the run states another travel direction.
 Status check_travel(const RunHeader& run, bool against_command);
 
-// What a reader of that table should know, beside the notices of the runs.
+// Notices that the user of such a table needs in addition to the notices of the runs.
 Notices positioning_notices(const std::vector<Run>& runs);
 
 }  // namespace mdof::algo

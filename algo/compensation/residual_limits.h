@@ -1,13 +1,13 @@
-// What a correction may leave of an error: of the self-test of exports, and of what a table says of
-// itself.
+// Limits of the residual errors after a correction, for the self-test of exports and for the
+// notices of a table.
 #pragma once
 
 #include <algorithm>
 
 namespace mdof::algo {
 
-// Unless more is asked for: no more than `most_m`, of angles in rad, and no more than `share` of
-// the error; a step of the numbers is always.
+// Defaults. The residual is at most `share` of the error, but one step of the numbers is allowed;
+// it never exceeds `most_m` (rad for angles).
 struct ResidualLimits {
   double most_m = 1e-6, share = 0.2;
 

@@ -11,10 +11,10 @@
 namespace mdof::algo {
 namespace {
 
-// Of a table, as of declared_uncertainty: one with more has said so when it was built.
+// Limit for each table, as in declared_uncertainty.cpp, where a table with more points is reported.
 constexpr std::size_t kMostSharedPoints = 20'000;
 
-// A contributor of one run of one table.
+// A contributor in one run of one table.
 struct InRun {
   std::size_t table = 0, run = 0;
   Contributor contributor;
@@ -26,7 +26,7 @@ bool is_of_several_tables(const std::vector<InRun>& all) {
   return tables.size() > 1;
 }
 
-// By Contributor::common_as; `runs`: of each table, as it states them.
+// By Contributor::common_as; `runs` has the runs of each table as the table states them.
 Result<std::map<std::string, std::vector<InRun>>> quantities_of(
     const std::vector<BuiltFrom>& tables, const std::vector<std::vector<Run>>& runs) {
   std::map<std::string, std::vector<InRun>> all;
@@ -72,7 +72,7 @@ Result<std::vector<SharedQuantity>> shared_quantities(const std::vector<BuiltFro
   MDOF_TRY(const auto quantities, quantities_of(tables, runs));
   std::vector<SharedQuantity> all;
   for (const auto& [common_as, in_runs] : quantities) {
-    std::vector<std::vector<PointShifts>> parts;  // of each of `in_runs`
+    std::vector<std::vector<PointShifts>> parts;  // for each of `in_runs`
     for (const InRun& one : in_runs) parts.push_back(one.contributor.parts());
     for (std::size_t p = 0; p < parts.front().size(); ++p) {
       SharedQuantity& shared =

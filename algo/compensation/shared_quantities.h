@@ -1,5 +1,5 @@
-// What the tables of several axes have in common: the scale, the linearity and the tilt factor of a
-// probe that measured more than one of them. u of a place that several axes take to needs it.
+// Quantities that the tables of several axes share: the scale, linearity and tilt factor of a probe
+// that measured more than one axis. The u of a point that several axes move needs them.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@
 
 namespace mdof::algo {
 
-// A table with what it was built from; one rig a run.
+// A table with the data it was built from; one rig for each run.
 struct BuiltFrom {
   CompensationTable table;
   std::vector<Rig> rigs;
@@ -22,16 +22,17 @@ struct BuiltFrom {
   TableOptions options;
 };
 
-// An independent part of a quantity that two tables or more have: what one standard uncertainty of
-// it does to the named errors of the forward approach. [table][position]; 0 in the others.
+// An independent part of a quantity that at least two tables share: the effect of one standard
+// uncertainty on the named errors of the forward approach, [table][position]; 0 in tables without
+// it.
 struct SharedQuantity {
   ContributorName name;
   std::vector<std::vector<Errors5>> by_table;
 };
 
-// The same certificate and uncertainty are the same probe, as for the squareness of two runs
-// (uncertainty/statistics/common_quantities.h). Errors: those of contributors(); a table of so
-// many points that it would take long.
+// Probes with the same certificate and uncertainty are the same probe, as for the squareness of two
+// runs (uncertainty/statistics/common_quantities.h). Errors: those of contributors(); a table with
+// too many points, because this takes long.
 Result<std::vector<SharedQuantity>> shared_quantities(const std::vector<BuiltFrom>& tables);
 
 }  // namespace mdof::algo

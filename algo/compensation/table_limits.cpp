@@ -15,7 +15,7 @@ std::string mm_of(double position_m) {
   return plain_number(to_mm(position_m), 7) + " mm";
 }
 
-// m or rad, and by m, in the unit of the options.
+// From m or rad, and from the value per m, to the units of the options.
 std::string value_text(double value, bool angle) {
   return plain_number(value * 1e6, 6) + (angle ? " urad" : " um");
 }

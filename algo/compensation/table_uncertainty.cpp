@@ -20,10 +20,10 @@ bool is_of(const MeasuredPoint& p, Approach approach) {
 
 // Variances of the means of one approach, on the grid of the table.
 struct OfApproach {
-  std::vector<Errors5> variance;  // 0 where it has no mean
+  std::vector<Errors5> variance;  // 0: the approach has no mean here
   std::vector<bool> has;
-  Errors5 shift{};    // of all of them together
-  Errors5 u_visit{};  // of a visit, pooled
+  Errors5 shift{};    // common shift of all means
+  Errors5 u_visit{};  // of one visit, pooled
 };
 
 OfApproach of_approach(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
@@ -50,11 +50,11 @@ OfApproach of_approach(const MovingAxis& moving, const std::vector<MeasuredPoint
   return out;
 }
 
-// What is not known of the shifts of runs that lack visits, and what levels of their passes do to
-// the means of both approaches together, by independent parts.
+// The uncertainty of the shifts of runs that lack visits, and the effect of the levels of their
+// passes on the means of both approaches, as independent parts.
 class SharedShifts {
  public:
-  // `u_visit`: named.
+  // `u_visit`: named errors.
   SharedShifts(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                const std::vector<TargetMean>& grid, const Errors5& u_visit)
       : grid_(grid), u_visit_(u_visit) {
@@ -66,7 +66,7 @@ class SharedShifts {
   }
   bool has_levels() const { return !levels_.parts.empty(); }
   double run_level(std::size_t k) const { return std::abs(run_level_[k]); }
-  // [part][target of the grid] of named error k, 0 where the approach has no mean.
+  // [part][target of the grid] of named error k; 0 if the approach has no mean there.
   std::vector<std::vector<double>> of(Approach approach, std::size_t k) const {
     std::vector<std::vector<double>> parts;
     for (const auto& part : by_noise_) parts.push_back(on_grid(approach, part, u_visit_[k]));
@@ -87,13 +87,14 @@ class SharedShifts {
   }
 
   const std::vector<TargetMean>& grid_;
-  Errors5 u_visit_, run_level_{};  // run_level_: u of the means, which runs' levels make
+  Errors5 u_visit_, run_level_{};  // u of the means due to the levels of runs
   std::vector<std::map<TargetAndWay, double>> by_noise_;
   PassLevels levels_;
 };
 
-// Of half of what the two approaches differ by, over all targets that have both, from run to run:
-// the variance of its mean, without what the visits' own variance makes of it.
+// Half of the difference between the two approaches, over all targets that have both, varies from
+// run to run. Returns the variance of its mean without the contribution of the visits' own
+// variance.
 Errors5 half_difference(const MovingAxis& moving, const std::vector<MeasuredPoint>& points) {
   struct Sums {
     std::array<Errors5, 2> sum{};
@@ -123,7 +124,7 @@ Errors5 half_difference(const MovingAxis& moving, const std::vector<MeasuredPoin
     runs_at[where.second] += 1;
     for (std::size_t k = 0; k < kErrorCount; ++k) of_target[where.second][k] += half_of(sums, k);
   }
-  // Less the mean reversal of each target, so that runs with other targets compare.
+  // Subtract the mean reversal of each target, so that runs with different targets are comparable.
   for (const auto& [where, sums] : at_target) {
     if (sums.visits[0] == 0 || sums.visits[1] == 0) continue;
     Halves& run = of_run[where.first];
@@ -196,7 +197,7 @@ SeriesOfErrors table_uncertainty(
     for (std::size_t i = 0; i < grid.size(); ++i) {
       if (!own.has[i]) continue;
       const Reference& reference = references[k][i];
-      std::vector<double> by_own, by_other;  // of the means of each approach, in this value
+      std::vector<double> by_own, by_other;  // shares of the means of each approach in this value
       double variance = 0, referred = 0;
       for (std::size_t j = 0; j < grid.size(); ++j) {
         const double of_own = !own.has[j] ? 0 : other.has[j] ? 0.5 : 1;

@@ -33,13 +33,13 @@ Status check_input(const std::vector<double>& x, const Columns& columns, double 
   return {};
 }
 
-// Slopes of lines from one point that pass within the tolerance of all points on the way.
+// Range of slopes of lines from one point that pass all points so far within the tolerance.
 struct Cone {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
 };
 
-// Of each column, from the point `from`; narrowed by the points behind it, one after the other.
+// One cone for each column, from the point `from`. Each later point narrows the cones.
 class Fan {
  public:
   Fan(const std::vector<double>& x, const Columns& columns, std::size_t from, double tolerance)
@@ -52,7 +52,7 @@ class Fan {
     }
     return true;
   }
-  // The point lies on the way from now on; false: no line reaches beyond it.
+  // Adds a point that the lines must pass; false: no line passes all points.
   bool narrow(std::size_t by) {
     const double dx = x_[by] - x_[from_];
     for (std::size_t c = 0; c < cones_.size(); ++c) {
@@ -72,8 +72,8 @@ class Fan {
   std::vector<Cone> cones_;
 };
 
-// The way of fewest steps from the first point to the last; of equal ones that of the earlier
-// points.
+// The path with the fewest steps from the first point to the last; among equal paths the one with
+// the earlier points.
 std::vector<std::size_t> fewest(const std::vector<double>& x, const Columns& columns,
                                 double tolerance) {
   const std::size_t n = x.size();

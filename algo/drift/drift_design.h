@@ -1,9 +1,11 @@
-// What repeated visits of the same places show of a drift: y = of the place + drift(time) + noise.
+// Which part of a drift repeated visits of the same places show: y = error of the place +
+// drift(time) + noise.
 //
-// A place is a target with its approach: its error is the same at each visit, and so is its
-// reversal. A drift is a polynomial in time (Legendre). What of it is the same at every visit of a
-// place passes for the form or the slope of the axis, and is not seen; a polynomial is taken only
-// as far as at least kFewestSeen of the variance of each of its combinations is seen.
+// A place is a target with its approach. Its error is the same at each visit, and so is its
+// reversal. A drift is a polynomial in time (Legendre). The part of it that is the same at every
+// visit of a place cannot be distinguished from the form or the slope of the axis and is not seen.
+// The order of the polynomial is limited so that at least kFewestSeen of the variance of each
+// combination of its terms is seen.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,34 +19,35 @@ struct TimedVisit {
   double time_s = 0;
 };
 
-// What noise that lasts is estimated from, in the order of time. Of many places neighbours share a
-// row, the mean of those that were visited one after the other: the time grows with places².
+// Data for the estimation of slow noise, in order of time. If there are many places, neighbouring
+// places visited one after the other share a row with their mean, because the time grows with
+// places².
 struct DriftRows {
   std::vector<double> time_s;
   std::vector<std::size_t> place;
   std::size_t places = 0;
-  Eigen::MatrixXd polynomials, y;  // without the means of their places
+  Eigen::MatrixXd polynomials, y;  // minus the means of their places
 
-  double freedom() const;  // of what the highest order leaves
+  double freedom() const;  // of the residuals of the highest order
 };
 
 class DriftDesign {
  public:
   static constexpr double kFewestSeen = 0.02;
   static constexpr int kMostOrders = 6, kFewestFreedom = 4;
-  static constexpr std::size_t kMostPlaces = 48;  // of DriftRows
+  static constexpr std::size_t kMostPlaces = 48;  // in DriftRows
 
   explicit DriftDesign(std::vector<TimedVisit> visits);
 
   int orders() const { return orders_; }  // 0: no drift can be separated from the form of the axis
-  double freedom() const { return freedom_; }  // of what the highest order leaves of all visits
+  double freedom() const { return freedom_; }  // of the residuals of the highest order, all visits
   const std::vector<TimedVisit>& visits() const { return visits_; }
   double begin_s() const { return begin_s_; }            // of the first visit
   double end_s() const { return begin_s_ + length_s_; }  // of the last visit
 
-  DriftRows rows(const Eigen::MatrixXd& y) const;  // `y`: visits × series; where orders() > 0
-  // Of each order, 0 at the first visit, where the system was zeroed. Before the first visit they
-  // are those of the first, after the last those of the last.
+  DriftRows rows(const Eigen::MatrixXd& y) const;  // `y`: visits × series; requires orders() > 0
+  // The value of each order, 0 at the first visit, where the system was zeroed. Before the first
+  // visit it is the value of the first visit, after the last visit the value of the last.
   Eigen::VectorXd polynomials(double time_s) const;
 
  private:

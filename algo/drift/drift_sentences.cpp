@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSecondsPerMinute = 60, kSecondsPerHour = 3600;
 
-// GUM 7.2.6: two significant digits of u as it is rounded, 0.0996 is 0.10; below 0 tens and more.
+// GUM 7.2.6: two significant digits of u after rounding (0.0996 is 0.10); negative: tens and more.
 int decimals_of(double u, int otherwise) {
   constexpr int kMostDecimals = 9;
   if (!(u > 0) || !std::isfinite(u)) return otherwise;

@@ -1,4 +1,4 @@
-// The words for the drift of a run.
+// Sentences about the drift of a run.
 #pragma once
 
 #include <string>
@@ -10,14 +10,15 @@
 
 namespace mdof::algo {
 
-// "EYX +0.2131 ± 0.0040 µm, ECX -3.10 ± 0.12 µrad from the first point to the last (2.60 min)": of
-// the body that moves; the significant ones that may be steps, or cannot be. Empty: there is none.
+// "EYX +0.2131 ± 0.0040 µm, ECX -3.10 ± 0.12 µrad from the first point to the last (2.60 min)" of
+// the moving body: the significant drifts that may be steps (`steps`), or those that cannot be.
+// Empty: there are none.
 std::string changes_text(const RunDrift& drift, const MovingAxis& moving, bool steps);
 
-// Of a run from which it was to be removed: what was.
+// Notices of a run whose drift removal was requested: which drifts were removed.
 Notices removal_notices(const RunDrift& drift, const MovingAxis& moving);
 
-// Of probes that drift by more than the rig's limit over the run, highest to lowest.
+// Notices of probes that drift by more than the rig's limit over the run (highest minus lowest).
 Notices over_limit(const RunDrift& drift, const Rig& rig);
 
 }  // namespace mdof::algo

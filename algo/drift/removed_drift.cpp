@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// Shifts at the fixture, where the run is stated.
+// Converts shifts at the fixture to where the run is stated.
 PointShifts restated(const PointShifts& at_fixture, const Run& run, Model model) {
   if (run.header.stated == kAtFixture) return at_fixture;
   PointShifts shifts(at_fixture.size());

@@ -1,4 +1,4 @@
-// What the removal of a drift adds to the uncertainty of a run.
+// Uncertainty of a run due to the removal of its drift.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace mdof::algo {
 
-// A contributor of a run from which a drift was removed, without a key of the rig, as it is seen in
-// the run itself: all points share what is wrong of the drift, so that the means of many visits
-// have all of it. Empty: no drift was removed.
+// Contributors of a run from which a drift was removed. They have no key in the rig, because the
+// run itself shows them. All points share the error of the drift, so the means of many visits
+// contain all of it. Empty: no drift was removed.
 std::vector<Contributor> removed_drift(const Run& run);
 
 }  // namespace mdof::algo

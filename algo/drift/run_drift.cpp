@@ -14,8 +14,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLogLikelihoodRatio = 5;  // by which a drift must be likelier than steps
-constexpr std::size_t kFewestOfPass = 3;   // points, on the average
+constexpr double kLogLikelihoodRatio = 5;  // required for a drift instead of steps
+constexpr std::size_t kFewestOfPass = 3;   // points, on average
 constexpr double kLeastScatter_m = 1e-12;
 
 using Points = std::vector<const MeasuredPoint*>;
@@ -51,7 +51,7 @@ DriftFit errors_fit(const Points& points) {
   return {design_of(points), y, noise2};
 }
 
-// Of those points in which no probe is lost.
+// Only from points with readings of all probes.
 std::vector<SeriesDrift> drifts_of_probes(const Points& points) {
   Points whole;
   std::copy_if(points.begin(), points.end(), std::back_inserter(whole), [](const auto* p) {
@@ -97,7 +97,7 @@ std::vector<Closure> closures_of(const Points& points) {
   return closures;
 }
 
-// Which of the values share a mean that is not known.
+// For each value the group whose unknown mean it shares.
 using Groups = std::vector<std::size_t>;
 
 void take_means(const Groups& groups, Eigen::MatrixXd& columns) {
@@ -115,7 +115,7 @@ void take_means(const Groups& groups, Eigen::MatrixXd& columns) {
     columns.row(i) -= sum.row(group(i)) / count(group(i));
 }
 
-// What the columns and a mean of each group leave of y, in squares.
+// Sum of squares of y that the columns and a mean of each group do not explain.
 double left_of(Eigen::MatrixXd columns, Eigen::MatrixXd y, const Groups& groups) {
   take_means(groups, columns);
   take_means(groups, y);
@@ -123,7 +123,7 @@ double left_of(Eigen::MatrixXd columns, Eigen::MatrixXd y, const Groups& groups)
   return (y - fitted).squaredNorm();
 }
 
-// The target and the pass (a stretch of one run and direction) of each point.
+// The target and the pass (consecutive points of one run and direction) of each point.
 struct Grouping {
   Groups target, pass;
   std::size_t passes = 0;
@@ -143,8 +143,8 @@ Grouping grouping_of(const Points& points) {
   return out;
 }
 
-// Is a step from pass to pass as good an explanation as a drift, where the reversal is the same at
-// all targets?
+// Whether steps from pass to pass explain the error as well as a drift, if the reversal is the same
+// at all targets.
 bool may_be_steps(const Points& points, const DriftFit& fit, std::size_t k) {
   const Grouping groups = grouping_of(points);
   const auto n = static_cast<Eigen::Index>(points.size());

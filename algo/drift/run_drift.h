@@ -1,10 +1,12 @@
 // The drift of a run: of its five errors and of its probes, from repeated visits of its targets.
 //
-// A run that visits each target once from each side does not separate a drift from the form and
-// slope of the axis and its reversal; a second run does. Between runs alone, a steady drift and
-// steps from run to run look the same: machines have both. Within the runs they differ, where the
-// axis goes both ways: a drift shifts the two visits of a target by as much as lies between them,
-// and a step does not. Only what is likelier to be a drift than steps from pass to pass, by e⁵
+// A run that visits each target once from each side does not separate a drift from the form, slope
+// and reversal of the axis; a second run does. Between runs alone, a steady drift and steps from
+// run to run look the same, and machines have both. Within runs they differ if the axis moves in
+// both directions: a drift changes the difference between the two visits of a target in proportion
+// to the time between them, a step does not. mdof accepts a drift only if it is more likely than
+// steps from pass to pass by a factor of e⁵ (both with one reversal for all targets). Runs of one
+// direction do not show the difference.
 // (both with one reversal for all targets), is one; runs of one direction do not show it.
 #pragma once
 
@@ -18,38 +20,39 @@
 
 namespace mdof::algo {
 
-// By how much the errors had changed when the axis came back to where a run began.
+// Change of the errors between the start of a run and the return of the axis to the start position.
 struct Closure {
   int run = 0;
   double after_s = 0;
-  bool same_side = true;  // false: it came from the other side, and the reversal is in it
-  Errors5 change{};       // local; m, rad
+  // false: approached from the other side, so the change contains the reversal
+  bool same_side = true;
+  Errors5 change{};  // local; m, rad
 };
 
 struct RunDrift {
-  std::string not_seen;                 // why no drift can be stated; empty: it can
+  std::string not_seen;                 // why no drift can be stated; empty: a drift can be stated
   double length_s = 0;                  // from the first point to the last
   std::array<SeriesDrift, 5> errors{};  // local, of the target; m, rad
-  std::vector<SeriesDrift> probes;      // in the order of the rig; m. Empty: not_seen
-  std::vector<Closure> closures;        // of each run whose start was visited again
+  std::vector<SeriesDrift> probes;      // in the order of the rig; m; empty if not_seen is set
+  std::vector<Closure> closures;        // of each run whose start position was visited again
 
-  bool significant() const;  // of any error
-  bool removable() const;    // one at least that cannot be steps
+  bool significant() const;  // any error
+  bool removable() const;    // at least one drift that cannot be steps
 };
 
 class DriftOfRun {
  public:
-  // Points stated at the fixture, where an error does not have the travel in it. Those without
-  // errors, or with an unknown approach, show nothing.
+  // `points` must be stated at the fixture, where an error does not contain the travel. Points
+  // without errors or with an unknown approach are ignored.
   explicit DriftOfRun(const std::vector<MeasuredPoint>& points);
 
   const RunDrift& found() const { return found_; }
-  // The points without the significant drifts of their errors since the first point, where the
-  // system was zeroed; what a drift did before is in all points.
+  // The points minus the significant drifts of their errors since the first point, where the system
+  // was zeroed. All points contain the drift before that.
   std::vector<MeasuredPoint> without(std::vector<MeasuredPoint> points) const;
-  // Where these points are what without() left: by how much each may be wrong for that, as
-  // independent parts whose squares add, with freedom() degrees of freedom. Which drifts were taken
-  // is seen in the points: of those nothing is left.
+  // The uncertainty of points from without(): independent parts whose squares add, with freedom()
+  // degrees of freedom; each part has the possible error of each point. The points show which
+  // drifts were removed, because such a drift is 0 in them.
   std::vector<std::vector<Errors5>> removal_shifts(const std::vector<MeasuredPoint>& points) const;
   double freedom() const;
 

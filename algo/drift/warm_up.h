@@ -1,5 +1,5 @@
-// Has a system warmed up? Of readings of a parked axis: how fast each drifts in equal stretches of
-// time, and since when all of them stay below a limit.
+// Decides whether a system has warmed up, from readings of a parked axis: the drift rate of each
+// series in equal windows of time, and the time from which all rates stay below a limit.
 #pragma once
 
 #include <cstddef>
@@ -10,22 +10,21 @@
 
 namespace mdof::algo {
 
-// One reading a step; NaN: there was none.
+// One value for each step; NaN: no reading.
 struct ParkedSeries {
   std::string name;  // "A_um", "EYX_um"
   std::vector<double> value;
-  double limit_per_s = std::numeric_limits<double>::infinity();  // infinity: it has none
+  double limit_per_s = std::numeric_limits<double>::infinity();  // infinity: no limit
 };
 
 struct ParkedReadings {
-  double step_s = 0;                  // from one reading to the next, means over it
+  double step_s = 0;                  // each value is a mean over this time
   std::vector<ParkedSeries> series;   // SI, all of the same length
-  std::vector<double> temperature_C;  // likewise, or empty: nobody read it
+  std::vector<double> temperature_C;  // same length; empty: no temperature
 };
 
-// `undecided`: the limit lies within two standard uncertainties. `unknown`: too few readings, or
-// the reading of the whole log never changes: of a dead probe, or of one whose step hides the
-// drift.
+// `undecided`: the limit is within two standard uncertainties. `unknown`: too few readings, or the
+// value is constant over the whole log: a dead probe, or a resolution that hides the drift.
 enum class DriftVerdict { below, above, undecided, unknown };
 const char* to_string(DriftVerdict verdict);
 
@@ -35,26 +34,27 @@ struct DriftWindow {
 };
 
 struct WithTemperature {
-  double slope_per_K = 0, correlation = 0;  // NaN: the temperature, or the reading, does not change
+  double slope_per_K = 0, correlation = 0;  // NaN: temperature or reading is constant
 };
 
 struct WarmUp {
-  std::vector<double> begin_s;  // of each window, from the first reading on
+  std::vector<double> begin_s;  // start of each window since the first reading
   double window_s = 0;
   std::vector<std::vector<DriftWindow>> windows;  // [series][window]
   std::vector<WithTemperature> with_temperature;  // [series]; empty: no temperature
-  bool limited = false;                           // any series has a limit
-  // From then on every window of every series with a limit is below it, and there are at least
-  // kFewestBelow of them, which last kShortestBelow_s. None: not ready, or not limited.
+  bool limited = false;                           // whether any series has a limit
+  // From this time every window of every series with a limit is below its limit, and at least
+  // kFewestBelow windows with a length of kShortestBelow_s in total follow. Empty: not ready, or no
+  // limit.
   std::optional<double> ready_after_s;
 };
 
 inline constexpr std::size_t kFewestBelow = 3, kStepsOfWindow = 10, kFewestSteps = 6;
 inline constexpr double kShortestBelow_s = 600;  // thermal drift has time constants of minutes
 
-// Windows of kStepsOfWindow steps, one after the other; the last steps that fill none are left out.
-// A rate is the slope of the least-squares line through a window's readings, its u by their scatter
-// about the line. Fewer than kFewestSteps readings in a window give none.
+// Consecutive windows of kStepsOfWindow steps; an incomplete last window is left out. A rate is the
+// slope of the least-squares line through the readings of a window, its u is from their scatter
+// about the line. A window with fewer than kFewestSteps readings has no rate.
 WarmUp warm_up(const ParkedReadings& readings);
 
 }  // namespace mdof::algo

@@ -44,7 +44,7 @@ void take_along(CommandGrid& grid, std::size_t axis, const std::vector<double>& 
     grid.value[node] -= values[grid.index(node, axis)];
 }
 
-// What two axes do together: the mean over the third, rows by the first.
+// Joint effect of two axes: the mean over the third axis; a row for each node of the first.
 using PairRows = std::vector<std::vector<double>>;
 PairRows mean_of_pair(const CommandGrid& grid, std::size_t p, std::size_t q) {
   PairRows rows(grid.size[p], std::vector<double>(grid.size[q], 0));
@@ -60,7 +60,7 @@ double largest_size(const PairRows& rows) {
   return most;
 }
 
-// The product nearest to the rows by least squares: both factors in turns.
+// The least-squares product of these rows, by alternating solution of both factors.
 AxisProduct nearest_product(const PairRows& rows, std::size_t p, std::size_t q) {
   AxisProduct product{p, q, std::vector<double>(rows.size(), 0), {}};
   product.of_second = *std::max_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {

@@ -14,7 +14,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::string_view kAxes = "XYZ";
-// A command that is this near to the grid is in it: a number in mm is rounded.
+// A command this near to the grid counts as inside, because numbers in mm are rounded.
 constexpr double kSamePlace_m = 1e-9;
 
 std::string name_of(std::size_t axis) {
@@ -28,7 +28,7 @@ Result<std::vector<double>> commands_along(const Machine& machine, std::size_t a
     return bad_input("the chain " + machine.chain.text + " has no axis " + name_of(axis) +
                      "; use only axes of this chain");
   MDOF_TRY(const auto range, range_of(*frame));
-  // A step of 0 is refused here as well.
+  // This check rejects a step of 0, too.
   if (!((range[1] - range[0]) / step_m < static_cast<double>(kMostVolumetricCommands) - 1))
     return bad_input("axis " + name_of(axis) + ": a range of " +
                      plain_number(to_mm(range[1] - range[0]), 6) + " mm with a step of " +
@@ -58,7 +58,7 @@ std::string place_text(const Vec3& command_m) {
   return text + " mm";
 }
 
-// The machine at one place: the correction, and what else the table says of it.
+// The machine at one point: the correction, and the other values of the table for this point.
 class CorrectedPlace {
  public:
   static Result<CorrectedPlace> at(const Machine& machine, const VolumetricRequest& request,
@@ -85,7 +85,7 @@ class CorrectedPlace {
   CompensatingCommand found_;
 };
 
-// NaN: nothing that counts has an uncertainty.
+// NaN: no relevant error has an uncertainty.
 Vec3 u_of_correction(const Machine& machine, const Command& command, MachineApproach approach) {
   const Vector6 all = error_uncertainty(derivatives_of_command(machine, command),
                                         values_at(machine, command, approach));
@@ -97,7 +97,7 @@ Vec3 u_of_correction(const Machine& machine, const Command& command, MachineAppr
   return u;
 }
 
-// Whether noise is known apart, axis by axis.
+// Whether the table has the noise of each axis separately.
 bool has_parts(const VolumetricTable& table) {
   return std::any_of(table.noise.begin(), table.noise.end(),
                      [](const auto& axis) { return !axis.empty(); });
@@ -133,7 +133,7 @@ Status add_node(VolumetricTable& table, const Machine& machine, const Volumetric
   return {};
 }
 
-// Half a cell further along each axis of `half`; false: there is no cell.
+// Moves the command by half a cell along each axis of `half`; false: there is no such cell.
 bool half_a_cell(const VolumetricTable& table, std::size_t node, unsigned half, Vec3& command_m) {
   command_m = table.command_at(node);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -146,8 +146,9 @@ bool half_a_cell(const VolumetricTable& table, std::size_t node, unsigned half, 
   return true;
 }
 
-// Where an error that goes with the command of an axis leaves the straight line between two nodes
-// most, of each error and cell: at one of its own positions, as it is straight between these.
+// For each error and cell of an axis the position of the largest deviation from the straight line
+// between two nodes. It is one of the error's own positions, because the error is linear between
+// these.
 std::vector<std::vector<double>> bends_along(const Machine& machine, std::size_t axis,
                                              const std::vector<double>& nodes) {
   std::vector<std::vector<double>> bends(nodes.size());
@@ -177,9 +178,9 @@ std::vector<std::vector<double>> bends_along(const Machine& machine, std::size_t
   return bends;
 }
 
-// How far the corrections at places of the cell behind each node leave the straight lines between
-// nodes: in the middle of its edges, faces and of itself, and where an error bends along an edge.
-// The bends of several axes may meet, so that what they leave is added.
+// Finds the deviation of the corrections from linear interpolation in the cell behind each node: in
+// the middle of its edges, of its faces and of the cell, and at the bends of errors along an edge.
+// Bends of several axes can coincide, so their deviations are added.
 class Interpolation {
  public:
   Interpolation(VolumetricTable& table, const Machine& machine, const VolumetricRequest& request)
@@ -243,7 +244,7 @@ Status find_interpolation(VolumetricTable& table, const Machine& machine,
   return {};
 }
 
-// Along each line of nodes that goes along an axis.
+// Checks along each line of nodes parallel to the axis.
 Status check_lines(const VolumetricTable& table, std::size_t axis, const TableLimits& limits) {
   const auto& commands = table.command_m[axis];
   for (std::size_t node = 0; node < table.nodes(); ++node) {
@@ -285,7 +286,8 @@ GridCell cell_of(const std::vector<double>& commands, double command) {
   return {index, (command - commands[index]) / (commands[index + 1] - commands[index]), true};
 }
 
-// u and its parts, from u_common_m. Of a table whose parts are not known, that is the whole.
+// Sets u and its parts from u_common_m. If a table has no separate parts, u_common_m is the whole
+// u.
 void set_u(const VolumetricTable& table, const std::array<GridCell, 3>& cell, const Vec3& command_m,
            VolumetricValue& value) {
   value.u_m = value.u_common_m;
@@ -350,7 +352,7 @@ VolumetricValue volumetric_at(const VolumetricTable& table, const Vec3& command_
       weight *= next ? cell[k].part : 1 - cell[k].part;
       index[k] = cell[k].index + (next ? 1 : 0);
     }
-    if (weight == 0) continue;  // of a last node there is no next
+    if (weight == 0) continue;  // the last node has no next node
     const std::size_t node = table.node(index[0], index[1], index[2]);
     const Vec3 common = has_parts(table) ? table.u_common_at(node) : table.u_m[node];
     for (std::size_t k = 0; k < 3; ++k) {

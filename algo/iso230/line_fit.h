@@ -13,8 +13,8 @@ struct Line {
   double at(double x) const { return intercept + slope * x; }
 };
 
-// Ordinary least squares; x and y of one length, at least two different x (asserted: callers check
-// with can_fit()). Sums about the means, in order.
+// Ordinary least squares with sums about the means, in the given order. x and y have the same
+// length, and x has at least two different values (asserted; callers check with can_fit()).
 Line least_squares_line(std::span<const double> x, std::span<const double> y);
 bool can_fit(std::span<const double> x);
 

@@ -16,12 +16,12 @@ struct Vertex {
   double x = 0, y = 0;
 };
 
-// b lies on or below the way from a to c.
+// Whether b is on or below the line from a to c.
 bool is_below(const Vertex& a, const Vertex& b, const Vertex& c) {
   return (b.x - a.x) * (c.y - a.y) >= (b.y - a.y) * (c.x - a.x);
 }
 
-// From left to right the upper convex hull of (x, sign * y): a concave function of x.
+// The upper convex hull of (x, sign * y) from left to right: a concave function of x.
 class Hull {
  public:
   Hull(std::span<const double> x, std::span<const double> y, double sign) {
@@ -29,7 +29,7 @@ class Hull {
   }
 
   const std::vector<Vertex>& vertices() const { return vertices_; }
-  // To x, which must not be less than before: what follows is said of there.
+  // Moves to x, which must not decrease; the functions below are evaluated there.
   void go_to(double x) {
     x_ = x;
     while (at_ + 1 < vertices_.size() && vertices_[at_ + 1].x <= x) ++at_;
@@ -60,7 +60,7 @@ class Hull {
   }
 
   std::vector<Vertex> vertices_;
-  std::size_t at_ = 0;  // the last vertex that is not right of x_
+  std::size_t at_ = 0;  // the last vertex with x at most x_
   double x_ = 0;
 };
 
@@ -74,7 +74,7 @@ std::vector<double> places_of(const Hull& above, const Hull& below) {
   return x;
 }
 
-// Parallels of a slope between these touch both hulls there and nowhere cross them.
+// Parallel lines with a slope in this range touch both hulls here and do not cross them.
 double middle_slope(const Hull& above, const Hull& below) {
   const double least = std::max(above.slope_right(), -below.slope_left());
   const double most = std::min(above.slope_left(), -below.slope_right());

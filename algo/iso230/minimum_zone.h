@@ -1,4 +1,4 @@
-// The reference line about which a series deviates least.
+// The reference line with the smallest deviations of a series.
 #pragma once
 
 #include <span>
@@ -7,12 +7,13 @@
 
 namespace mdof::algo {
 
-// The middle of the narrowest pair of parallel lines between which all readings lie, its width
-// along y (ISO 1101, ISO 230-1; for slopes of mrad the width across the lines is the same to 1e-6).
-// Exact: the width is the greatest distance along y between the upper and the lower convex hull
-// (duality of linear programs), the slope that of the hull's edge there. Where several slopes give
-// that width, the middle one. x ascending, at least two different; y of the same length (asserted).
-// O(n). The uncertainties of the line are 0: not known.
+// The centre line of the narrowest pair of parallel lines that enclose all readings; the width is
+// along y (ISO 1101, ISO 230-1; for slopes of mrad the width perpendicular to the lines is the same
+// within 1e-6). The result is exact: the width is the largest distance along y between the upper
+// and the lower convex hull (duality of linear programs), and the slope is that of the hull's edge
+// there. If several slopes give this width, the result has the middle one. x is ascending with at
+// least two different values; y has the same length (asserted). O(n). The uncertainties of the line
+// are 0 and mean unknown.
 Line minimum_zone_line(std::span<const double> x, std::span<const double> y);
 
 }  // namespace mdof::algo

@@ -13,8 +13,8 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kStraightnessErrors = 2;  // the first named errors of an axis
-constexpr double kLeastShare = 0.5;             // of the longer travel that both have
+constexpr std::size_t kStraightnessErrors = 2;  // named errors 0 and 1 of an axis
+constexpr double kLeastShare = 0.5;             // common part of the longer travel
 
 struct Motion {
   std::vector<double> travel_m;
@@ -42,7 +42,7 @@ std::string in_mm_text(double from_m, double to_m) {
   return plain_number(to_mm(from_m), 6) + " to " + plain_number(to_mm(to_m), 6) + " mm";
 }
 
-// The lines of axes that are not straight depend on where they are drawn: two that hardly meet are
+// The line of a curved axis depends on the range of the fit, so runs with little common travel are
 // not compared.
 Status common_travel(const ReferenceLines& a, const ReferenceLines& b, Parallelism& found) {
   found.from_m = std::max(a.first_m, b.first_m);

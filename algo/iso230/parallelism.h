@@ -7,10 +7,11 @@
 
 namespace mdof::algo {
 
-// Lines through the mean of both approaches of each straightness error, at the fixture; budgets are
-// left to parallelism_budget(). That neither target nor fixture was moved against the machine
-// between the runs is the user's word: a run does not know it. Errors: runs of two axes; fewer than
-// three targets; travels that have less than half of the longer one in common; as check_usable().
+// Fits lines to the mean of both approaches of each straightness error, at the fixture.
+// parallelism_budget() sets the budgets. A run does not show whether target and fixture stayed in
+// place on the machine between the runs; the user must ensure it. Errors: runs of two different
+// axes; fewer than three targets; common travel below half of the longer travel; those of
+// check_usable().
 Result<Parallelism> parallelism(const Run& run_a, const Run& run_b, bool take_partial = false);
 
 }  // namespace mdof::algo

@@ -12,8 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-// Readings in the order of their positions; where these are equal, of the deviations: the same
-// bits whatever order they came in.
+// Readings sorted by position, then by deviation, so that any input order gives the same bits.
 struct Series {
   std::vector<double> x, y;
 };
@@ -67,7 +66,7 @@ bool is_finite(const ReferenceLine& line) {
          std::isfinite(line.zone_m) && std::isfinite(line.residual_m);
 }
 
-constexpr double kMost_m = 1e6;  // products of two stay far from overflow
+constexpr double kMost_m = 1e6;  // avoids overflow of products of two
 
 Status check_size(std::span<const double> values, const char* what) {
   if (std::all_of(values.begin(), values.end(), [](double v) { return std::abs(v) <= kMost_m; }))

@@ -17,15 +17,15 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAcross = 0.7;  // cosine from which a plane faces along an axis
+constexpr double kAcross = 0.7;  // smallest cosine of a plane that faces along an axis
 
 int sign_of(double x) {
   return x > 0 ? 1 : x < 0 ? -1 : 0;
 }
 
-// The sign of the outward normal, along `along`, of the faces across it; 0: not known, or there is
-// no such face. The material is around the origin of M. The top target plane goes through that
-// origin: there the normal of the plane counts, which is the local z.
+// The sign of the outward normal, along `along`, of the faces perpendicular to it; 0: unknown, or
+// there is no such face. The material is around the origin of M. The top target plane goes through
+// this origin; its sign comes from its normal, the local z.
 Result<int> side_of_face(const Rig& rig, Axis along) {
   MDOF_TRY(const Fixture fixture, make_fixture(rig));
   const auto row = local_axes(rig.axis)[static_cast<std::size_t>(along)];  // `along`, local
@@ -57,7 +57,7 @@ tl::unexpected<Error> contradiction(const Rig& x, const Rig& y, const char* key,
                    remedy);
 }
 
-// Slope of the straightness of one axis along the other, at its place `named` of error_names().
+// Slope of the straightness of one axis along the other, error `named` of error_names().
 struct StraightnessSlope {
   Line line;
   double u_slope_rad = 0;
@@ -77,8 +77,8 @@ double propagated(const std::vector<double>& x, const std::vector<TargetMean>& s
   return std::sqrt(std::max(0.0, sum) + trend * trend);
 }
 
-// Of each run and target: how far its visits lie off the mean of all runs' visits from that side,
-// m.
+// For each run and target: difference of its visits from the mean of all runs' visits from the same
+// side, m.
 using OffMean = std::map<int, std::map<int, std::vector<double>>>;
 
 OffMean off_the_mean(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
@@ -109,9 +109,9 @@ double mean_of(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-// s/√n of the slopes of the runs that have at least three targets and half of all; 0 for fewer
-// than two such runs. A slope is fitted to what differs from the mean of the runs: the axis' form
-// and backlash do not scatter, and a run that lacks a target must not make it seem so.
+// s/√n of the slopes of the runs that have at least three targets and at least half of all targets;
+// 0 with fewer than two such runs. Slopes are fitted to the differences from the mean of the runs,
+// so that the form and the backlash of the axis do not appear as scatter if a run lacks a target.
 double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                        std::size_t named) {
   std::map<int, double> travel_m;  // by target
@@ -163,7 +163,7 @@ Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t na
   return slope;
 }
 
-constexpr double kMostArtefact_rad = 0.01;  // more is no square
+constexpr double kMostArtefact_rad = 0.01;  // a larger error is not a square
 
 Status check_given(const ArtefactGiven& given) {
   const double angle_rad = given.angle_error_rad.value_or(0), u_rad = given.u_rad.value_or(0);

@@ -8,8 +8,8 @@
 
 namespace mdof::algo {
 
-// Lines through the means of both approaches, at the fixture, of the two runs that `fitted` is of;
-// least_squares is what `fitted` says. Errors: a run without three targets.
+// Lines through the means of both approaches, at the fixture, of the two runs of `fitted`.
+// least_squares has the values of `fitted`. Error: a run with fewer than three targets.
 Result<SquarenessLines> squareness_lines(const Run& run_a, const Run& run_b,
                                          const Squareness& fitted);
 

@@ -1,4 +1,4 @@
-// Straightness by ISO 230-1 reference lines, and angles referred to the start.
+// Straightness with the reference lines of ISO 230-1, and angles relative to the start.
 #pragma once
 
 #include <vector>
@@ -8,16 +8,16 @@
 
 namespace mdof::algo {
 
-// For the two straightness errors and each approach that has at least three targets; at the point
-// at which `points` are stated.
+// For the two straightness errors and each approach with at least three targets, at the point where
+// `points` are stated.
 std::vector<StraightnessFigure> straightness(const MovingAxis& moving,
                                              const std::vector<MeasuredPoint>& points);
 
-// The same series about each of the three reference lines, of those with at least three targets.
+// The same series about each of the three reference lines, if they have at least three targets.
 std::vector<StraightnessLines> straightness_lines(const MovingAxis& moving,
                                                   const std::vector<MeasuredPoint>& points);
 
-// For the three angles and each approach that has at least two targets.
+// For the three angles and each approach with at least two targets.
 std::vector<AngleFigure> angles(const MovingAxis& moving, const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

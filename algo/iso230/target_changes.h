@@ -1,5 +1,5 @@
-// By how much the means at the targets change with the errors of the points: target_means() of both
-// approaches is linear in them.
+// Change of the means at the targets for given changes of the errors of the points: target_means()
+// of both approaches is linear in them.
 #pragma once
 
 #include <array>
@@ -12,20 +12,20 @@
 
 namespace mdof::algo {
 
-// Made once of which points there are, for any number of changes.
+// Prepared once from the points, for any number of changes.
 class TargetChanges {
  public:
   TargetChanges(const MovingAxis& moving, const std::vector<MeasuredPoint>& points);
 
-  // `changes`: of the errors of each point, local; m, rad. Named, of the moving body, in the order
-  // of the targets of target_means(): what its `named` would change by.
+  // `changes`: change of the errors of each point, local; m, rad. Returns the change of `named` of
+  // target_means() for the moving body, in the order of its targets.
   std::vector<Errors5> of(const std::vector<Errors5>& changes) const;
 
  private:
   struct Counted {
     std::size_t target, way, point;  // way: 0 forward, 1 reverse
   };
-  using Visits = std::array<std::size_t, 2>;         // at a target, forward and reverse
+  using Visits = std::array<std::size_t, 2>;         // visits of a target, forward and reverse
   using Ways = std::array<std::vector<Errors5>, 2>;  // by target
 
   std::vector<Errors5> without_drift(const std::vector<Errors5>& changes) const;
@@ -35,7 +35,7 @@ class TargetChanges {
   MovingAxis moving_;
   std::vector<Counted> counted_;
   std::vector<Visits> visits_;
-  std::optional<RunDrifts> drifts_;  // where runs lack visits
+  std::optional<RunDrifts> drifts_;  // set if runs lack visits
 };
 
 }  // namespace mdof::algo

@@ -46,9 +46,9 @@ TargetMean mean_of(const TargetMean& forward, const TargetMean& reverse) {
   return mean;
 }
 
-// u of the mean over runs and both directions at this target by the scatter of the runs' own means:
-// what is slow, and shifts a run both ways alike, is not halved by going both ways. 0: under two
-// runs.
+// u of the mean over runs and both directions at this target, from the scatter of the runs' own
+// means. Slow changes shift both directions of a run alike, so the mean of both does not halve
+// them. 0: fewer than two runs.
 Errors5 scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                         int target) {
   std::map<int, std::array<std::vector<Errors5>, 2>> runs;
@@ -85,12 +85,14 @@ MeansByTarget one_way(const MovingAxis& moving, const std::vector<MeasuredPoint>
   return means;
 }
 
-// Forward minus reverse over the targets that have both.
+// Forward minus reverse, over the targets that have both.
 struct Reversal {
   Errors5 mean{};
-  Errors5 u{};  // of one target's reversal taken to be the mean; of one target alone: all of it
+  // u if the mean is taken as the reversal of one target; from one target alone: the whole
+  // reversal.
+  Errors5 u{};
   double position_m = 0;  // mean of the targets
-  Errors5 slope{};        // along the encoder; 0 where the scatter about it makes as much by chance
+  Errors5 slope{};        // along the encoder; 0 if the scatter can cause it by chance
   double trend(std::size_t k, double at_m) const { return slope[k] * (at_m - position_m); }
 };
 

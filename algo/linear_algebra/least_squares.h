@@ -1,5 +1,5 @@
-// Linear equations of any size, solved by least squares. Eigen's templates for this cost a compiler
-// several seconds wherever they stand, so they stand in least_squares.cpp alone.
+// Linear equations of any size, solved by least squares. Eigen's templates cost the compiler
+// several seconds in each file that instantiates them, so only least_squares.cpp does.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,10 +7,10 @@
 
 namespace mdof::algo {
 
-// A x = b where the columns of A are independent: QR by Householder's reflections with column
+// Solves A x = b if the columns of A are independent: QR by Householder reflections with column
 // pivoting (Golub, Van Loan, Matrix Computations, 4th ed., 5.4.2). A column whose pivot is at most
-// `rank_tolerance` times the largest one is taken for dependent, and its unknown is 0; the default
-// is that of rounding.
+// `rank_tolerance` times the largest pivot counts as dependent, and its unknown is 0. The default
+// tolerance is that of rounding.
 class LeastSquares {
  public:
   explicit LeastSquares(const Eigen::MatrixXd& A);
@@ -21,14 +21,14 @@ class LeastSquares {
   Eigen::Index rank() const;
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
-  Eigen::MatrixXd basis() const;  // orthonormal columns: what the columns of A span
+  Eigen::MatrixXd basis() const;  // orthonormal columns: the span of the columns of A
 
  private:
   std::unique_ptr<Eigen::ColPivHouseholderQR<Eigen::MatrixXd>> qr_;
 };
 
-// A x = b where A may not determine all of x: of all least-squares solutions that of least norm, by
-// a complete orthogonal decomposition (ibid., 5.5.2).
+// Solves A x = b if A may not determine all of x: the least-squares solution with the smallest
+// norm, by a complete orthogonal decomposition (ibid., 5.5.2).
 class LeastNorm {
  public:
   explicit LeastNorm(const Eigen::MatrixXd& A);
@@ -40,15 +40,16 @@ class LeastNorm {
   Eigen::Index rank() const;
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
-  Eigen::MatrixXd inverse() const;     // pseudo-inverse: x = inverse() b
-  Eigen::MatrixXd null_space() const;  // orthonormal columns: what A does not determine of x
+  Eigen::MatrixXd inverse() const;  // pseudo-inverse: x = inverse() b
+  // orthonormal columns: the part of x that A does not determine
+  Eigen::MatrixXd null_space() const;
 
  private:
   std::unique_ptr<Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>> cod_;
 };
 
-// A = Q R, Q with orthonormal columns and as large as A, R upper triangular. A has at least as many
-// rows as columns.
+// A = Q R, where Q has orthonormal columns and the size of A, and R is upper triangular. A has at
+// least as many rows as columns.
 struct ThinQr {
   Eigen::MatrixXd Q, R;
 };

@@ -1,22 +1,22 @@
-// Singular values and eigenvalues of matrices of any size, compiled in one place as least_squares.h
-// says.
+// Singular values and eigenvalues of matrices of any size, compiled in one file as in
+// least_squares.h.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace mdof::algo {
 
-// A = U diag(values) Vᵀ by Jacobi's rotations, which keep the small values accurate (Golub, Van
-// Loan, Matrix Computations, 4th ed., 8.6.3). Made for tens of columns: the time grows with their
-// cube.
+// A = U diag(values) Vᵀ by Jacobi rotations, which keep the small values accurate (Golub, Van Loan,
+// Matrix Computations, 4th ed., 8.6.3). Suitable for tens of columns: the time grows with the cube
+// of their number.
 struct SingularValues {
-  Eigen::VectorXd values;  // descending, as many as the smaller side of A
-  Eigen::MatrixXd U;       // a column a value
-  Eigen::MatrixXd V;       // square: the columns beyond the values too, which A sends to 0
+  Eigen::VectorXd values;  // descending; their number is the smaller dimension of A
+  Eigen::MatrixXd U;       // a column for each value
+  Eigen::MatrixXd V;       // square; A maps the columns beyond the values to 0
 };
 SingularValues singular_values(const Eigen::MatrixXd& A);
 
-// Ascending. Of `symmetric` the lower triangle is read.
+// Ascending. Only the lower triangle of `symmetric` is read.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& symmetric);
 
 }  // namespace mdof::algo

@@ -20,7 +20,7 @@ double moments(double a, double b, double s0, double s1) {
   return antiderivative(s1) - antiderivative(s0);
 }
 
-// Both distances from the fixed end: the moments of both forces act up to the nearer one.
+// a, b: distances from the fixed end. The moments of both forces act up to the nearer one.
 double compliance(const std::vector<ToolSection>& from_holder, double youngs_modulus_Pa, double a,
                   double b) {
   double sum = 0, begin = 0;

@@ -18,11 +18,11 @@ using Eigen::VectorXd;
 
 constexpr double kEquilibrium_m = 1e-13;
 constexpr int kMostNewtonSteps = 15, kMostPseudoSteps = 600;
-constexpr double kNoPseudoTime = std::numeric_limits<double>::infinity();  // Newton's method itself
-// The force of the edge has grown to its whole at this thickness of the chip: that of an edge which
-// begins at once has no equilibrium where the deflection takes the tooth out again.
+constexpr double kNoPseudoTime = std::numeric_limits<double>::infinity();  // plain Newton's method
+// The edge force reaches its full value at this thickness of the chip. An edge force that begins
+// suddenly has no equilibrium where the deflection lifts the tooth out again.
 constexpr double kWholeEdge_m = 20e-9;
-constexpr int kPasses = 2;  // the second begins with what the first has left at the end of the turn
+constexpr int kPasses = 2;  // the second starts with the result of the first at the end of the turn
 
 // One tooth in one element, at all angles of a turn.
 struct Tooth {
@@ -31,7 +31,7 @@ struct Tooth {
   std::vector<Chip> rigid;    // by angle of the turn
 };
 
-// The share of a step in which the tooth is in the work, and its derivative by the deflection's y.
+// Share of a step in which the tooth is in the work, and its derivative by y of the deflection.
 struct Engagement {
   double share = 0, by_y = 0;
 };
@@ -77,9 +77,9 @@ class Turn {
     return tooth;
   }
 
-  // The window is that of the deflection at this very angle, so that an edge is where the
-  // deflection there puts it. A step that the edge divides counts in part: force and deflection
-  // then have an equilibrium where a whole step in or out of the work would have none.
+  // The window is for the deflection at this angle, so that its edge is where this deflection puts
+  // it. A step that the edge divides counts in part, because with whole steps only, force and
+  // deflection may have no equilibrium.
   Engagement engagement(const Tooth& t, std::size_t n, const Deflection& u) const {
     const double free = t.edge.free_edge(u), wall = t.edge.wall_edge();
     const double low = t.angle[n] - step_rad_ / 2, high = low + step_rad_;
@@ -87,12 +87,14 @@ class Turn {
     const double to = std::min(high, plan_.is_up ? free : wall);
     if (!(to > from)) return {};
     const bool at_edge =
-        free > low && free < high && free > 0 && free < kHalfTurn_rad;  // not of a slot
+        // In a slot the free edge is at 0 or π.
+        free > low && free < high && free > 0 && free < kHalfTurn_rad;
     const double slope = at_edge ? 1 / (plan_.radius_m() * std::sin(free) * step_rad_) : 0;
     return {(to - from) / step_rad_, plan_.is_up ? slope : -slope};
   }
 
-  // The instants of a phase, a tooth's pitch apart: what one tooth leaves the next one meets.
+  // Angles of a phase, one tooth pitch apart: each tooth cuts the surface that the tooth before
+  // left.
   std::size_t instant(std::size_t phase, std::size_t i) const {
     return phase + i * (steps() / teeth());
   }
@@ -101,7 +103,8 @@ class Turn {
     return static_cast<std::size_t>(((static_cast<int>(i) - k) % z + z) % z);
   }
 
-  struct Load {  // of a phase: forces of all instants, and their derivatives
+  // Of a phase: forces at all its angles, and their derivatives.
+  struct Load {
     VectorXd F;
     Eigen::MatrixXd dF;
     double power_W = 0;
@@ -154,7 +157,7 @@ class Turn {
     add(row(e, m, 1), chip.by_earlier_y);
   }
 
-  // The deflection by these forces: C for each instant and component.
+  // The deflection by these forces: C for each angle and component.
   template <class M>
   M bent(const M& forces) const {
     M out(forces.rows(), forces.cols());
@@ -163,13 +166,14 @@ class Turn {
     return out;
   }
 
-  // U = C F(U). Newton's method does not need the loop gain to be below 1; where an edge makes the
+  // Solves U = C F(U). Newton's method does not need a loop gain below 1. Where an edge makes the
   // force steep, implicit steps of dU/dt = C F(U) - U, as large as the residual allows, follow the
   // tool into a stable equilibrium (pseudo-transient continuation, Kelley and Keyes 1998).
   Status equilibrium(std::size_t phase) {
     if (plan_.deflection == DeflectionModel::rigid) return {};
     VectorXd before(static_cast<Index>(teeth()) * 2 * elements());
-    for (std::size_t i = 0; i < teeth(); ++i)  // the angle before: a tooth in the work stays in it
+    // start from the angle before: an engaged tooth stays engaged
+    for (std::size_t i = 0; i < teeth(); ++i)
       before.segment(row(i, 0, 0), 2 * elements()) =
           u_[(instant(phase, i) + steps() - 1) % steps()];
     for (const double first_step : {kNoPseudoTime, 1.0, 0.1, 0.01}) {
@@ -197,8 +201,9 @@ class Turn {
       const double size = residual.cwiseAbs().maxCoeff();
       Eigen::MatrixXd J = -bent(now.dF);
       J.diagonal().array() += 1;
-      // Where force grows faster than the tool resists, the determinant has changed its sign:
-      // Newton's method finds such an equilibrium too, but no tool stays in it.
+      // If the force grows faster than the stiffness of the tool resists, the sign of the
+      // determinant is reversed. Newton's method finds such an equilibrium, too, but it is
+      // unstable.
       if (size < kEquilibrium_m) return Eigen::PartialPivLU<Eigen::MatrixXd>(J).determinant() > 0;
       if (step > 0) pseudo_time *= std::clamp(residual_before / size, 0.3, 1.5);
       residual_before = size;
@@ -208,11 +213,11 @@ class Turn {
     return false;
   }
 
-  // Where the tooth is in the work with a chip. A step that an edge of the window divides counts in
-  // part; where the chip itself begins or ends, it does so on the line between two steps.
+  // Entry and exit of the tooth with a chip. A step that an edge of the window divides counts in
+  // part. Where the chip itself begins or ends, the angle is interpolated between two steps.
   void set_window(CutTurn& turn) const {
     const Tooth& t = teeth_.front();
-    turn.entry_rad = turn.exit_rad = std::numeric_limits<double>::quiet_NaN();  // it cuts nothing
+    turn.entry_rad = turn.exit_rad = std::numeric_limits<double>::quiet_NaN();  // no cut
     for (std::size_t n = 0; n < steps(); ++n) {
       const double h = thickness(t, 0, n), free = t.edge.free_edge(deflection(n, 0));
       if (!(h > 0) || engagement(t, n, deflection(n, 0)).share == 0) continue;
@@ -264,7 +269,7 @@ class Turn {
     return turn;
   }
 
-  // Tangential force times the tooth's speed; that of a trochoid has the feed in it.
+  // Tangential force times the speed of the tooth; for a trochoid the speed contains the feed.
   void add_power(const Tooth& t, Index m, CutTurn& turn) const {
     for (std::size_t n = 0; n < steps(); ++n) {
       const double engaged = engagement(t, n, deflection(n, m)).share;

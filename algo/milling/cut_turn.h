@@ -12,20 +12,22 @@ namespace mdof::algo {
 
 struct CutTurn {
   std::vector<double>
-      turned_rad;  // of tooth 0 at the tip; steps_per_turn, rounded up to a multiple of the teeth
+      // Angle of tooth 0 at the tip; steps_per_turn angles, rounded up to a multiple of the teeth.
+      turned_rad;
   std::vector<double> height_m;        // of the elements, from the tip
-  Eigen::MatrixXd fx_N, fy_N;          // on the tool, a row an angle, a column an element
-  std::vector<double> power_W;         // of cutting, by angle
+  Eigen::MatrixXd fx_N, fy_N;          // on the tool; a row for each angle, a column for each
+                                       // element
+  std::vector<double> power_W;         // cutting power, by angle
   double entry_rad = 0, exit_rad = 0;  // of tooth 0 in the lowest element
-  int iterations = 0;                  // of the window with the deflection at its edge
+  int iterations = 0;                  // for the window whose edge depends on the deflection
 
-  Eigen::MatrixXd force_N() const;  // both components of the whole tool, a row an angle
+  Eigen::MatrixXd force_N() const;  // of the whole tool: both components, a row for each angle
 };
 
-// Error (check): no equilibrium was found; names the angle and what to change.
+// Error (check): there is no equilibrium; names the angle and what to change.
 Result<CutTurn> cut_turn(const MillingPlan& plan);
 
-// Both components of the deflection at a height, a row an angle.
+// Both components of the deflection at a height, a row for each angle.
 Eigen::MatrixXd deflection_m(const MillingPlan& plan, const CutTurn& turn, double height_m);
 
 }  // namespace mdof::algo

@@ -7,7 +7,8 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kWallAngles =
-    kHalfTurn_rad / 2;  // a trochoid can touch the wall so far before φ = 0 or π
+    // A trochoid can touch the wall this far before φ = 0 or after π.
+    kHalfTurn_rad / 2;
 
 }  // namespace
 
@@ -37,8 +38,8 @@ double CuttingEdge::y(double angle_rad) const {
   return plan_.radius_m() * std::cos(angle_rad) + runout_m_ * std::cos(angle_rad + gamma_rad_);
 }
 
-// Eq. 8 for any number of teeth: 1/π is Z/2π of two, and (-1)^z 2 r0 cos γ the difference of the
-// run-out of this tooth and the one before.
+// Eq. 8 for any number of teeth: 1/π becomes Z/2π, and (-1)^z 2 r0 cos γ becomes the difference of
+// the run-out of this tooth and the one before.
 double CuttingEdge::eq8(double angle_rad, double feed, double& by_feed) const {
   const double s = std::sin(angle_rad), c = std::cos(angle_rad), r = plan_.radius_m();
   const double before = gamma_rad_ - kWholeTurn_rad / plan_.teeth,
@@ -50,8 +51,9 @@ double CuttingEdge::eq8(double angle_rad, double feed, double& by_feed) const {
          runout_m_ * (std::cos(gamma_rad_) - std::cos(before));
 }
 
-// Along the tooth's radius, from its place to the path of each earlier tooth; the least counts. At
-// the rotation τ after `turned`, an earlier tooth k stands at the angle φ + 2π k / Z + τ.
+// Thickness along the radius of the tooth, from its position to the path of each earlier tooth; the
+// smallest one counts. At the rotation τ after `turned`, an earlier tooth k is at the angle φ + 2π
+// k / Z + τ.
 Chip CuttingEdge::trochoid(double angle_rad) const {
   const double s = std::sin(angle_rad), c = std::cos(angle_rad);
   const double feed_per_rad = plan_.feed_per_tooth_m * plan_.teeth / kWholeTurn_rad;
@@ -101,7 +103,7 @@ Chip CuttingEdge::chip(double angle_rad, const Chip& rigid, const Deflection& no
                        const Deflection& earlier) const {
   Chip chip = rigid;
   const double s = std::sin(angle_rad), c = std::cos(angle_rad);
-  if (plan_.deflection == DeflectionModel::paper) {  // Eq. 9: the feed less the deflection
+  if (plan_.deflection == DeflectionModel::paper) {  // Eq. 9: feed minus deflection
     if (plan_.chip == ChipModel::eq8) {
       double by_feed = 0;
       chip.thickness = eq8(angle_rad, plan_.feed_per_tooth_m - now.x, by_feed);
@@ -127,7 +129,7 @@ double CuttingEdge::free_edge(const Deflection& there) const {
     return std::acos(std::clamp((sign * free - offset_y) / r, -1.0, 1.0));
   };
   double edge = at(there.y);
-  if (plan_.chip == ChipModel::trochoid)  // the tooth's own place, run-out included
+  if (plan_.chip == ChipModel::trochoid)  // with the position of the tooth including run-out
     for (int step = 0; step < 30; ++step)
       edge = at(there.y + runout_m_ * std::cos(edge + gamma_rad_));
   return edge;
@@ -135,7 +137,7 @@ double CuttingEdge::free_edge(const Deflection& there) const {
 
 double CuttingEdge::wall_edge() const {
   const double reach = plan_.chip == ChipModel::trochoid ? kWallAngles : 0;
-  return plan_.is_up ? 0 - reach : kHalfTurn_rad + reach;  // 0 - 0 has no sign
+  return plan_.is_up ? 0 - reach : kHalfTurn_rad + reach;  // 0 - 0 is +0
 }
 
 }  // namespace mdof::algo

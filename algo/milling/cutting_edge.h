@@ -1,5 +1,5 @@
-// Where the teeth of an end mill are and how thick their chips are (README.md has the equations). x
-// along the feed, y towards the wall of an up cut; a tooth at the angle φ stands at r (sin φ, cos
+// Positions of the teeth of an end mill and thickness of their chips (README.md has the equations).
+// x is along the feed, y towards the wall of an up cut; a tooth at the angle φ is at r (sin φ, cos
 // φ) from the axis. m, rad.
 #pragma once
 
@@ -17,12 +17,12 @@ struct Deflection {
   double x = 0, y = 0;
 };
 
-// A chip and how it changes with the deflection now and with that of the tooth that left its
-// surface.
+// A chip, and its derivatives by the present deflection and by the deflection at the tooth that
+// left its surface.
 struct Chip {
   double thickness = 0;
-  double by_x = 0, by_y = 0;                  // derivatives by the deflection now
-  double by_earlier_x = 0, by_earlier_y = 0;  // by that of `earlier` teeth before
+  double by_x = 0, by_y = 0;                  // by the present deflection
+  double by_earlier_x = 0, by_earlier_y = 0;  // by the deflection `earlier` teeth before
   int earlier = 1;
 };
 
@@ -35,19 +35,19 @@ class CuttingEdge {
   double angle(double turned_rad) const;
   double turned(double angle_rad) const;  // the inverse, in [0, 2π)
 
-  // Of the rigid tool, by the model of the plan; below 0: it does not reach the work.
+  // Chip of the rigid tool, by the model of the plan; below 0: the tooth does not reach the work.
   Chip rigid_chip(double angle_rad) const;
-  // With what the deflection model of the plan makes of it.
+  // The chip with the effect of the deflection, by the deflection model of the plan.
   Chip chip(double angle_rad, const Chip& rigid, const Deflection& now,
             const Deflection& earlier) const;
 
-  // φ at which it leaves (up) or enters (down) the work, Eq. 5, 6, 10 and 11 with their right sign,
-  // for the deflection there.
+  // φ at which it leaves (up) or enters (down) the work, for this deflection. Eq. 5, 6, 10 and 11
+  // with corrected signs.
   double free_edge(const Deflection& there) const;
   // φ at which it enters (up) or leaves (down) at the wall.
   double wall_edge() const;
 
-  // Its place against the axis of the spindle.
+  // Its position relative to the spindle axis.
   double x(double angle_rad) const;
   double y(double angle_rad) const;
 
@@ -56,8 +56,8 @@ class CuttingEdge {
   Chip trochoid(double angle_rad) const;
 
   const MillingPlan& plan_;
-  double lag_rad_;               // by which it is behind tooth 0 at the tip
-  double runout_m_, gamma_rad_;  // size, and angle ahead of this edge
+  double lag_rad_;               // angle behind tooth 0 at the tip
+  double runout_m_, gamma_rad_;  // magnitude, and angle ahead of this edge
 };
 
 // Of an angle to [0, 2π).

@@ -1,6 +1,7 @@
-// What a micro end mill does: forces, deflection, the wall, and the offset that takes its mean
-// error out. Huo et al., Modeling the influence of tool deflection on cutting force and surface
-// generation in micro-milling, Micromachines 8 (2017) 188; README.md has the equations. SI.
+// Simulates a micro end mill: forces, deflection, the wall, and the offset that corrects the mean
+// error of the wall. Huo et al., Modeling the influence of tool deflection on cutting force and
+// surface generation in micro-milling, Micromachines 8 (2017) 188; README.md has the equations. SI
+// units.
 #pragma once
 
 #include <string>
@@ -19,11 +20,12 @@ struct WallFigures {
 };
 
 struct MillingResult {
-  // On the tool: x against the feed, y towards the wall of an up cut. Largest of a turn by size.
+  // On the tool: x against the feed, y towards the wall of an up cut. Largest magnitudes of a turn.
   double x_max_N = 0, y_max_N = 0, x_max_rigid_N = 0, y_max_rigid_N = 0;
   double x_mean_N = 0, y_mean_N = 0;
   double deflection_m = 0,
-         deflection_rigid_m = 0;       // at the tip, largest; by the rigid tool's force
+         // Largest, at the tip; `rigid`: by the force on a rigid tool.
+      deflection_rigid_m = 0;
   double entry_rad = 0, exit_rad = 0;  // NaN: tooth 0 does not cut
   double power_W = 0;                  // mean
   WallFigures wall;
@@ -33,17 +35,17 @@ struct MillingResult {
 // Errors (check): no equilibrium; a deflection beyond half of the radius.
 Result<MillingResult> milling(const MillingPlan& plan);
 
-// What to add to the radius of the tool in the controller so that the mean of the wall is where the
-// program has it; the same sign for G41 and G42, since both keep the tool off the wall by the
-// radius.
+// Correction to add to the tool radius in the controller, so that the mean of the wall is at the
+// programmed position. The sign is the same for G41 and G42, because both keep the tool away from
+// the wall by the radius.
 struct WearOffset {
   double offset_m = 0;
-  double u_m = 0;  // standard, first order (GUM 5); NaN: nothing is declared
+  double u_m = 0;  // standard, first order (GUM 5); NaN: nothing declared
   struct Part {
     const MillingInput* input = nullptr;
     double contribution_m = 0;
   };
-  std::vector<Part> parts;  // the largest first
+  std::vector<Part> parts;  // largest first
 };
 Result<WearOffset> wear_offset(const DeclaredMillingPlan& declared);
 

@@ -1,4 +1,4 @@
-// The sensitivity of force and wall to the inputs of a plan, by differences and by Monte Carlo.
+// Sensitivity of force and wall to the inputs of a plan, by differences and by Monte Carlo.
 #pragma once
 
 #include <memory>
@@ -10,27 +10,27 @@
 
 namespace mdof::algo {
 
-// An input that varies, normally.
+// An input that varies with a normal distribution.
 struct VaryingInput {
   const MillingInput* input = nullptr;
   double u = 0;          // SI
-  bool declared = true;  // else 1 % of the input, as nothing is declared of it
+  bool declared = true;  // false: u is 1 % of the input
 };
-// Those of milling_inputs() that are declared or not 0.
+// Those of milling_inputs() that have a declared u or are not 0.
 std::vector<VaryingInput> varying_inputs(const DeclaredMillingPlan& declared);
 
 // x_max_N, y_max_N, deflection_um, offset_um (mean of the wall), form_um, waviness_tip_um.
 const std::vector<std::string>& milling_outputs();
 std::vector<double> milling_output_values(const MillingResult& result);
 
-// What u of each input does to each output, by the difference between + u and - u: [input][output].
-// Error: as milling().
+// Effect of u of each input on each output, from the difference between + u and - u:
+// [input][output]. Errors: those of milling().
 Result<std::vector<std::vector<double>>> milling_effects(const MillingPlan& plan,
                                                          const std::vector<VaryingInput>& inputs);
 
-// Each trial solves the plan with all inputs drawn, in at most so many steps a turn: what comes of
-// an input hardly depends on them. Draw q is input q. Unsolved: a cut that is none or has no
-// equilibrium.
+// Each trial solves the plan with all inputs drawn, with at most this number of steps a turn; the
+// effects of inputs hardly depend on the number. Draw q is for input q. A trial is unsolved if the
+// drawn values are no cut or have no equilibrium.
 inline constexpr int kTrialStepsPerTurn = 720;
 std::unique_ptr<CausalExperiment> milling_trials(const MillingPlan& plan,
                                                  const std::vector<VaryingInput>& inputs,

@@ -8,7 +8,7 @@
 
 namespace mdof::algo {
 
-// One turn of the wall at one height, along the feed: it repeats.
+// One turn of the wall at one height, along the feed; the profile is periodic.
 struct WallLine {
   double height_m = 0;            // from the tip
   std::vector<double> outward_m;  // from the nominal wall, + overcut; at equal steps of x

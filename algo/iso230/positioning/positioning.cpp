@@ -21,7 +21,7 @@ std::string place_of(double target_m) {
   return "target " + plain_number(to_mm(target_m), 9) + " mm";
 }
 
-constexpr double kMost = 1e6;  // m, rad: squares stay far from overflow
+constexpr double kMost = 1e6;  // m, rad: avoids overflow of squares
 
 Status check_reading(const PositioningReading& reading) {
   if (!(std::abs(reading.target_m) <= kMost && std::abs(reading.deviation) <= kMost))
@@ -47,7 +47,7 @@ Result<ByTarget> by_target(const std::vector<PositioningReading>& readings) {
                    "of ISO 230-2 needs five); measure at more targets");
 }
 
-// One reading has no standard deviation; one everywhere is a single run, which has means.
+// One reading has no standard deviation. One reading everywhere is a single run, which has means.
 Status check_count(double target_m, const char* approach, std::size_t count, bool wanted,
                    bool single_run) {
   if (wanted ? count >= 2 || (single_run && count == 1) : count == 0) return {};
@@ -102,7 +102,7 @@ PositioningTarget target_of(double target_m, const Approaches& at) {
   return t;
 }
 
-// From the lowest to the highest of what is taken in; NaN: nothing, or a NaN.
+// From the smallest to the largest value taken; NaN: no value, or a value is NaN.
 class Range {
  public:
   void take(double low, double high) {

@@ -1,5 +1,5 @@
-// The parameters of ISO 230-2:2014 (clause 2, names and formulas) of readings at targets, and what
-// its test plan asks for.
+// The parameters of ISO 230-2:2014 (clause 2, names and formulas) from readings at targets, and the
+// requirements of its test plan.
 //
 // With i target, j run, ↑ ↓ approach, x_ij deviation, s with n - 1:
 //   x̄_i = (x̄_i↑ + x̄_i↓)/2    B_i = x̄_i↑ - x̄_i↓    B = max|B_i|    B̄ = mean of the signed B_i
@@ -17,16 +17,17 @@
 
 namespace mdof::algo {
 
-// Readings in any order; all at one target_m are of one target, and those of one run there all
-// count. One reading of each target from each side is a single run: B, E and M are of it, R and A
-// are NaN. Errors: a number that is not finite or over 1e6; a direction that is not +1 or -1; fewer
-// than two targets; one reading of a target from a side where others have more; a target that lacks
-// a side which others have.
+// Readings may be in any order. All readings with one target_m belong to one target, and several
+// readings of one run there all count. If each target has one reading from each side, this is a
+// single run: it has B, E and M, but R and A are NaN. Errors: a number that is not finite or above
+// 1e6; a direction other than +1 or -1; fewer than two targets; one reading of a target from a side
+// if others have more; a target without readings from a side that others have.
 Result<Positioning> positioning(const std::vector<PositioningReading>& readings);
 
-// What of ISO 230-2:2014, 5.3 the targets and runs do not fulfil: at least five targets
-// a metre and five in all, up to 2 m; five runs each way; as many everywhere; intervals that are
-// not equal, and not whole periods of the scale (scale_period_m, 0: not known).
+// The requirements of ISO 230-2:2014, 5.3 that targets and runs do not fulfil: at least five
+// targets per metre and five in total, up to 2 m; five runs in each direction; the same number of
+// runs at each target; unequal intervals that are not whole periods of the scale (scale_period_m,
+// 0: unknown).
 Notices plan_notices(const Positioning& positioning, double scale_period_m);
 
 }  // namespace mdof::algo

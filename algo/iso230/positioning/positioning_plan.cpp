@@ -1,4 +1,4 @@
-// What ISO 230-2:2014, 5.3 asks of targets and runs.
+// Requirements of ISO 230-2:2014, 5.3 for targets and runs.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

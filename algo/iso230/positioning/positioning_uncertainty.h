@@ -6,18 +6,19 @@
 namespace mdof::algo {
 
 struct PositioningConditions {
-  // The device's deviations differ by this at the most, either way, between two places of the
-  // travel: a rectangular distribution, standard uncertainty a/√3.
+  // Largest difference between the device's deviations at two positions of the travel, in either
+  // direction: a rectangular distribution with standard uncertainty a/√3.
   double device_limit_m = kNoFigure;
-  // E_VE: from the lowest to the highest reading of the axis at rest over as long as the test
-  // takes; U(k = 2) = 0.6 E_VE. The factor 0.6 is recalled, not checked against the text of the
+  // E_VE: range of the readings of the axis at rest during a time as long as the test; U(k = 2) =
+  // 0.6 E_VE. The factor 0.6 is quoted from memory and was not checked against the text of the
   // report.
   double drift_range_m = kNoFigure;
 };
 
-// What follows from a condition that is not known is NaN. Without what an average over the runs
-// would gain: what drifts is alike in readings that follow one another. Temperature of the machine
-// and alignment are not in it, nor is any of R, whose scatter the drift has already widened.
+// A result is NaN if a condition that it needs is unknown. It assumes no reduction by the average
+// over the runs, because drift acts alike on consecutive readings. It does not contain the
+// temperature of the machine, the alignment and the uncertainty of R, whose scatter already
+// contains the drift.
 PositioningUncertainty positioning_uncertainty(const PositioningConditions& conditions);
 
 }  // namespace mdof::algo

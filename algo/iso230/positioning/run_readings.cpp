@@ -6,7 +6,7 @@
 namespace mdof::algo {
 namespace {
 
-// What is taken away; without three positions nothing, as two are always on a line.
+// The line to subtract; 0 with fewer than three positions, because two are always on a line.
 Line line_of_run(const Run& run, std::size_t named) {
   const auto series = target_means(run.header.moving(), run.points, Approach::both);
   const auto x = positions(series);

@@ -1,5 +1,5 @@
-// The readings of a run as ISO 230-2 takes them: each straightness error and each angle is a series
-// of deviations at targets.
+// The readings of a run in the form of ISO 230-2: each straightness error and each angle is a
+// series of deviations at targets.
 #pragma once
 
 #include <cstddef>
@@ -12,12 +12,13 @@ namespace mdof::algo {
 
 struct RunReadings {
   std::vector<PositioningReading> readings;  // m or rad, at the point where the run is stated
-  std::size_t left_out = 0;  // points that are not solved or whose approach is not known
+  // Points that are not solved or whose approach is unknown.
+  std::size_t left_out = 0;
 };
 
-// Of the error at `named` in the order of error_names(). Of a straightness error the least-squares
-// line through the mean of both approaches is taken away, unless `keep_slope`: it shows how the
-// target was clamped, and belongs to squareness. An angle stays as it is.
+// Readings of error `named` in the order of error_names(). For a straightness error the
+// least-squares line through the mean of both approaches is subtracted unless `keep_slope`, because
+// the line shows how the target was clamped and belongs to squareness. Angles stay unchanged.
 RunReadings readings_of_run(const Run& run, std::size_t named, bool keep_slope);
 
 }  // namespace mdof::algo

@@ -11,9 +11,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kPassesBy = 1e-4;  // of the travel: 100 um over a metre
+constexpr double kPassesBy = 1e-4;  // of the travel: 100 um in one metre
 
-// Of the surface along the probe's line, for the target's travel along + of a machine axis.
+// Motion of the surface along the probe's line, per travel of the target in + of a machine axis.
 double approach_of(const FixtureProbe& probe, const Vec3& along) {
   const Eigen::Vector3d v(along[0], along[1], along[2]);
   return probe.n_C.dot(v) / probe.n_C.dot(probe.u_M);
@@ -24,9 +24,9 @@ ProbeInTheWay in_the_way(const Rig& rig, std::size_t k, double approach) {
   ProbeInTheWay out{probe.id, probe.range_m / 2 / std::abs(approach), {}, 0};
   double standoff_m = rig.physics ? rig.physics->probes.at(k).standoff_m : 0;
   if (!(standoff_m > 0) && probe.calibration.reads_gap)
-    standoff_m = from_um(probe.calibration.offset_um);  // what it reads at the nominal surface
+    standoff_m = from_um(probe.calibration.offset_um);  // reading at the nominal surface
   if (standoff_m > 0) out.contact_m = standoff_m / std::abs(approach);
-  // A gap that is known, or read, is that of a probe which stands where its direction points.
+  // If a gap is known or read, the direction of the probe points from the probe to the surface.
   if (standoff_m > 0 || probe.calibration.reads_gap) out.towards = approach > 0 ? 1 : -1;
   return out;
 }

@@ -1,5 +1,5 @@
-// How far each machine axis may move the target before it reaches the end of a probe's range, and
-// to the probe itself: from the rig's geometry alone.
+// Travel of the target along each machine axis up to the end of a probe's range and up to the probe
+// itself, from the rig's geometry alone.
 #pragma once
 
 #include <array>
@@ -12,23 +12,24 @@
 
 namespace mdof::algo {
 
-// A probe to which a motion along an axis brings the target nearer, or from which it takes it away.
+// A probe that the target approaches or leaves when an axis moves.
 struct ProbeInTheWay {
   std::string id;
-  double range_m = 0;  // travel of the target, from the nominal place, to the range's end
-  std::optional<double> contact_m;  // and to the probe; none: the rig has no standoff_um
-  // Along which sense of the axis the target comes nearer: 1, -1; 0: the rig does not say on which
-  // side the probe stands (it reads displacement and has no standoff_um).
+  double range_m = 0;  // travel of the target from its nominal position to the end of the range
+  // Travel up to the probe; empty: the rig has no standoff_um.
+  std::optional<double> contact_m;
+  // Sense of the axis in which the target approaches: 1, -1; 0: the rig does not state on which
+  // side the probe is (it reads displacement and has no standoff_um).
   int towards = 0;
 };
 
 struct MotionClearance {
   Axis axis = Axis::x;
-  std::vector<ProbeInTheWay> probes;  // empty: the motion passes by all probes
+  std::vector<ProbeInTheWay> probes;  // empty: the motion is parallel to the surfaces of all probes
 };
 
-// Of X, Y and Z. Of a target at its nominal place and without tilt, against the fixture. Errors:
-// those of make_fixture().
+// For X, Y and Z, for a target at its nominal position, without tilt, relative to the fixture.
+// Errors: those of make_fixture().
 Result<std::array<MotionClearance, 3>> motion_clearances(const Rig& rig);
 
 // "HAZARD: Y drives the target towards or away from the probes D, E: ..." or "X passes by ...".

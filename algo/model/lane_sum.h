@@ -1,4 +1,4 @@
-// A sum in the same order on every machine.
+// A sum with the same order of additions on every machine.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace mdof::algo {
 
-// Sum of term(&x) over x, as eight sums side by side: a single one would wait for each addition.
+// Sum of term(&x) over x as eight parallel sums, because a single sum would wait for each addition.
 template <class Term>
 double lane_sum(std::span<const double> x, Term term) {
   constexpr std::size_t kSums = 8;

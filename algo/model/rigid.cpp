@@ -9,11 +9,11 @@ namespace mdof::algo {
 namespace {
 
 constexpr int kMaxIterations = 30;
-// Convergence is quadratic: after a step below these the next one is at rounding.
+// Convergence is quadratic: after a step below these limits the next step is at rounding.
 constexpr double kStepDone_m = 1e-12, kStepDone_rad = 1e-10;
 
 struct Surface {
-  Eigen::Vector3d n_M;  // normal of the plane, turned
+  Eigen::Vector3d n_M;  // normal of the rotated plane
   double across;        // n_M · u
   double s;             // displacement along u
 };
@@ -22,8 +22,8 @@ Eigen::Vector3d carriage_position(double travel_m, const Errors5& local) {
   return {travel_m, local[kDy], local[kDz]};
 }
 
-// Where the probe's line meets the surface; with a height map by fixed-point iteration, which
-// contracts by the slope of the surface (1e-3 and less).
+// Intersection of the probe's line with the surface. With a height map by fixed-point iteration,
+// which contracts by the slope of the surface (1e-3 and less).
 Surface meet(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC, const Eigen::Vector3d& t) {
   Surface surface;
   surface.n_M = R_MC * probe.n_C;

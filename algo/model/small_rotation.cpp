@@ -11,7 +11,7 @@ Eigen::Matrix3d columns_of(const std::array<std::array<double, 3>, 3>& axes) {
   return L;
 }
 
-// A rotation about each axis of the machine.
+// The rotation about each axis of the machine.
 struct Turns {
   Turns(const SinCos& a, const SinCos& b, const SinCos& c) {
     Rx << 1, 0, 0, 0, a.cos, -a.sin, 0, a.sin, a.cos;
@@ -25,7 +25,7 @@ struct Turns {
 }  // namespace
 
 SinCos small_sin_cos(double x) {
-  // Horner form of x - x³/3! + x⁵/5! ...; the terms left out are below 2^-53 of the result.
+  // Horner form of x - x³/3! + x⁵/5! ...; the omitted terms are below 2^-53 of the result.
   const double z = x * x;
   const double s =
       x * (1 - z / 6 * (1 - z / 20 * (1 - z / 42 * (1 - z / 72 * (1 - z / 110 * (1 - z / 156))))));

@@ -8,8 +8,8 @@
 
 namespace mdof::algo {
 
-// Sine and cosine for |x| <= 0.25 rad by their Taylor series in plain arithmetic: within 1 ulp
-// there, and the same bits from every compiler, library and processor, which std::sin is not.
+// Sine and cosine for |x| <= 0.25 rad by their Taylor series in plain arithmetic. The error is at
+// most 1 ulp, and every compiler, library and processor gives the same bits, unlike std::sin.
 struct SinCos {
   double sin, cos;
 };
@@ -22,12 +22,12 @@ struct Rotation {
 };
 Rotation rotation(double ex_rad, double ey_rad, double ez_rad);
 
-// The same for the errors of an axis, in its local frame. The rotations follow one another about
-// the machine's axes, A first, whichever axis moves. With L the local axes in machine coordinates,
-// angles turn like vectors: e_machine = L e, and R = Lᵀ Rz(C) Ry(B) Rx(A) L. L only exchanges
+// The same for the errors of an axis in its local frame. The rotations follow one another about the
+// machine's axes, A first, for any moving axis. If L has the local axes in machine coordinates,
+// angles transform like vectors: e_machine = L e, and R = Lᵀ Rz(C) Ry(B) Rx(A) L. L only exchanges
 // coordinates and signs, so nothing is rounded.
 Rotation local_rotation(Axis axis, const Errors5& local);
-// R alone, the same bits: a third of the time.
+// Only R, with the same bits, in a third of the time.
 Eigen::Matrix3d local_rotation_alone(Axis axis, const Errors5& local);
 
 }  // namespace mdof::algo

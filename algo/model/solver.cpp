@@ -15,7 +15,7 @@ std::vector<bool> usable(const std::vector<double>& readings_m) {
   return use;
 }
 
-// 1/u² where every u is known, else all alike; 0 for a lost probe.
+// 1/u² if every u is known, otherwise equal weights; 0 for a lost probe.
 std::vector<double> make_weights(const std::vector<bool>& use, const std::vector<double>& u_m) {
   bool known = u_m.size() == use.size();
   for (std::size_t i = 0; known && i < use.size(); ++i) known = !use[i] || u_m[i] > 0;

@@ -1,4 +1,5 @@
-// Readings of one instant or dwell -> five errors with covariance: one face over the three models.
+// Calculates five errors with covariance from the readings of one instant or dwell, with any of the
+// three models.
 #pragma once
 
 #include <optional>
@@ -14,23 +15,24 @@ namespace mdof::algo {
 
 class Solver {
  public:
-  // Refuses a rig whose probes cannot see all five errors (naming them) or, for the small-angle
-  // models, one that is not of the paper's kind.
+  // Error: the probes of the rig do not determine all five errors (the error names them), or the
+  // fixture does not fit the small-angle models.
   static Result<Solver> create(const Rig& rig, Model model);
 
-  // `readings_m`: displacement of each probe in the order of the rig, NaN where it is lost.
-  // `u_m`: standard uncertainty of each, empty or 0 where not known (covariance is then 0).
-  // A lost probe leaves the errors unsolved, with the reason, unless the others see all five.
+  // `readings_m`: displacement of each probe in the order of the rig, NaN if it is lost. `u_m`:
+  // standard uncertainty of each, empty or 0 if unknown (then the covariance is 0). With a lost
+  // probe the errors are not solved, and the reason is set, unless the others determine all five.
   AxisErrors solve(double travel_m, const std::vector<double>& readings_m,
                    const std::vector<double>& u_m) const;
 
-  // The same without the covariance, a quarter of the time.
+  // The same without the covariance, in a quarter of the time.
   AxisErrors solve_alone(double travel_m, const std::vector<double>& readings_m,
                          const std::vector<double>& u_m) const;
 
-  // Change of the local errors, stated at the carriage, by 1 m of each probe's reading: 5 x probes,
-  // 0 for a lost probe. First order (GUM 5.1.3): the weighted pseudo-inverse of the Jacobian, at
-  // `errors` for the rigid model, at zero error for the small-angle ones, which is right to 1e-3.
+  // Change of the local errors, stated at the carriage, per 1 m of each probe's reading: 5 x
+  // probes, 0 for a lost probe. First order (GUM 5.1.3): the weighted pseudo-inverse of the
+  // Jacobian, at `errors` for the rigid model and at zero error for the small-angle models, which
+  // is accurate to 1e-3.
   Eigen::MatrixXd gain(double travel_m, const AxisErrors& errors,
                        const std::vector<double>& readings_m, const std::vector<double>& u_m) const;
 

@@ -9,10 +9,12 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAngleScale_m = 0.01;  // a radian seen 10 mm away, so that the columns compare
-constexpr double kTravel_m = 0.0173;    // a general place: no probe is likely to sit there
+// angle effect at a 10 mm arm, so that the columns are comparable
+constexpr double kAngleScale_m = 0.01;
+constexpr double kTravel_m = 0.0173;  // a generic position, where a probe is unlikely
 constexpr double kRankTolerance = 1e-6;
-constexpr double kNamedShare = 1e-3;  // an error takes part in an unseen combination from here
+// smallest share with which an error is part of an unseen combination
+constexpr double kNamedShare = 1e-3;
 
 }  // namespace
 
@@ -37,7 +39,8 @@ Eigen::MatrixXd first_order_jacobian(const Fixture& fixture, double travel_m,
 }
 
 Visibility visibility(const Fixture& fixture, const std::vector<bool>& use) {
-  // The rank is the same at any travel; an unseen angle mixes with the straightness it turns into.
+  // The rank is the same at any travel. An unseen angle appears together with the straightness that
+  // it causes at its lever arm.
   Eigen::MatrixXd J = first_order_jacobian(fixture, kTravel_m, use);
   J.rightCols(3) /= kAngleScale_m;
   Visibility result;

@@ -1,4 +1,4 @@
-// Which of the five errors a set of probes can see, before any number is solved for.
+// Which of the five errors a set of probes determines, before any number is solved.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,19 +9,19 @@
 
 namespace mdof::algo {
 
-// First-order Jacobian of the readings: rows probes, columns δy δz εx εy εz; m and m/rad.
-//   reading = u · (δ + ε × (p - d e_x)) for a plane across the probe's direction.
+// First-order Jacobian of the readings: rows are probes, columns δy δz εx εy εz; m and m/rad.
+//  reading = u · (δ + ε × (p - d e_x)) for a plane perpendicular to the probe's direction.
 Eigen::MatrixXd first_order_jacobian(const Fixture& fixture, double travel_m,
                                      const std::vector<bool>& use);
 
 struct Visibility {
   int rank = 0;                     // of 5
   double condition = 0;             // largest by smallest singular value, angles scaled by 10 mm
-  std::vector<std::string> unseen;  // ISO names taking part in a combination nobody sees
+  std::vector<std::string> unseen;  // ISO names in a combination that no probe sees
   bool complete() const { return rank == kErrorCount; }
 };
 
-// Rank by singular values relative to 1e-6 of the largest. `use`: probes to count on.
+// Rank by singular values relative to 1e-6 of the largest. `use`: probes to use.
 Visibility visibility(const Fixture& fixture, const std::vector<bool>& use);
 
 // "cannot see ECX and EYX" with the probes and the remedy; for an incomplete visibility.

@@ -12,10 +12,11 @@ namespace {
 
 constexpr double kReject = 8.0, kTimesAlone = 12.0, kMadToSd = 1.4826;
 constexpr std::size_t kNeighbours = 5;
-constexpr double kEnds = 0.5;  // whose neighbours stand on one side, and differ by the bend as well
+// At the ends the neighbours are on one side and differ also by the bend.
+constexpr double kEnds = 0.5;
 constexpr std::size_t kUnknowns = 3;
 
-// From the medians of the two halves: a few spikes do not turn it.
+// Slope from the medians of the two halves, which a few spikes do not change.
 double robust_slope(std::span<const double> place, std::span<const double> reading) {
   const std::size_t half = place.size() / 2;
   const auto middle = [](std::span<const double> x) {
@@ -26,7 +27,7 @@ double robust_slope(std::span<const double> place, std::span<const double> readi
   return (middle(reading.subspan(half)) - middle(reading.first(half))) / way;
 }
 
-// Of each reading, how far it is from the median of its neighbours once the slope is taken away.
+// Distance of each reading from the median of its neighbours after the slope is subtracted.
 std::vector<double> deviations_of(std::span<const double> place, std::span<const double> reading) {
   const double slope = robust_slope(place, reading);
   std::vector<double> level(reading.size()), out(reading.size());
@@ -43,8 +44,8 @@ std::vector<double> deviations_of(std::span<const double> place, std::span<const
   return out;
 }
 
-// Solution of the normal equations about the first reading, and the first diagonal element of their
-// inverse: what a variance of single readings makes of the value's.
+// Solution of the normal equations about the first reading. `variance` is the first diagonal
+// element of their inverse: the variance of the value per variance of a single reading.
 struct Parabola {
   double value = 0, slope = 0, bend = 0, variance = 0;
   double at(double x) const { return value + x * (slope + x * bend); }
@@ -69,7 +70,8 @@ Parabola parabola(std::span<const double> x, std::span<const double> y) {
           (c02 * t[0] + c12 * t[1] + c22 * t[2]) / determinant, c00 / determinant};
 }
 
-// The slope of the halves through the median: half of the readings may be spikes.
+// A line through the median with the slope of the halves, because half of the readings may be
+// spikes.
 Parabola robust_line(std::span<const double> place, std::span<const double> reading) {
   Parabola line;
   line.slope = robust_slope(place, reading);
@@ -84,8 +86,8 @@ double rejection_limit(std::vector<double> deviations, double coarse) {
   return std::max(coarse, kReject * kMadToSd * median_of(std::move(deviations)));
 }
 
-// Leaves out what is farther than the limit from this curve. `alone`: no neighbours have shown
-// spikes, so that far more is asked for, and nothing is left out that lasts to an end, as a step.
+// Leaves out readings farther than the limit from this curve. `alone`: the neighbours showed no
+// spikes, so the limit is much larger, and deviations that last to an end, as after a step, stay.
 void keep_near(const Parabola& curve, double coarse, bool alone, std::vector<double>& x,
                std::vector<double>& y) {
   std::vector<double> left(y);
@@ -103,8 +105,8 @@ void keep_near(const Parabola& curve, double coarse, bool alone, std::vector<dou
   y.resize(kept);
 }
 
-// What a cubic adds to the slope at the target, of what the parabola leaves of readings that are
-// even over the bin: the slope of a line through a wave is too small.
+// Correction of the slope at the target from a cubic term in the residuals of the parabola, for
+// readings that are evenly spread over the bin. Without it the slope in a wave is too small.
 double cubic_slope(std::span<const double> x, std::span<const double> left) {
   constexpr double kOdd = 0.6;
   double product = 0, square = 0;
@@ -132,7 +134,7 @@ BinFit fit_bin(std::span<const double> place, std::span<const double> reading, d
     x.push_back(place[i]);
     scratch.push_back(reading[i]);
   }
-  // Where most of five neighbours are spikes, their median is one, and none of these was left out.
+  // If most of five neighbours are spikes, their median is a spike, and none of them was left out.
   const bool alone = x.size() == reading.size();
   if (x.size() >= kFewestOfBin) keep_near(robust_line(place, reading), coarse, alone, x, scratch);
   if (x.size() < reading.size() && x.size() >= kFewestOfBin)

@@ -33,8 +33,8 @@ OnTheFly::OnTheFly(TargetGrid grid, std::vector<std::string> ids, std::vector<do
   probes_.step_m.resize(probes_.ids.size());
 }
 
-// The first row alone may be wrong, most of them are not. The axis may be moving already: it has
-// the time of these rows to come from their middle.
+// Starts at the median of the first rows, because the first row alone may be wrong. The axis may be
+// moving already, so the time of these rows is allowed for the travel from their median.
 void OnTheFly::begin(const FrameBlock& frames) {
   std::vector<double> early;
   std::int64_t passed_ns = 0;
@@ -94,7 +94,7 @@ void OnTheFly::learn_resolution(const AxisPass& pass) {
   for (std::size_t k = 0; k < probes_.ids.size(); ++k) probes_.step_m[k] = resolution_.step_m(k);
 }
 
-// Whether a probe lives is judged bin by bin, as it would be stop by stop.
+// Whether a probe is alive is judged bin by bin, as it is stop by stop for dwells.
 void OnTheFly::watch(const AxisPass& pass, const PassBins& bins) {
   auto bin = bins.bins.begin();
   for (std::size_t i = pass.first; i < pass.last; i += kWatchedRows) {

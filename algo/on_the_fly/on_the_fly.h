@@ -1,4 +1,4 @@
-// Frames of an axis that moves all the time -> points at targets, as dwells would give them.
+// Calculates points at targets from frames of a continuously moving axis, in the form of dwells.
 #pragma once
 
 #include <cstdint>
@@ -20,26 +20,28 @@
 
 namespace mdof::algo {
 
-// Streaming, the same however the frames are cut; the pass under way and the points are kept.
+// A stream: the result does not depend on how the frames are divided. It keeps the current pass and
+// the points in memory.
 class OnTheFly {
  public:
-  // `ids` and `range_m` of the probes, in the order of the frames; of `dwell` the greatest speed.
+  // `ids` and `range_m` of the probes are in the order of the frames.
   OnTheFly(TargetGrid grid, std::vector<std::string> ids, std::vector<double> range_m,
            double max_speed_m_s = DwellOptions().max_speed_m_s);
 
-  // Frames without a place (place_watch.h) are counted and left out. Error: PassFinder's.
+  // Counts and leaves out frames without a position (place_watch.h). Errors: those of PassFinder.
   Status push(const FrameBlock& frames);
   void flush();
 
-  // The points in the order of time, a run being a pass over the targets; not yet solved. A target
-  // at the ends that is not known beforehand, and that fewer than half of the passes took steadily,
-  // is none.
+  // The points in the order of time, not yet solved; each pass over the targets is a run. A target
+  // at the ends is left out if it is not known beforehand and fewer than half of the passes moved
+  // over it at a steady speed.
   Sequence sequence() const;
-  // Why there is no point, with figures and a remedy; nothing: there are some.
+  // Error: there is no point, with figures and a remedy.
   Status explain_nothing() const;
-  // What a reader has to know of the log beside the points.
+  // Notices about the log in addition to the points.
   Notices notices() const;
-  // What a run in motion is, what it leaves out, its speeds, and what motion adds.
+  // Notices about the method: what a run in motion is, omitted bins, speeds, and the effects of
+  // motion.
   Notices statements() const;
 
   const DwellDetector::Summary& summary() const { return summary_; }

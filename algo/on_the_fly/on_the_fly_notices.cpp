@@ -13,8 +13,8 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kNmPerM = 1e9, kMicroseconds = 1e6, kMilliseconds = 1e3;
-constexpr double kSeenWave = 2.5;    // bins: a shorter wave is read more than 1 % too small
-constexpr double kOtherSpeed = 0.1;  // of the run's
+constexpr double kSeenWave = 2.5;    // in bins; shorter waves are read more than 1 % too small
+constexpr double kOtherSpeed = 0.1;  // of the speed of the run
 constexpr double kBriefDelay_s = 1e-6;
 
 struct Speeds {
@@ -39,7 +39,7 @@ std::string mm_s(double speed_m_s) {
   return plain_number(to_mm(speed_m_s), 4) + " mm/s";
 }
 
-// Root of the mean square over all bins.
+// Root mean square over all bins.
 double scatter_m(const std::vector<PassBins>& passes, std::size_t probe) {
   double square = 0, n = 0;
   for (const PassBins& pass : passes) {
@@ -91,7 +91,7 @@ Notice delay_notice(const std::string& id, const ReadingLag& lag) {
                  {"backlash_um", to_um(2 * std::abs(lag.delay_s) * lag.speed_m_s)}});
 }
 
-// Is it between bins of its pass that were taken? Else it is of the way up to speed, or down.
+// Whether it is between accepted bins of its pass. Otherwise the axis accelerates or decelerates.
 bool is_within(const PassBins& pass, const BinLeftOut& left) {
   const auto beyond = [&](const BinPoint& bin) {
     return (bin.point.position_m - left.position_m) * pass.direction > 0;
@@ -142,7 +142,7 @@ Status OnTheFly::explain_nothing() const {
   }
   const double speed_m_s = way_m / passed_s, rate_hz = 1 / summary_.period_s;
   const double needed_m = static_cast<double>(kFewestOfBin + 1) * speed_m_s / rate_hz;
-  // Where the axis stops between the bins it passes them fast, and larger ones have the stops in.
+  // If the axis stops between the bins, it passes the bins fast, and larger bins contain the stops.
   const bool too_small = needed_m > grid_.bin_m();
   if (too_small && (dense || count_left_out(passes_, BinFault::too_few) > 0)) {
     return bad_input("at " + mm_s(speed_m_s) + " and " + plain_number(rate_hz) + " Hz a bin of " +

@@ -13,18 +13,18 @@ namespace {
 
 constexpr double kMostUneven = 0.0075;  // of a bin
 constexpr double kNoises = 3;
-constexpr double kCoarseSteps = 3.5;   // no spike: a reading that flickers between its steps
+constexpr double kCoarseSteps = 3.5;   // steps; smaller changes are flicker, not spikes
 constexpr double kCoarseShare = 1e-4;  // of the range
 
 struct Rows {
   std::size_t first = 0, last = 0;
 };
 
-// Position over time of the rows of a bin.
+// Position over time in the rows of a bin.
 struct Way {
   double speed_m_s = 0;
   double uneven_m = 0;  // rms about a steady speed
-  double noise_m = 0;   // of the encoder, by second differences
+  double noise_m = 0;   // of the encoder, from second differences
 };
 
 class Binning {
@@ -42,8 +42,8 @@ class Binning {
 
   double place_m(std::size_t row) const { return place_m_[row - pass_.first]; }
 
-  // Targets come in the order of time. In the direction of travel the bin begins where it is first
-  // reached and ends where it is first left.
+  // Targets come in the order of time. In the direction of travel the bin begins where its range is
+  // first reached and ends where it is first left.
   Rows rows_of(double target_m) {
     const double along = pass_.direction, middle = along * target_m;
     std::size_t first = next_;
@@ -134,7 +134,7 @@ class Binning {
     return point;
   }
 
-  // Of its own samples, each once: what is only interpolated anew says nothing new.
+  // Fits the probe's own samples, each once, because interpolated values contain nothing new.
   void fit(std::size_t probe, const Rows& rows, BinPoint& bin) {
     const std::string& id = probes_.ids[probe];
     const auto& fresh = frames_.probe_fresh[probe];

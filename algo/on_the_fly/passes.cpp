@@ -47,7 +47,7 @@ void PassFinder::follow(std::size_t row, double at_m, const Take& take) {
   if (heading_ >= 0 && high_.at_m - at_m > kTurn_m) turn(-1, high_, take);
 }
 
-// `at`: the last place before the axis went back.
+// `at`: the last position before the axis reversed.
 void PassFinder::turn(int heading, Extreme at, const Take& take) {
   if (heading_ != 0) take({rows_, begin_, at.row + 1, heading_});
   heading_ = heading;

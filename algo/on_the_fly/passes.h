@@ -1,4 +1,4 @@
-// Frames -> the passes of an axis that goes back and forth without stopping.
+// Finds the passes of an axis that moves back and forth without stopping.
 #pragma once
 
 #include <array>
@@ -11,28 +11,29 @@
 
 namespace mdof::algo {
 
-inline constexpr int kGapPeriods = 3;  // longer without a scan is a gap
+inline constexpr int kGapPeriods = 3;  // a longer time without a scan is a gap
 
-// Rows first ... last - 1 of `frames`, between two turns of the axis.
+// Rows first ... last - 1 of `frames`, between two reversals of the axis.
 struct AxisPass {
   const FrameBlock& frames;
   std::size_t first = 0, last = 0;
   int direction = 0;  // +1, -1
 };
 
-// The axis has turned where it has gone back by 50 µm; rows in which it stands, before it turns or
-// within its way, belong to the pass. Streaming, the same however the frames are cut; one pass is
-// kept in memory. Each frame must have a position; those that spike by a single one turn nothing.
+// The axis has reversed when it has moved back by 50 µm. Rows at rest, before a reversal or during
+// a pass, belong to the pass. A stream: the result does not depend on how the frames are divided;
+// one pass is kept in memory. Each frame must have a position. A spike of a single position is no
+// reversal.
 class PassFinder {
  public:
   using Take = std::function<void(const AxisPass&)>;
 
-  // Calls `take` for each pass that became complete. Error: one of more scans than can be kept.
+  // Calls `take` for each complete pass. Error: a pass with too many scans to keep.
   Status push(const FrameBlock& frames, std::size_t first, std::size_t last, const Take& take);
-  // End of the data: the last pass.
+  // Ends the data and takes the last pass.
   void flush(const Take& take);
 
-  static constexpr std::size_t kMostScans = std::size_t{1} << 22;  // of a pass
+  static constexpr std::size_t kMostScans = std::size_t{1} << 22;  // per pass
 
  private:
   struct Extreme {
@@ -43,15 +44,15 @@ class PassFinder {
   void turn(int heading, Extreme at, const Take& take);
 
   FrameBlock rows_;
-  std::size_t next_ = 0;  // of rows_: not yet followed
+  std::size_t next_ = 0;  // first row of rows_ that is not yet processed
   int heading_ = 0;
   std::size_t begin_ = 0;
   bool begun_ = false;
-  Extreme low_, high_;  // since the last turn
+  Extreme low_, high_;  // since the last reversal
 };
 
-// The median of the encoder's reading and its two neighbours: a single wrong count is voted out, a
-// steady way stays as it is. At the ends of the rows it is the reading.
+// The median of the encoder's reading and its two neighbours. It removes a single wrong count and
+// does not change a steady motion. At the ends of the rows it is the reading.
 double voted_place(const FrameBlock& frames, std::size_t row);
 
 }  // namespace mdof::algo

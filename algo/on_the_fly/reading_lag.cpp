@@ -12,10 +12,10 @@ namespace {
 
 constexpr std::size_t kFewestTargets = 12;
 constexpr double kSignificant = 5, kLeast_m = 2e-9;
-constexpr double kSlopeChanges = 0.01;  // of its rms, beside a constant and a line
+constexpr double kSlopeChanges = 0.01;  // of its rms, without a constant and a line
 constexpr double kMostCorrelated = 0.9;
 
-// Sums of a probe at a target, one way.
+// Sums of a probe at a target in one direction.
 struct OneWay {
   double reading_m = 0, slope_1 = 0, speed_m_s = 0, n = 0;
 };
@@ -29,7 +29,7 @@ struct BothWays {
 // One row of the fit.
 struct Difference {
   double position_m = 0, difference_m = 0;
-  double factor_m_s = 0;  // difference for a second of delay
+  double factor_m_s = 0;  // difference per second of delay
 };
 
 std::vector<Difference> differences_of(const std::vector<PassBins>& passes, std::size_t probe,
@@ -63,7 +63,7 @@ std::vector<Difference> differences_of(const std::vector<PassBins>& passes, std:
   return rows;
 }
 
-// Variance of a sum grows by this where neighbours are alike.
+// Factor of the standard deviation of a sum if neighbours are correlated.
 double widened_by(const Eigen::VectorXd& residuals) {
   double square = 0, product = 0;
   for (Eigen::Index i = 0; i < residuals.size(); ++i) {

@@ -1,4 +1,4 @@
-// Targets of a run that is measured in motion, and the stretch of travel, the bin, about each.
+// Targets of a run that is measured in motion, and the bin (range of travel) of each target.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,24 @@
 namespace mdof::algo {
 
 struct OnTheFlyOptions {
-  // From target to target: at from_mm and on from there, or else at whole multiples. 0: the targets
+  // Distance between targets: from from_mm on, or else at multiples of the interval. 0: the targets
   // are those of the run (SequenceOptions::targets_m).
   double interval_mm = 1;
-  double bin_mm = 0;                     // length of a bin; 0: from target to target, at most 1 mm
-  std::optional<double> from_mm, to_mm;  // none beyond; without: as far as the axis goes steadily
+  double bin_mm = 0;  // length of a bin; 0: target to target, at most 1 mm
+  // Range of the targets; empty: up to where the axis moves at a steady speed.
+  std::optional<double> from_mm, to_mm;
 
   std::string json() const;  // for the provenance
 };
 
-// Errors (usage), naming the key: no interval and no targets, a range that is none, bins that
-// overlap or are too small for any encoder, more targets than 10,000.
+// Errors (usage), which name the key: neither interval nor targets; an empty range; bins that
+// overlap or are too small for any encoder; more than 10,000 targets.
 Status check_on_the_fly(const OnTheFlyOptions& options, const std::vector<double>& targets_m);
 
 class TargetGrid {
  public:
-  // Only what check_on_the_fly() accepts; `targets_m` ascending, used where there is no interval.
+  // Accepts only options that check_on_the_fly() accepts. `targets_m` is ascending and used if
+  // there is no interval.
   TargetGrid(const OnTheFlyOptions& options, std::vector<double> targets_m);
 
   struct Target {
@@ -34,10 +36,10 @@ class TargetGrid {
     double position_m = 0;
   };
   double bin_m() const { return bin_m_; }
-  // Targets whose bins lie between these positions as a whole, ascending; none where they would be
-  // more than `most`.
+  // Targets whose whole bins are between these positions, ascending; empty if there are more than
+  // `most`.
   std::vector<Target> between(double low_m, double high_m, std::size_t most) const;
-  // All targets where they are known beforehand (a list, or both ends); else empty.
+  // All targets if they are known beforehand (a list, or both ends); otherwise empty.
   std::vector<Target> known() const;
 
  private:

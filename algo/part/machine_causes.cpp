@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// Of frame, k and kind in the order of derivatives().
+// A known error; frame, k and kind in the order of derivatives().
 struct Known {
   std::size_t frame = 0, k = 0;
   bool of_line = false;
@@ -32,8 +32,8 @@ std::vector<Known> known_errors(const Machine& machine, std::size_t points, Mach
   return known;
 }
 
-// What a unit of the source does to the tool here; errors that were measured have it in their
-// value.
+// Effect of one unit of the source on the tool here. Measured errors are left out, because their
+// values contain it.
 Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, const Command& command,
                           const std::vector<ErrorDerivative>& all, bool with_axes) {
   Eigen::Vector3d effect = Eigen::Vector3d::Zero();
@@ -47,8 +47,8 @@ Eigen::Vector3d effect_of(const Machine& machine, const ErrorSource& source, con
   return effect;
 }
 
-// u of the errors of bodies at place `p`: each takes with it the correlated part of those behind
-// it, so that the causes stay independent.
+// Adds the u of the errors of bodies at point `p`. Each cause takes its correlated part in the
+// later errors, so that the causes stay independent.
 void add_parts(const std::vector<Known>& known, const std::vector<ErrorDerivative>& all,
                const std::vector<FrameValues>& values, std::size_t p, MachineCauses& causes) {
   for (const Known& one : known)
@@ -59,7 +59,7 @@ void add_parts(const std::vector<Known>& known, const std::vector<ErrorDerivativ
                                                       static_cast<Eigen::Index>(one.k));
 }
 
-// What several bodies share at place `p`, one cause each, from `first` on.
+// Adds the quantities that several bodies share at point `p`, one cause each, from `first` on.
 void add_shared(const Machine& machine, const std::vector<ErrorDerivative>& all,
                 const std::vector<FrameValues>& values, std::size_t p, std::size_t points,
                 std::size_t first, MachineCauses& causes) {

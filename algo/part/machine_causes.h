@@ -1,5 +1,5 @@
-// The machine's part in the error of a part: measured errors of its axes, and sources that were not
-// measured, over the points of a path. SI.
+// Causes of the error of a part that are in the machine, over the points of a path: measured errors
+// of its axes, and sources that were not measured. SI units.
 #pragma once
 
 #include <string>
@@ -11,14 +11,17 @@
 namespace mdof::algo {
 
 struct MachineCauses {
-  std::vector<PartCause> axes;    // of each error that is known: "EYX", "EC0Y"; of what axes share
-  std::vector<PartCause> budget;  // of each source, on what is not measured
-  std::vector<std::string> not_measured, no_u, beyond;  // as of ToolError
+  // One for each known error ("EYX", "EC0Y"), and for each quantity that axes share.
+  std::vector<PartCause> axes;
+  // One for each source: its effect on errors that were not measured.
+  std::vector<PartCause> budget;
+  std::vector<std::string> not_measured, no_u, beyond;  // as in ToolError
 };
 
-// Places of the path are those of the tool in the work's coordinates, from where it is when all
-// commands are 0; the chain gives the commands (command_at_place()).
-// `with_axes`: the measured errors count; else the sources act on these, too, as designed.
+// Points of the path are positions of the tool in workpiece coordinates, relative to its position
+// when all commands are 0. The chain gives the commands (command_at_place()). `with_axes`: the
+// measured errors count. Otherwise the sources act on these errors, too, as in a machine that is
+// only designed.
 MachineCauses machine_causes(const Machine& machine, const std::vector<Eigen::Vector3d>& at_m,
                              bool with_axes = true);
 

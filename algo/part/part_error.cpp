@@ -8,16 +8,16 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kForTrials = 1000;  // points of the path that a trial looks at
+constexpr std::size_t kForTrials = 1000;  // points of the path in each trial
 
-// Normal with variance 1: trial, cause.
+// A normal random number with variance 1, for trial and cause.
 double drawn(std::uint64_t seed, std::size_t trial, std::size_t cause) {
   const Philox words =
       philox({{static_cast<std::uint32_t>(trial), 0, static_cast<std::uint32_t>(cause), 0}}, seed);
   return gaussian(uniform(words[0], words[1]));
 }
 
-// Values of a cause as one list: along the normals, or all components.
+// Values of a cause as one list: components along the normals, or all components.
 std::vector<double> seen(const PartPath& path, const std::vector<Eigen::Vector3d>& field) {
   std::vector<double> list;
   list.reserve(field.size() * (path.normal.empty() ? 3 : 1));
@@ -39,8 +39,8 @@ double product(const std::vector<double>& a, const std::vector<double>& b, doubl
 
 struct Causes {
   std::vector<std::vector<double>> value, u;
-  std::vector<bool> is_unknown;       // in nothing but its u
-  Eigen::MatrixXd values, mixed, us;  // mean products: value value, value u, u u
+  std::vector<bool> is_unknown;       // has only a u, no value
+  Eigen::MatrixXd values, mixed, us;  // mean products of value and value, value and u, u and u
 };
 
 Causes looked_at(const PartPath& path, const std::vector<PartCause>& causes) {
@@ -64,7 +64,7 @@ Causes looked_at(const PartPath& path, const std::vector<PartCause>& causes) {
   return all;
 }
 
-// Mean squares of layers and causes where each cause is value + xi u.
+// Mean squares of layers and causes if each cause is value + xi u.
 struct Squares {
   std::vector<double> layers, causes;
 };
@@ -138,7 +138,7 @@ void find_shares(const std::vector<PartCause>& causes, const Causes& all, std::s
     }
 }
 
-// Size of the error at each of the points begin, begin + every ...
+// Magnitude of the error at each of the points begin, begin + every ...
 std::vector<double> sizes(const PartPath& path, const Causes& all, const std::vector<double>& xi,
                           std::size_t every) {
   const std::size_t width = path.normal.empty() ? 3 : 1;
@@ -169,7 +169,7 @@ PartError part_error(const PartPath& path, const std::vector<PartCause>& causes,
   result.worst = static_cast<std::size_t>(worst - found.begin());
   result.max_m = *worst;
   result.p95_m = quantile_95(found);
-  // Against the same points without the draws, which may be fewer than all.
+  // Compare with the same points without the draws; these may be fewer than all points.
   const std::size_t every = std::max<std::size_t>(1, path.at_m.size() / kForTrials);
   const std::vector<double> thinned = sizes(path, all, xi, every);
   const double p95_m = quantile_95(thinned),
@@ -181,8 +181,7 @@ PartError part_error(const PartPath& path, const std::vector<PartCause>& causes,
     drawn_p95.push_back(quantile_95(drawn_sizes));
     drawn_max.push_back(*std::max_element(drawn_sizes.begin(), drawn_sizes.end()));
   }
-  // What is known by its u alone makes sizes larger, never smaller: the median of the draws is the
-  // estimate.
+  // A cause with only a u always makes errors larger, so the median of the draws is the estimate.
   const auto take = [](std::vector<double> drawn, double thinned_m, double& estimate_m,
                        double& U_m) {
     if (drawn.empty()) return;

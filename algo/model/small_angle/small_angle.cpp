@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAlong = 1 - 1e-9;  // cosine from which a direction counts as along an axis
+constexpr double kAlong = 1 - 1e-9;  // smallest cosine of a direction along an axis
 constexpr double kSamePlane_m = 1e-9;
 
 tl::unexpected<Error> not_of_this_kind(const std::string& why) {
@@ -53,7 +53,7 @@ Result<Roles> find_roles(const Fixture& fixture) {
   return roles;
 }
 
-// Weights of p, q, c in Δz = c + q y - p x through three points; false: in a line.
+// Weights of p, q, c in Δz = c + q y - p x through three points; false: the points are on one line.
 bool top_weights(SmallAngleFixture& f) {
   Eigen::Matrix3d M;
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -86,8 +86,8 @@ BatchKernels batch_kernels(InstructionSet set) {
 
 }  // namespace
 
-// Distance of the side probes along z by that along the motion, up to which the steps of `exact`
-// converge (small_angle_kernel.h).
+// Limit of the distance of the side probes along z relative to that along the motion. Up to this
+// limit the steps of `exact` converge (small_angle_kernel.h).
 constexpr double kSteepest = 3;
 
 Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture) {

@@ -1,11 +1,11 @@
 // The paper's small-angle models: exact outputs (Eq. 2-7), the simplified solution
 // (Eq. 8-12) and the exact solution. Local frame of the axis; m and rad.
 //
-// A fixture of three top probes (along ±z, on z = 0) and two side probes (along ±y, on y = h).
-// Both output formulas are linear in the probe's own position,
-//   Δz = c + q y - p x,   Δy (1 + εy²) = ... + x (εz - εx εy) - z (εx + εy εz),
-// so any three top probes not in a line give p, q, c, and any two side probes apart along x give
-// the side slope r: the paper's l, l', l'' are one case of it.
+// The fixture has three top probes (along ±z, on z = 0) and two side probes (along ±y, on y = h).
+// Both output formulas are linear in the position of the probe,
+//  Δz = c + q y - p x,   Δy (1 + εy²) = ... + x (εz - εx εy) - z (εx + εy εz),
+// so any three top probes that are not on one line give p, q, c, and any two side probes at
+// different x give the side slope r. The paper's l, l', l'' are one case of this.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace mdof::algo {
 
-// Constants of a five-probe fixture; probes A B C are the top ones, D E the side ones (D the one
-// with the smaller x), each in the order of the rig.
+// Constants of a five-probe fixture. A B C are the top probes and D E the side probes (D has the
+// smaller x), each group in the order of the rig.
 struct SmallAngleFixture {
   std::array<std::size_t, 5> probe;  // index in the rig of A B C D E
   std::array<double, 5> sign;        // of the probe's direction along +z or +y
@@ -32,16 +32,17 @@ struct SmallAngleFixture {
   std::array<double, 5> x, across;  // x, and y (top) or z (side), of each probe
 };
 
-// Refuses, with the reason and the remedy, a fixture that is not of this kind.
+// Error: a fixture of another kind, with the reason and the remedy.
 Result<SmallAngleFixture> make_small_angle_fixture(const Fixture& fixture);
 
-// Exact outputs of the probes, in the order A B C D E, each along its own direction.
-// dx_m is the encoder's error δx.
+// Exact outputs of the probes in the order A B C D E, each along its own direction. dx_m is the
+// encoder's error δx.
 std::array<double, 5> exact_outputs(const SmallAngleFixture& f, double travel_m,
                                     const Errors5& local, double dx_m = 0.0);
 
-// n frames at once. `readings`: five columns A B C D E of n values; `out`: five columns in the
-// order δy δz εx εy εz. In place is not allowed. The same bits whatever n and the instruction set.
+// Solves n frames at once. `readings`: five columns A B C D E of n values; `out`: five columns in
+// the order δy δz εx εy εz. Input and output must not overlap. The results have the same bits for
+// any n and any instruction set.
 struct BatchIn {
   const double* travel_m;
   std::array<const double*, 5> reading_m;
@@ -52,7 +53,7 @@ struct BatchOut {
 void solve_batch(Model model, const SmallAngleFixture& f, const BatchIn& in, const BatchOut& out,
                  std::size_t n);
 
-// One frame, through the same code.
+// Solves one frame with the same code.
 Errors5 solve_small_angle(Model model, const SmallAngleFixture& f, double travel_m,
                           const std::array<double, 5>& reading_m);
 

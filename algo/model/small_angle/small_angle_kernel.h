@@ -1,6 +1,6 @@
-// The arithmetic of the small-angle solutions, written once for any width of vector. Included by
-// the translation units that compile it for one instruction set each; nothing here may be inline
-// code shared between them, hence the internal linkage.
+// The arithmetic of the small-angle solutions, written once for any vector width. Each translation
+// unit that includes it compiles it for one instruction set. These units must not share inline
+// code, so everything here has internal linkage.
 #pragma once
 
 #include "algo/model/small_angle/small_angle.h"
@@ -53,11 +53,12 @@ inline void simplified(const SmallAngleFixture& f, const V& travel, const V (&m)
 }
 
 // Exact solution: εx = q + p εz, εy = p - q εz, and one scalar equation for εz,
-//   F(εz) = r (1 + εy²) + εx εy + (εx + εy εz) rise - εz = 0,
-// by Newton's method with the slope at the start kept. The start has all terms of first and second
-// order, and the series of 2 p rise, which is the largest of the others: off by third order, so
-// that two steps come within 1e-11 rad for angles up to 50 mrad where the side probes lie along the
-// motion, and within 1e-9 rad for any fixture that make_small_angle_fixture() takes.
+//  F(εz) = r (1 + εy²) + εx εy + (εx + εy εz) rise - εz = 0,
+// by Newton's method with the slope at the start value. The start value has all terms of first and
+// second order and the series of 2 p rise, which is the largest of the other terms, so its error is
+// of third order. After two steps the error is below 1e-11 rad for angles up to 50 mrad if the side
+// probes are on a line along the motion, and below 1e-9 rad for any fixture that
+// make_small_angle_fixture() accepts.
 template <class V>
 inline void exact(const SmallAngleFixture& f, const V& travel, const V (&m)[5], V (&out)[5]) {
   const FirstOrder<V> o = first_order(f, m);

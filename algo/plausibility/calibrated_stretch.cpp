@@ -10,9 +10,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLetPass = 0.1;  // of the stretch
+constexpr double kLetPass = 0.1;  // allowed excess, of the calibrated range
 
-// Displacements of the calibrated stretch, um.
+// Displacements at the ends of the calibrated range, um.
 std::array<double, 2> displacements_um(const Calibration& c) {
   std::array<double, 2> ends_um = *c.calibrated_um;
   for (double& t_um : ends_um) t_um += linearity_um(c, t_um);

@@ -1,5 +1,5 @@
-// Do the probes read where their calibration record has calibrated them? Beyond, the record's line
-// is extended, and nobody has measured whether the probe follows it.
+// Whether the probes read within the range of their calibration record. Outside, the line of the
+// record is extrapolated, and nobody has measured whether the probe follows it.
 #pragma once
 
 #include <optional>
@@ -16,13 +16,14 @@ struct ReadingSpan {
   double least_m = 0, most_m = 0;
 };
 
-void widen(std::optional<ReadingSpan>& span, double reading_m);  // by a reading that is not NaN
+// Extends `span` by a reading; NaN is ignored.
+void widen(std::optional<ReadingSpan>& span, double reading_m);
 
-// One for each probe that reads farther beyond its calibrated stretch than a tenth of it. [probe];
-// none: it has no readings.
+// A notice for each probe that reads outside its calibrated range by more than a tenth of this
+// range. `spans`: [probe]; empty: the probe has no readings.
 Notices stretch_notices(const Rig& rig, const std::vector<std::optional<ReadingSpan>>& spans);
 
-// Over the points that have errors.
+// For the points that have errors.
 Notices stretch_notices(const Rig& rig, const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

@@ -1,4 +1,4 @@
-// Does the height map of each plane cover what the probes reach of it? Beyond its ends the rigid
+// Whether the height map of each plane covers the area that the probes reach. Outside, the rigid
 // model holds the last height, which nobody measured.
 #pragma once
 
@@ -12,12 +12,12 @@
 
 namespace mdof::algo {
 
-// One for each plane and direction in which it does not, over target travels d from `least_m` to
-// `most_m`: what it covers, what is reached and by which probes. A map of one
-// coordinate in a direction is meant to be the same all along it. 50 µm beyond an end are let pass.
+// A notice for each plane and direction that the map does not cover over target travels d from
+// `least_m` to `most_m`: what it covers, what is reached and by which probes. A map with one
+// coordinate in a direction is constant in this direction. 50 µm outside are allowed.
 Notices map_notices(const Rig& rig, const Fixture& fixture, double least_m, double most_m);
 
-// Over the points that have errors.
+// For the points that have errors.
 Notices map_notices(const Rig& rig, const Fixture& fixture,
                     const std::vector<MeasuredPoint>& points);
 

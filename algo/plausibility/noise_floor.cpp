@@ -6,13 +6,13 @@
 namespace mdof::algo {
 namespace {
 
-// Mean |second difference| of white noise over its σ: √6 · √(2/π).
+// Ratio of mean |second difference| to σ for white noise: √6 · √(2/π).
 constexpr double kBendOfNoise = 1.9544;
-// The lower quartile of that mean over n values lies below σ by this share over √n: simulated for
-// n = 4 to 50, to 1 %.
+// The lower quartile of this mean over n values is below σ by this share over √n: simulated for n =
+// 4 to 50, accurate to 1 %.
 constexpr double kQuartileBelow = 0.72;
 constexpr int kBinsPerOctave = 8;
-constexpr int kSmallestExponent = -49;  // 2^-50 m is 1e-15 m; what is smaller counts as 0
+constexpr int kSmallestExponent = -49;  // 2^-50 m is 1e-15 m; smaller values count as 0
 
 std::size_t bin_of(double sd, std::size_t bins) {
   int exponent = 0;

@@ -1,5 +1,5 @@
-// Can this run be right? What was found, in figures, and what in them looks wrong, as notices:
-// holes in the matrix of visits, stops that gave no point, quantities in other units than stated.
+// Whether a run can be correct: figures about it, and notices of what looks wrong, such as missing
+// visits, stops that gave no point, and quantities in other units than stated.
 #pragma once
 
 #include <cstdint>
@@ -16,27 +16,28 @@ namespace mdof::algo {
 
 struct RunToJudge {
   const Rig& rig;
-  const Sequence& sequence;  // its points solved
+  const Sequence& sequence;  // its points are solved
   const DwellDetector::Summary& dwells;
   std::uint64_t scans_lost = 0;
   bool targets_given = false;
-  double least_dwell_s = 0;  // that a stop must last to be averaged
+  double least_dwell_s = 0;  // shortest stop that is averaged
 };
 
 Plausibility plausibility(const RunToJudge& run);
 
-// None: nothing looks wrong. Of many alike the first ones and their number.
+// Empty: nothing looks wrong. Of many similar notices only the first ones are kept, with their
+// number.
 Notices visit_notices(const RunToJudge& run);
 Notices unit_notices(const Rig& rig, const Plausibility& figures);
-// A probe that reads the same while others change, one that gives its extreme reading without
-// noise in three or more stops, one that has no value where it was beyond its range, an encoder
-// that stands still while probes change.
+// Notices of a probe whose reading is constant while others change, of a probe with its extreme
+// reading and no noise in three or more stops, of a probe without value where it was out of range,
+// and of an encoder that is constant while probes change.
 Notices signal_notices(const RunToJudge& run);
 
-// Whether a travel (m) can be one in the encoder's unit.
+// A notice if a travel (m) is implausible in the encoder's unit.
 std::optional<Notice> encoder_unit_notice(double travel_m);
 
-// Stops at a target that gave no point, and beside which there is none of that target either.
+// Stops at a target that gave no point, if there is no point of this target next to them either.
 std::vector<DwellDetector::Summary::PassedOver> lost_stops(const RunToJudge& run);
 
 }  // namespace mdof::algo

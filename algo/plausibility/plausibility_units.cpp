@@ -1,4 +1,4 @@
-// Does each quantity look as if it were in the unit that it is said to be in?
+// Whether the values of each quantity are plausible in its stated unit.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -9,26 +9,26 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLongestAxis_m = 2;  // of a machine for whose axes such a fixture is made
+constexpr double kLongestAxis_m = 2;  // for machines with such fixtures
 constexpr double kShortestAxis_m = 0.5e-3;
-constexpr double kSlowest_hz = 2;  // of a log in seconds
+constexpr double kSlowest_hz = 2;  // for a log in seconds
 constexpr double kFastest_hz = 2e6;
 constexpr double kLargestFixture_m = 0.5;
 constexpr double kSmallestFixture_m = 0.5e-3;
-constexpr double kNarrowFixture_m = 5e-3;  // five probes have no room in less
+constexpr double kNarrowFixture_m = 5e-3;  // five probes do not fit in less
 constexpr double kWideFixture_m = 0.15, kWideByTravel = 5;
-constexpr double kQuietest_m = 0.5e-9;  // sd of any amplifier
-constexpr double kNoisiest = 2.5e-3;    // sd in parts of the range
+constexpr double kQuietest_m = 0.5e-9;  // sd; every amplifier has more
+constexpr double kNoisiest = 2.5e-3;    // sd as a part of the range
 constexpr double kNoisiest_m = 1e-6;
 constexpr double kOneOfThousand = 1e-3;
-constexpr double kOffZero = 0.1;  // of the range, of a gap whose offset is not given
+constexpr double kOffZero = 0.1;  // of the range, for a gap without a stated offset
 
 double largest(const ProbeFigures& p) {
   return std::max(std::abs(p.min_m), std::abs(p.max_m));
 }
 
-// All that a probe reads lies within a thousandth of its half range, and it is quieter than any
-// amplifier. A reading that does not change at all is another matter.
+// All readings of the probe are within a thousandth of half its range, and its noise is below that
+// of any amplifier. Constant readings are another case.
 bool looks_like_mm(const ProbeFigures& figures, const Probe& probe) {
   return figures.points > 0 && figures.travel_m > 0 && figures.sd_m < kQuietest_m &&
          largest(figures) <= kOneOfThousand * probe.range_m / 2;
@@ -38,7 +38,7 @@ bool looks_like_nm(const ProbeFigures& figures, const Probe& probe) {
   return figures.points > 0 && figures.sd_m > std::max(kNoisiest_m, kNoisiest * probe.range_m);
 }
 
-// A gap is never 0: without an offset its "displacement" is the whole gap.
+// A gap is never 0. Without an offset the "displacement" is the whole gap.
 bool lacks_offset(const ProbeFigures& figures, const Probe& probe) {
   const Calibration& c = probe.calibration;
   return c.reads_gap && c.offset_um == 0 && figures.points > 0 && figures.max_m < 0 &&

@@ -1,4 +1,4 @@
-// What is wrong with the visits of a run: holes, doubles, targets found late, stops without a
+// Faults in the visits of a run: missing and doubled visits, targets found late, stops without a
 // point.
 #include <algorithm>
 #include <map>
@@ -14,14 +14,14 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kMostNamed = 6;     // sentences of one kind; more are put together
-constexpr double kWorthATravel_m = 1e-3;  // over which there should be more than one stop
+constexpr std::size_t kMostNamed = 6;     // notices of one kind; more are combined
+constexpr double kWorthATravel_m = 1e-3;  // a longer travel should have more than one stop
 
 const char* approach(int direction) {
   return direction > 0 ? "forward" : "reverse";
 }
 
-// A place in the matrix n_ij.
+// A cell of the matrix n_ij.
 struct Cell {
   int direction, run, target;
   bool operator<(const Cell& o) const {
@@ -32,7 +32,7 @@ struct Cell {
 
 struct Visits {
   std::map<Cell, int> seen;
-  std::map<Cell, std::string> unsolved;  // why
+  std::map<Cell, std::string> unsolved;  // reason
   std::set<int> directions, targets;
 };
 
@@ -58,7 +58,7 @@ class Holes {
   Notices found() {
     Notices out;
     never_visited(out);
-    // What the log does not have because it began or ended in the midst of a pass, nobody missed.
+    // Visits that are missing because the log began or ended within a pass are a separate case.
     Cells holes, beyond;
     for (const Cell& cell : missing()) (beyond_the_log(cell) ? beyond : holes).push_back(cell);
     put(out, NoticeCode::visit_missing, holes);
@@ -83,7 +83,7 @@ class Holes {
       out.push_back(
           notice(NoticeCode::target_never_visited, "", {{"targets", numbered("target", never)}}));
   }
-  // The end targets of a pendulum cycle are reached from one side.
+  // The end targets of a pendulum cycle are approached from one side.
   bool awaited(const Cell& cell) const {
     if (!visits_.directions.contains(cell.direction) || !visits_.targets.contains(cell.target))
       return false;
@@ -116,7 +116,7 @@ class Holes {
     }
     return cells;
   }
-  // By run and approach.
+  // One notice for each run and approach.
   void put(Notices& out, NoticeCode code, const Cells& cells) const {
     Notices alike;
     for (std::size_t i = 0; i < cells.size();) {
@@ -140,8 +140,8 @@ class Holes {
   Visits visits_;
 };
 
-// While a run goes on, the targets seen so far are numbered; one that is missed at first shifts
-// those after it.
+// During a run the targets seen so far are numbered. A target that is missed at first shifts the
+// numbers after it.
 void note_found_late(const RunToJudge& run, Notices& out) {
   if (run.targets_given || !run.sequence.by_passes || run.sequence.points.empty()) return;
   const MeasuredPoint& start = run.sequence.points.front();
@@ -209,7 +209,7 @@ void note_shifted_targets(const RunToJudge& run, Notices& out) {
 
 void note_uneven(const RunToJudge& run, Notices& out) {
   std::vector<MeasuredPoint> points = run.sequence.points;
-  if (run.sequence.cycle == Cycle::pendulum) {  // whose end targets have one approach by design
+  if (run.sequence.cycle == Cycle::pendulum) {  // its end targets have one approach
     std::erase_if(points, [&](const MeasuredPoint& p) {
       return p.target == 1 || p.target == run.sequence.targets;
     });

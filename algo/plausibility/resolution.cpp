@@ -6,14 +6,14 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAlike = 1.05;  // readings printed with few digits have steps that differ a little
+constexpr double kAlike = 1.05;  // readings with few printed digits have slightly different steps
 constexpr std::size_t kFewest = 3;
-constexpr double kDithers = 0.5;  // steps
+constexpr double kDithers = 0.5;  // in steps
 
 }  // namespace
 
 void Resolution::add(std::span<const double> x) {
-  if (x.size() < 4 || x[0] != x[1]) return;  // noise larger than the step: most of all readings
+  if (x.size() < 4 || x[0] != x[1]) return;  // the noise is larger than the step, as in most data
   for (std::size_t i = 1; i + 2 < x.size(); ++i) {
     if (x[i - 1] == x[i] && x[i] != x[i + 1] && x[i + 1] == x[i + 2])
       keep(std::abs(x[i + 1] - x[i]));
@@ -26,7 +26,7 @@ void Resolution::keep(double step) {
   std::size_t i = kept_ - 1;
   for (; i > 0 && smallest_[i - 1] > step; --i) smallest_[i] = smallest_[i - 1];
   smallest_[i] = step;
-  // Of few most have to agree, of many an eighth: a stray one is none.
+  // Most of a few steps must agree, an eighth of many, so that a single one does not count.
   const std::size_t alike = std::max(kFewest, kept_ < 16 ? kept_ * 3 / 4 : kept_ / 8);
   step_ = 0;
   for (std::size_t k = 0; k + alike <= kept_ && step_ == 0; ++k) {
@@ -34,8 +34,8 @@ void Resolution::keep(double step) {
   }
 }
 
-// Whether the column of marks exists says nothing of these rows: it comes with any row of a block,
-// and a replay has other blocks than the live run.
+// Whether the column of marks exists does not depend on these rows only: any row of a block adds
+// it, and a replay has other blocks than the live run.
 void ProbeResolution::add(const FrameBlock& frames, std::size_t first, std::size_t last) {
   for (std::size_t k = 0; k < found_.size(); ++k) {
     Found& probe = found_[k];

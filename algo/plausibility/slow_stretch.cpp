@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kSlowTolerances = 25;  // in a window: 1 mm/s with the defaults
+constexpr double kSlowTolerances = 25;  // per window: 1 mm/s with the defaults
 
 }  // namespace
 

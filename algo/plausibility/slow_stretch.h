@@ -1,4 +1,4 @@
-// An axis that creeps too fast to stand still and too slowly to travel.
+// An axis that moves too fast to be at rest and too slowly to travel.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,14 @@
 
 namespace mdof::algo {
 
-// Fed with each window of the dwell detection, says when a stretch has ended over which the axis
-// hardly moved and yet no stop was found.
+// Takes each window of the dwell detection. It reports the end of a time in which the axis hardly
+// moved but no stop was found.
 class SlowStretch {
  public:
   struct Window {
     std::int64_t begin_ns, end_ns;
-    double first_m, last_m;  // where the axis was in its first and its last slot
+    // Positions of the axis in the first and the last slot.
+    double first_m, last_m;
     double range_m;
     bool still;
   };

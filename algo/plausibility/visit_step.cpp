@@ -18,15 +18,15 @@ namespace {
 
 constexpr double kStepsOfScatter = 6, kLogRatioToSmooth = 10;
 constexpr double kLeastStep_m = 1e-9;
-constexpr double kFewestOfStep = 2;   // Σ before · after/all over the places: four places or more
-constexpr double kFewestFreedom = 4;  // of what places and a step leave
+constexpr double kFewestOfStep = 2;  // Σ before · after/all over the places: at least four places
+constexpr double kFewestFreedom = 4;  // of the residuals of places and a step
 constexpr Eigen::Index kSmooth = 6;   // orders of the smooth change
 constexpr std::size_t kFewestCopies = 6;
-constexpr double kCopiedShare = 0.1;  // of a copy not all stops are averaged over the same scans
+constexpr double kCopiedShare = 0.1;  // of a copy, because not all stops average the same scans
 
 using ProbeVisits = std::vector<const MeasuredPoint*>;
 
-// In the order of time, of those that have this probe's reading.
+// The visits with a reading of this probe, in the order of time.
 ProbeVisits visits_of(const std::vector<MeasuredPoint>& points, std::size_t probe) {
   ProbeVisits visits;
   for (const MeasuredPoint& p : points)
@@ -34,7 +34,7 @@ ProbeVisits visits_of(const std::vector<MeasuredPoint>& points, std::size_t prob
   return visits;
 }
 
-// Without the means of their places.
+// Subtracts the mean of each place.
 class AtPlaces {
  public:
   explicit AtPlaces(const ProbeVisits& visits) {
@@ -64,11 +64,11 @@ class AtPlaces {
 };
 
 struct Jump {
-  std::size_t visit = 0;  // the first after it
+  std::size_t visit = 0;  // first visit after it
   double size = 0, explains = 0;
 };
 
-// The single step that leaves least of `y`, centred.
+// The single step that leaves the smallest residuals of `y`, which is centred.
 Jump largest_jump(const AtPlaces& at, const Eigen::VectorXd& y) {
   Eigen::VectorXd after = Eigen::VectorXd::Zero(at.places());
   double sum = 0, weight = 0;
@@ -100,7 +100,7 @@ double left_by_smooth(const AtPlaces& at, const ProbeVisits& visits, const Eigen
   return (y - columns * LeastNorm(columns).solve(y)).squaredNorm();
 }
 
-// Median of u² over the visits: that of a visit during which the reading steps is the step's own.
+// Median of u² over the visits. The u² of a visit that contains the step is from the step itself.
 double usual_u2(const ProbeVisits& visits, std::size_t probe) {
   std::vector<double> all;
   for (const MeasuredPoint* p : visits) {
@@ -110,14 +110,14 @@ double usual_u2(const ProbeVisits& visits, std::size_t probe) {
   return all.empty() ? 0 : median_of(std::move(all));
 }
 
-// Found by the dwells already.
+// The dwell detection has found a step already.
 bool stepped_before(const ProbeVisits& visits, const std::string& id) {
   return std::any_of(visits.begin(), visits.end(),
                      [&](const MeasuredPoint* p) { return has_flag(p->point, Flag::step, id); });
 }
 
-// Whether both have scans in common, or all probes have the same mean, to the last bit. Readings
-// without noise, or with less than their resolution, repeat.
+// Whether both have scans in common, or the same means of all probes to the last bit. Readings
+// without noise, or with noise below their resolution, repeat anyway and do not count.
 bool same_readings(const Point& a, const Point& b) {
   const bool same_scans = a.scan_fingerprint != 0 && a.scan_fingerprint == b.scan_fingerprint;
   return (same_scans || (a.probe_m == b.probe_m && a.position_m == b.position_m)) &&
@@ -125,7 +125,7 @@ bool same_readings(const Point& a, const Point& b) {
          std::all_of(a.probe_sd_m.begin(), a.probe_sd_m.end(), [](double sd) { return sd > 0; });
 }
 
-// Points whose readings an earlier visit of their place has as well.
+// Number of points with the readings of an earlier visit of their place.
 std::size_t count_copies(const std::vector<MeasuredPoint>& points) {
   std::map<std::pair<int, int>, std::vector<const MeasuredPoint*>> before;
   std::size_t copies = 0;

@@ -1,5 +1,5 @@
-// What the visits of a run show of its probes: a reading that moved between two visits and stayed
-// there, readings that come twice, and places that were visited once.
+// What the visits of a run show about its probes: steps of a reading between two visits, repeated
+// readings, and places with one visit only.
 #pragma once
 
 #include <cstddef>
@@ -14,19 +14,19 @@ namespace mdof::algo {
 
 struct VisitStep {
   std::size_t probe = 0;
-  std::size_t point = 0;  // the first after the step
+  std::size_t point = 0;  // first point after the step
   double size_m = 0;
   double sd_m = 0;  // of single readings about the mean of their place, without the step
 };
 
-// Of each probe the likeliest single step, where it is six times what the readings scatter without
-// it and explains them e¹⁰ times better than any smooth change, a polynomial of order 6 over time:
-// a drift, or noise that lasts, is none. A place is a target with its approach; those that are
-// visited once show nothing. Smaller ones than what a dwell shows (probe/probe_watch.h) are found;
-// those that it found are left out.
+// The likeliest single step of each probe, if it is six times the scatter of the readings without
+// it, and e¹⁰ times likelier than any smooth change (a polynomial of order 6 over time), so that a
+// drift or slow noise is not reported. A place is a target with its approach; places with one visit
+// show nothing. It finds smaller steps than those within dwells (probe/probe_watch.h); probes with
+// such a step are left out.
 std::vector<VisitStep> visit_steps(const Rig& rig, const std::vector<MeasuredPoint>& points);
 
-// None: nothing looks wrong.
+// Empty: nothing looks wrong.
 Notices repeat_notices(const Rig& rig, const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

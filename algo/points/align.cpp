@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kGapIntervals = 2.5;
 
-// Columns of an empty frame block may hold anything: they are swapped whole, and their memory goes
-// back to the driver.
+// Columns of an empty frame block may contain anything. They are swapped as a whole, so that the
+// driver can reuse their memory.
 template <class T>
 void append_or_take(std::vector<T>& to, std::vector<T>& from, bool empty) {
   if (empty) {
@@ -43,7 +43,7 @@ void clear_columns(FrameBlock& frames) {
   for (auto& column : frames.probe_fresh) column.clear();
 }
 
-// A reading is no better than the place it is of.
+// The quality of a reading is at most that of its position.
 void raise_to(std::vector<Quality>& quality, std::size_t before,
               const std::vector<Quality>& least) {
   quality.resize(before + least.size(), Quality::good);
@@ -77,10 +77,10 @@ Aligner::Aligner(AlignOptions options, std::vector<std::string> probe_ids)
   lag_bound_ns_ = to_ns(options_.lag_bound_s) + delay_ns_;
 }
 
-// Whether the block has all channels of the rig; finds them, -1 where it has none.
+// Whether the block has all channels of the rig. Finds their columns; -1: the channel is missing.
 bool Aligner::whole(const SampleBlock& block) {
-  if (block.channels.size() <= probes_.size()) return false;  // a device of several
-  if (!options_.delay_s.empty()) return false;  // a scan's readings are of different instants
+  if (block.channels.size() <= probes_.size()) return false;  // one of several devices
+  if (!options_.delay_s.empty()) return false;  // the readings of a scan have different times
   if (block.channels != known_channels_) {
     known_channels_ = block.channels;
     channel_of_.assign(probes_.size() + 1, -1);
@@ -113,7 +113,8 @@ void Aligner::take_whole(SampleBlock& block, FrameBlock& out) {
   append_or_take(out.time_ns, block.time_ns, before == 0);
 }
 
-// Where the encoder is not good (or simulated, as then the probes are) no probe is.
+// If the encoder's quality is not good (or is simulated, as the probes then are), no probe's is
+// better.
 void Aligner::taint(FrameBlock& out, std::size_t before, const SampleBlock& block) const {
   const auto encoder = static_cast<std::size_t>(channel_of_.back());
   if (block.quality.empty() ||
@@ -169,7 +170,7 @@ Status Aligner::enqueue_channel(const SampleBlock& block, std::size_t channel, T
   return {};
 }
 
-// The reading of a track at an instant it has reached; drops what no later instant can need.
+// The value of a track at a time that it has reached. Drops the samples that no later time needs.
 Aligner::Reading Aligner::value_at(Track& track, std::int64_t time_ns) {
   auto& readings = track.readings;
   ++track.asked;
@@ -190,10 +191,10 @@ Aligner::Reading Aligner::value_at(Track& track, std::int64_t time_ns) {
   return {time_ns, a.value + (b.value - a.value) * share, std::max(a.quality, b.quality)};
 }
 
-// Whether a sample of its own has come into the value at this instant; value_at() was asked before.
+// Whether the value at this time contains a new sample of the probe. Call value_at() before.
 bool Aligner::has_fresh(Track& track, std::int64_t time_ns) {
   const auto& readings = track.readings;
-  if (readings.empty()) return true;  // nothing is known: not a matter of repeating it
+  if (readings.empty()) return true;  // without any sample nothing is repeated
   const std::int64_t newest = readings.front().time_ns >= time_ns || readings.size() < 2
                                   ? readings.front().time_ns
                                   : readings[1].time_ns;
@@ -202,7 +203,7 @@ bool Aligner::has_fresh(Track& track, std::int64_t time_ns) {
   return fresh;
 }
 
-// Columns appear with the first 0: a probe as fast as the encoder has none.
+// A column appears with the first 0; a probe as fast as the encoder has no column.
 void Aligner::mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bool fresh) const {
   if (out.probe_fresh.size() < probes_.size()) out.probe_fresh.resize(probes_.size());
   auto& column = out.probe_fresh[probe];
@@ -224,7 +225,7 @@ void Aligner::emit(FrameBlock& out, bool at_end) {
     for (std::size_t k = 0; k < probes_.size(); ++k) {
       Reading r = value_at(probes_[k], at.time_ns);
       mark_fresh(out, row, k, has_fresh(probes_[k], at.time_ns));
-      r.quality = std::max(r.quality, at.quality);  // of a place that is not sure
+      r.quality = std::max(r.quality, at.quality);  // of an uncertain position
       given_up_ += r.quality == Quality::missing;
       out.probe_m[k].push_back(r.value);
       if (r.quality != Quality::good || !out.probe_quality[k].empty()) {
@@ -237,7 +238,7 @@ void Aligner::emit(FrameBlock& out, bool at_end) {
   }
 }
 
-// Where encoder positions wait, emit() drops what they have left behind.
+// While encoder positions wait, emit() drops the samples that are no longer needed.
 void Aligner::drop_expired_samples() {
   if (!encoder_.readings.empty()) return;
   const std::int64_t oldest_ns = newest_ns_ - 2 * lag_bound_ns_ - to_ns(1);

@@ -16,16 +16,16 @@ namespace {
 
 constexpr std::size_t kSlotsPerWindow = 4;
 constexpr double kAutoTolerance_m = 2e-6;
-// Noise of sd σ, voted by three, stays within 5 σ over a window.
+// Noise of sd σ after the median of three stays within 5 σ over a window.
 constexpr double kAutoNoiseFactor = 6;
-constexpr double kCreepFactor = 5.0;  // a stop that wanders by more tolerances than this is none
+constexpr double kCreepFactor = 5.0;  // a stop with a larger wander, in tolerances, creeps
 constexpr std::size_t kRowsForPeriod = 33;
 constexpr std::size_t kMinScansPerSlot = 4;
-constexpr std::int64_t kHolePeriods = 5;          // longer than a slot
-constexpr std::int64_t kUnseen_ns = 500'000'000;  // in which an axis may have turned
-constexpr double kMostCreep_m = 50e-6;            // of a stop that is kept
+constexpr std::int64_t kHolePeriods = 5;          // must also be longer than a slot
+constexpr std::int64_t kUnseen_ns = 500'000'000;  // in which an axis may have reversed
+constexpr double kMostCreep_m = 50e-6;            // of a stop that becomes a point
 constexpr std::size_t kPathLength = 64;
-constexpr std::size_t kDropRows = 4096;  // rows no longer needed before the buffer is moved up
+constexpr std::size_t kDropRows = 4096;  // unused rows before the buffer is moved up
 
 double median3(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -72,7 +72,7 @@ void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
   push_from(frames, from, out);
 }
 
-// The first rows that have a position; gives where the others begin.
+// Collects the first rows that have a position; returns where the others begin.
 std::size_t DwellDetector::gather_early(const FrameBlock& frames) {
   std::size_t from = 0;
   while (from < frames.size() && early_.size() < kRowsForPeriod) {
@@ -85,7 +85,7 @@ std::size_t DwellDetector::gather_early(const FrameBlock& frames) {
   return from;
 }
 
-// The first row alone may be wrong, most of them are not.
+// Starts at the median of the first rows, because the first row alone may be wrong.
 void DwellDetector::start(std::vector<Point>& out) {
   const FrameBlock early = std::exchange(early_, empty_frames(probe_ids_.size()));
   const double middle_m = median_of(early.encoder_m);
@@ -246,8 +246,8 @@ void DwellDetector::begin_dwell() {
   truncated_ = false;
   still_since_ns_ = slots_.front().begin_ns;
   unplaced_before_ = slots_.front().unplaced;
-  // A knock or a glitch of the encoder in the midst of a stop is no approach. The slots of a slow
-  // log are so long that the axis can go beyond an end target and come back meanwhile.
+  // A knock or a glitch of the encoder within a stop is no new approach. In a slow log the slots
+  // are so long that the axis can move past an end target and return within them.
   const bool is_slow = slot_ns_ > static_cast<std::int64_t>(options_.window_s * 1e9) /
                                       static_cast<std::int64_t>(kSlotsPerWindow);
   const bool went_off = is_slow && (left_m_ - since_left_.min_m > options_.approach_m ||
@@ -262,7 +262,7 @@ void DwellDetector::begin_dwell() {
   cut_row_ = slots_.front().first_row + options_.max_scans;
 }
 
-// The newest slot has left the window; the one before it may hold the start of the motion.
+// The newest slot is outside the window; the slot before it may contain the start of the motion.
 void DwellDetector::end_dwell(std::vector<Point>& out) {
   dwelling_ = false;
   gave_point_ = false;
@@ -293,7 +293,7 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
   remember_way(slots_[slots_.size() - 2]);
 }
 
-// Of the stop that `last` may have left: the row from which on readings may be made of the way on.
+// The first row of a stop whose reading may contain the next motion; `last` may contain its start.
 std::size_t DwellDetector::end_of_rest(const Slot& last) const {
   if (!(options_.leave_s > 0)) return last.first_row;
   const auto until_ns = last.begin_ns - std::llround(options_.leave_s * 1e9);
@@ -301,8 +301,8 @@ std::size_t DwellDetector::end_of_rest(const Slot& last) const {
   return static_cast<std::size_t>(end - buffer_.time_ns.begin());
 }
 
-// A stop that creeps a little has readings that belong to its mean position; one that creeps far is
-// a slow travel.
+// Readings of a stop that creeps a little belong to its mean position. A stop that creeps far is a
+// slow travel.
 bool DwellDetector::keep_or_report(Point point, std::size_t first_row, std::size_t end_row,
                                    std::vector<Point>& out) {
   const auto begin = buffer_.encoder_m.begin() + static_cast<std::ptrdiff_t>(first_row);
@@ -332,7 +332,7 @@ void DwellDetector::drop_rows(std::size_t row) {
   row_ -= row;
 }
 
-// The dwell goes on, what is averaged of it does not: its closed slots beyond the cut are not kept.
+// The dwell continues, but its averaging has ended: closed slots after the cut are not kept.
 void DwellDetector::drop_cut_rows() {
   const std::size_t end = slot_open_ ? open_.first_row : row_;
   erase_rows(buffer_, cut_row_, end);
@@ -345,8 +345,8 @@ void DwellDetector::break_after(std::int64_t time_ns) {
   breaks_.push_back(time_ns);
 }
 
-// The axis was not seen for a while: it is reported, and after a longer while the approach is not
-// known either.
+// The axis was not observed for some time. This is reported, and after a longer time the approach
+// is unknown, too.
 void DwellDetector::pass_hole() {
   const std::int64_t length_ns = buffer_.time_ns[row_] - last_ns_;
   const double before_m = encoder_before_[1];
@@ -373,7 +373,7 @@ void DwellDetector::flush(std::vector<Point>& out) {
   end_of_visible_rows(out);
 }
 
-// The axis may still stand: an empty slot stands for the one that leaves the window.
+// The axis may still be at rest. Empty slots replace those that would leave the window.
 void DwellDetector::end_of_visible_rows(std::vector<Point>& out) {
   if (slot_open_) close_slot(out);
   if (!dwelling_) return;

@@ -1,4 +1,4 @@
-// Frames -> Points: finds where the axis stands still and averages there.
+// Finds the stops of the axis in frames and averages each of them to a point.
 #pragma once
 
 #include <array>
@@ -23,46 +23,49 @@
 
 namespace mdof::algo {
 
-// Defaults need no tuning on logs of stages that settle within a tenth of a second.
+// The defaults suit logs of stages that settle within a tenth of a second.
 struct DwellOptions {
-  // The axis stands still while the encoder stays within this over `window_s`. 0: 2 µm, or six
-  // times the encoder's own noise (its sd) where that is more.
+  // The axis is at rest while the encoder stays within this over `window_s`. 0: 2 µm, or six times
+  // the encoder's own noise (its sd) if this is more.
   double tolerance_m = 0;
   double window_s = 0.05;
-  double settle_s = 0.1;       // left out at the start of each stop
-  double leave_s = 0;          // and at its end: readings that a filter has made from the way on
-  double min_length_s = 0.1;   // to be averaged; a shorter stop (a reversal) is no dwell
-  double approach_m = 50e-6;   // travel from which a direction of approach counts
-  double max_speed_m_s = 100;  // of the axis: a position that it cannot reach is left out
-  std::size_t max_scans = std::size_t{1} << 19;  // averaged of one dwell; bounds memory
+  double settle_s = 0.1;  // left out at the start of each stop
+  // Left out at the end of each stop: readings of a filter that contain the next motion.
+  double leave_s = 0;
+  // Shortest averaged time; a shorter stop (a reversal) is no dwell.
+  double min_length_s = 0.1;
+  double approach_m = 50e-6;   // travel that determines the direction of approach
+  double max_speed_m_s = 100;  // of the axis; positions that it cannot reach are left out
+  std::size_t max_scans = std::size_t{1} << 19;  // averaged per dwell; bounds memory
 
-  double shortest_s() const { return settle_s + min_length_s + leave_s; }  // of a stop
+  // Shortest stop that becomes a dwell.
+  double shortest_s() const { return settle_s + min_length_s + leave_s; }
   std::string json() const;  // for the provenance of a result
 };
 
-// Streaming and deterministic: the same frames give the same points however they are cut into
-// blocks. Thread-bound. Memory is bounded by max_scans.
+// A deterministic stream: the points do not depend on how the frames are divided into blocks.
+// Thread-bound. Memory is bounded by max_scans.
 class DwellDetector {
  public:
   // `probe_ids` and `probe_range_m` in the order of the frames' probes.
   DwellDetector(DwellOptions options, std::vector<std::string> probe_ids,
                 std::vector<double> probe_range_m);
 
-  // Appends the points that became complete. The encoder's single-sample spikes are voted out by a
-  // median of three. A frame without a place (place_watch.h) is counted and left out; many in a row
-  // are a hole in the time line.
+  // Appends the points that became complete. A median of three removes spikes of one sample from
+  // the encoder. Frames without a place (place_watch.h) are counted and left out; many in a row are
+  // a gap.
   void push(const FrameBlock& frames, std::vector<Point>& out);
-  // Frames after this time are not yet pushed. From there to the next frame nobody saw the axis: a
-  // dwell ends here, and what approach the next one has is not known.
+  // Frames after this time are not yet pushed. Between this time and the next frame the axis was
+  // not observed: a dwell ends here, and the approach of the next one is unknown.
   void break_after(std::int64_t time_ns);
-  // End of the data: the dwell under way is complete as well.
+  // Ends the data; the current dwell is complete.
   void flush(std::vector<Point>& out);
 
-  // What only the log as far as it is known shows of the points found in it: those of a probe that
-  // froze or stepped are marked, and a reading that never changed in a stop before the step of its
-  // probe's readings was known gets the uncertainty of the rounding.
+  // Adds what only the whole log so far shows. Points of a probe that froze or stepped are marked.
+  // A constant reading of a stop that was averaged before the resolution of its probe was known
+  // gets the uncertainty of the rounding.
   void mark(std::vector<Point>& points) const;
-  // What the user has to know of the log beside the points: one sentence each.
+  // Notices about the log in addition to the points.
   Notices notices(const std::vector<Point>& points) const;
   const std::vector<DwellEvent>& events() const { return events_; }
 
@@ -70,15 +73,16 @@ class DwellDetector {
     std::uint64_t scans = 0;
     double encoder_min_m = 0, encoder_max_m = 0;
     double period_s = 0;         // median of the first intervals
-    std::uint64_t gaps = 0;      // intervals over three periods
+    std::uint64_t gaps = 0;      // intervals longer than three periods
     std::uint64_t unplaced = 0;  // frames without a place (place_watch.h), not in `scans`
-    double longest_still_s = 0;  // to explain why nothing was found
-    double tolerance_m = 0;      // valid at the end
-    // Stops that gave no point: too short, or creeping. The first kMaxPassedOver of them.
+    double longest_still_s = 0;  // to explain why no stop was found
+    double tolerance_m = 0;      // at the end
+    // Stops that gave no point because they are too short or creep; the first kMaxPassedOver of
+    // them.
     struct PassedOver {
       double position_m = 0, length_s = 0;
       std::int64_t begin_ns = 0;
-      bool too_short = false;  // else it crept
+      bool too_short = false;  // false: it crept
     };
     std::vector<PassedOver> passed_over;
   };
@@ -87,17 +91,17 @@ class DwellDetector {
   bool still() const { return dwelling_; }
 
  private:
-  static constexpr std::size_t kMinScans = 5;  // of a dwell, and of a probe in it
+  static constexpr std::size_t kMinScans = 5;  // per dwell, and per probe in it
   static constexpr int kGapPeriods = 3;
 
-  // A quarter of the window: the grain of detection.
+  // A quarter of the window, the time step of detection.
   struct Slot {
     std::int64_t index = 0;
     std::size_t first_row = 0, rows = 0;  // in buffer_
     std::int64_t begin_ns = 0;
     double min_m = 0, max_m = 0;
-    double bend_m = 0;           // sum of |second differences|: noise, whatever the speed
-    double sharp_m = 0;          // the largest of them
+    double bend_m = 0;           // sum of |second differences|: noise at any speed
+    double sharp_m = 0;          // largest of them
     std::uint64_t unplaced = 0;  // frames without a place before it, since the beginning
     double middle() const { return 0.5 * (min_m + max_m); }
   };
@@ -118,7 +122,7 @@ class DwellDetector {
   void look_at_window(bool still);
   void look_for_jump();
   void note(const DwellEvent& event);
-  // Whether it has become a point.
+  // Returns whether the stop has become a point.
   bool keep_or_report(Point point, std::size_t first_row, std::size_t end_row,
                       std::vector<Point>& out);
   void remember_path(double position_m);
@@ -133,7 +137,7 @@ class DwellDetector {
   std::span<const double> own_readings(std::size_t probe, std::size_t from, std::size_t to,
                                        std::size_t& usable_rows, OverRange& over_range);
   void average_probe(std::size_t probe, std::size_t from, std::size_t to, Point& point);
-  void drop_rows_before(std::size_t row);  // when it is worth moving the rest up
+  void drop_rows_before(std::size_t row);  // only if the move of the remaining rows is worth it
   void drop_rows(std::size_t row);
   void drop_cut_rows();
 
@@ -147,37 +151,39 @@ class DwellDetector {
   FrameBlock early_;  // until the period is known
   std::int64_t period_ns_ = 0, slot_ns_ = 0, hole_ns_ = 0, origin_ns_ = 0, last_ns_ = 0;
   std::array<double, 2> encoder_before_{};  // for the median of three
-  FrameBlock buffer_;                       // rows of the slots below and of the dwell under way
+  FrameBlock buffer_;                       // rows of the slots below and of the current dwell
   std::deque<Slot> slots_;                  // the last window, newest at the back
-  std::size_t row_ = 0;                     // of buffer_: the next that belongs to no slot yet
+  std::size_t row_ = 0;                     // first row of buffer_ that belongs to no slot yet
   Slot open_;
   bool slot_open_ = false;
   NoiseFloor encoder_noise_;
-  std::deque<double> path_;          // positions at least approach_m apart, newest at the back
-  std::deque<std::int64_t> breaks_;  // not yet passed
+  std::deque<double> path_;          // positions at least approach_m apart, newest last
+  std::deque<std::int64_t> breaks_;  // breaks that are not reached yet
 
   bool dwelling_ = false, truncated_ = false;
   std::int64_t still_since_ns_ = 0;
-  std::uint64_t unplaced_before_ = 0;  // frames without a place before the dwell under way
-  std::size_t cut_row_ = 0;            // of the dwell under way: what comes after is not averaged
-  std::int64_t left_ns_ = 0;           // when and where the last stop ended; 0: none yet
+  std::uint64_t unplaced_before_ = 0;  // frames without a place before the current dwell
+  std::size_t cut_row_ = 0;            // of the current dwell: rows after it are not averaged
+  std::int64_t left_ns_ = 0;           // time and position of the end of the last stop; 0: none
   double left_m_ = 0;
   struct Way {
     double min_m = 0, max_m = 0;
   };
-  bool way_seen_ = true;     // from the point before, or the beginning, to now
-  Way way_, way_in_;         // since then; until the last stop began
+  // Whether the axis was observed since the point before, or since the beginning.
+  bool way_seen_ = true;
+  // Since then; and up to the begin of the last stop.
+  Way way_, way_in_;
   Way since_left_;           // since the axis left the last stop
-  bool gave_point_ = false;  // the last stop
-  int direction_ = 0;        // of approach, taken before the axis leaves again
+  bool gave_point_ = false;  // for the last stop
+  int direction_ = 0;        // of approach, determined before the axis leaves again
   std::vector<double> scratch_, finite_;
 
   std::vector<DwellEvent> events_;
   ProbeWatch watch_;
   SlowStretch slow_;
   EncoderJump last_jump_;
-  double jumped_m_ = 0;              // the sum of the encoder's jumps
-  std::int64_t jumps_until_ns_ = 0;  // looked for up to here
+  double jumped_m_ = 0;              // sum of the encoder's jumps
+  std::int64_t jumps_until_ns_ = 0;  // jumps were searched up to this time
 };
 
 }  // namespace mdof::algo

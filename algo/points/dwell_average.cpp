@@ -1,4 +1,4 @@
-// What is averaged of a dwell: position and probes.
+// Averages a dwell: position and probes.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kCoarseSteps = 3.5;  // no spike: a reading that flickers between its steps
+constexpr double kCoarseSteps = 3.5;  // steps; smaller changes are flicker, not spikes
 
 bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); });
@@ -43,8 +43,8 @@ Point DwellDetector::average(std::size_t from, std::size_t to) {
   return point;
 }
 
-// The readings of a probe that can be used, each of its own samples once. Where nothing is marked,
-// every value that is a number is one.
+// The usable readings of a probe, each of its own samples once. Without marks every finite value is
+// usable.
 std::span<const double> DwellDetector::own_readings(std::size_t probe, std::size_t from,
                                                     std::size_t to, std::size_t& usable_rows,
                                                     OverRange& over_range) {

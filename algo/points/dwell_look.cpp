@@ -1,4 +1,5 @@
-// What the dwell detection sees beside the stops: creeping, jumps, probes that froze or stepped.
+// Events that the dwell detection finds besides the stops: creeping, jumps, probes that froze or
+// stepped.
 #include <algorithm>
 #include <cmath>
 
@@ -9,9 +10,9 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kJumpTolerances = 10;
-constexpr std::size_t kReach = 6;  // rows that find_jump() wants on either side
+constexpr std::size_t kReach = 6;  // rows that find_jump() needs on either side
 constexpr std::int64_t kGlitch_ns = 1'000'000'000;
-constexpr double kSlowTravel_m = 200e-6;  // from here on no creeping stop
+constexpr double kSlowTravel_m = 200e-6;  // a longer travel is no creeping stop
 constexpr std::size_t kMostEvents = 10'000;
 
 }  // namespace
@@ -20,7 +21,7 @@ void DwellDetector::note(const DwellEvent& event) {
   if (events_.size() < kMostEvents) events_.push_back(event);
 }
 
-// The window ends with the slot that was just closed.
+// Examines the window that ends with the slot just closed.
 void DwellDetector::look_at_window(bool still) {
   const Slot& newest = slots_.back();
   resolution_.add(buffer_, newest.first_row, newest.first_row + newest.rows);
@@ -35,13 +36,13 @@ void DwellDetector::look_at_window(bool still) {
   for (std::size_t k = 0; k + 1 < slots_.size(); ++k)
     if (slots_[k].first_row + slots_[k].rows != slots_[k + 1].first_row)
       return;  // rows were dropped
-  if (buffer_.time_ns[end - 1] - slots_.front().begin_ns > 8 * slot_ns_) return;  // a hole
+  if (buffer_.time_ns[end - 1] - slots_.front().begin_ns > 8 * slot_ns_) return;  // a gap
   watch_.look_for_steps(
       {buffer_, slots_[0].first_row, slots_[1].first_row, slots_[2].first_row, end});
   look_for_jump();
 }
 
-// A count that comes back within a second is a glitch: the positions after it are right.
+// A count that returns within a second is a glitch: the positions after it are correct.
 void DwellDetector::look_for_jump() {
   const std::size_t begin = slots_.front().first_row;
   const std::size_t rows = slots_.back().first_row + slots_.back().rows - begin;

@@ -3,7 +3,7 @@
 namespace mdof::algo {
 namespace {
 
-// Marks of rows `first` to `last` behind `before` of them; an empty column stands for `none`.
+// Appends the marks of rows `first` to `last` to `before` marks; an empty column means all `none`.
 template <class Column>
 void append_marks(Column& to, const Column* from, std::size_t before, std::size_t first,
                   std::size_t last, typename Column::value_type none) {

@@ -8,7 +8,7 @@
 namespace mdof::algo {
 
 FrameBlock empty_frames(std::size_t probes);
-// Rows `first` to `last` - 1 of `from`, behind those of `to`.
+// Appends rows `first` to `last` - 1 of `from` to `to`.
 void append_rows(FrameBlock& to, const FrameBlock& from, std::size_t first, std::size_t last);
 void erase_rows(FrameBlock& frames, std::size_t first, std::size_t last);
 

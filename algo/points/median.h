@@ -4,7 +4,7 @@
 
 namespace mdof::algo {
 
-// The upper median of an even number; NaN of none. None of the values may be NaN.
+// The upper median if the number is even; NaN of an empty vector. No value may be NaN.
 double median_of(std::vector<double> values);
 
 }  // namespace mdof::algo

@@ -10,16 +10,16 @@
 namespace mdof::algo {
 namespace {
 
-// Of a hundred normal readings the median absolute deviation is up to a third too small: a limit of
-// six threw a good reading out once in some hundred dwells.
+// For a hundred normally distributed readings the median absolute deviation is up to a third too
+// small. A limit of six rejected a good reading once in some hundred dwells.
 constexpr double kReject = 8.0;
 constexpr double kMadToSd = 1.4826;
 constexpr double kFlickerSteps = 3.5;
-// Median and deviation of a long dwell are taken from at most this many readings, evenly spread.
+// For a long dwell, median and deviation are from at most this many readings, evenly spread.
 constexpr std::size_t kSubsample = 512;
 
-// Puts the values for which `first` holds before the others; gives their end. Without branches, as
-// no processor can guess how noise compares.
+// Moves the values for which `first` holds before the others and returns their end. It has no
+// branches, because a processor cannot predict comparisons of noise.
 template <class First>
 double* partition(double* begin, double* end, First first) {
   double* store = begin;
@@ -32,9 +32,9 @@ double* partition(double* begin, double* end, First first) {
   return store;
 }
 
-// Element n/2 of the n values in order. Quickselect: on noise several times faster than
-// std::nth_element, and at most kSubsample values at a time, so that no order of them hurts. It
-// ends with a NaN among them too, since each turn takes at least the pivot out.
+// Element n/2 of the sorted values. Quickselect is several times faster on noise than
+// std::nth_element; with at most kSubsample values its worst case takes little time. It also ends
+// if a value is NaN, because each turn removes at least the pivot.
 double median(std::vector<double>& values) {
   double *begin = values.data(), *end = begin + values.size();
   double* const middle = begin + values.size() / 2;
@@ -51,8 +51,9 @@ double median(std::vector<double>& values) {
   }
 }
 
-// Deviations of rounded readings come in steps, and so does their median, up to half a step too
-// small: halfway to the next larger one. Of readings that are not rounded it is the same.
+// Deviations of rounded readings have steps, so their median is up to half a step too small.
+// Returns the middle between it and the next larger step. For readings without rounding the change
+// is negligible.
 double between_steps(const std::vector<double>& deviations, double middle) {
   if (middle == 0) return 0;
   double next = std::numeric_limits<double>::infinity();
@@ -61,8 +62,8 @@ double between_steps(const std::vector<double>& deviations, double middle) {
   return std::isfinite(next) ? 0.5 * (middle + next) : middle;
 }
 
-// Where most readings are the same: how far others may lie from it. Several at the same distance
-// are the next step of a rounded reading, whatever `coarse` says.
+// If most readings are the same: the largest allowed distance of the others. Several readings at
+// the same distance are the next step of a rounded reading, whatever `coarse` is.
 double flicker_limit(std::span<const double> readings, double centre, double coarse) {
   double least = std::numeric_limits<double>::infinity();
   for (const double x : readings)
@@ -88,7 +89,7 @@ RobustMean robust_mean(std::span<const double> readings, double coarse,
   const double limit =
       robust_sd > 0 ? kReject * robust_sd : flicker_limit(readings, centre, coarse);
 
-  // From here on small numbers: nothing is lost to the offset.
+  // Deviations are small numbers, so that no digits are lost.
   scratch.resize(readings.size());
   for (const double x : readings) {
     scratch[result.used] = x - centre;

@@ -1,4 +1,4 @@
-// The mean of a dwell's readings that a few spikes do not move.
+// The mean of a dwell's readings that a few spikes do not change.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@ namespace mdof::algo {
 
 struct RobustMean {
   double mean = 0;
-  double sd = 0;  // of single readings that were kept
+  double sd = 0;  // of the kept single readings
   double u = 0;   // standard uncertainty of the mean, see below
   std::size_t used = 0, rejected = 0;
 };
 
-// Readings further than 8 robust standard deviations (1.4826 · median absolute deviation) from the
-// median are left out; where more than half of the readings are the same number, further than
-// `coarse`. Sums have one order on every machine. u: mean_uncertainty(), for readings that are not
-// independent (GUM 4.2.3).
+// Readings are left out if their distance from the median is above 8 robust standard deviations
+// (1.4826 · median absolute deviation) or, if more than half of the readings are the same number,
+// above `coarse`. Sums have the same order on every machine. u is mean_uncertainty() for correlated
+// readings (GUM 4.2.3).
 // `readings` are finite; `scratch` is reused memory.
 RobustMean robust_mean(std::span<const double> readings, double coarse,
                        std::vector<double>& scratch);

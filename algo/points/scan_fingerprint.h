@@ -1,4 +1,4 @@
-// Recognises scans that come twice.
+// Recognises repeated scans.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace mdof::algo {
 
-// A hash of eight consecutive scans, of all probes and the encoder to the last bit: of all such
-// groups in the rows `from` to `to` - 1 the smallest hash (min-wise hashing: Broder, On the
-// resemblance and containment of documents, 1997). So two dwells over nearly the same scans have
-// the same, wherever each begins. 0: fewer than eight rows.
+// The smallest hash of all groups of eight consecutive scans (all probes and the encoder, to the
+// last bit) in the rows `from` to `to` - 1 (min-wise hashing: Broder, On the resemblance and
+// containment of documents, 1997). So two dwells over nearly the same scans have the same
+// fingerprint, even if they begin at different scans. 0: fewer than eight rows.
 std::uint64_t scan_fingerprint(const FrameBlock& frames, std::size_t from, std::size_t to);
 
 }  // namespace mdof::algo

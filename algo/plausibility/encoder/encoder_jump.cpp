@@ -13,14 +13,14 @@ double middle(double a, double b, double c) {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-// In m a scan, of four rows: the middle one of their three steps, so that neither a jump between
-// two of them nor a spike of one counts.
+// Speed in m per scan from four rows: the median of their three steps, so that neither a jump
+// between two of them nor a spike of one counts.
 double speed_from(std::span<const double> x, std::size_t first) {
   return middle(x[first + 1] - x[first], x[first + 2] - x[first + 1], x[first + 3] - x[first + 2]);
 }
 
-// Voted by its neighbours, each brought here at the speed of the axis: a spike of one scan is no
-// jump, and a jump keeps its size whichever way the axis moves.
+// The median of a row and its neighbours, each moved here with the speed of the axis. A spike of
+// one scan is no jump, and a jump keeps its size in both directions of motion.
 double voted(std::span<const double> x, std::size_t i, double speed) {
   return middle(x[i - 1] + speed, x[i], x[i + 1] - speed);
 }
@@ -29,7 +29,7 @@ struct Step {
   double size = 0, speed_change = 0;  // m, m per scan
 };
 
-// The step from i - 1 to i that is left when the axis goes on as before and after.
+// The remaining step from i - 1 to i after subtraction of the motion before and after.
 Step step_at(std::span<const double> x, std::size_t i) {
   const double speed_before = speed_from(x, i - 4), speed_after = speed_from(x, i);
   const double last = voted(x, i - 1, speed_before), next = voted(x, i, speed_after);
@@ -51,11 +51,11 @@ std::optional<EncoderJump> find_jump(std::span<const std::int64_t> time_ns,
     const double size = std::abs(step.size);
     if (!(size > least_m) || 4 * size < kGreatest_m_s2 * period_s * period_s) continue;
     if (size < 3 * std::abs(step.speed_change)) continue;
-    // Where the axis itself moves that fast, the neighbours show the like.
+    // If the axis itself moves this fast, the neighbours have similar steps.
     const double beside = std::max(std::abs(step_at(encoder_m, i - 1).size),
                                    std::abs(step_at(encoder_m, i + 1).size));
     if (size < 4 * beside || (largest && size < std::abs(largest->size_m))) continue;
-    if (time_ns[i + 1] - time_ns[i - 2] > 6 * period_ns) continue;  // a hole
+    if (time_ns[i + 1] - time_ns[i - 2] > 6 * period_ns) continue;  // a gap
     largest = {time_ns[i], encoder_m[i - 1], step.size};
   }
   return largest;

@@ -1,4 +1,4 @@
-// Which frames have a place: the encoder gave one, and the axis can have got there.
+// Which frames have a place: the encoder gave a position that the axis can have reached.
 #pragma once
 
 #include <cstddef>
@@ -11,25 +11,25 @@
 
 namespace mdof::algo {
 
-// A frame without a position (NaN) has no place. Neither has one whose position the axis cannot
-// have reached from the last place at its greatest speed, as after a count that overflowed (2^32
-// counts); those that go on from there have none either, until the position jumps back to where the
-// axis can be, or is ten times nearer to the last place than to the stray one, as after a
-// disturbance.
-// Streaming; the same however the frames are cut.
+// A frame without a position (NaN) has no place. Nor has a frame whose position the axis cannot
+// have reached from the last place at its maximum speed, as after an overflow of the count (2^32
+// counts). The frames after a stray position have no place either, until the position jumps back to
+// where the axis can be, or is ten times nearer to the last place than to the stray position, as
+// after a disturbance.
+// A stream: the result does not depend on how the frames are divided.
 class PlaceWatch {
  public:
   explicit PlaceWatch(double max_speed_m_s) : max_speed_m_s_(max_speed_m_s) {}
 
-  // Where the axis is when the frames begin; before, only NaN is left out.
+  // Position of the axis when the frames begin. Before this call only NaN is left out.
   void begin_at(std::int64_t time_ns, double position_m);
-  // The end of the frames from `from` on that have a place, or have none.
+  // End of the consecutive frames from `from` on that have a place, or that have no place.
   std::size_t end_of_placed(const FrameBlock& frames, std::size_t from);
   std::size_t end_of_unplaced(const FrameBlock& frames, std::size_t from);
 
   bool is_placed(std::int64_t time_ns, double position_m) const;
   std::uint64_t left_out() const { return missing_ + too_fast_; }
-  // One for either kind: how many, since when.
+  // One notice for each kind: how many, and since when.
   Notices notices(std::int64_t start_ns) const;
 
  private:
@@ -42,7 +42,7 @@ class PlaceWatch {
 
   double max_speed_m_s_;
   bool begun_ = false, astray_ = false;
-  Place last_, stray_;  // the last that was placed; the last that was not, while astray_
+  Place last_, stray_;  // last place; last position without place, while astray_
   std::uint64_t missing_ = 0, too_fast_ = 0;
   std::int64_t first_missing_ns_ = 0, first_too_fast_ns_ = 0, astray_since_ns_ = 0;
   double first_jump_m_ = 0, jumped_from_m_ = 0;

@@ -1,4 +1,4 @@
-// A step of one probe's reading that no other probe and not the axis makes.
+// A step of the reading of one probe that neither another probe nor the axis causes.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ struct ProbeStep {
   double size_m = 0;
 };
 
-// The largest step of each probe in rows `first` to `last` - 1, where it is eight times what the
-// probe does in the other rows of `begin` ... `end`, and the reading stays there. Whether it is
-// more than noise and rounding is for the caller, who knows these.
+// The largest step of each probe in rows `first` to `last` - 1 that is eight times the changes of
+// this probe in the other rows of `begin` ... `end`, if the reading stays there. The caller decides
+// whether it is more than noise and rounding, because it knows these.
 std::vector<ProbeStep> find_steps(const FrameBlock& frames, std::size_t begin, std::size_t first,
                                   std::size_t last, std::size_t end);
 

@@ -15,11 +15,11 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kFewestRows = 128, kLongerThanEver = 8, kFewestStops = 3;
-constexpr std::size_t kFewestChanges = 16;  // until its resolution is known
+constexpr std::size_t kFewestChanges = 16;  // needed to know the resolution
 constexpr double kShareOfTravel = 0.8, kLeastTravel_m = 1e-3;
-constexpr double kSteps = 4;          // of resolution: more than rounding makes
-constexpr double kNoise = 12;         // of the noise in the stops
-constexpr double kNoNoise_m = 1e-12;  // what arithmetic leaves of exact numbers
+constexpr double kSteps = 4;          // times the resolution: more than rounding
+constexpr double kNoise = 12;         // times the noise in the stops
+constexpr double kNoNoise_m = 1e-12;  // rounding errors of exact numbers
 constexpr std::size_t kMostSteps = 256;
 
 bool all_usable(const FrameBlock& frames, std::size_t probe, std::size_t first, std::size_t last) {
@@ -97,7 +97,7 @@ bool ProbeWatch::travel_says_frozen(const Probe& probe) const {
          probe.high_m - probe.low_m >= std::max(kSteps * probe.resolution_m, kNoNoise_m);
 }
 
-// The stop in which a probe dies is none of those before.
+// The stop in which a probe dies does not count.
 void ProbeWatch::take_stop(std::size_t probe, const RobustMean& mean, double resolution_m) {
   Probe& p = probes_[probe];
   p.resolution_m = resolution_m;
@@ -142,7 +142,7 @@ bool ProbeWatch::is_dead() const {
   return probes_.size() > 1 && dead + 1 >= static_cast<std::ptrdiff_t>(probes_.size());
 }
 
-// Many small ones are how a probe is, not what happened to it.
+// Many small steps are a property of the probe and are not reported.
 std::vector<SteppedProbe> ProbeWatch::steps() const {
   std::vector<SteppedProbe> all;
   for (const Probe& p : probes_) {

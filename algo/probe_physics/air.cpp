@@ -4,9 +4,11 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kZeroCelsius_K = 273.15, kHPaPerKPa = 10;
-constexpr double kStep = 0.01;  // of a quantity, for its slope; curvature is 1e-2 of it per unit
+// difference of a quantity for its slope; the relative change of the slope is 1e-2 per unit
+constexpr double kStep = 0.01;
 
-// Of water, hPa at t in °C; -50 to 50 °C. A polynomial gives the same bits everywhere.
+// Saturation vapour pressure of water, hPa at t in °C; -50 to 50 °C. A polynomial gives the same
+// bits everywhere.
 double saturation_hPa(double t) {
   return 6.107799961 +
          t * (4.436518521e-1 +

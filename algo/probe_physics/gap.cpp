@@ -24,7 +24,7 @@ double tilt_excess_m(const ProbePhysics& physics, double tilt_square, double gap
   return tilt_area(physics, tilt_square) / gap_m;
 }
 
-// d - a/d = g  =>  d = (g + sqrt(g² + 4 a))/2, the root that is g for a = 0.
+// d - a/d = g  =>  d = (g + sqrt(g² + 4 a))/2, the root that is g if a = 0.
 double gap_of_shown_m(const ProbePhysics& physics, double shown_m, double tilt_square,
                       double permittivity_ratio) {
   const double g = shown_m * permittivity_ratio;

@@ -1,9 +1,10 @@
-// The gap of a capacitance probe and what its amplifier shows of it (algo/README.md derives it).
+// The gap of a capacitance probe and the gap that its amplifier shows (algo/README.md derives it).
 //
-// With the gap d of the electrode's middle, its radius r, the angle θ of the target to it and the
-// permittivity ε of the air, the amplifier, calibrated on a square target in air of ε_cal, shows
+// d is the gap at the middle of the electrode, r its radius, θ the angle of the target to it and ε
+// the permittivity of the air. The amplifier, calibrated on a perpendicular target in air of ε_cal,
+// shows
 //   d_shown = (d - k (r θ)²/(4 d)) ε_cal/ε
-// A tilted target and a denser or damper air both seem nearer. m, rad.
+// A tilted target and air with a higher permittivity reduce the shown gap. m, rad.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,17 +15,17 @@
 
 namespace mdof::algo {
 
-// (θ × the unit vector about which the target is turned) of a probe: its square is sin²θ.
+// θ times the unit vector of the tilt axis of the target at a probe; its square is sin²θ.
 Eigen::Vector3d tilt_of(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC);
 
-// k (r θ)²/(4 d): by how much nearer a tilted target seems.
+// k (r θ)²/(4 d): decrease of the shown gap of a tilted target.
 double tilt_excess_m(const ProbePhysics& physics, double tilt_square, double gap_m);
 
-// d of what is shown; `permittivity_ratio` = ε/ε_cal. The inverse of the formula above.
+// The gap d of a shown gap; `permittivity_ratio` = ε/ε_cal. The inverse of the formula above.
 double gap_of_shown_m(const ProbePhysics& physics, double shown_m, double tilt_square,
                       double permittivity_ratio);
 
-// The electrode's edge meets the target, or the gap is closed.
+// Whether the edge of the electrode touches the target, or the gap is closed.
 bool touches(const ProbePhysics& physics, double tilt_square, double gap_m);
 
 }  // namespace mdof::algo

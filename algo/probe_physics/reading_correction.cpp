@@ -13,7 +13,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr int kMostRounds = 50;  // a large tilt near the target takes 10
+constexpr int kMostRounds = 50;  // a large tilt near the target takes 10 rounds
 constexpr double kDone_m = 1e-12;
 
 std::string closed_text(const std::string& probe, const ProbePhysics& physics, double gap_m,
@@ -49,7 +49,7 @@ bool ReadingCorrection::correct_probe(std::size_t k, double shown_m, double tilt
                                       double ratio, CorrectedReadings& out) const {
   const double shown_gap_m = zero_shown_m_[k] - shown_m;
   const double gap_m = gap_of_shown_m(physics_[k], shown_gap_m, tilt_square, ratio);
-  // The formula's own gap grows with k θ and would never be too small.
+  // Check with the shown gap: the gap of the formula increases with k θ and is never too small.
   if (touches(physics_[k], tilt_square, shown_gap_m)) {
     out.closed = k;
     out.why_not = closed_text(ids_[k], physics_[k], shown_gap_m, tilt_square);

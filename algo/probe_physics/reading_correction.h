@@ -1,11 +1,11 @@
-// Readings of the probes at one place of the axis -> what they would be without the tilt of the
-// target and without what the air differs from that of the calibration.
+// Corrects the readings of the probes at one position of the axis for the tilt of the target and
+// for the difference of the air from that of the calibration.
 //
-// The tilt of the target against each probe is that of the solved errors, so that it is found in
-// rounds: solve, correct, solve again, until no reading changes by more than 1 pm. A probe's zero
-// is taken at the nominal place of the target, with whatever tilt the rig gives it there: only
-// what changes from there is corrected. How a probe really stands in its clamp is not known
-// (u_direction_mrad says how well).
+// The tilt of the target at each probe is from the solved errors, so it is found by iteration:
+// solve, correct, solve again, until no reading changes by more than 1 pm. The zero of a probe is
+// at the nominal position of the target with the tilt that the rig states there, so only changes
+// from there are corrected. The true angle of a probe in its clamp is unknown (u_direction_mrad is
+// its uncertainty).
 #pragma once
 
 #include <string>
@@ -23,23 +23,23 @@ struct WhichCorrections {
 };
 
 struct CorrectedReadings {
-  std::vector<double> readings_m;  // in the order of the rig; NaN: lost, or why_not says so
-  // What was added to each; 0 for a lost probe.
+  std::vector<double> readings_m;  // in the order of the rig; NaN: lost, or see why_not
+  // Correction added to each reading; 0 for a lost probe.
   std::vector<double> tilt_m, dielectric_m;
   int rounds = 0;
-  // Why a reading cannot be corrected; empty: all are. `closed`: the probe whose gap is.
+  // Why a reading cannot be corrected; empty: all are corrected. `closed`: probe with a closed gap.
   std::string why_not;
   std::optional<std::size_t> closed;
 };
 
 class ReadingCorrection {
  public:
-  // `rig.physics` is there and declares what these corrections need. `solver` is of the rig, and
-  // lives as long.
+  // `rig.physics` is set and declares what these corrections need. `solver` is made from the rig
+  // and must outlive this object.
   ReadingCorrection(const Rig& rig, const Solver& solver, WhichCorrections which);
 
-  // Readings as Solver::solve() takes them. Of readings that see no errors (probes are lost) the
-  // tilt is not known: they are corrected for the air alone. `air`: of that time; not looked at
+  // Readings as in Solver::solve(). If probes are lost so that the errors cannot be solved, the
+  // tilt is unknown and only the air is corrected. `air`: at the time of the readings; ignored
   // without the dielectric correction.
   CorrectedReadings correct(double travel_m, const std::vector<double>& readings_m,
                             const std::vector<double>& u_m, const Air& air) const;
@@ -53,7 +53,7 @@ class ReadingCorrection {
   const Solver* solver_;
   std::vector<ProbePhysics> physics_;
   std::vector<std::string> ids_;
-  std::vector<double> zero_shown_m_;  // the gap that is shown at displacement 0
+  std::vector<double> zero_shown_m_;  // shown gap at displacement 0
   double permittivity_at_calibration_ = 1;
   WhichCorrections which_;
 };

@@ -1,4 +1,4 @@
-// Numbers for people, shortly.
+// Short texts of numbers.
 #pragma once
 
 #include <string>
@@ -6,9 +6,9 @@
 
 namespace mdof::algo {
 
-// "1 to 5, 7, 8" of ascending numbers.
+// "1 to 5, 7, 8"; the numbers are ascending.
 std::string ranges_text(const std::vector<int>& ascending);
-// "target 7", "targets 1 to 5, 7": `what` and at least one number.
+// "target 7", "targets 1 to 5, 7"; with `what` and at least one number.
 std::string numbered(const char* what, const std::vector<int>& ascending);
 
 }  // namespace mdof::algo

@@ -1,4 +1,4 @@
-// The drift of each run against the others as a linear function of the errors of their visits.
+// The drift of each run relative to the others, as a linear function of the errors of their visits.
 #pragma once
 
 #include <cstddef>
@@ -10,24 +10,25 @@
 
 namespace mdof::algo {
 
-// Of the least-squares fit error = of the visit (a target from one side) + of the run. Its matrix
-// is made of which visits there are, once for any number of errors.
+// Solves the least-squares fit error = effect of the visit (a target from one side) + effect of the
+// run. Its matrix depends only on which visits exist, so it is prepared once for any number of
+// errors.
 class RunDrifts {
  public:
-  // At least one point.
+  // Requires at least one point.
   explicit RunDrifts(const std::vector<MeasuredPoint>& points);
 
-  // `errors`: of each point, in any frame and unit. By number of the run, ascending; those of runs
-  // that visits link sum to 0.
+  // `errors`: of each point, in any frame and unit. Returns the drift of each run, in ascending
+  // order of the run numbers. The drifts of runs that are linked by visits sum to 0.
   std::vector<Errors5> of(const std::vector<Errors5>& errors) const;
-  // The number of each point's run.
+  // The index of each point's run.
   const std::vector<std::size_t>& run_of_points() const { return run_of_; }
 
  private:
   struct Entry {
     std::size_t effect, point;
   };
-  using Entries = std::vector<Entry>;  // those that share an effect of the other kind
+  using Entries = std::vector<Entry>;  // entries that share an effect of the other kind
 
   void decompose(const std::vector<Entries>& shared, std::size_t effects);
   Eigen::MatrixXd effects(const std::vector<Entries>& shared,
@@ -35,7 +36,7 @@ class RunDrifts {
   void group_linked_runs(std::size_t visits);
 
   std::vector<std::size_t> run_of_;
-  std::vector<Entries> of_run_, of_visit_;  // their effects are visits, runs
+  std::vector<Entries> of_run_, of_visit_;  // their effects are visits and runs
   std::vector<std::vector<std::size_t>> linked_runs_;
   bool runs_are_fewer_ = true;
   std::optional<LeastNorm> fit_;

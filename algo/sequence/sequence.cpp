@@ -24,7 +24,7 @@ void append(std::vector<StopLeftOut>& to, std::vector<StopLeftOut> more) {
   std::move(more.begin(), more.end(), std::back_inserter(to));
 }
 
-// Where a log begins with the axis at rest off its targets, nobody meant that stop.
+// A log that begins with the axis at rest off its targets has an unintended first stop.
 NoticeCode reason_off_targets(const std::vector<Point>& points, const Point& stop) {
   const bool parked = &stop == &points.front() && stop.direction == 0;
   return parked ? NoticeCode::stop_parked_at_start : NoticeCode::stop_near_no_target;
@@ -61,7 +61,7 @@ void number_runs(Sequence& sequence) {
   }
 }
 
-// One notice a reason, with the first few positions.
+// One notice for each reason, with the first few positions.
 void note_left_out(Sequence& sequence) {
   std::vector<std::string> reasons;
   for (const auto& stop : sequence.left_out) {

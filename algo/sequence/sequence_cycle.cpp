@@ -8,9 +8,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMostOutOfOrder = 0.15;  // of the visits, in a cycle that still has its name
-constexpr double kAlwaysForgiven = 3;     // one target repeated, in a run of any length
-constexpr double kLeastAtOnce = 1.5;      // visits without leaving a target, of a pilgrim cycle
+constexpr double kMostOutOfOrder = 0.15;  // largest share of visits out of order in a cycle
+constexpr double kAlwaysForgiven = 3;     // one repeated target, in a run of any length
+// mean visits at a target without leaving it, in a pilgrim cycle
+constexpr double kLeastAtOnce = 1.5;
 
 using RunNumbers = std::vector<int>;
 
@@ -28,7 +29,8 @@ RunNumbers runs_by_visits(const std::vector<Visit>& visits) {
   return runs;
 }
 
-// Visits that do not go on in the direction of their pass, or that another pass interrupts.
+// Number of visits that do not continue in the direction of their pass, or that another pass
+// interrupts.
 int out_of_order(const std::vector<Visit>& visits, const RunNumbers& runs) {
   std::map<std::pair<int, int>, int> last;  // target of each pass, by direction and run
   int count = 0;
@@ -36,21 +38,21 @@ int out_of_order(const std::vector<Visit>& visits, const RunNumbers& runs) {
     const Visit& v = visits[i];
     const auto [pass, first] = last.try_emplace({v.direction, runs[i]}, v.target);
     const bool onward = (v.target - pass->second) * v.direction > 0;
-    // The numbers of the passes of one direction ascend: one before is of the same pass.
+    // Passes of one direction have ascending numbers, so the visit before is of the same pass.
     count += !first && !(onward && visits[i - 1].direction == v.direction);
     pass->second = v.target;
   }
   return count;
 }
 
-// A pass goes over the targets: it has at least half of them, in the mean.
+// Whether a pass has on average at least half of the targets.
 bool go_over_the_targets(const std::vector<Visit>& visits, const RunNumbers& runs, int targets) {
   std::set<std::pair<int, int>> passes;
   for (std::size_t i = 0; i < visits.size(); ++i) passes.insert({visits[i].direction, runs[i]});
   return 2 * visits.size() >= passes.size() * static_cast<std::size_t>(targets);
 }
 
-// Stretches of visits to one target.
+// Number of groups of consecutive visits to one target.
 int blocks(const std::vector<Visit>& visits) {
   int n = 0;
   for (std::size_t i = 0; i < visits.size(); ++i)
@@ -62,7 +64,7 @@ bool few(int n, std::size_t of) {
   return n <= kMostOutOfOrder * static_cast<double>(of);
 }
 
-// From block to block the axis goes one way.
+// Whether the axis moves in one direction from group to group.
 bool goes_along(const std::vector<Visit>& visits) {
   int up = 0, down = 0;
   for (std::size_t i = 1; i < visits.size(); ++i) {
@@ -78,7 +80,7 @@ bool is_pilgrim(const std::vector<Visit>& visits, int targets) {
          static_cast<double>(visits.size()) >= kLeastAtOnce * n;
 }
 
-// Where the axis turned round at an end, has the end target a visit from either side?
+// Whether the end target has a visit from either side at the reversals of the axis.
 Cycle by_turns(const std::vector<Visit>& visits, int targets) {
   int beyond = 0, at_target = 0;
   for (std::size_t i = 1; i < visits.size(); ++i) {
@@ -90,14 +92,14 @@ Cycle by_turns(const std::vector<Visit>& visits, int targets) {
   return at_target > beyond ? Cycle::pendulum : Cycle::standard;
 }
 
-// Every target is visited about as often from either side as the others.
+// Whether every target is visited about equally often from both sides.
 bool is_balanced(const std::vector<Visit>& visits, const RunNumbers& runs, int targets) {
   if (visits.empty()) return false;
   const int most = *std::max_element(runs.begin(), runs.end());
   return few(2 * targets * most - static_cast<int>(visits.size()), visits.size());
 }
 
-// The axis turns at targets, or within a few of them, all along its way.
+// Whether the axis reverses at targets, or within a few of them, all along the travel.
 bool turns_often(const std::vector<Visit>& visits, int targets) {
   std::map<int, std::pair<std::size_t, std::size_t>> seen;  // first and last visit of each target
   for (std::size_t i = 0; i < visits.size(); ++i) {
@@ -151,7 +153,7 @@ void Passes::follow(int target) {
 }
 
 void Passes::turn(int heading, int target) {
-  // The first pass may have been short; a single stop before it turned is none.
+  // The first pass may have been short; a single stop before the reversal is no pass.
   if (heading_ == 0 && heading < 0 && forward_before_ > 1) forward_ = 1;
   if (heading_ == 0 && heading > 0 && reverse_before_ > 1) reverse_ = 1;
   heading_ = heading;

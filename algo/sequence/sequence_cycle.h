@@ -1,4 +1,4 @@
-// The order in which an axis goes to its targets (ISO 230-2, VDI/DGQ 3441), and the run of each
+// The order in which an axis moves to its targets (ISO 230-2, VDI/DGQ 3441), and the run of each
 // visit.
 #pragma once
 
@@ -8,10 +8,11 @@
 namespace mdof::algo {
 
 enum class Cycle {
-  standard,       // over all targets and back, beyond the end targets; or one way only
-  pendulum,       // over all targets and back, turning at the end targets
-  pilgrim,        // a target's visits one after the other, then the next target (step cycle)
-  quasi_pilgrim,  // back and forth over a few targets, or at each of them, all the way along
+  standard,  // over all targets and back, past the end targets; or in one direction only
+  pendulum,  // over all targets and back, with reversals at the end targets
+  pilgrim,   // all visits of a target one after the other, then the next target (step cycle)
+  // Back and forth over a few targets, or at each of them, all along the travel.
+  quasi_pilgrim,
   none,
 };
 const char* to_string(Cycle cycle);
@@ -23,32 +24,33 @@ struct Visit {
 
 struct CycleFound {
   Cycle cycle = Cycle::none;
-  bool by_passes = false;  // a run is a pass over the targets; else a target's k-th visit is run k
-  std::vector<int> run;    // 1, 2, ... of each visit
+  // a run is a pass over the targets; otherwise a target's k-th visit is run k
+  bool by_passes = false;
+  std::vector<int> run;  // of each visit: 1, 2, ...
 };
 
-// Passes, by the turning points of the way over the targets: see recognise_cycle() for what counts
-// as one. Visit by visit.
+// Counts passes visit by visit from the reversals of the path over the targets; recognise_cycle()
+// says what a pass is.
 class Passes {
  public:
   explicit Passes(int targets) : turn_(targets > 3 ? targets / 2 : 1) {}
-  int next(const Visit& visit);  // its run
+  int next(const Visit& visit);  // run of this visit
 
  private:
   void follow(int target);
   void turn(int heading, int target);
 
   int turn_;
-  int low_ = 0, high_ = 0;  // since the last turn
+  int low_ = 0, high_ = 0;  // since the last reversal
   int heading_ = 0;
-  int forward_ = 0, reverse_ = 0;                // passes begun
-  int forward_before_ = 0, reverse_before_ = 0;  // visits before the first turn
+  int forward_ = 0, reverse_ = 0;                // passes that have begun
+  int forward_before_ = 0, reverse_before_ = 0;  // visits before the first reversal
 };
 
-// In the standard and the pendulum cycle a run is a pass: a missed stop shifts nothing, and a
-// target that is repeated within a pass has two visits of one run. A new pass begins where the
-// axis has gone back by half of the targets; going back by less is a repetition. In the other
-// cycles the k-th visit of a target in a direction is run k.
+// In the standard and the pendulum cycle a run is a pass: a missed stop shifts no number, and a
+// target that is repeated within a pass has two visits of one run. A new pass begins when the axis
+// has moved back by half of the targets; a shorter way back is a repetition. In the other cycles
+// the k-th visit of a target in a direction is run k.
 CycleFound recognise_cycle(const std::vector<Visit>& visits, int targets);
 
 }  // namespace mdof::algo

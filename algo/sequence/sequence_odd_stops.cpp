@@ -1,5 +1,5 @@
-// Which stops are at no target? What the others have decides: the typical number of visits, whether
-// from both sides, the typical interval. See leave_out_odd_stops() in sequence_stops.h.
+// Finds the stops at no target from the typical number of visits, whether visits are from both
+// sides, and the typical interval. See leave_out_odd_stops() in sequence_stops.h.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,18 +11,19 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kEnough = 0.6;     // of the typical number of visits, of what is surely a target
-constexpr double kAsMany = 0.75;    // of the typical number of visits
-constexpr double kTooNear = 0.6;    // of the typical interval, to what is surely a target
-constexpr double kTooFar = 1.6;     // of the typical interval, beyond the last target
-constexpr std::size_t kFewest = 4;  // places, so that one of a single pass can be judged odd
-constexpr int kSurelyNone = 3;      // typical visits, of which a target would not miss all but one
+constexpr double kEnough = 0.6;     // share of the typical number of visits of a certain target
+constexpr double kAsMany = 0.75;    // share of the typical number of visits
+constexpr double kTooNear = 0.6;    // in typical intervals, to a certain target
+constexpr double kTooFar = 1.6;     // in typical intervals, beyond the last target
+constexpr std::size_t kFewest = 4;  // places needed to judge one of a single pass
+constexpr int kSurelyNone = 3;      // typical visits, of which a target would not lack all but one
 
 // A place where the axis stopped.
 struct Place {
   double position_m = 0;
   int forward = 0, reverse = 0;
-  bool parked = false;  // only the first stop of the log, which nobody saw the axis reach
+  // Whether its only visit is the first stop of the log, with an approach that was not observed.
+  bool parked = false;
   bool first = false, last = false;
   bool kept = false;
   int visits() const { return forward + reverse; }
@@ -31,7 +32,7 @@ struct Place {
 struct Typical {
   double visits = 0;
   bool both_sides = false;
-  int direction = 0;  // where they come from one side
+  int direction = 0;  // if visits are from one side
   double interval_m = 0;
 };
 
@@ -51,7 +52,7 @@ std::vector<Place> places_of(const std::vector<MeasuredPoint>& points,
   return places;
 }
 
-// Three quarters of the stops are at places that are visited no more often.
+// The number of visits that three quarters of the stops' places do not exceed.
 double typical_visits(const std::vector<Place>& places) {
   std::vector<int> of_stops;
   for (const Place& p : places)
@@ -95,8 +96,9 @@ Typical typical_of(std::vector<Place>& places) {
 }
 
 struct Neighbours {
-  double below_m = std::numeric_limits<double>::infinity(), above_m = below_m;  // to what is kept
-  bool sure = false;  // the next place, kept or not, is surely a target
+  // distances to kept places
+  double below_m = std::numeric_limits<double>::infinity(), above_m = below_m;
+  bool sure = false;  // the next place, kept or not, is certainly a target
 };
 
 Neighbours neighbours(const std::vector<Place>& places, std::size_t at) {
@@ -121,7 +123,8 @@ bool may_be_a_target(const Place& place, const Neighbours& n, const Typical& typ
   return nearest_m <= kTooFar * typical.interval_m;
 }
 
-// Those nearest to a target first: a row of places with few visits goes on from there.
+// Starts with the places nearest to a target, because a row of places with few visits continues
+// from there.
 void judge(std::vector<Place>& places, const Typical& typical) {
   std::vector<std::size_t> order;
   std::vector<double> distance(places.size());
@@ -139,7 +142,7 @@ void judge(std::vector<Place>& places, const Typical& typical) {
     places[i].kept = may_be_a_target(places[i], neighbours(places, i), typical);
 }
 
-// All places have one visit: only a start off the grid can be found.
+// If all places have one visit, only a start off the grid can be found.
 void judge_start(std::vector<Place>& places) {
   const std::size_t n = places.size();
   if (n < kFewest) return;
@@ -154,7 +157,7 @@ void judge_start(std::vector<Place>& places) {
   if (places.back().parked && off_grid(intervals.back())) places.back().kept = false;
 }
 
-// Before the first target, after the last and beyond the end ones an axis may stop as it likes.
+// An axis may stop anywhere before the first target, after the last and beyond the end targets.
 NoticeCode reason(const std::vector<Place>& places, std::size_t at) {
   const Place& p = places[at];
   if (p.parked) return NoticeCode::stop_parked_at_start;

@@ -10,12 +10,12 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMinStep_m = 2e-6;      // closer than this is one target whatever the ratio says
-constexpr double kMaxScatter_m = 50e-6;  // wider than this is never one target
+constexpr double kMinStep_m = 2e-6;      // nearer stops are always one target
+constexpr double kMaxScatter_m = 50e-6;  // wider groups are never one target
 constexpr double kStepToScatter = 10;
-constexpr double kLeastOvershoot_m = 40e-6;  // less than counts for an approach
+constexpr double kLeastOvershoot_m = 40e-6;  // smaller ones do not affect the approach
 
-// Largest distance between neighbours (sorted positions) that still belong to one target.
+// Largest distance between neighbouring sorted positions of one target.
 double scatter_limit(const std::vector<double>& sorted) {
   std::vector<double> steps;
   for (std::size_t i = 1; i < sorted.size(); ++i) steps.push_back(sorted[i] - sorted[i - 1]);
@@ -32,7 +32,8 @@ double scatter_limit(const std::vector<double>& sorted) {
   return limit;
 }
 
-// Between the point before `p` and `p` the axis was further from `p` than a merged stop allows.
+// Whether between the point before `p` and `p` the axis was farther from `p` than a merged stop
+// allows.
 bool went_away(const Point& p) {
   return p.way_max_m - p.position_m > kMaxScatter_m || p.position_m - p.way_min_m > kMaxScatter_m;
 }
@@ -69,7 +70,7 @@ std::size_t nearest_target(const std::vector<double>& targets_m, double position
 
 bool correct_overshot(Point& p) {
   const double above_m = p.way_max_m - p.position_m, below_m = p.position_m - p.way_min_m;
-  // The last motion came from one side, the way as a whole from the other.
+  // The last motion came from one side, the whole path from the other.
   const double overshot_m = p.direction < 0 ? above_m : below_m;
   const double came_m = p.direction < 0 ? below_m : above_m;
   const bool overshot = overshot_m > kLeastOvershoot_m && overshot_m <= kMostOvershoot_m;
@@ -101,7 +102,7 @@ bool merge_into(MeasuredPoint& stop, MeasuredPoint& part) {
       went_away(part.point))
     return false;
   if (part.point.samples > stop.point.samples) {
-    // The way to the stop is that to its first part.
+    // The path to the stop is the path to its first part.
     part.point.way_min_m = stop.point.way_min_m;
     part.point.way_max_m = stop.point.way_max_m;
     stop = std::move(part);

@@ -1,5 +1,5 @@
-// Steps of recognise_sequence(): which stop is at which target, approached from where, and which
-// stops are of no target.
+// Steps of recognise_sequence(): the target and the approach of each stop, and the stops that are
+// at no target.
 #pragma once
 
 #include <cstddef>
@@ -11,40 +11,40 @@
 
 namespace mdof::algo {
 
-// A stop that was overshot by this at the most has the approach of the way that led to it: the last
-// motion was a correction. Beyond, the axis was sent past the target to come from the other side.
+// A stop with at most this overshoot has the approach of the path to it, because the last motion
+// was a correction. With a larger overshoot the axis was commanded past the target to approach it
+// from the other side.
 inline constexpr double kMostOvershoot_m = 0.25e-3;
 
-// Targets where the axis stopped: positions are sorted and cut where the step to the next is ten
-// times the scatter within a target (and over 2 µm). Each target is where the axis first stopped
-// for it, ascending; so it does not change as more stops come.
+// Targets from the stops of the axis: the sorted positions are divided where the distance to the
+// next is at least ten times the scatter within a target (and above 2 µm). The position of each
+// target is its first stop, so that it does not change with later stops. Ascending.
 std::vector<double> targets_of_stops(const std::vector<Point>& points);
 std::size_t nearest_target(const std::vector<double>& targets_m, double position_m);
 
-// Where a stop was overshot by kMostOvershoot_m at the most and the axis came back, the direction
-// is that of the way from the stop before. Gives how many there are.
+// If a stop was overshot by at most kMostOvershoot_m and the axis came back, its direction becomes
+// that of the path from the stop before. Returns the number of such stops.
 int correct_overshot(std::vector<Point>& points);
 
-// Whether it was one, of a single stop.
+// The same for a single stop; returns whether it was overshot.
 bool correct_overshot(Point& stop);
 
-// Where the axis was before nobody saw it, it is taken to have stayed; elsewhere to be on its way
-// to the next stop.
+// Sets unknown approaches: a point at the target of the stop before continues this stop, any other
+// belongs to the motion to the next stop.
 void assume_approaches(std::vector<MeasuredPoint>& points);
 
-// Two stops in a row at one target and from one side, between which the axis did not go away, are
-// one: the longer is kept.
+// Merges two consecutive stops at one target and from one side, without a departure of the axis;
+// the longer one is kept.
 void merge_interrupted(std::vector<MeasuredPoint>& points);
 
-// `part` goes on with `stop`, as above: then it is taken into it.
+// Merges `part` into `stop` if it continues it as above.
 bool merge_into(MeasuredPoint& stop, MeasuredPoint& part);
 
-// Takes out of `points` what stands at no target, as the other stops show: a parked axis, a pause,
-// the place where it turns round. Targets without points go out of `targets_m`, and the others are
-// numbered anew.
+// Removes from `points` the stops at no target, as the other stops show: a parked axis, a pause, a
+// reversal. Targets without points are removed from `targets_m`, and the others are renumbered.
 std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,
                                              std::vector<double>& targets_m);
-// The same for a first stop at a target that the axis then approaches properly.
+// The same for a first stop at a target that the axis approaches regularly later.
 std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

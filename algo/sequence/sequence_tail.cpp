@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kNewTarget_m = 50e-6;  // further from each target: one of its own
+constexpr double kNewTarget_m = 50e-6;  // a stop farther from each target is a new target
 
 }  // namespace
 
@@ -32,7 +32,7 @@ int SequenceTail::number(const MeasuredPoint& p) {
   return by_passes_ ? pass : visit;
 }
 
-// False: it is no given target.
+// False: it is at no given target.
 bool SequenceTail::place(MeasuredPoint& p, Sequence& sequence) const {
   auto& targets_m = sequence.targets_m;
   const double at_m = p.point.position_m;
@@ -53,7 +53,7 @@ bool SequenceTail::place(MeasuredPoint& p, Sequence& sequence) const {
   return true;
 }
 
-// Its approach is that of the motion that followed.
+// The last point gets the approach of the motion that followed.
 void SequenceTail::settle_last(const MeasuredPoint& next, Sequence& sequence) {
   awaits_ = false;
   MeasuredPoint& last = sequence.points.back();

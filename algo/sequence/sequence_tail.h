@@ -1,4 +1,4 @@
-// The next stop of a sequence that is already recognised, at a cost that does not grow with it.
+// Adds the next stop to a recognised sequence, at a cost that does not grow with the sequence.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace mdof::algo {
 
-// Puts stop after stop in its place as recognise_sequence() would, with the targets and the cycle
-// that were recognised. What only the whole shows (another cycle, odd stops, a target between those
-// that are known) waits until the whole is recognised again.
+// Assigns stop after stop as recognise_sequence() does, with the recognised targets and cycle.
+// Facts that only the whole sequence shows (another cycle, odd stops, a target between known ones)
+// wait until the whole is recognised again.
 class SequenceTail {
  public:
-  // Goes on from `sequence`, recognised with `options`.
+  // Continues `sequence`, which was recognised with `options`.
   SequenceTail(const Sequence& sequence, SequenceOptions options);
-  // Gives the first point that is new or changed: its errors are to be solved.
+  // Returns the index of the first new or changed point, whose errors must be solved.
   std::size_t append(Point stop, Sequence& sequence);
 
  private:
@@ -29,8 +29,8 @@ class SequenceTail {
 
   SequenceOptions options_;
   bool by_passes_ = false;
-  bool awaits_ = false;            // the last point's approach is that of the motion that follows
-  Passes passes_, passes_before_;  // before the last visit
+  bool awaits_ = false;            // the last point has the approach of the next motion
+  Passes passes_, passes_before_;  // passes_before_: before the last visit
   std::map<Visited, int> visits_;
 };
 

@@ -19,15 +19,15 @@ std::size_t index_of(const MeasuredPoint& point) {
   return static_cast<std::size_t>(point.target) - 1;
 }
 
-// Which point was the last of each target; kNever: there is none.
+// The last point of each target; kNever: no point.
 std::vector<std::size_t> last_visits(const Sequence& sequence) {
   std::vector<std::size_t> last(sequence.targets_m.size(), kNever);
   for (std::size_t i = 0; i < sequence.points.size(); ++i) last[index_of(sequence.points[i])] = i;
   return last;
 }
 
-// Targets whose last visit is before point `split`, and those that are visited from it on; where
-// no target is on both sides these are all, ascending.
+// Targets whose last visit is before point `split`, and the other visited targets, ascending. If no
+// target has visits on both sides, these are the targets of the two sides.
 std::pair<Places, Places> parted(const Sequence& sequence, const std::vector<std::size_t>& last,
                                  std::size_t split) {
   std::pair<Places, Places> places;
@@ -37,7 +37,7 @@ std::pair<Places, Places> parted(const Sequence& sequence, const std::vector<std
   return places;
 }
 
-// What takes `before` to `after`, where one distance does for all that both have.
+// The shift from `before` to `after`, if one distance fits all targets that both have.
 std::optional<double> shift_between(const Places& before, const Places& after) {
   const std::size_t n = std::min(before.size(), after.size());
   if (n < kFewestTargets) return {};
@@ -57,7 +57,7 @@ std::optional<double> shift_between(const Places& before, const Places& after) {
 
 std::optional<ShiftedTargets> find_shifted_targets(const Sequence& sequence) {
   const auto last = last_visits(sequence);
-  std::size_t still_visited = 0;  // the last visit to any target seen so far
+  std::size_t still_visited = 0;  // last visit of any target seen so far
   for (std::size_t split = 1; split < sequence.points.size(); ++split) {
     const MeasuredPoint& newest = sequence.points[split - 1];
     still_visited = std::max(still_visited, last[index_of(newest)]);

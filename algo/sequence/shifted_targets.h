@@ -1,4 +1,5 @@
-// All targets visited again a little further on, which a jump of the encoder's count looks like.
+// All targets visited again at a constant shift, which is how a jump of the encoder's count
+// appears.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +10,14 @@
 namespace mdof::algo {
 
 struct ShiftedTargets {
-  std::int64_t time_ns = 0;  // of the last visit to where they were before
-  double shift_m = 0;        // to where they are after it, along the encoder
+  std::int64_t time_ns = 0;  // of the last visit at the old positions
+  double shift_m = 0;        // from the old to the new positions, along the encoder
 };
 
-// A moment before and after which other targets are visited, at least three each, and those after
-// it are those before it displaced by one distance, less than half of their range, within 50 µm. A
-// jump while the axis turns or creeps is shown by nothing else: a step of one sample looks like
+// Finds a time before and after which different targets are visited, at least three each, and those
+// after it are those before it shifted by one distance, less than half of their range, within 50
+// µm. This is the only sign of a jump while the axis reverses or creeps, because a step of one
+// sample then looks like motion.
 // motion.
 std::optional<ShiftedTargets> find_shifted_targets(const Sequence& sequence);
 

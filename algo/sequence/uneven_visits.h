@@ -1,5 +1,5 @@
-// Runs that lack visits which others have, and targets that were approached from one side only:
-// what a mean of both approaches does about them.
+// Runs that lack visits which others have, and targets that were approached from one side only, and
+// how a mean of both approaches takes them into account.
 #pragma once
 
 #include <string>
@@ -10,24 +10,24 @@
 
 namespace mdof::algo {
 
-// Means are made of the points with errors and a known approach.
+// Means use the points with errors and a known approach.
 bool counts_in_means(const MeasuredPoint& point);
-// Of points that count.
+// `counted`: points for which counts_in_means() holds.
 bool any_run_lacks_visits(const std::vector<MeasuredPoint>& counted);
 
 struct WithoutDrift {
   std::vector<MeasuredPoint> points;
   Errors5 u_level{};  // local; m, rad
 };
-// The valid points with a known approach, in their order. Where a run lacks a visit (a target from
-// one side) that another run has, each run's mean drift against the others is taken from its
-// errors: the mean of some targets only would hold it, and be tilted by it. The drifts are those of
-// the least-squares fit error = of the visit + of the run; they sum to 0. Their scatter, s/√n, is
-// the uncertainty of the level that all targets then have, however few runs visited them; 0 where
-// nothing was taken.
+// The valid points with a known approach, in their order. If a run lacks a visit (a target from one
+// side) that another run has, the mean drift of each run relative to the others is subtracted from
+// its errors; otherwise the means of some targets would contain it and tilt the result. The drifts
+// are from the least-squares fit error = effect of the visit + effect of the run; they sum to 0.
+// u_level is their scatter, s/√n: the uncertainty of the common level of all targets, for any
+// number of runs that visited them; 0 if nothing was subtracted.
 WithoutDrift without_drift_of_runs(const std::vector<MeasuredPoint>& points);
 
-// What the means make up for, and what they cannot.
+// Notices of what the means take into account, and of what they cannot.
 Notices uneven_visits(const std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

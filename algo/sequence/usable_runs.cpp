@@ -28,7 +28,8 @@ bool continues_from(const Run& run, const Run& other) {
   return run.header.supersedes && *run.header.supersedes == other.header.id;
 }
 
-// The mean of the same samples: a log that was compressed in between has another hash.
+// Whether both are the mean of the same samples. A log that was compressed in between has another
+// hash.
 bool same_reading(const MeasuredPoint& a, const MeasuredPoint& b) {
   return a.point.begin_ns == b.point.begin_ns && a.point.end_ns == b.point.end_ns &&
          a.point.position_m == b.point.position_m && a.point.probe_m == b.point.probe_m &&

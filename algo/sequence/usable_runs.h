@@ -1,4 +1,4 @@
-// May a figure be made of these runs together?
+// Whether runs may be combined to one result.
 #pragma once
 
 #include <string>
@@ -13,17 +13,17 @@ namespace mdof::algo {
 using Runs = std::vector<const Run*>;
 Runs all_of(const std::vector<Run>& runs);
 
-// Refuses a run that is not complete (a partial one is taken where `take_partial` asks for it),
-// simulated runs beside measured ones, and readings that would count twice: the same run, the same
-// recording, a run with the one that it goes on from, the same log in two files; their scatter
-// would make the uncertainty too small. `what`: "a table".
+// Errors: a run that is not complete (a partial run is accepted with `take_partial`); simulated
+// together with measured runs; readings that would count twice (the same run, the same recording, a
+// run and the run that it continues, the same log in two files), because their scatter would make
+// the uncertainty too small. `what`: "a table".
 Status check_usable(const Runs& runs, bool take_partial, const std::string& what);
 
-// Why the readings of both are the same, as above; empty: they are not.
+// Why both have the same readings, as above; empty: they do not.
 std::string readings_in_common(const Run& a, const Run& b);
 
-// What is wrong with these runs is wrong with the figure, too: which are partial, and each notice
-// of each run, with the run as its source.
+// Notices of the runs that hold for the result, too: which runs are partial, and each notice of
+// each run, with the run as its source.
 Notices inherited_notices(const Runs& runs);
 
 }  // namespace mdof::algo

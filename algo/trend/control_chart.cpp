@@ -6,7 +6,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kRangeOfTwo = 1.128;  // d2: mean range of two values, in their sd
+constexpr double kRangeOfTwo = 1.128;  // d2: mean range of two values, in units of their sd
 constexpr double kLimits = 3;
 
 struct Part {

@@ -16,7 +16,7 @@ std::string one_line(std::string text) {
   return std::string(trimmed(text));
 }
 
-// The text of a part that each DCC has.
+// The text of a part that every DCC must have.
 Result<std::string> text_at(const XmlElement& from, const char* path, const std::string& source) {
   const XmlElement* element = from.at(path);
   std::string text = element ? one_line(element->text) : "";
@@ -32,7 +32,7 @@ Result<std::string> day_at(const XmlElement& from, const char* path, const std::
   if (!plain)
     return bad_input(place_of(source, *from.at(path)) + ": \"" + day.substr(0, 40) +
                      "\" is not a date (YYYY-MM-DD); ask the laboratory to correct the DCC");
-  return day.substr(0, 10);  // xs:date may have a time zone behind it
+  return day.substr(0, 10);  // xs:date may have a time zone after the day
 }
 
 void read_items(const XmlElement& items, DccCertificate& certificate) {
@@ -74,7 +74,7 @@ Status read_head(const XmlElement& data, DccCertificate& certificate) {
   return statements ? read_due(*statements, certificate) : Status();
 }
 
-// Quantities of dcc:data or of a dcc:list; lists in it are lists of their own.
+// Reads the quantities of dcc:data or of a dcc:list. Lists in it become separate lists.
 Status read_data(const XmlElement& data, const std::string& source,
                  std::vector<DccQuantity>& quantities, DccResult& result) {
   for (const XmlElement& child : data.children) {

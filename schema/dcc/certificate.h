@@ -1,6 +1,6 @@
-// A calibration certificate as a DCC, PTB's Digital Calibration Certificate 3.x (XML): who
-// calibrated what and when, and those of its results that are made of lengths and voltages.
-// What a quantity means is its refType, as in PTB's Good Practice DCCs: basic_measuredValue,
+// A calibration certificate in the form of a DCC, PTB's Digital Calibration Certificate 3.x (XML):
+// who calibrated what and when, and the results that consist of lengths and voltages. The refType
+// gives the meaning of a quantity, as in PTB's Good Practice DCCs: basic_measuredValue,
 // basic_referenceValue, basic_measurementError.
 #pragma once
 
@@ -14,15 +14,15 @@
 
 namespace mdof {
 
-// A si:real or si:realListXMLList; of a si:hybrid the first with such a unit.
+// A si:real or si:realListXMLList; from a si:hybrid the first one with such a unit.
 struct DccQuantity {
   std::string name;
   std::vector<std::string> ref_types;
   std::string unit_text;
   SiUnit unit;
   std::vector<double> value;  // SI: m^unit.metre V^unit.volt
-  std::vector<double> u;      // standard uncertainties, SI, as many; empty: none is stated
-  std::vector<double> coverage_factor;  // k of U = k u; 1 where u itself is stated
+  std::vector<double> u;      // standard uncertainties, SI, one for each value; empty: not stated
+  std::vector<double> coverage_factor;  // k of U = k u; 1 if u itself is stated
   long line = 0;
 
   bool has_type(std::string_view ref_type) const {
@@ -33,23 +33,24 @@ struct DccQuantity {
 struct DccResult {
   std::string name;
   std::vector<std::string> ref_types;
-  std::vector<std::vector<DccQuantity>> lists;  // quantities of one dcc:list each
-  std::vector<DccQuantity> quantities;          // of no list
+  std::vector<std::vector<DccQuantity>> lists;  // quantities of each dcc:list
+  std::vector<DccQuantity> quantities;          // outside lists
   long line = 0;
 };
 
 struct DccCertificate {
-  std::string source;  // the file, for messages
+  std::string source;  // file name, for messages
   std::string number, laboratory, calibrated;
   std::string due;            // empty: no statement basic_recalibration
-  std::string item;           // its names, several joined by "; "
-  std::string serial_number;  // by its manufacturer; empty: not stated
+  std::string item;           // names of the item, joined by "; "
+  std::string serial_number;  // from the manufacturer; empty: not stated
   bool is_signed = false;     // the signature is not verified
   std::vector<DccResult> results;
 };
 
-// Errors name file, line and element: not XML, no DCC or not 3.x, a part that the DCC must have, a
-// list with another number of uncertainties or units than of values, text in place of a number.
+// Errors name file, line and element: not XML; no DCC or not 3.x; a missing part that the DCC must
+// have; a list whose numbers of uncertainties or units and of values differ; text instead of a
+// number.
 Result<DccCertificate> read_dcc(std::string_view text, const std::string& source);
 
 }  // namespace mdof

@@ -10,8 +10,8 @@
 namespace mdof {
 namespace {
 
-// Where the D-SI format keeps an uncertainty, 2.2 and the older names: the element, in it the
-// value, and the coverage factor by which it was multiplied (nullptr: a standard uncertainty).
+// The places of an uncertainty in the D-SI format 2.2 and with the older names: the element, the
+// value in it, and the coverage factor (nullptr: a standard uncertainty).
 struct UncertaintyForm {
   const char *element, *value, *coverage_factor;
 };
@@ -66,7 +66,7 @@ class QuantityReader {
     return all;
   }
 
-  // One for each value, or one for all of them.
+  // One number for each value, or one for all values.
   Result<std::vector<double>> as_many(const XmlElement& parent, const char* child,
                                       std::size_t n) const {
     const XmlElement* element = parent.child(child);
@@ -104,7 +104,7 @@ class QuantityReader {
     return {};
   }
 
-  // Units as a list: all are the same, or it is not read.
+  // The unit of a list of units; empty: they are not all the same.
   std::optional<SiUnit> unit_of(const XmlElement& element, std::string& text) const {
     const auto units = words(element.text);
     if (units.empty() || std::any_of(units.begin(), units.end(),
@@ -114,7 +114,7 @@ class QuantityReader {
     return si_unit(text);
   }
 
-  // si:real or si:realListXMLList, in si:hybrid or not.
+  // si:real or si:realListXMLList, inside or outside si:hybrid.
   Result<std::optional<DccQuantity>> read_one(const XmlElement& parent) const {
     for (const XmlElement& form : parent.children) {
       if (form.name == "si:hybrid") {

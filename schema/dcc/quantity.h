@@ -18,7 +18,7 @@ std::vector<std::string> ref_types_of(const XmlElement& element);
 // The text of the first dcc:content in dcc:name; absent: empty.
 std::string name_of(const XmlElement& element);
 
-// A dcc:quantity. Nothing: its unit has to do with neither length nor voltage.
+// Reads a dcc:quantity. Empty: its unit has neither length nor voltage.
 Result<std::optional<DccQuantity>> read_quantity(const XmlElement& element,
                                                  const std::string& source);
 

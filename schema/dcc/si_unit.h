@@ -1,5 +1,5 @@
-// Units as the D-SI format writes them (PTB, SI_Format.xsd): \micro\metre, \volt\per\micro\metre,
-// \volt\metre\tothe{-1}. A \per belongs to the one unit behind it.
+// Units in the D-SI format (PTB, SI_Format.xsd): \micro\metre, \volt\per\micro\metre,
+// \volt\metre\tothe{-1}. A \per applies only to the next unit.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace mdof {
 
-// value of the document * factor = value in m^metre V^volt.
+// The value in the document * factor is the value in m^metre V^volt.
 struct SiUnit {
   double factor = 1;
   int metre = 0, volt = 0;
@@ -15,7 +15,7 @@ struct SiUnit {
   bool is(int of_metre, int of_volt) const { return metre == of_metre && volt == of_volt; }
 };
 
-// Nothing: a unit that has to do with neither length nor voltage, or one that cannot be read.
+// Empty: the unit has neither length nor voltage, or cannot be read.
 std::optional<SiUnit> si_unit(std::string_view text);
 
 }  // namespace mdof

@@ -1,4 +1,4 @@
-// An XML document as a tree, read by libxml2: without network, and without a DTD.
+// An XML document as a tree, read by libxml2 without network and without a DTD.
 #pragma once
 
 #include <string>
@@ -11,20 +11,22 @@
 namespace mdof {
 
 struct XmlElement {
-  std::string name;  // "dcc:item", "si:real" by namespace, whatever the document's own prefixes are
-  std::string text;  // of its own, without that of its children
+  // "dcc:item", "si:real": the prefix is from the namespace, independent of the document's
+  // prefixes.
+  std::string name;
+  std::string text;  // its own text, without that of its children
   std::vector<std::pair<std::string, std::string>> attributes;
   std::vector<XmlElement> children;
   long line = 0;
 
-  // The first child of this name, or nullptr.
+  // The first child with this name, or nullptr.
   const XmlElement* child(std::string_view of) const;
-  // The same, child by child: "dcc:contact/dcc:name".
+  // The same along a path: "dcc:contact/dcc:name".
   const XmlElement* at(std::string_view path) const;
   std::string_view attribute(std::string_view of) const;  // absent: empty
 };
 
-// Errors: not well-formed (with line), with a DTD, elements nested deeper than libxml2 allows
+// Errors: not well-formed (with the line), with a DTD, elements nested deeper than libxml2 allows
 // (256).
 Result<XmlElement> parse_xml(std::string_view text, const std::string& source);
 

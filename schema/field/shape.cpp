@@ -27,17 +27,17 @@ constexpr std::string_view kScalars[] = {"number", "integer", "string", "boolean
   std::abort();
 }
 
-// One of the types that a value may have.
+// One of the possible types of a value.
 struct ShapeAlternative {
   std::string type;
-  std::string keywords;  // ,"items":... : they say nothing of values of another type
+  std::string keywords;  // ,"items":... : they do not apply to values of other types
 };
 using ShapeType = std::vector<ShapeAlternative>;
 
 struct ShapeMembers {
   std::vector<std::pair<std::string, std::string>> properties, patterns;  // name, schema
   std::vector<std::string> required;
-  std::size_t families = 0;  // names with groups; each has one member or more
+  std::size_t families = 0;  // names with groups; each has one or more members
   std::string others = "false";
 };
 
@@ -181,7 +181,7 @@ void ShapeReader::read_others(ShapeMembers& members) {
   members.others = take(":") ? schema_of(read_type()) : "true";
 }
 
-// The row's type without its objects, whose members only a shape says.
+// The row's type without objects, because only a shape states the members of an object.
 ShapeType type_of_row(const Field& row) {
   ShapeType type = ShapeReader(row.type).whole();
   if (type.size() > 1)
@@ -222,7 +222,7 @@ std::string any_of(const ShapeType& type) {
   return json.end_array().end_object().take();
 }
 
-// Keywords of an object and of an array do not meet, so that one schema is enough for both.
+// The keywords of objects and arrays differ, so one schema is enough for both.
 std::string schema_of(const ShapeType& type, std::string_view description) {
   if (count_of(type, "object") > 1 || count_of(type, "array") > 1)
     return with_meaning(any_of(type), description);

@@ -1,4 +1,4 @@
-// What a reader should know of a point, as data: a flag, and the channel that it is about.
+// Flags of a point for its readers, as data: a flag, and the channel that it is about.
 #pragma once
 
 #include <string>

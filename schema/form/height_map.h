@@ -1,4 +1,4 @@
-// A measured surface: heights over a grid of pixels, some of them missing.
+// A measured surface: heights over a grid of pixels, of which some may be missing.
 #pragma once
 
 #include <cmath>
@@ -14,12 +14,12 @@ namespace mdof {
 struct SurfaceMap {
   static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-  std::string name;            // of the file or run, for messages
+  std::string name;            // name of the file or run, for messages
   double x0_m = 0, y0_m = 0;   // of the pixel (0, 0)
-  double dx_m = 0, dy_m = 0;   // from pixel to pixel, above 0
+  double dx_m = 0, dy_m = 0;   // pixel size, above 0
   std::size_t nx = 0, ny = 0;  // columns along x, rows along y
-  std::vector<double> z_m;     // nx ny, row by row; kMissing where nothing was measured
-  Notices notices;             // what was assumed when it was read
+  std::vector<double> z_m;     // nx ny values, row by row; kMissing: not measured
+  Notices notices;             // assumptions made when it was read
 
   double x_m(std::size_t column) const { return x0_m + static_cast<double>(column) * dx_m; }
   double y_m(std::size_t row) const { return y0_m + static_cast<double>(row) * dy_m; }
@@ -31,13 +31,13 @@ struct SurfaceMap {
   }
 };
 
-// The same pixels without a height.
+// A map with the same pixels and no heights.
 inline SurfaceMap empty_like(const SurfaceMap& map) {
   SurfaceMap empty{map.name, map.x0_m, map.y0_m, map.dx_m, map.dy_m, map.nx, map.ny, {}, {}};
   empty.z_m.assign(map.z_m.size(), SurfaceMap::kMissing);
   return empty;
 }
 
-inline constexpr std::size_t kMostPixels = 50'000'000;  // of one map; all are in memory
+inline constexpr std::size_t kMostPixels = 50'000'000;  // per map, because all are in memory
 
 }  // namespace mdof

@@ -10,11 +10,12 @@
 namespace mdof {
 namespace {
 
-constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // of columns, of rows
+constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // columns or rows
 constexpr double kOffGrid = 0.05;                          // of a pixel
-constexpr std::size_t kLeastFilled = 64;                   // one pixel of so many at least
+constexpr std::size_t kLeastFilled = 64;                   // at least one pixel of this many has a
+                                                           // point
 
-// Values that differ, in no order: a table of their bits with open addressing.
+// Distinct values in any order: a table of their bits with open addressing.
 class Distinct {
  public:
   Distinct() : slot_(4096, kEmpty) {}
@@ -38,7 +39,7 @@ class Distinct {
   }
 
  private:
-  static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};  // a NaN, which is no place
+  static constexpr std::uint64_t kEmpty = ~std::uint64_t{0};  // a NaN, which is not a position
   std::size_t place(std::uint64_t bits) const {
     std::size_t k = (bits * 0x9e3779b97f4a7c15u) >> 20 & (slot_.size() - 1);
     while (slot_[k] != kEmpty && slot_[k] != bits) k = (k + 1) & (slot_.size() - 1);
@@ -56,10 +57,10 @@ class Distinct {
 };
 
 struct Steps {
-  double first_m = 0, step_m = 0;  // step 0: one place only
+  double first_m = 0, step_m = 0;  // step 0: only one position
   std::size_t count = 0;
 
-  // Which step; npos where the place is on none.
+  // Index of the step; npos: the position is on no step.
   static constexpr std::size_t npos = ~std::size_t{0};
   std::size_t index(double x_m) const {
     if (count == 1) return 0;
@@ -85,7 +86,7 @@ Result<Steps> steps_of(const std::vector<double>& places, char axis, const std::
   const std::vector<double> value = distinct.sorted();
   const double span = value.back() - value.front();
   if (!(span > 0)) return Steps{value.front(), 0, 1};
-  // Values that differ by rounding alone are one.
+  // Values that differ only by rounding are the same.
   double least = span;
   for (std::size_t k = 1; k < value.size(); ++k)
     if (const double gap = value[k] - value[k - 1]; gap > 1e-9 * span) least = std::min(least, gap);

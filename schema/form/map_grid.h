@@ -1,4 +1,4 @@
-// Points in any order -> the grid that they lie on.
+// Finds the grid of points that are in any order.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@
 namespace mdof {
 
 struct MapPoints {
-  std::vector<double> x_m, y_m, z_m;  // z: SurfaceMap::kMissing where it has none
+  std::vector<double> x_m, y_m, z_m;  // z: SurfaceMap::kMissing if there is no height
 };
 
-// The points may miss pixels, whole rows and columns too; their places may be rounded by up to a
-// twentieth of a pixel. `place(k)` is where the point k comes from ("map.csv:7: "). Errors: points
-// on no grid, two points on one pixel, a single place, no height at all.
+// Pixels, whole rows and columns may be missing, and positions may be rounded by up to a twentieth
+// of a pixel. `place(k)` is the origin of point k ("map.csv:7: "). Errors: points that are on no
+// grid, two points on one pixel, a single position, no height at all.
 Result<SurfaceMap> grid_of(const MapPoints& points, const std::string& source,
                            const std::function<std::string(std::size_t)>& place);
 

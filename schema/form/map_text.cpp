@@ -18,7 +18,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
 
-// A number that fills the cell; empty cells and nan are missing.
+// Reads a number that fills the cell. Empty cells and nan are missing.
 bool read_cell(std::string_view cell, double& x) {
   cell = trimmed(cell);
   if (cell.empty()) {
@@ -78,7 +78,7 @@ std::string MapTextReader::place_of_point(std::size_t point) const {
   return place(after->second + point - after->first);
 }
 
-// As many as the rest of the file has if its rows are as long as those of the first piece.
+// Reserves the points of the whole file; its rows are assumed as long as those of the first piece.
 void MapTextReader::reserve_points(std::size_t bytes_read) {
   const std::size_t read = points_.z_m.size();
   if (bytes_expected_ <= bytes_read || read == 0) return;

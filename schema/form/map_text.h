@@ -1,5 +1,5 @@
-// Height maps as text, a pixel a row: CSV with the header x_mm,y_mm,z_um, and XYZ, the same
-// without a header, between blanks.
+// Height maps as text with one pixel a row: CSV with the header x_mm,y_mm,z_um, and XYZ, which has
+// no header and separates by blanks.
 #pragma once
 
 #include <array>
@@ -21,18 +21,18 @@ namespace mdof {
 struct XyzUnits {
   double xy_m = 1e-3, z_m = 1e-6;
 };
-// "mm": of all three columns; "mm,um": of x and y, and of z. Known: m, mm, um, nm.
+// "mm": all three columns; "mm,um": x and y, and z. Known units: m, mm, um, nm.
 Result<XyzUnits> xyz_units(const std::string& text);
 
-// Reads pieces of any size of one file. Rows in any order; the columns of a header too, among
-// others. Missing: a pixel without row, an empty z, nan. Lines that begin with # are left out.
-// Errors name file and line. Without `units` an XYZ file is read as the CSV would be, with a
-// notice.
+// Reads one file in pieces of any size. Rows may be in any order, and so may the columns of a
+// header; other columns are ignored. A height is missing if its pixel has no row, z is empty or z
+// is nan. Lines that begin with # are ignored. Errors name file and line. Without `units` an XYZ
+// file has the units of the CSV, with a notice.
 class MapTextReader {
  public:
   MapTextReader(std::string source, std::optional<XyzUnits> units)
       : source_(std::move(source)), units_(units) {}
-  // The size of the whole file, where it is known: memory is then taken once, not again and again.
+  // Size of the whole file, if known, to reserve memory once.
   void expect_bytes(std::size_t bytes) { bytes_expected_ = bytes; }
   Status feed(std::string_view piece);
   Result<SurfaceMap> finish();
@@ -53,19 +53,19 @@ class MapTextReader {
   std::string source_;
   std::optional<XyzUnits> units_;
   Form form_ = Form::unknown;
-  std::array<std::size_t, 3> column_{{0, 1, 2}};  // of x, y, z
+  std::array<std::size_t, 3> column_{{0, 1, 2}};  // columns of x, y, z
   std::size_t columns_ = 3;
   double xy_m_ = 1e-3, z_m_ = 1e-6;
-  std::string rest_;  // of a line that goes on in the next piece
+  std::string rest_;  // of a line that continues in the next piece
   std::size_t line_ = 0;
   std::size_t bytes_expected_ = 0;
   MapPoints points_;
-  // Where points begin that follow each other line by line: (point, its line).
+  // Begins of groups of points on consecutive lines: (point, its line).
   std::vector<std::pair<std::size_t, std::size_t>> stretch_;
   Notices notices_;
 };
 
-// As such a CSV, every pixel with its row, handed on in pieces.
+// Writes such a CSV with a row for every pixel, in pieces.
 Status write_map_csv(const SurfaceMap& map, const std::function<Status(std::string_view)>& take);
 
 }  // namespace mdof

@@ -24,7 +24,7 @@ class SdfReader {
       return bad_input(source_ + ": has more than " + std::to_string(kMostPixels) + " pixels");
     MDOF_TRY(map.dx_m, scale("Xscale"));
     if (map.ny == 1) {
-      map.dy_m = map.dx_m;  // a profile: Yscale says nothing
+      map.dy_m = map.dx_m;  // a profile has no meaningful Yscale
     } else {
       MDOF_TRY(map.dy_m, scale("Yscale"));
     }
@@ -57,10 +57,10 @@ class SdfReader {
 
   Status read_header() {
     std::string_view line;
-    next_line(line);  // the magic
+    next_line(line);  // the format name
     while (next_line(line)) {
       if (line.starts_with('*')) return {};
-      line = trimmed(line.substr(0, line.find(';')));  // a comment
+      line = trimmed(line.substr(0, line.find(';')));  // text after ; is a comment
       if (line.empty()) continue;
       const std::size_t equals = line.find('=');
       if (equals == std::string_view::npos)

@@ -1,6 +1,6 @@
-// The binary form of Zygo's MetroPro: a header, the intensities, the connected phase. Numbers are
-// big-endian; the phase is a whole number, and `phase_res` says how many counts are a fringe:
-// height = phase * intf_scale_factor * obliquity_factor * wavelength / counts of a fringe.
+// The binary format of Zygo's MetroPro: a header, the intensities, the connected phase. Numbers are
+// big-endian. The phase is an integer, and `phase_res` gives the counts per fringe: height = phase
+// * intf_scale_factor * obliquity_factor * wavelength / counts per fringe.
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -10,11 +10,11 @@
 namespace mdof {
 namespace {
 
-constexpr std::string_view kMagic = "\x88\x1b\x03";  // and 'o', 'p' or 'q' of the format
+constexpr std::string_view kMagic = "\x88\x1b\x03";  // then 'o', 'p' or 'q' for the format
 constexpr std::size_t kLeastHeader = 834;
-constexpr std::int32_t kNoPhase = 2147483640;  // from here on
+constexpr std::int32_t kNoPhase = 2147483640;  // this value and above
 
-// Where the header has what is read here.
+// Positions of values in the header.
 enum Offset : std::size_t {
   kHeaderSize = 6,
   kIntensityBytes = 60,

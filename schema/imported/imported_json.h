@@ -1,4 +1,4 @@
-// The JSON of imported runs: one form for the command line and the RPC.
+// The JSON form of imported runs, the same for the command line and the RPC.
 #pragma once
 
 #include "schema/base/json_writer.h"
@@ -8,12 +8,12 @@
 
 namespace mdof {
 
-// {"target", "run", "direction" (null: not said), "position_mm", "EXX_um", "u": {"EXX_um"}}; u
-// null: none was declared.
+// {"target", "run", "direction" (null: unknown), "position_mm", "EXX_um", "u": {"EXX_um"}}; u is
+// null if none was declared.
 void write_imported_point(JsonWriter& json, const MeasuredPoint& point, const std::string& key);
 
-// The header, "imported", "error", "sense"; of positioning "positioning_sense", too. Members of an
-// open object.
+// Writes the header, "imported", "error" and "sense", and for positioning "positioning_sense", as
+// members of an open object.
 void write_imported_members(JsonWriter& json, const RunHeader& header, NoticeWords words);
 
 }  // namespace mdof

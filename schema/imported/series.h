@@ -1,10 +1,10 @@
-// Errors of an axis that another instrument measured: a series that was read from a file, and the
-// stored run that it became.
+// Errors of an axis that another instrument measured: the series that was read from a file, and the
+// run that is stored from it.
 //
-// An imported run has the axis, the file with its hash, and a point for each reading; no rig, and
-// no solved errors: `probe_m` of its point is the one deviation (actual - nominal, m or rad), and
-// `probe_u_m` its declared standard uncertainty (empty: none declared). Its `model` is the error's
-// name.
+// An imported run has the axis, the file with its hash, and a point for each reading. It has no rig
+// and no solved errors: `probe_m` of a point is the deviation (actual - nominal, m or rad), and
+// `probe_u_m` its declared standard uncertainty (empty: none declared). Its `model` is the name of
+// the error.
 #pragma once
 
 #include <cstddef>
@@ -20,61 +20,62 @@
 
 namespace mdof {
 
-// 'E', direction and axis: "EXX" of X.
+// 'E', direction and axis: "EXX" for X.
 std::string positioning_name(Axis axis);
 
 // One of the six errors of an axis.
 struct ImportedError {
   std::string name;                  // "EXX"
-  std::optional<std::size_t> named;  // its place among error_names(); none: positioning
+  std::optional<std::size_t> named;  // index in error_names(); empty: positioning
   bool angle = false;
   std::string key() const { return name + (angle ? "_urad" : "_um"); }
 };
-// Error (usage): it is none of this axis; names those there are.
+// Error (usage): the axis has no such error; the error names those that it has.
 Result<ImportedError> imported_error(Axis axis, const std::string& name);
 
-// In the order of the file.
+// A reading, in the order of the file.
 struct ImportedReading {
   double position_m = 0;
-  int direction = 0;     // +1: approached in the + sense, -1: in the - sense, 0: not said
+  int direction = 0;     // +1: approached in the + sense, -1: in the - sense, 0: unknown
   int run = 1;           // pass over the targets
   double deviation = 0;  // actual - nominal; m, rad
 };
 
-// Each becomes a point of a run.
+// Each reading becomes a point of a run.
 inline constexpr std::size_t kMostImportedReadings = 50'000;
 
 struct ImportedSeries {
   std::string format;  // "csv", "iso230-2", "rtl"
   std::string source;  // file name, for messages
-  std::string sha256;  // of the file's bytes
+  std::string sha256;  // of the bytes of the file
   bool simulated = false;
   std::vector<ImportedReading> readings;
-  std::vector<std::string> about;  // what the file says of itself: machine, date, who
-  Notices notices;                 // what of it was not read as it stands
+  // Statements of the file about itself: machine, date, operator.
+  std::vector<std::string> about;
+  Notices notices;  // assumptions and corrections made when it was read
 };
 
-// The sense of a deviation along the axis: of the command, the actual less the commanded place in
-// the controller's coordinates, or of the body, along + of the machine. They differ by their sign
-// where the body goes along - as the command grows. Positions are commands in both.
+// The sense of a deviation along the axis. command: actual minus commanded position in the
+// controller's coordinates. body: along + of the machine. Their signs differ if the body moves
+// along - when the command increases. Positions are commands in both.
 enum class PositioningSense { command, body };
 struct ImportedSense {
   PositioningSense sense = PositioningSense::command;
-  std::optional<bool> against_command;  // travel "-"; none: not said at the import
+  std::optional<bool> against_command;  // true: travel "-"; empty: not stated at the import
 };
-// That of every compensation table, whatever the sense of its runs.
+// The sense of every compensation table, for any sense of its runs.
 inline constexpr PositioningSense kTablePositioningSense = PositioningSense::command;
 const char* to_string(PositioningSense sense);  // "command", "body"
 std::optional<PositioningSense> positioning_sense_from(std::string_view word);
 
-// Of an imported run.
+// The error of an imported run.
 ImportedError error_of_imported(const RunHeader& run);
 // Of a point of an imported run, in m or rad; NaN: the point has no deviation.
 double deviation(const MeasuredPoint& point);
 double u_of_deviation(const MeasuredPoint& point);
 
 bool is_imported(const RunHeader& run);
-// Error (bad_input): the run is an imported one, which has not what `what` needs.
+// Error (bad_input): the run is imported and lacks the data that `what` needs.
 Status check_measured(const RunHeader& run, const std::string& what);
 
 }  // namespace mdof

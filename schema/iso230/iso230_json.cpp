@@ -10,7 +10,7 @@
 namespace mdof {
 namespace {
 
-// -0 is noise of a subtraction: people and scripts read 0.
+// Replaces -0, an artefact of subtractions, by 0 for readers and scripts.
 double unsigned_zero(double x) {
   return x + 0.0;
 }
@@ -38,7 +38,7 @@ void write_squareness_line(JsonWriter& json, const char* name, const Squareness&
       .end_object();
 }
 
-// Fields whose names end in one unit.
+// Writes fields whose names end with one unit.
 class Figures {
  public:
   Figures(JsonWriter& json, bool angle) : json_(json), unit_(angle ? "_urad" : "_um") {}

@@ -19,15 +19,15 @@ void write_reference_lines(JsonWriter& json, const ReferenceLines& lines);
 void write_straightness_lines(JsonWriter& json, const std::vector<StraightnessLines>& lines);
 
 // {"end_point": {"EC0Y_urad", "slope_EYX_urad", "slope_EXY_urad"}, "least_squares",
-// "minimum_zone"}, by the names of the axes that it is of.
+// "minimum_zone"}, with the names of its axes.
 void write_squareness_lines(JsonWriter& json, const Squareness& of, const SquarenessLines& lines);
 
 // Member of an open object: "parallelism": {"EYX": {"end_point": {"angle_urad", "slope_a_urad",
 // "slope_b_urad"}, "least_squares", "minimum_zone"}, ...}
 void write_parallelism(JsonWriter& json, const Parallelism& parallelism);
 
-// Members of an open object: "B_um", "B_mean_um" ... "A_um", then "targets" with those of each;
-// what is not known is null. `angle`: deviations in rad, keys end in _urad.
+// Members of an open object: "B_um", "B_mean_um" ... "A_um", then "targets" with the members of
+// each target; unknown values are null. `angle`: deviations are in rad, and keys end in _urad.
 void write_positioning(JsonWriter& json, const Positioning& positioning, bool angle);
 
 // {"coverage", "U_B_um", "U_B_mean_um", "U_R_forward_um" ... "U_M_um", "u_covers",

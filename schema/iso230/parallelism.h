@@ -1,5 +1,5 @@
 // Parallelism of two motions along one axis (ISO 230-1): the angle between the reference lines of
-// their straightness, in each of the two planes that hold the axis.
+// their straightness, in each of the two planes that contain the axis.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 namespace mdof {
 
 struct ParallelismLine {
-  double slope_a_rad = 0, slope_b_rad = 0;  // over the moving body's own travel along + of M
-  // slope_b - slope_a; +: as the axis goes to +, B leads away from A to + of the error's first
+  double slope_a_rad = 0, slope_b_rad = 0;  // along the travel of the moving body in + of M
+  // slope_b - slope_a. +: as the axis moves to +, B deviates from A towards + of the error's first
   // letter (EYX: to +Y).
   double angle_rad = 0;
 };
@@ -22,15 +22,15 @@ struct ParallelismLine {
 struct ParallelismOfPlane {
   std::string error;  // "EYX"
   ParallelismLine end_point, least_squares, minimum_zone;
-  Budget budget;  // of the angle by least squares
+  Budget budget;  // budget of the least-squares angle
 };
 
-// Both stated at the fixture.
+// Both runs are stated at the fixture.
 struct Parallelism {
   std::int64_t run_a = 0, run_b = 0;
   Axis axis = Axis::x;
-  double from_m = 0, to_m = 0;             // the travel that both have
-  std::vector<ParallelismOfPlane> planes;  // as error_names() has them
+  double from_m = 0, to_m = 0;             // common travel
+  std::vector<ParallelismOfPlane> planes;  // in the order of error_names()
   bool simulated = false;
 };
 

@@ -1,5 +1,5 @@
-// Parameters of ISO 230-2 by its own names: of positioning, and in the same way of straightness and
-// angles. Values are in m or rad, as the deviations they are made of.
+// Parameters of ISO 230-2 with their names in the standard, for positioning and in the same way for
+// straightness and angles. Values are in m or rad, like the deviations.
 #pragma once
 
 #include <cstddef>
@@ -11,30 +11,31 @@ namespace mdof {
 
 struct PositioningReading {
   double target_m = 0;
-  int direction = 0;  // +1: the target approached in the + sense (forward), -1: reverse
+  int direction = 0;  // +1: target approached in the + sense (forward), -1: reverse
   int run = 0;
   double deviation = 0;  // actual - nominal
 };
 
 inline constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
-// One approach of a target; without readings: NaN.
+// One approach of a target; NaN: no readings.
 struct TargetApproach {
   std::size_t n = 0;
   double mean = kNoFigure;
-  double s = kNoFigure;  // with n - 1
+  double s = kNoFigure;  // n - 1 degrees of freedom
   double R = kNoFigure;  // 4 s
 };
 
 struct PositioningTarget {
   double target_m = 0;
   TargetApproach forward, reverse;
-  double mean = kNoFigure;  // of both approaches' means
+  double mean = kNoFigure;  // of the means of both approaches
   double B = kNoFigure;     // forward - reverse
-  double R = kNoFigure;     // the greatest of 2 s forward + 2 s reverse + |B|, R forward, R reverse
+  // The largest of 2 s forward + 2 s reverse + |B|, R forward and R reverse.
+  double R = kNoFigure;
 };
 
-// What needs the other approach is NaN where all targets were approached from one side only.
+// Values that need the other approach are NaN if all targets were approached from one side only.
 struct Positioning {
   std::vector<PositioningTarget> targets;  // ascending
   double B = kNoFigure, B_mean = kNoFigure;
@@ -45,22 +46,23 @@ struct Positioning {
 
 // Expanded uncertainties (k = 2) of these parameters, m.
 struct PositioningUncertainty {
-  double device = 0;  // of the measuring device, from its limits of error
-  double drift = 0;   // of the environment's variation during the test
-  double E_M_A = 0;   // of E, M and A: both
-  double B = 0;       // the device errs alike on either side of a target: drift alone
+  double device = 0;  // due to the measuring device, from its limits of error
+  double drift = 0;   // due to environmental variation during the test
+  double E_M_A = 0;   // of E, M and A: device and drift
+  // Drift only, because the device has the same error on either side of a target.
+  double B = 0;
 };
 
-// Expanded uncertainties for 95 % of the parameters of an error of a run, m or rad, propagated from
-// what its rig declares and from what the run shows (GUM 5, JCGM 101). NaN: no such parameter.
+// Expanded uncertainties (95 %) of the parameters of one error of a run, m or rad, propagated from
+// the declarations of its rig and from the run itself (GUM 5, JCGM 101). NaN: no such parameter.
 struct RunPositioningUncertainty {
-  // B, E, M as values of the axis: the scatter of the visits is in U.
+  // B, E, M as values of the axis: U contains the scatter of the visits.
   double B = kNoFigure, B_mean = kNoFigure;
   double E_forward = kNoFigure, E_reverse = kNoFigure, E = kNoFigure, M = kNoFigure;
-  // R of these visits: how well so few know the R of the axis is not in U.
+  // R of these visits: U does not contain how well a few visits determine the R of the axis.
   double R_forward = kNoFigure, R_reverse = kNoFigure, R = kNoFigure;
   bool noise_only = false;
-  std::string covers;  // a sentence for people: what U is made of
+  std::string covers;  // sentence about the contributors of U
   std::vector<std::string> not_declared;
 };
 

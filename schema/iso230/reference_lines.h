@@ -6,7 +6,7 @@
 
 namespace mdof {
 
-// What a reading differs from the line by is taken along the deviation, not square to the line.
+// Differences of readings from the line are along the deviation, not perpendicular to the line.
 struct ReferenceLine {
   double slope_rad = 0;    // m/m
   double intercept_m = 0;  // of the line at position 0
@@ -15,13 +15,13 @@ struct ReferenceLine {
 };
 
 struct ReferenceLines {
-  std::size_t readings = 0, positions = 0;  // different ones
+  std::size_t readings = 0, positions = 0;  // number of readings and of different positions
   double first_m = 0, last_m = 0;
   ReferenceLine end_point, least_squares, minimum_zone;
 };
 
-// Of one straightness error of a run, approached from one side or the mean of both; over the moving
-// body's own travel in M.
+// Lines of one straightness error of a run, for one approach or the mean of both, along the travel
+// of the moving body in M.
 struct StraightnessLines {
   std::string error_key;  // "EYX_um"
   std::string approach;   // "forward", "reverse", "mean"
@@ -31,7 +31,7 @@ struct StraightnessLines {
 // Squareness by one line through each of the two straightness errors.
 struct SquarenessLine {
   double slope_a_rad = 0, slope_b_rad = 0;
-  double error_rad = 0;  // as Squareness has it
+  double error_rad = 0;  // sign as in Squareness
 };
 struct SquarenessLines {
   SquarenessLine end_point, least_squares, minimum_zone;

@@ -1,4 +1,4 @@
-// Squareness of two axes from one run along each against the same target square (Fig. 6).
+// Squareness of two axes from one run along each, both against the same square target (Fig. 6).
 #pragma once
 
 #include <cstddef>
@@ -16,27 +16,27 @@ struct AxisPair {
   bool operator==(const AxisPair&) const = default;
 };
 
-// ISO 230-1: how far b is turned from square to a, by the right hand: "EC0Y", "EB0Z", "EA0Z".
+// ISO 230-1: rotation of b from the perpendicular of a, right-hand rule: "EC0Y", "EB0Z", "EA0Z".
 const char* squareness_name(AxisPair axes);
 // +1: the angle from +a to +b is 90° + the error (EC0Y, EA0Z), -1: 90° - the error (EB0Z).
 int squareness_sign(AxisPair axes);
 // "the angle from +X to +Y is 90 deg + EC0Y"; `degrees` is " deg" or "°".
 std::string squareness_sense(AxisPair axes, const std::string& degrees);
-// Place in error_names(of) of the straightness of the axis `of` along the axis `along`: EYX of X
-// along Y.
+// Index in error_names(of) of the straightness of the axis `of` in the direction of the axis
+// `along`: EYX for X in the direction of Y.
 std::size_t straightness_along(Axis of, Axis along);
 
-// What is known of the square: at the corner of the faces that the two runs look at, the material
-// encloses 90° + angle_error_rad.
+// The square artefact: at the corner of the faces that the two runs measure, the material encloses
+// 90° + angle_error_rad.
 struct SquareArtefact {
   double angle_error_rad = 0;
   std::optional<double> u_rad;  // standard uncertainty; absent: not declared
-  // +1: the corner is the one at +a +b or at -a -b, -1: at -a +b or at +a -b; 0: not known
+  // +1: the corner is at +a +b or at -a -b, -1: at -a +b or at +a -b; 0: unknown
   int corner = 0;
   bool operator==(const SquareArtefact&) const = default;
 };
 
-// By the slopes of the straightness of each axis along the other, stated at the fixture:
+// From the slopes of the straightness of each axis in the direction of the other, at the fixture:
 //   EC0Y = -slope(EXY over y) - slope(EYX over x) + corner * artefact angle error
 //   EA0Z = -slope(EYZ over z) - slope(EZY over y) + corner * artefact angle error
 //   EB0Z =  slope(EXZ over z) + slope(EZX over x) - corner * artefact angle error
@@ -48,15 +48,15 @@ struct Squareness {
   AxisPair axes;
   std::int64_t run_a = 0, run_b = 0;
   double error_rad = 0;  // EC0Y, EB0Z or EA0Z
-  // Combined standard uncertainties, as their budgets have them; what algo::squareness() makes is
-  // of noise, repeatability and the artefact alone.
+  // Combined standard uncertainties, as in their budgets. algo::squareness() sets only the part
+  // from noise, repeatability and the artefact.
   double u_error_rad = 0;
-  // How far the axes are from straight lines: √(s_a² + s_b²), s the standard deviation of a fitted
-  // slope that follows from the residuals of its line. It says how well one angle describes such
-  // axes, not how well it is known.
+  // Deviation of the axes from straight lines: √(s_a² + s_b²), where s is the standard deviation of
+  // a fitted slope from the residuals of its line. It states how well one angle describes the axes,
+  // not how well this angle is known.
   double form_rad = 0;
-  // Of the straightness of each axis along the other, over the travel of the moving body along + of
-  // M.
+  // Slopes of the straightness of each axis in the direction of the other, along the travel of the
+  // moving body in + of M.
   double slope_a_rad = 0, u_slope_a_rad = 0;
   double slope_b_rad = 0, u_slope_b_rad = 0;
   SquareArtefact artefact;

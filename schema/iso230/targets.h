@@ -1,4 +1,4 @@
-// Which positions are one target of a series.
+// Which positions belong to one target of a series.
 #pragma once
 
 #include <cstddef>
@@ -6,12 +6,12 @@
 
 namespace mdof {
 
-// Written positions differ by rounding: those within this are one target.
+// Written positions are rounded; positions within this distance belong to one target.
 inline constexpr double kSameTarget_m = 1e-7;
 
-// The different positions, ascending; of those that are one target the first.
+// The different positions, ascending; the first position of each target.
 std::vector<double> distinct_targets(std::vector<double> positions_m);
-// The nearest of them.
+// Index of the nearest target.
 std::size_t target_at(const std::vector<double>& targets_m, double position_m);
 
 }  // namespace mdof

@@ -6,7 +6,7 @@
 
 namespace mdof {
 
-// After the frames. What is wrong is recorded in the table.
+// Call it after the frames are read. Errors are recorded in the table.
 void read_sources(TomlTable& root, Machine& machine);
 
 }  // namespace mdof

@@ -1,4 +1,4 @@
-// MACHINE.toml: the chain, where the errors of each axis hold, and the errors.
+// MACHINE.toml: the chain, the points where the errors of each axis hold, and the errors.
 #include <algorithm>
 #include <cmath>
 
@@ -41,7 +41,7 @@ void read_rows(TomlTable& table, const std::string& key, const MachineFrame& fra
   }
 }
 
-// The key's standard uncertainty; not read where the error is not given, so that it is unknown.
+// The standard uncertainty of a key. Without the error it is not read, so that its key is unknown.
 std::optional<double> read_u(TomlTable& table, const std::string& key, std::size_t k) {
   const std::string of = "u_" + key;
   if (!table.has(of)) return std::nullopt;
@@ -51,7 +51,7 @@ std::optional<double> read_u(TomlTable& table, const std::string& key, std::size
   return u;
 }
 
-// A number, rows, or the name of a file under EXX_file.
+// Reads a number, rows, or the name of a file in EXX_file.
 void read_function(TomlTable& table, const std::string& name, const MachineFrame& frame,
                    std::size_t k, ErrorFunction& function) {
   const std::string key = with_unit(name, k), file_key = name + "_file";
@@ -73,7 +73,7 @@ void read_function(TomlTable& table, const std::string& name, const MachineFrame
   if (auto fit = check_function(function, k, name); !fit) table.reject(key, fit.error().message);
 }
 
-// Of a fixed frame, which is named by its table, "EX".
+// A fixed frame is named by its table, so its errors are "EX".
 std::string name_in_table(const MachineFrame& frame, std::size_t k) {
   const std::string id = frame.kind == FrameKind::fixed ? "" : frame.id;
   return "E" + std::string(1, kLetters[k]) + id;
@@ -104,7 +104,7 @@ void read_range(TomlTable& table, MachineFrame& frame) {
   frame.range = {position_from_written(frame, ends[0]), position_from_written(frame, ends[1])};
 }
 
-// Numbers of rows, one or a list; or "latest".
+// Reads the number of a row, a list of them, or "latest".
 StoredRows read_stored_rows(TomlTable& table, const std::string& key) {
   StoredRows rows;
   if (!table.has(key)) return rows;
@@ -160,7 +160,7 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
   frame.file = table.string("file", "");
   read_range(table, frame);
   read_errors(table, frame);
-  // What stands in files is turned when it is read.
+  // Values in files are converted when they are read.
   if (frame.file.empty() && frame.error[frame.direction].file.empty()) turn_positioning(frame);
 }
 
@@ -198,7 +198,7 @@ void read_axes(TomlTable& root, Machine& machine) {
                               (kLetters.find(axis.letter) < 3 ? "holds_at_mm" : "centre_mm"));
 }
 
-// Where in the list a frame goes that stands after `link` of the chain, seen from the work.
+// Index for a frame after `link` of the chain, seen from the workpiece.
 std::optional<std::size_t> place_after(const Machine& machine, const std::string& link) {
   if (link == "w") return 0;
   const auto& frames = machine.frames;
@@ -209,7 +209,8 @@ std::optional<std::size_t> place_after(const Machine& machine, const std::string
   return link == "b" ? std::optional(frames.size()) : std::nullopt;
 }
 
-// A body that goes with the command of a linear axis, along another direction: with, along, ratio.
+// Reads the motion of a body with the command of a linear axis, along another direction: with,
+// along, ratio.
 void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& frame) {
   const std::string with = table.string("with"), along = table.string("along");
   const MachineFrame* axis = machine.find(with);
@@ -236,7 +237,7 @@ void read_motion_with(TomlTable& table, const Machine& machine, MachineFrame& fr
                  "(errors at a point that moves with the body)");
 }
 
-// A body that is no axis has errors all the same: how it was put upon the one before.
+// A body that is not an axis has errors, too: those of its assembly on the body before.
 void read_fixed_frames(TomlTable& root, Machine& machine) {
   for (TomlTable& table : root.tables("frame")) {
     MachineFrame frame;

@@ -1,4 +1,5 @@
-// PLAN.toml of mdof milling: a micro end mill, its run-out, the cut and the force coefficients. SI
+// PLAN.toml of mdof milling: a micro end mill, its run-out, the cut and the force coefficients, in
+// SI units.
 // inside.
 #pragma once
 
@@ -16,14 +17,14 @@ namespace mdof {
 enum class ChipModel { sine, eq8, trochoid };
 enum class DeflectionModel { rigid, paper, steady };
 
-// A cylinder of the beam that stands for the tool, in the order from the holder.
+// A cylinder of the beam model of the tool, in the order from the holder.
 struct ToolSection {
   double length_m = 0, diameter_m = 0;
 };
 
 struct MillingPlan {
   std::string name;
-  std::string force_source;  // where the coefficients are from; empty: not stated
+  std::string force_source;  // source of the coefficients; empty: not stated
   // [tool]
   double diameter_m = 0;
   int teeth = 0;
@@ -32,11 +33,12 @@ struct MillingPlan {
   double youngs_modulus_Pa = 0;
   // [runout]
   double runout_m = 0, runout_angle_rad = 0,
-         runout_tilt = 0;  // at the tip; tilt: m per m of height
+         // At the tip; tilt: m per m of height.
+      runout_tilt = 0;
   // [cut]
   bool is_up = true;
   double spindle_hz = 0, feed_per_tooth_m = 0, radial_depth_m = 0, axial_depth_m = 0;
-  // [force]: of the chip's area, N/m²; of the edge's length, N/m
+  // [force]: per area of the chip, N/m²; per length of the edge, N/m
   double Kt = 0, Kr = 0, Kte = 0, Kre = 0;
   // [model]
   ChipModel chip = ChipModel::eq8;
@@ -48,24 +50,24 @@ struct MillingPlan {
   double overhang_m() const;
 };
 
-// A number of the plan that may have a standard uncertainty: "u_" before its key.
+// A number of the plan that can have a standard uncertainty, with "u_" before its key.
 struct MillingInput {
   const char* table;
   const char* key;  // with its unit
   double MillingPlan::*member;
-  double unit;  // SI of one
+  double unit;  // SI value of one unit
 };
 const std::vector<MillingInput>& milling_inputs();
 
 struct DeclaredMillingPlan {
   MillingPlan plan;
-  std::vector<std::pair<const MillingInput*, double>> u;  // those declared; SI
+  std::vector<std::pair<const MillingInput*, double>> u;  // declared u, SI
 };
 
-// Errors name file, line, key and limit; an unknown key is one.
+// Errors name file, line, key and limit; an unknown key is an error.
 Result<DeclaredMillingPlan> parse_milling_plan(std::string_view text, const std::string& source);
 
-// The tool and the cut of Huo et al. (2017); what the paper does not give is marked in the text.
+// The tool and the cut of Huo et al. (2017); the text marks what the paper does not state.
 std::string_view micro_end_mill_preset();
 
 const char* to_string(ChipModel model);

@@ -347,7 +347,7 @@ class CertificateReader {
   const Probe& own_;
   const DccCertificate& from_;
   CertifiedProbe found_;
-  std::string names_;  // of all results
+  std::string names_;  // names of all results
   std::vector<const DccQuantity*> sensitivities_;
   std::vector<Table> tables_;
 };

@@ -71,7 +71,7 @@ class Fit {
   Status settle(Step step) {
     for (int i = 0; i < kMaxIterations; ++i) {
       const double size = step();
-      if (!(pose_.cwiseAbs().maxCoeff() < 25)) break;  // 0.25 rad, where the model ends
+      if (!(pose_.cwiseAbs().maxCoeff() < 25)) break;  // 0.25 rad, the limit of the model
       if (size < (steps_ > kChoosingSteps ? kDescentDone : kStepDone)) return {};
     }
     return fail(ErrorCode::check,
@@ -144,7 +144,7 @@ class Fit {
   Eigen::VectorXd pose_, probe_;
   MountingView view_;
   Eigen::Index pose_rank_ = 0;
-  int steps_ = 0;  // of all unknowns
+  int steps_ = 0;  // number of step_of_all() calls
 };
 
 // The unseen part keeps the rig's uncertainty; NaN: the rig does not declare it.

@@ -11,8 +11,6 @@
 // [encoder] u_um; the encoder's error is the same at each visit of a position. The second is from
 // the residuals of the mean of each position, s/√Σ(z - z̄)², with (positions - 2) degrees of
 // freedom.
-// it, the encoder's error being one at each place however often it is visited; and what the line
-// leaves of the places' means, s/√Σ(z - z̄)², with two degrees of freedom less than places.
 #pragma once
 
 #include <vector>

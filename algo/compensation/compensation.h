@@ -48,7 +48,7 @@ Result<Notices> uneven_visits_of(const std::vector<Run>& runs);
 // gives the interpolated value a larger u. u_interpolation is added for an axis whose errors have
 // the same curvature between the targets as around them.
 struct TableValue {
-  Errors5 error{};  // named; NaN where the table has no value
+  Errors5 error{};  // named; NaN: the table has no value
   Errors5 u{};
   Errors5 u_interpolation{};  // part of u; 0 at the targets and where an end value is held
   // Whether the position is within the measured positions of this approach (of both approaches, for

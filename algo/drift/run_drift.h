@@ -7,7 +7,6 @@
 // to the time between them, a step does not. mdof accepts a drift only if it is more likely than
 // steps from pass to pass by a factor of e⁵ (both with one reversal for all targets). Runs of one
 // direction do not show the difference.
-// (both with one reversal for all targets), is one; runs of one direction do not show it.
 #pragma once
 
 #include <array>

@@ -60,7 +60,7 @@ class CuttingEdge {
   double runout_m_, gamma_rad_;  // magnitude, and angle ahead of this edge
 };
 
-// Of an angle to [0, 2π).
+// Wraps an angle to [0, 2π).
 double wrapped_angle(double angle_rad);
 
 }  // namespace mdof::algo

@@ -1,5 +1,5 @@
 // Whether the height map of each plane covers the area that the probes reach. Outside, the rigid
-// model holds the last height, which nobody measured.
+// model holds the last height, which was not measured.
 #pragma once
 
 #include <string>

@@ -18,7 +18,6 @@ struct ShiftedTargets {
 // after it are those before it shifted by one distance, less than half of their range, within 50
 // µm. This is the only sign of a jump while the axis reverses or creeps, because a step of one
 // sample then looks like motion.
-// motion.
 std::optional<ShiftedTargets> find_shifted_targets(const Sequence& sequence);
 
 }  // namespace mdof::algo

@@ -52,7 +52,7 @@ struct ImportedSeries {
   std::vector<ImportedReading> readings;
   // Statements of the file about itself: machine, date, operator.
   std::vector<std::string> about;
-  Notices notices;  // assumptions and corrections made when it was read
+  Notices notices;  // changes that were made to the data when they were read
 };
 
 // The sense of a deviation along the axis. command: actual minus commanded position in the

@@ -1,6 +1,5 @@
 // PLAN.toml of mdof milling: a micro end mill, its run-out, the cut and the force coefficients, in
 // SI units.
-// inside.
 #pragma once
 
 #include <array>

@@ -28,8 +28,8 @@ namespace mdof::algo {
 
 // A stop of the traversing axis.
 struct TraverseStop {
-  double travel_m = 0;              // of the target in the + direction of the axis, from any origin
-  std::vector<double> reading_m;    // by probe; NaN: do not use
+  double travel_m = 0;              // travel of the target in + of the axis, from any origin
+  std::vector<double> reading_m;    // one for each probe; NaN: do not use
   std::vector<double> u_reading_m;  // standard uncertainty
 };
 struct Traverse {
@@ -42,10 +42,10 @@ struct Clamping {
 
 struct MountingFit {
   MountingCalibration found;
-  // Of all unknowns in the order of the probes: position along the two directions (m), zero (m),
-  // direction (rad, towards the two vectors), scale (1). `change`: found minus the rig's value;
-  // `covariance`: of the part that the logs determine; `seen`: projector (unknowns x unknowns) onto
-  // this part of the true values.
+  // Vectors and matrices of all unknowns in the order of the probes: position along the two
+  // directions (m), zero (m), direction (rad, towards the two vectors), scale (1). `change`: found
+  // minus the rig's value; `covariance`: for the part that the logs determine; `seen`: projector
+  // (unknowns x unknowns) onto this part of the true values.
   Eigen::VectorXd change;
   Eigen::MatrixXd covariance;
   Eigen::MatrixXd seen;

@@ -34,7 +34,7 @@ class MountingModel {
   const Fixture& nominal() const { return nominal_; }
   const std::vector<TraverseReading>& readings() const { return readings_; }
   std::size_t probes() const { return nominal_.probes.size(); }
-  Eigen::Index unknowns() const;  // of the probes
+  Eigen::Index unknowns() const;  // number of unknowns of the probes
   Eigen::Index pose_unknowns()
       // of the clampings: three angles each, and δy and δz of each traverse
       const;

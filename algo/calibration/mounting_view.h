@@ -12,7 +12,7 @@ namespace mdof::algo {
 // From the singular values of the derivatives, after the unknowns of the clampings are eliminated.
 struct MountingView {
   Eigen::MatrixXd seen, unseen;  // orthonormal columns, in units of MountingModel::scale()
-  Eigen::VectorXd singular;      // of the columns of `seen`
+  Eigen::VectorXd singular;      // singular values of the columns of `seen`
 
   Eigen::MatrixXd projector() const { return seen * seen.transpose(); }
 };

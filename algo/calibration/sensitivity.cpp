@@ -14,9 +14,9 @@ namespace mdof::algo {
 namespace {
 
 constexpr std::size_t kFewest = 3;
-constexpr double kShortest = 0.05;         // of the range
+constexpr double kShortest = 0.05;         // share of the range
 constexpr double kLeast = 0.5, kMost = 2;  // sensitivities that a probe can have
-constexpr double kOnePlace = 1e-3;         // of the range; nearer stops are one position
+constexpr double kOnePlace = 1e-3;         // share of the range; nearer stops are one position
 
 // Displacement along the probe's direction for a travel along the axis.
 Result<double> facing(const Rig& rig, std::size_t probe, Axis axis) {

@@ -31,8 +31,9 @@ Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableO
 // A table without u, and the points and means that it is made of.
 struct TableOfMeans {
   CompensationTable table;
-  std::vector<MeasuredPoint> points;  // of all runs; targets and repeats numbered through all runs
-  std::vector<TargetMean> grid;       // means of both approaches
+  // points of all runs; targets and repeats numbered through all runs
+  std::vector<MeasuredPoint> points;
+  std::vector<TargetMean> grid;  // means of both approaches
 };
 Result<TableOfMeans> table_of_means(const std::vector<Run>& runs, const TableOptions& options);
 // The references of a table with these options, as shares of the means at its positions: for each

@@ -58,7 +58,7 @@ Covariance5 of_weights(const std::array<std::vector<std::vector<double>>, kError
   return coefficients(products);
 }
 
-// Of both approaches. NaN is replaced by the largest of the other positions, or 0 if all are
+// Noise of both approaches. NaN is replaced by the largest of the other positions, or 0 if all are
 // unknown.
 std::array<std::vector<double>, kErrorCount> noise_of(const CompensationTable& table) {
   std::array<std::vector<double>, kErrorCount> u;

@@ -12,8 +12,8 @@
 
 namespace mdof::algo {
 
-// Of the named errors, by position. Each variance is the larger one of the two approaches, so that
-// it holds for the value of either approach and for their mean.
+// Covariances of the named errors by position. Each variance is the larger one of the two
+// approaches, so that it holds for the value of either approach and for their mean.
 struct ErrorCovariances {
   std::vector<Covariance5> noise;     // noise and repeatability
   std::vector<Covariance5> declared;  // declared by the rigs; empty: nothing declared

@@ -26,7 +26,7 @@ bool is_of_several_tables(const std::vector<InRun>& all) {
   return tables.size() > 1;
 }
 
-// By Contributor::common_as; `runs` has the runs of each table as the table states them.
+// Contributors by Contributor::common_as; `runs` has the runs of each table as it states them.
 Result<std::map<std::string, std::vector<InRun>>> quantities_of(
     const std::vector<BuiltFrom>& tables, const std::vector<std::vector<Run>>& runs) {
   std::map<std::string, std::vector<InRun>> all;

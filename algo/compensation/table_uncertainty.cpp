@@ -23,7 +23,7 @@ struct OfApproach {
   std::vector<Errors5> variance;  // 0: the approach has no mean here
   std::vector<bool> has;
   Errors5 shift{};    // common shift of all means
-  Errors5 u_visit{};  // of one visit, pooled
+  Errors5 u_visit{};  // u of one visit, pooled
 };
 
 OfApproach of_approach(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
@@ -100,7 +100,7 @@ Errors5 half_difference(const MovingAxis& moving, const std::vector<MeasuredPoin
     std::array<Errors5, 2> sum{};
     std::array<double, 2> visits{};
   };
-  std::map<std::pair<int, int>, Sums> at_target;  // by run and target
+  std::map<std::pair<int, int>, Sums> at_target;  // key: run and target
   for (const MeasuredPoint& p : points) {
     if (!counts_in_means(p)) continue;
     Sums& sums = at_target[{p.run, p.target}];

@@ -28,7 +28,7 @@ struct DriftRows {
   std::size_t places = 0;
   Eigen::MatrixXd polynomials, y;  // minus the means of their places
 
-  double freedom() const;  // of the residuals of the highest order
+  double freedom() const;  // degrees of freedom of the residuals of the highest order
 };
 
 class DriftDesign {
@@ -40,10 +40,11 @@ class DriftDesign {
   explicit DriftDesign(std::vector<TimedVisit> visits);
 
   int orders() const { return orders_; }  // 0: no drift can be separated from the form of the axis
-  double freedom() const { return freedom_; }  // of the residuals of the highest order, all visits
+  // Degrees of freedom of the residuals of the highest order, all visits.
+  double freedom() const { return freedom_; }
   const std::vector<TimedVisit>& visits() const { return visits_; }
-  double begin_s() const { return begin_s_; }            // of the first visit
-  double end_s() const { return begin_s_ + length_s_; }  // of the last visit
+  double begin_s() const { return begin_s_; }            // time of the first visit
+  double end_s() const { return begin_s_ + length_s_; }  // time of the last visit
 
   DriftRows rows(const Eigen::MatrixXd& y) const;  // `y`: visits × series; requires orders() > 0
   // The value of each order, 0 at the first visit, where the system was zeroed. Before the first

@@ -33,7 +33,7 @@ struct RunDrift {
   double length_s = 0;                  // from the first point to the last
   std::array<SeriesDrift, 5> errors{};  // local, of the target; m, rad
   std::vector<SeriesDrift> probes;      // in the order of the rig; m; empty if not_seen is set
-  std::vector<Closure> closures;        // of each run whose start position was visited again
+  std::vector<Closure> closures;        // one for each run whose start position was visited again
 
   bool significant() const;  // any error
   bool removable() const;    // at least one drift that cannot be steps
@@ -57,7 +57,7 @@ class DriftOfRun {
 
  private:
   RunDrift found_;
-  std::optional<DriftFit> fit_;  // of the errors
+  std::optional<DriftFit> fit_;  // fit of the errors
 };
 
 // The middle of a point's samples.

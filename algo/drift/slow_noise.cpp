@@ -17,7 +17,7 @@ Eigen::MatrixXd whitened(const std::vector<double>& time_s, const SlowNoise& noi
                          const Eigen::MatrixXd& rows, double& log_variances) {
   Eigen::MatrixXd white(rows.rows(), rows.cols());
   Eigen::RowVectorXd expected = Eigen::RowVectorXd::Zero(rows.cols());
-  double variance = noise.share;  // of the slow noise, given the rows before
+  double variance = noise.share;  // variance of the slow noise, given the rows before
   log_variances = 0;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     const double all = variance + 1 - noise.share, gain = variance / all;

@@ -13,7 +13,7 @@ namespace mdof::algo {
 
 struct SlowNoise {
   double correlation_s = 0;  // τ
-  double share = 0;          // of the variance of one reading; 0: only white noise
+  double share = 0;          // share of the variance of one reading; 0: only white noise
 };
 
 // Candidates from white noise to a random walk, for visits at these times.
@@ -31,8 +31,7 @@ struct WeighedFit {
   // polynomials(t)) · scores, with the first n of both.
   Eigen::MatrixXd scores;  // orders × series
   Eigen::MatrixXd root;    // orders × orders, upper
-  Eigen::MatrixXd left;    // series × series: products of the whitened residuals of the highest
-                           // order
+  Eigen::MatrixXd left;  // series × series: products of the whitened residuals of the highest order
   double log_determinants = 0;
 
   Eigen::VectorXd shapes(const Eigen::VectorXd& polynomials) const;

@@ -89,7 +89,7 @@ OffMean off_the_mean(const MovingAxis& moving, const std::vector<MeasuredPoint>&
   struct Mean {
     double sum = 0, n = 0;
   };
-  std::map<std::pair<int, int>, Mean> means;  // by target and direction
+  std::map<std::pair<int, int>, Mean> means;  // key: target and direction
   for (const MeasuredPoint& p : points) {
     Mean& mean = means[{p.target, p.point.direction}];
     mean.sum += value(p);
@@ -114,7 +114,7 @@ double mean_of(const std::vector<double>& values) {
 // so that the form and the backlash of the axis do not appear as scatter if a run lacks a target.
 double scatter_of_runs(const MovingAxis& moving, const std::vector<MeasuredPoint>& points,
                        std::size_t named) {
-  std::map<int, double> travel_m;  // by target
+  std::map<int, double> travel_m;  // key: target
   for (const MeasuredPoint& p : points)
     travel_m.emplace(p.target, moving.sides.own_travel_m(p.point.position_m));
   std::vector<double> slopes;

@@ -26,7 +26,7 @@ class TargetChanges {
     std::size_t target, way, point;  // way: 0 forward, 1 reverse
   };
   using Visits = std::array<std::size_t, 2>;         // visits of a target, forward and reverse
-  using Ways = std::array<std::vector<Errors5>, 2>;  // by target
+  using Ways = std::array<std::vector<Errors5>, 2>;  // [way][target]
 
   std::vector<Errors5> without_drift(const std::vector<Errors5>& changes) const;
   Ways means_of_ways(const std::vector<Errors5>& errors) const;

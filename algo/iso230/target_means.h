@@ -13,7 +13,7 @@ enum class Approach { forward, reverse, both };
 const char* to_string(Approach approach);  // "forward", "reverse", "mean"
 
 struct TargetMean {
-  int target = 0;         // as MeasuredPoint::target
+  int target = 0;         // same as MeasuredPoint::target
   double position_m = 0;  // mean of the encoder
   // Mean over the runs for the moving body, in the order of error_names(); m, rad.
   Errors5 named{};

@@ -28,7 +28,7 @@ constexpr int kPasses = 2;  // the second starts with the result of the first at
 struct Tooth {
   CuttingEdge edge;
   std::vector<double> angle;  // φ, continuous over the window: the first may be below 0
-  std::vector<Chip> rigid;    // by angle of the turn
+  std::vector<Chip> rigid;    // one for each angle of the turn
 };
 
 // Share of a step in which the tooth is in the work, and its derivative by y of the deflection.
@@ -103,7 +103,7 @@ class Turn {
     return static_cast<std::size_t>(((static_cast<int>(i) - k) % z + z) % z);
   }
 
-  // Of a phase: forces at all its angles, and their derivatives.
+  // Forces at all angles of a phase, and their derivatives.
   struct Load {
     VectorXd F;
     Eigen::MatrixXd dF;
@@ -290,7 +290,7 @@ class Turn {
   Eigen::MatrixXd C_;
   std::vector<Tooth> teeth_;  // element by element of tooth 0, then of tooth 1
   int turn_iterations_ = 1;
-  std::vector<VectorXd> u_;  // by angle: x of all elements, then y
+  std::vector<VectorXd> u_;  // one for each angle: x of all elements, then y
 };
 
 }  // namespace

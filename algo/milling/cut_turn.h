@@ -14,14 +14,14 @@ struct CutTurn {
   std::vector<double>
       // Angle of tooth 0 at the tip; steps_per_turn angles, rounded up to a multiple of the teeth.
       turned_rad;
-  std::vector<double> height_m;        // of the elements, from the tip
-  Eigen::MatrixXd fx_N, fy_N;          // on the tool; a row for each angle, a column for each
-                                       // element
-  std::vector<double> power_W;         // cutting power, by angle
-  double entry_rad = 0, exit_rad = 0;  // of tooth 0 in the lowest element
+  std::vector<double> height_m;  // heights of the elements from the tip
+  Eigen::MatrixXd fx_N, fy_N;    // on the tool; a row for each angle, a column for each element
+  std::vector<double> power_W;   // cutting power, by angle
+  double entry_rad = 0, exit_rad = 0;  // angles of tooth 0 in the lowest element
   int iterations = 0;                  // for the window whose edge depends on the deflection
 
-  Eigen::MatrixXd force_N() const;  // of the whole tool: both components, a row for each angle
+  // force on the whole tool: both components, a row for each angle
+  Eigen::MatrixXd force_N() const;
 };
 
 // Error (check): there is no equilibrium; names the angle and what to change.

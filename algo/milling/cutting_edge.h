@@ -21,8 +21,9 @@ struct Deflection {
 // left its surface.
 struct Chip {
   double thickness = 0;
-  double by_x = 0, by_y = 0;                  // by the present deflection
-  double by_earlier_x = 0, by_earlier_y = 0;  // by the deflection `earlier` teeth before
+  double by_x = 0, by_y = 0;  // derivatives by the present deflection
+  // derivatives by the deflection `earlier` teeth before
+  double by_earlier_x = 0, by_earlier_y = 0;
   int earlier = 1;
 };
 

@@ -16,7 +16,7 @@ struct VaryingInput {
   double u = 0;          // SI
   bool declared = true;  // false: u is 1 % of the input
 };
-// Those of milling_inputs() that have a declared u or are not 0.
+// The inputs of milling_inputs() that have a declared u or are not 0.
 std::vector<VaryingInput> varying_inputs(const DeclaredMillingPlan& declared);
 
 // x_max_N, y_max_N, deflection_um, offset_um (mean of the wall), form_um, waviness_tip_um.

@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kPassesBy = 1e-4;  // of the travel: 100 um in one metre
+constexpr double kPassesBy = 1e-4;  // share of the travel: 100 um in one metre
 
 // Motion of the surface along the probe's line, per travel of the target in + of a machine axis.
 double approach_of(const FixtureProbe& probe, const Vec3& along) {

@@ -18,7 +18,7 @@ struct FixtureProbe {
   Eigen::Vector3d u_M;               // unit vector of positive displacement
   Eigen::Vector3d n_C;               // unit normal of the target plane
   double plane_offset_m = 0;         // n · p = offset
-  HeightMap flatness;                // of this plane; empty: flat
+  HeightMap flatness;                // height map of this plane; empty: flat
   std::optional<std::size_t> plane;  // index of this plane in the rig; empty: the rig has no planes
 };
 

@@ -15,7 +15,7 @@ Eigen::MatrixXd first_order_jacobian(const Fixture& fixture, double travel_m,
                                      const std::vector<bool>& use);
 
 struct Visibility {
-  int rank = 0;                     // of 5
+  int rank = 0;                     // 0 to 5
   double condition = 0;             // largest by smallest singular value, angles scaled by 10 mm
   std::vector<std::string> unseen;  // ISO names in a combination that no probe sees
   bool complete() const { return rank == kErrorCount; }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNmPerM = 1e9, kMicroseconds = 1e6, kMilliseconds = 1e3;
 constexpr double kSeenWave = 2.5;    // in bins; shorter waves are read more than 1 % too small
-constexpr double kOtherSpeed = 0.1;  // of the speed of the run
+constexpr double kOtherSpeed = 0.1;  // share of the speed of the run
 constexpr double kBriefDelay_s = 1e-6;
 
 struct Speeds {

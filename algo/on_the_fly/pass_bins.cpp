@@ -11,10 +11,10 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kMostUneven = 0.0075;  // of a bin
+constexpr double kMostUneven = 0.0075;  // share of a bin
 constexpr double kNoises = 3;
 constexpr double kCoarseSteps = 3.5;   // steps; smaller changes are flicker, not spikes
-constexpr double kCoarseShare = 1e-4;  // of the range
+constexpr double kCoarseShare = 1e-4;  // share of the range
 
 struct Rows {
   std::size_t first = 0, last = 0;
@@ -24,7 +24,7 @@ struct Rows {
 struct Way {
   double speed_m_s = 0;
   double uneven_m = 0;  // rms about a steady speed
-  double noise_m = 0;   // of the encoder, from second differences
+  double noise_m = 0;   // noise of the encoder, from second differences
 };
 
 class Binning {

@@ -15,8 +15,8 @@ struct BinPoint {
   std::int64_t place = 0;  // place number of the target (target_grid.h)
   Point point;             // values at the target; sd is of the residuals of single readings
   double speed_m_s = 0;
-  std::vector<double> slope;  // of each probe's reading over the position
-  std::size_t last_row = 0;   // of the pass
+  std::vector<double> slope;  // slope of each probe's reading over the position
+  std::size_t last_row = 0;   // index in the rows of the pass
 };
 
 enum class BinFault { none, speed_changes, too_few, gap };

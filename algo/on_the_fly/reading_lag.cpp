@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kFewestTargets = 12;
 constexpr double kSignificant = 5, kLeast_m = 2e-9;
-constexpr double kSlopeChanges = 0.01;  // of its rms, without a constant and a line
+constexpr double kSlopeChanges = 0.01;  // share of its rms, without a constant and a line
 constexpr double kMostCorrelated = 0.9;
 
 // Sums of a probe at a target in one direction.

@@ -15,7 +15,7 @@ struct MachineCauses {
   std::vector<PartCause> axes;
   // One for each source: its effect on errors that were not measured.
   std::vector<PartCause> budget;
-  std::vector<std::string> not_measured, no_u, beyond;  // as in ToolError
+  std::vector<std::string> not_measured, no_u, beyond;  // same as in ToolError
 };
 
 // Points of the path are positions of the tool in workpiece coordinates, relative to its position

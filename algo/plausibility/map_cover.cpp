@@ -28,7 +28,7 @@ std::string range_text(double from_m, double to_m) {
   return from_m == to_m ? from + " mm" : from + " to " + plain_number(to_mm(to_m), 6) + " mm";
 }
 
-// Where probes read outside the map: "probe A reads at 1 to 2 mm, ..."; empty: nowhere.
+// Text of the probes that read outside the map: "probe A reads at 1 to 2 mm, ..."; empty: none.
 std::string read_outside(std::size_t plane, const std::vector<double>& covered_m, bool first,
                          const Fixture& fixture, double least_m, double most_m) {
   std::string outside;

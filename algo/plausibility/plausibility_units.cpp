@@ -21,7 +21,7 @@ constexpr double kQuietest_m = 0.5e-9;  // sd; every amplifier has more
 constexpr double kNoisiest = 2.5e-3;    // sd as a part of the range
 constexpr double kNoisiest_m = 1e-6;
 constexpr double kOneOfThousand = 1e-3;
-constexpr double kOffZero = 0.1;  // of the range, for a gap without a stated offset
+constexpr double kOffZero = 0.1;  // share of the range, for a gap without a stated offset
 
 double largest(const ProbeFigures& p) {
   return std::max(std::abs(p.min_m), std::abs(p.max_m));

@@ -19,10 +19,10 @@ namespace {
 constexpr double kStepsOfScatter = 6, kLogRatioToSmooth = 10;
 constexpr double kLeastStep_m = 1e-9;
 constexpr double kFewestOfStep = 2;  // Σ before · after/all over the places: at least four places
-constexpr double kFewestFreedom = 4;  // of the residuals of places and a step
+constexpr double kFewestFreedom = 4;  // least freedom of the residuals of places and a step
 constexpr Eigen::Index kSmooth = 6;   // orders of the smooth change
 constexpr std::size_t kFewestCopies = 6;
-constexpr double kCopiedShare = 0.1;  // of a copy, because not all stops average the same scans
+constexpr double kCopiedShare = 0.1;  // share of copied points that is reported
 
 using ProbeVisits = std::vector<const MeasuredPoint*>;
 

@@ -16,7 +16,7 @@ struct VisitStep {
   std::size_t probe = 0;
   std::size_t point = 0;  // first point after the step
   double size_m = 0;
-  double sd_m = 0;  // of single readings about the mean of their place, without the step
+  double sd_m = 0;  // sd of single readings about the mean of their place, without the step
 };
 
 // The likeliest single step of each probe, if it is six times the scatter of the readings without

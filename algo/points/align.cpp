@@ -225,7 +225,7 @@ void Aligner::emit(FrameBlock& out, bool at_end) {
     for (std::size_t k = 0; k < probes_.size(); ++k) {
       Reading r = value_at(probes_[k], at.time_ns);
       mark_fresh(out, row, k, has_fresh(probes_[k], at.time_ns));
-      r.quality = std::max(r.quality, at.quality);  // of an uncertain position
+      r.quality = std::max(r.quality, at.quality);  // the position may be uncertain
       given_up_ += r.quality == Quality::missing;
       out.probe_m[k].push_back(r.value);
       if (r.quality != Quality::good || !out.probe_quality[k].empty()) {

@@ -23,7 +23,7 @@ constexpr std::size_t kRowsForPeriod = 33;
 constexpr std::size_t kMinScansPerSlot = 4;
 constexpr std::int64_t kHolePeriods = 5;          // must also be longer than a slot
 constexpr std::int64_t kUnseen_ns = 500'000'000;  // in which an axis may have reversed
-constexpr double kMostCreep_m = 50e-6;            // of a stop that becomes a point
+constexpr double kMostCreep_m = 50e-6;            // largest creep of a stop that becomes a point
 constexpr std::size_t kPathLength = 64;
 constexpr std::size_t kDropRows = 4096;  // unused rows before the buffer is moved up
 

@@ -34,8 +34,9 @@ struct DwellOptions {
   double leave_s = 0;
   // Shortest averaged time; a shorter stop (a reversal) is no dwell.
   double min_length_s = 0.1;
-  double approach_m = 50e-6;   // travel that determines the direction of approach
-  double max_speed_m_s = 100;  // of the axis; positions that it cannot reach are left out
+  double approach_m = 50e-6;  // travel that determines the direction of approach
+  // largest speed of the axis; frames that it cannot reach are left out
+  double max_speed_m_s = 100;
   std::size_t max_scans = std::size_t{1} << 19;  // averaged per dwell; bounds memory
 
   // Shortest stop that becomes a dwell.
@@ -163,7 +164,7 @@ class DwellDetector {
   bool dwelling_ = false, truncated_ = false;
   std::int64_t still_since_ns_ = 0;
   std::uint64_t unplaced_before_ = 0;  // frames without a place before the current dwell
-  std::size_t cut_row_ = 0;            // of the current dwell: rows after it are not averaged
+  std::size_t cut_row_ = 0;            // first row of the current dwell that is not averaged
   std::int64_t left_ns_ = 0;           // time and position of the end of the last stop; 0: none
   double left_m_ = 0;
   struct Way {
@@ -175,7 +176,7 @@ class DwellDetector {
   Way way_, way_in_;
   Way since_left_;           // since the axis left the last stop
   bool gave_point_ = false;  // for the last stop
-  int direction_ = 0;        // of approach, determined before the axis leaves again
+  int direction_ = 0;        // direction of approach, determined before the axis leaves again
   std::vector<double> scratch_, finite_;
 
   std::vector<DwellEvent> events_;

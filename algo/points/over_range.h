@@ -10,9 +10,9 @@ namespace mdof::algo {
 // The over-range readings of a stop.
 struct OverRange {
   std::size_t count = 0;
-  double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;  // of their values
-  bool has_unknown = false;  // whether one of them is
-                             // NaN
+  // Smallest and largest of the values.
+  double low_m = std::numeric_limits<double>::infinity(), high_m = -low_m;
+  bool has_unknown = false;  // whether one of them is NaN
   void add(double reading_m);
   // Whether they are nearer to the mean of the others than six times their spread, as for a probe
   // that touches the end of its range. Farther ones are glitches, which do not affect the others.

@@ -9,7 +9,7 @@ namespace mdof::algo {
 
 struct RobustMean {
   double mean = 0;
-  double sd = 0;  // of the kept single readings
+  double sd = 0;  // sd of the kept single readings
   double u = 0;   // standard uncertainty of the mean, see below
   std::size_t used = 0, rejected = 0;
 };

@@ -26,7 +26,7 @@ struct CycleFound {
   Cycle cycle = Cycle::none;
   // a run is a pass over the targets; otherwise a target's k-th visit is run k
   bool by_passes = false;
-  std::vector<int> run;  // of each visit: 1, 2, ...
+  std::vector<int> run;  // run of each visit: 1, 2, ...
 };
 
 // Counts passes visit by visit from the reversals of the path over the targets; recognise_cycle()

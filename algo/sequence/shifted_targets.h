@@ -10,7 +10,7 @@
 namespace mdof::algo {
 
 struct ShiftedTargets {
-  std::int64_t time_ns = 0;  // of the last visit at the old positions
+  std::int64_t time_ns = 0;  // time of the last visit at the old positions
   double shift_m = 0;        // from the old to the new positions, along the encoder
 };
 

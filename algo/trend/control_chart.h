@@ -15,7 +15,7 @@ struct ChartValue {
 struct Chart {
   std::size_t baseline = 0;          // number of first values that determine centre and sigma
   double centre = 0, sigma = 0;      // mean of the baseline; mean moving range / 1.128
-  std::vector<double> low, high;     // of each value: centre ± 3 max(sigma, its own u)
+  std::vector<double> low, high;     // limits of each value: centre ± 3 max(sigma, its own u)
   std::vector<std::size_t> outside;  // indices beyond these limits
   std::vector<std::size_t>
       // Indices of the eighth, ninth ... consecutive value on one side of the centre.

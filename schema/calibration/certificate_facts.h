@@ -13,7 +13,7 @@ namespace mdof {
 // Empty: not stated. Dates are YYYY-MM-DD.
 struct CertificateFacts {
   std::string certificate, laboratory, serial_number, calibrated, due;
-  double u_linearity_m = 0;  // of a displacement after the table's correction; 0: unknown
+  double u_linearity_m = 0;  // u of a displacement after the table's correction; 0: unknown
 };
 
 CertificateFacts read_certificate(TomlTable& probe);

@@ -18,8 +18,9 @@ struct MountedProbe {
   double u_direction_rad = 0;         // the larger one of its two axes
   double zero_m = 0, u_zero_m = 0;    // displacement that the probe reads at the nominal surface
   double scale_1 = 0, u_scale_1 = 0;  // found minus 1; both 0 if the rig declares the scale exact
-  bool position_seen = false, direction_seen = false, zero_seen = false;  // by the logs
-  std::size_t readings = 0;                                               // number used
+  // whether the logs determine it
+  bool position_seen = false, direction_seen = false, zero_seen = false;
+  std::size_t readings = 0;  // number used
 };
 
 struct MountingCalibration {
@@ -28,13 +29,14 @@ struct MountingCalibration {
   std::vector<std::string> not_seen;
   // u of the common shift of the probes of a plane; NaN: the rig does not declare it.
   Vec3 u_together_m{};
-  CalibrationCovariance covariance;  // of the seen positions, directions and zeros
+  CalibrationCovariance covariance;  // covariance of the seen positions, directions and zeros
   std::size_t clampings = 0, readings = 0;
   double tilt_rad = 0;  // largest angle between the tilts of two clampings
   double chi_square = 0;
   int freedom = 0;
   bool explained =
-      // By the readings' uncertainties. If false, the uncertainties above are widened (Birge).
+      // Whether the readings' uncertainties explain the residuals. If false, the uncertainties
+      // above are widened (Birge).
       true;
 };
 

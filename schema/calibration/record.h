@@ -33,7 +33,7 @@ struct CalibratedProbe {
   std::optional<double> offset_um;  // raw reading at the nominal surface
   double u_offset_m = 0;
   std::optional<double> um_per_V;
-  std::vector<std::array<double, 2>> linearity;  // as in the rig
+  std::vector<std::array<double, 2>> linearity;  // same form as in the rig
   // First and last calibrated reading, in units of the first column of `linearity`.
   std::optional<std::array<double, 2>> calibrated_um;
   double u_sensitivity_1 = 0;
@@ -44,7 +44,7 @@ struct CalibrationRecord {
   std::string id;
   std::string kind;         // "mounting", "sensitivity"
   std::string rig;          // name of the rig
-  char axis = 'X';          // of the rig
+  char axis = 'X';          // axis of the rig
   std::string date;         // YYYY-MM-DD
   std::string valid_until;  // last day of validity
   std::string software;     // software that wrote the record
@@ -57,8 +57,8 @@ struct CalibrationRecord {
   std::vector<std::string> not_seen;
   std::optional<Vec3> u_together_m;  // common shift of all probes along X, Y, Z
   std::vector<CalibratedProbe> probes;
-  // Of positions, directions and zeros of the probes; empty in records of older versions. The file
-  // has lengths in µm and directions in µrad.
+  // Covariance of positions, directions and zeros of the probes; empty in records of older
+  // versions. The file has lengths in µm and directions in µrad.
   CalibrationCovariance covariance;
 };
 

@@ -12,12 +12,12 @@
 namespace mdof {
 
 struct SensitivityCalibration {
-  std::string id;            // of the probe
+  std::string id;            // id of the probe
   double sensitivity_1 = 1;  // reading per true displacement, by least squares
   double u_sensitivity_1 = 0;
-  double freedom = std::numeric_limits<double>::infinity();  // degrees of freedom of
-                                                             // u_sensitivity_1
-  double linearity_m = 0;                                    // largest residual of the line
+  // degrees of freedom of u_sensitivity_1
+  double freedom = std::numeric_limits<double>::infinity();
+  double linearity_m = 0;  // largest residual of the line
   double residual_sd_m = 0;
   double from_m = 0, to_m = 0;  // readings, as displacements
   std::size_t stops = 0;

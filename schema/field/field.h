@@ -27,7 +27,7 @@ struct KnownField {
   std::string meaning;
 };
 
-std::span<const Field> fields();  // by topic
+std::span<const Field> fields();  // in the order of topics
 
 // Finds the row of a name in a document, "u_EYX_um", or of a row itself, "u_{field}".
 std::optional<KnownField> find_field(std::string_view name);

@@ -11,9 +11,8 @@ namespace mdof {
 namespace {
 
 constexpr std::size_t kMostPlaces = std::size_t{1} << 20;  // columns or rows
-constexpr double kOffGrid = 0.05;                          // of a pixel
-constexpr std::size_t kLeastFilled = 64;                   // at least one pixel of this many has a
-                                                           // point
+constexpr double kOffGrid = 0.05;                          // share of a pixel
+constexpr std::size_t kLeastFilled = 64;  // at least one pixel of this many has a point
 
 // Distinct values in any order: a table of their bits with open addressing.
 class Distinct {

@@ -47,7 +47,7 @@ inline constexpr std::size_t kMostImportedReadings = 50'000;
 struct ImportedSeries {
   std::string format;  // "csv", "iso230-2", "rtl"
   std::string source;  // file name, for messages
-  std::string sha256;  // of the bytes of the file
+  std::string sha256;  // hash of the bytes of the file
   bool simulated = false;
   std::vector<ImportedReading> readings;
   // Statements of the file about itself: machine, date, operator.
@@ -70,7 +70,7 @@ std::optional<PositioningSense> positioning_sense_from(std::string_view word);
 
 // The error of an imported run.
 ImportedError error_of_imported(const RunHeader& run);
-// Of a point of an imported run, in m or rad; NaN: the point has no deviation.
+// The deviation of a point of an imported run, in m or rad; NaN: the point has no deviation.
 double deviation(const MeasuredPoint& point);
 double u_of_deviation(const MeasuredPoint& point);
 

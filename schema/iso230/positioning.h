@@ -29,7 +29,7 @@ struct TargetApproach {
 struct PositioningTarget {
   double target_m = 0;
   TargetApproach forward, reverse;
-  double mean = kNoFigure;  // of the means of both approaches
+  double mean = kNoFigure;  // mean of the means of both approaches
   double B = kNoFigure;     // forward - reverse
   // The largest of 2 s forward + 2 s reverse + |B|, R forward and R reverse.
   double R = kNoFigure;
@@ -48,7 +48,7 @@ struct Positioning {
 struct PositioningUncertainty {
   double device = 0;  // due to the measuring device, from its limits of error
   double drift = 0;   // due to environmental variation during the test
-  double E_M_A = 0;   // of E, M and A: device and drift
+  double E_M_A = 0;   // U of E, M and A: device and drift
   // Drift only, because the device has the same error on either side of a target.
   double B = 0;
 };

@@ -9,7 +9,7 @@ namespace mdof {
 // Differences of readings from the line are along the deviation, not perpendicular to the line.
 struct ReferenceLine {
   double slope_rad = 0;    // m/m
-  double intercept_m = 0;  // of the line at position 0
+  double intercept_m = 0;  // value of the line at position 0
   double zone_m = 0;       // peak to valley of the readings about this line
   double residual_m = 0;   // root mean square of the readings about this line
 };

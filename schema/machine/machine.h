@@ -63,7 +63,7 @@ struct ErrorCovariance {
 struct LocationError {
   std::optional<double> value;  // m or rad; empty: not measured
   std::optional<double> u;      // empty: not declared
-  bool noise_only = false;      // as in ErrorFunction
+  bool noise_only = false;      // see ErrorFunction
 };
 
 // Rows of the database that a description names. They are read where the database is available
@@ -98,7 +98,7 @@ struct MachineFrame {
   double ratio = 0;
   std::array<ErrorFunction, kBodyErrors> error;
   std::array<LocationError, kBodyErrors> location;
-  ErrorCovariance covariance;                  // of the errors of the body
+  ErrorCovariance covariance;                  // covariance of the errors of the body
   std::optional<std::array<double, 2>> range;  // used range of the command, m or rad
   // Position of a linear axis while the others were measured. Its angles from stored runs and
   // tables are 0 there, because the squareness of the others contains them. m; empty: 0 is assumed.

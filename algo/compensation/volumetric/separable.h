@@ -17,7 +17,7 @@ struct AxisProduct {
 };
 
 struct SeparableCorrection {
-  std::array<std::vector<double>, 3> along;  // of X, Y, Z, by node, m; empty: no function
+  std::array<std::vector<double>, 3> along;  // functions of X, Y, Z, by node, m; empty: no function
   std::vector<AxisProduct> products;
   double left_m = 0;  // largest residual at a node
 };

@@ -234,7 +234,7 @@ class Interpolation {
   VolumetricTable& table_;
   const Machine& machine_;
   const VolumetricRequest& request_;
-  std::array<std::vector<std::vector<double>>, 3> bends_;  // by cell of an axis
+  std::array<std::vector<std::vector<double>>, 3> bends_;  // for each axis and cell
 };
 
 Status find_interpolation(VolumetricTable& table, const Machine& machine,

@@ -15,7 +15,7 @@ namespace {
 struct Approaches {
   std::vector<double> forward, reverse;
 };
-using ByTarget = std::map<double, Approaches>;  // by target_m
+using ByTarget = std::map<double, Approaches>;  // key: target_m
 
 std::string place_of(double target_m) {
   return "target " + plain_number(to_mm(target_m), 9) + " mm";

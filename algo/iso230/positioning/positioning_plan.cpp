@@ -14,7 +14,7 @@ namespace {
 constexpr double kLongest_m = 2;
 constexpr double kTargetsPerMetre = 5;
 constexpr std::size_t kFewestTargets = 5, kFewestRuns = 5;
-constexpr double kEqualIntervals = 1e-3;  // of the mean interval
+constexpr double kEqualIntervals = 1e-3;  // share of the mean interval
 
 void judge_targets(const std::vector<double>& targets_m, Notices& found) {
   const double travel_m = targets_m.back() - targets_m.front();

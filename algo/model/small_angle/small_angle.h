@@ -22,7 +22,7 @@ namespace mdof::algo {
 // smaller x), each group in the order of the rig.
 struct SmallAngleFixture {
   std::array<std::size_t, 5> probe;  // index in the rig of A B C D E
-  std::array<double, 5> sign;        // of the probe's direction along +z or +y
+  std::array<double, 5> sign;        // sign of the probe's direction along +z or +y
   // p, q, c = Σ weight · (A, B, C)
   std::array<double, 3> p_weight, q_weight, c_weight;
   double side_per_m;  // 1 / (xE - xD)

@@ -35,9 +35,8 @@ class MountingModel {
   const std::vector<TraverseReading>& readings() const { return readings_; }
   std::size_t probes() const { return nominal_.probes.size(); }
   Eigen::Index unknowns() const;  // number of unknowns of the probes
-  Eigen::Index pose_unknowns()
-      // of the clampings: three angles each, and δy and δz of each traverse
-      const;
+  // Number of unknowns of the poses: three angles of each clamping, δy and δz of each traverse.
+  Eigen::Index pose_unknowns() const;
 
   // In the local frame: the vectors along the plane of a probe, and those that its direction turns
   // to.

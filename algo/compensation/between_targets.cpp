@@ -10,11 +10,11 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kRoughest = 4;
-// three second differences over two steps need this many values
+// Three second differences over two steps need this many values.
 constexpr std::size_t kFewestOfRoughness = 7;
 constexpr std::size_t kFew = 5;  // with fewer the scatter of the curvature is unknown
 constexpr double kFactorOfFew = 2;
-// weight of the mean square of all, as a number of nearby second differences
+// Weight of the mean square of all, as a number of nearby second differences.
 constexpr double kWeightOfAll = 6;
 
 struct Finite {

@@ -31,7 +31,7 @@ Result<CompensationTable> build_table(const std::vector<Run>& runs, const TableO
 // A table without u, and the points and means that it is made of.
 struct TableOfMeans {
   CompensationTable table;
-  // points of all runs; targets and repeats numbered through all runs
+  // Points of all runs; targets and repeats numbered through all runs.
   std::vector<MeasuredPoint> points;
   std::vector<TargetMean> grid;  // means of both approaches
 };

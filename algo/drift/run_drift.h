@@ -3,10 +3,10 @@
 // A run that visits each target once from each side does not separate a drift from the form, slope
 // and reversal of the axis; a second run does. Between runs alone, a steady drift and steps from
 // run to run look the same, and machines have both. Within runs they differ if the axis moves in
-// both directions: a drift changes the difference between the two visits of a target in proportion
-// to the time between them, a step does not. mdof accepts a drift only if it is more likely than
-// steps from pass to pass by a factor of e⁵ (both with one reversal for all targets). Runs of one
-// direction do not show the difference.
+// both directions: the effect of a drift on the difference of the two visits of a target depends on
+// the time between them, the effect of a step does not. mdof accepts a drift only if it is more
+// likely than steps from pass to pass by a factor of e⁵ (both with one reversal for all targets).
+// Runs of one direction do not show the difference.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ namespace mdof::algo {
 struct Closure {
   int run = 0;
   double after_s = 0;
-  // false: approached from the other side, so the change contains the reversal
+  // False: approached from the other side, so the change contains the reversal.
   bool same_side = true;
   Errors5 change{};  // local; m, rad
 };

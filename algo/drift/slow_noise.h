@@ -20,7 +20,7 @@ struct SlowNoise {
 std::vector<SlowNoise> slow_noises(const std::vector<double>& time_s);
 
 // Each row minus its prediction from the rows before, scaled: independent rows of variance 1.
-// `log_variances`: logarithm of the determinant of the covariance of the rows before.
+// `log_variances`: logarithm of the determinant of the covariance of `rows`.
 Eigen::MatrixXd whitened(const std::vector<double>& time_s, const SlowNoise& noise,
                          const Eigen::MatrixXd& rows, double& log_variances);
 

@@ -41,7 +41,7 @@ class LeastNorm {
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
   Eigen::MatrixXd inverse() const;  // pseudo-inverse: x = inverse() b
-  // orthonormal columns: the part of x that A does not determine
+  // Orthonormal columns: the part of x that A does not determine.
   Eigen::MatrixXd null_space() const;
 
  private:

@@ -172,7 +172,7 @@ class Turn {
   Status equilibrium(std::size_t phase) {
     if (plan_.deflection == DeflectionModel::rigid) return {};
     VectorXd before(static_cast<Index>(teeth()) * 2 * elements());
-    // start from the angle before: an engaged tooth stays engaged
+    // Start from the angle before: an engaged tooth stays engaged.
     for (std::size_t i = 0; i < teeth(); ++i)
       before.segment(row(i, 0, 0), 2 * elements()) =
           u_[(instant(phase, i) + steps() - 1) % steps()];

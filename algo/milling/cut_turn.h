@@ -20,7 +20,7 @@ struct CutTurn {
   double entry_rad = 0, exit_rad = 0;  // angles of tooth 0 in the lowest element
   int iterations = 0;                  // for the window whose edge depends on the deflection
 
-  // force on the whole tool: both components, a row for each angle
+  // Force on the whole tool: both components, a row for each angle.
   Eigen::MatrixXd force_N() const;
 };
 

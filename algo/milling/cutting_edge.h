@@ -22,7 +22,7 @@ struct Deflection {
 struct Chip {
   double thickness = 0;
   double by_x = 0, by_y = 0;  // derivatives by the present deflection
-  // derivatives by the deflection `earlier` teeth before
+  // Derivatives by the deflection `earlier` teeth before.
   double by_earlier_x = 0, by_earlier_y = 0;
   int earlier = 1;
 };
@@ -42,10 +42,10 @@ class CuttingEdge {
   Chip chip(double angle_rad, const Chip& rigid, const Deflection& now,
             const Deflection& earlier) const;
 
-  // φ at which it leaves (up) or enters (down) the work, for this deflection. Eq. 5, 6, 10 and 11
-  // with corrected signs.
+  // φ at which the tooth leaves (up) or enters (down) the work, for this deflection. Eq. 5, 6, 10
+  // and 11 with corrected signs.
   double free_edge(const Deflection& there) const;
-  // φ at which it enters (up) or leaves (down) at the wall.
+  // φ at which the tooth enters (up) or leaves (down) at the wall.
   double wall_edge() const;
 
   // Its position relative to the spindle axis.

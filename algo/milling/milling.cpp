@@ -86,7 +86,7 @@ Result<WearOffset> wear_offset(const DeclaredMillingPlan& declared) {
   double square = 0;
   for (const auto& [input, u] : declared.u) {
     MillingPlan higher = declared.plan, lower = declared.plan;
-    // other inputs are not negative
+    // Other inputs are not negative.
     const bool is_angle = input->member == &MillingPlan::runout_angle_rad;
     higher.*(input->member) += u;
     lower.*(input->member) -= u;

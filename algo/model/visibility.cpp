@@ -9,11 +9,11 @@
 namespace mdof::algo {
 namespace {
 
-// angle effect at a 10 mm arm, so that the columns are comparable
+// Angle effect at a 10 mm arm, so that the columns are comparable.
 constexpr double kAngleScale_m = 0.01;
 constexpr double kTravel_m = 0.0173;  // a generic position, where a probe is unlikely
 constexpr double kRankTolerance = 1e-6;
-// smallest share with which an error is part of an unseen combination
+// Smallest share with which an error is part of an unseen combination.
 constexpr double kNamedShare = 1e-3;
 
 }  // namespace

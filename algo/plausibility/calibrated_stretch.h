@@ -1,5 +1,5 @@
 // Whether the probes read within the range of their calibration record. Outside, the line of the
-// record is extrapolated, and nobody has measured whether the probe follows it.
+// record is extrapolated, and it is unknown whether the probe follows it.
 #pragma once
 
 #include <optional>

@@ -35,7 +35,7 @@ struct DwellOptions {
   // Shortest averaged time; a shorter stop (a reversal) is no dwell.
   double min_length_s = 0.1;
   double approach_m = 50e-6;  // travel that determines the direction of approach
-  // largest speed of the axis; frames that it cannot reach are left out
+  // Largest speed of the axis; positions that it cannot reach are left out.
   double max_speed_m_s = 100;
   std::size_t max_scans = std::size_t{1} << 19;  // averaged per dwell; bounds memory
 

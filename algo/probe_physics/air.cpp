@@ -4,7 +4,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kZeroCelsius_K = 273.15, kHPaPerKPa = 10;
-// difference of a quantity for its slope; the relative change of the slope is 1e-2 per unit
+// Difference of a quantity for its slope; the relative change of the slope is 1e-2 per unit.
 constexpr double kStep = 0.01;
 
 // Saturation vapour pressure of water, hPa at t in °C; -50 to 50 °C. A polynomial gives the same

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMostOutOfOrder = 0.15;  // largest share of visits out of order in a cycle
 constexpr double kAlwaysForgiven = 3;     // one repeated target, in a run of any length
-// mean visits at a target without leaving it, in a pilgrim cycle
+// Mean visits at a target without leaving it, in a pilgrim cycle.
 constexpr double kLeastAtOnce = 1.5;
 
 using RunNumbers = std::vector<int>;

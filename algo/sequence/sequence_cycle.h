@@ -24,7 +24,7 @@ struct Visit {
 
 struct CycleFound {
   Cycle cycle = Cycle::none;
-  // a run is a pass over the targets; otherwise a target's k-th visit is run k
+  // A run is a pass over the targets; otherwise a target's k-th visit is run k.
   bool by_passes = false;
   std::vector<int> run;  // run of each visit: 1, 2, ...
 };

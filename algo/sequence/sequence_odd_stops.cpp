@@ -11,9 +11,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kEnough = 0.6;     // share of the typical number of visits of a certain target
+constexpr double kEnough = 0.6;  // share of the typical number of visits; from here surely a target
 constexpr double kAsMany = 0.75;    // share of the typical number of visits
-constexpr double kTooNear = 0.6;    // in typical intervals, to a certain target
+constexpr double kTooNear = 0.6;    // in typical intervals, to what is surely a target
 constexpr double kTooFar = 1.6;     // in typical intervals, beyond the last target
 constexpr std::size_t kFewest = 4;  // places needed to judge one of a single pass
 constexpr int kSurelyNone = 3;      // typical visits, of which a target would not lack all but one
@@ -96,7 +96,7 @@ Typical typical_of(std::vector<Place>& places) {
 }
 
 struct Neighbours {
-  // distances to kept places
+  // Distances to kept places.
   double below_m = std::numeric_limits<double>::infinity(), above_m = below_m;
   bool sure = false;  // the next place, kept or not, is certainly a target
 };

@@ -18,7 +18,7 @@ struct MountedProbe {
   double u_direction_rad = 0;         // the larger one of its two axes
   double zero_m = 0, u_zero_m = 0;    // displacement that the probe reads at the nominal surface
   double scale_1 = 0, u_scale_1 = 0;  // found minus 1; both 0 if the rig declares the scale exact
-  // whether the logs determine it
+  // Whether the logs determine it.
   bool position_seen = false, direction_seen = false, zero_seen = false;
   std::size_t readings = 0;  // number used
 };

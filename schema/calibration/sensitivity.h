@@ -15,7 +15,7 @@ struct SensitivityCalibration {
   std::string id;            // id of the probe
   double sensitivity_1 = 1;  // reading per true displacement, by least squares
   double u_sensitivity_1 = 0;
-  // degrees of freedom of u_sensitivity_1
+  // Degrees of freedom of u_sensitivity_1.
   double freedom = std::numeric_limits<double>::infinity();
   double linearity_m = 0;  // largest residual of the line
   double residual_sd_m = 0;

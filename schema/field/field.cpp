@@ -14,7 +14,7 @@ constexpr Field kFields[] = {
 #include "schema/field/names/service.inc"
 #include "schema/field/names/table.inc"
 #include "schema/field/names/uncertainty.inc"
-// last, because a probe may have any name
+// Last, because a probe may have any name.
 #include "schema/field/names/csv.inc"
 #undef FIELD
 };

@@ -150,8 +150,8 @@ struct Machine {
   bool names_stored_rows() const;  // whether the database is needed
 };
 
-// Whether the u of its errors are from noise only. `with_sources`: and those of its sources, which
-// declare their u.
+// Whether the u of all, some or none of its errors contains only noise; errors without u do not
+// count. `with_sources`: includes the sources, which declare their u.
 NoiseOnly noise_only(const Machine& machine, bool with_sources = false);
 // Sentence about the contributors of the u of the tool error. `some_without_u`: an error that acts
 // there has no u.

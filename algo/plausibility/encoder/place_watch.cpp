@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// noise of the encoder, and spikes that the dwell detection removes
+// Noise of the encoder, and spikes that the dwell detection removes.
 constexpr double kNoise_m = 50e-6;
 constexpr double kBack = 0.1;  // ratio of the distances to the last place and to the stray position
 

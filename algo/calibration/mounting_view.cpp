@@ -37,7 +37,7 @@ std::string ids_of(const MountingModel& model, const Group& group) {
   return ids;
 }
 
-// To machine axes.
+// Converts a local vector to machine axes.
 Vec3 machine(const MountingModel& model, const Eigen::Vector3d& local) {
   const auto axes = local_axes(model.nominal().axis);
   Vec3 v{};

@@ -30,7 +30,7 @@ Result<std::vector<std::vector<double>>> milling_effects(const MillingPlan& plan
 
 // Each trial solves the plan with all inputs drawn, with at most this number of steps a turn; the
 // effects of inputs hardly depend on the number. Draw q is for input q. A trial is unsolved if the
-// drawn values are no cut or have no equilibrium.
+// drawn values describe no cut or have no equilibrium.
 inline constexpr int kTrialStepsPerTurn = 720;
 std::unique_ptr<CausalExperiment> milling_trials(const MillingPlan& plan,
                                                  const std::vector<VaryingInput>& inputs,

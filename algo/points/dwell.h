@@ -172,7 +172,7 @@ class DwellDetector {
   };
   // Whether the axis was observed since the point before, or since the beginning.
   bool way_seen_ = true;
-  // Since then; and up to the begin of the last stop.
+  // Since then; and up to the start of the last stop.
   Way way_, way_in_;
   Way since_left_;           // since the axis left the last stop
   bool gave_point_ = false;  // for the last stop

@@ -19,8 +19,8 @@ enum class DwellEventKind {
 
 struct DwellEvent {
   DwellEventKind kind;
-  std::int64_t time_ns = 0;  // begin of the event
-  double position_m = 0;     // at the begin
+  std::int64_t time_ns = 0;  // start of the event
+  double position_m = 0;     // at the start
   double size_m = 0, length_s = 0;
 };
 

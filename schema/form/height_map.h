@@ -15,7 +15,7 @@ struct SurfaceMap {
   static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
   std::string name;            // name of the file or run, for messages
-  double x0_m = 0, y0_m = 0;   // centre of the pixel (0, 0)
+  double x0_m = 0, y0_m = 0;   // position of the pixel (0, 0)
   double dx_m = 0, dy_m = 0;   // pixel size, above 0
   std::size_t nx = 0, ny = 0;  // columns along x, rows along y
   std::vector<double> z_m;     // nx ny values, row by row; kMissing: not measured

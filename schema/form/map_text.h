@@ -60,7 +60,7 @@ class MapTextReader {
   std::size_t line_ = 0;
   std::size_t bytes_expected_ = 0;
   MapPoints points_;
-  // Begins of groups of points on consecutive lines: (point, its line).
+  // Starts of groups of points on consecutive lines: (point, its line).
   std::vector<std::pair<std::size_t, std::size_t>> stretch_;
   Notices notices_;
 };

@@ -1,4 +1,4 @@
-// Two experiments of a few trials whose standard deviations are worked by hand.
+// Two experiments with a few trials, whose standard deviations are calculated by hand.
 #include "algo/sensitivity/comparison.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace mdof::algo {
 namespace {
 
-// Outputs that are given trial by trial; NaN: not solved.
+// Outputs that the test gives for each trial; NaN: not solved.
 class Given : public Experiment {
  public:
   Given(std::string key, std::vector<double> values)
@@ -34,29 +34,31 @@ std::vector<ComparedOutput> compared(const Given& ours, const Given& other) {
   return sums.result();
 }
 
-// 1, 2, 3, 4: variance 5/3. 2, 0, 2, 8: mean 3, squares 1 + 9 + 1 + 25 = 36, variance 12.
-TEST(ComparisonByHand, OfFourTrials) {
+// 1, 2, 3, 4 have variance 5/3. 2, 0, 2, 8 have mean 3, squares 1 + 9 + 1 + 25 = 36 and variance
+// 12.
+TEST(ComparisonByHand, FourTrials) {
   const auto result = compared({"EYX_um", {1, 2, 3, 4}}, {"EYX_um", {2, 0, 2, 8}});
   ASSERT_EQ(result.size(), 1u);
   EXPECT_EQ(result[0].key, "EYX_um");
   EXPECT_NEAR(result[0].sd_this, std::sqrt(5.0 / 3), 1e-12);
   EXPECT_NEAR(result[0].sd_other, std::sqrt(12.0), 1e-12);
   EXPECT_NEAR(result[0].ratio, std::sqrt(12 * 3 / 5.0), 1e-12);
-  // Squares of the first block: 2.25 + 0.25 and 1 + 9; of the second as many and 1 + 25. In
-  // variances: 10/12 - 2.5 × 3/5 = -2/3 and 26/12 - 3/2 = 2/3; ratio/2 √(2 × 2 × 4/9)/4 = ratio/6.
+  // Sums of squares: in the first block 2.25 + 0.25 (this) and 1 + 9 (other), in the second 2.5 and
+  // 1 + 25. Divided by the variances, other minus this: 10/12 - 2.5 × 3/5 = -2/3 and 26/12 - 3/2 =
+  // 2/3. Standard error: ratio/2 √(2 × 2 × 4/9)/4 = ratio/6.
   EXPECT_NEAR(result[0].ratio_se, result[0].ratio / 6, 1e-12);
 }
 
-TEST(ComparisonByHand, ATrialThatOneCannotSolveCountsForNeither) {
+TEST(ComparisonByHand, TrialUnsolvedByOneIsExcludedFromBoth) {
   const double nan = std::nan("");
   const auto result = compared({"EYX_um", {1, 2, nan, 4}}, {"EYX_um", {2, nan, 7, 8}});
-  ASSERT_EQ(result.size(), 1u);  // 1 and 4, 2 and 8
+  ASSERT_EQ(result.size(), 1u);  // 1 and 4, 2 and 8 remain
   EXPECT_NEAR(result[0].sd_this, std::sqrt(4.5), 1e-12);
   EXPECT_NEAR(result[0].sd_other, std::sqrt(18.0), 1e-12);
 }
 
-// 2 and 4, 1 and 5: variances 2 and 8.
-TEST(ComparisonByHand, ABlockThatNeitherCanSolveHidesNoOther) {
+// Both solve the second block only: 2 and 4, 1 and 5 have variances 2 and 8.
+TEST(ComparisonByHand, UnsolvedBlockDoesNotHideOtherBlocks) {
   const double nan = std::nan("");
   const auto result = compared({"EYX_um", {nan, nan, 2, 4}}, {"EYX_um", {nan, nan, 1, 5}});
   EXPECT_NEAR(result[0].sd_this, std::sqrt(2.0), 1e-12);
@@ -64,25 +66,25 @@ TEST(ComparisonByHand, ABlockThatNeitherCanSolveHidesNoOther) {
   EXPECT_NEAR(result[0].ratio, 2, 1e-12);
 }
 
-// 0.1, 0.2, 0.3, 0.4: variances far below 1.
-TEST(ComparisonByHand, SmallNumbersHaveAStandardErrorToo) {
+// The variances of these values are far below 1.
+TEST(ComparisonByHand, SmallValuesHaveAStandardError) {
   const auto result = compared({"EYX_um", {0.1, 0.2, 0.3, 0.4}}, {"EYX_um", {0.2, 0, 0.2, 0.8}});
   EXPECT_NEAR(result[0].ratio, std::sqrt(12 * 3 / 5.0), 1e-12);
   EXPECT_NEAR(result[0].ratio_se, result[0].ratio / 6, 1e-12);
 }
 
-TEST(ComparisonByHand, WhatOnlyOneHasIsNotCompared) {
+TEST(ComparisonByHand, OutputOfOneExperimentIsNotCompared) {
   EXPECT_TRUE(compared({"EYX_um", {1, 2, 3, 4}}, {"EZX_um", {1, 2, 3, 4}}).empty());
 }
 
-TEST(ComparisonByHand, WhatDoesNotVaryHasNoRatio) {
+TEST(ComparisonByHand, ConstantOutputHasNoRatio) {
   const auto result = compared({"EYX_um", {3, 3, 3, 3}}, {"EYX_um", {1, 2, 3, 4}});
   EXPECT_EQ(result[0].sd_this, 0);
   EXPECT_TRUE(std::isnan(result[0].ratio));
   EXPECT_TRUE(std::isnan(result[0].ratio_se));
 }
 
-TEST(ComparisonByHand, OfOneTrialThereIsNoScatter) {
+TEST(ComparisonByHand, SingleTrialHasNoScatter) {
   const double nan = std::nan("");
   const auto result = compared({"EYX_um", {nan, 2, nan, nan}}, {"EYX_um", {1, 3, 2, 5}});
   ASSERT_EQ(result.size(), 1u);

@@ -1,4 +1,4 @@
-// What the dwell detector says of a log, given to it in blocks.
+// Runs the dwell detector on a log, which it receives in blocks of frames.
 #pragma once
 
 #include <algorithm>

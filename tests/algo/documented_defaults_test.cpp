@@ -1,5 +1,4 @@
-// What a request asks for that says nothing else: the numbers of the manual, and of the papers that
-// the headers name.
+// Default values of requests: the numbers in the manual and in the papers that the headers cite.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -33,8 +32,8 @@ bool is_within_limits(bool angle, double at_m, double value) {
   return check_limits("EYX", angle, {0, at_m}, {0, value}, TableLimits{}).has_value();
 }
 
-// 1 mm and 50 µm/mm; 10 mrad and 0.5 mrad/mm.
-TEST(DocumentedDefaults, OfTheLimitsOfATable) {
+// Limits: 1 mm and 50 µm/mm for lengths, 10 mrad and 0.5 mrad/mm for angles.
+TEST(DocumentedDefaults, ApplyToTableLimits) {
   EXPECT_TRUE(is_within_limits(false, 1, 0.99e-3));
   EXPECT_FALSE(is_within_limits(false, 1, 1.01e-3));
   EXPECT_TRUE(is_within_limits(false, 1e-3, 49e-6));
@@ -45,7 +44,7 @@ TEST(DocumentedDefaults, OfTheLimitsOfATable) {
   EXPECT_FALSE(is_within_limits(true, 1e-3, 0.51e-3));
 }
 
-TEST(DocumentedDefaults, OfTables) {
+TEST(DocumentedDefaults, ApplyToTables) {
   EXPECT_TRUE(TableOptions{}.remove_slope);
   EXPECT_FALSE(TableOptions{}.take_partial);
   const VolumetricRequest request;
@@ -56,7 +55,7 @@ TEST(DocumentedDefaults, OfTables) {
   EXPECT_FALSE(SeparationRequest{}.u_is_noise);
 }
 
-TEST(DocumentedDefaults, OfPointsAndFrames) {
+TEST(DocumentedDefaults, ApplyToPointsAndFrames) {
   const DwellOptions dwell;
   EXPECT_EQ(dwell.tolerance_m, 0);
   EXPECT_EQ(dwell.window_s, 0.05);
@@ -71,7 +70,7 @@ TEST(DocumentedDefaults, OfPointsAndFrames) {
   EXPECT_EQ(OnTheFlyOptions{}.bin_mm, 0);
 }
 
-TEST(DocumentedDefaults, OfTheFormOfASurface) {
+TEST(DocumentedDefaults, ApplyToSurfaceForms) {
   const SpiralRequest spiral;
   EXPECT_EQ(spiral.x_centre_m, 0);
   EXPECT_EQ(spiral.y_centre_m, 0);
@@ -87,7 +86,7 @@ TEST(DocumentedDefaults, OfTheFormOfASurface) {
   EXPECT_EQ(MapPose{}.turn_rad, 0);
 }
 
-TEST(DocumentedDefaults, OfMachines) {
+TEST(DocumentedDefaults, ApplyToMachines) {
   const CircleRequest circle;
   EXPECT_EQ(circle.first, 0u);
   EXPECT_EQ(circle.second, 1u);
@@ -102,8 +101,8 @@ TEST(DocumentedDefaults, OfMachines) {
   EXPECT_EQ(DiagonalLines{}.u_line_m, 0);
 }
 
-// Appendix of the paper that simulation.h names.
-TEST(DocumentedDefaults, OfSimulationOne) {
+// Values from the appendix of the paper that simulation.h cites.
+TEST(DocumentedDefaults, ApplyToSimulationOne) {
   const SimulationOptions o;
   EXPECT_EQ(o.angle_range_urad, 1000);
   EXPECT_EQ(o.offset_range_um, 50);
@@ -119,7 +118,7 @@ TEST(DocumentedDefaults, OfSimulationOne) {
   EXPECT_EQ(o.seed, 1u);
 }
 
-TEST(DocumentedDefaults, OfTrials) {
+TEST(DocumentedDefaults, ApplyToTrials) {
   EXPECT_EQ(TrialsRequest{}.trials, 0u);
   EXPECT_EQ(TrialsRequest{}.seed, 1u);
   EXPECT_EQ(SummaryRequest{}.coverage, 0.95);
@@ -128,8 +127,8 @@ TEST(DocumentedDefaults, OfTrials) {
   EXPECT_EQ(PartTrials{}.errors, 400u);
 }
 
-// A fixture that nothing has moved is the nominal one.
-TEST(DocumentedDefaults, OfAMounting) {
+// A mounting without deviations is the nominal fixture.
+TEST(DocumentedDefaults, ApplyToMountings) {
   const ProbeDeviation probe;
   for (const double none : {probe.circle_m, probe.circle_turns, probe.tilt_rad, probe.tilt_turns,
                             probe.zero_m, probe.drift_m})

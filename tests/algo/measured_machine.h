@@ -1,4 +1,5 @@
-// A machine whose axis is measured in one cycle or another, and that knows what each stop is.
+// A simulated axis that runs measurement cycles and records the target, run and direction of each
+// stop.
 #pragma once
 
 #include <vector>
@@ -11,12 +12,12 @@ inline constexpr double kOverrun_m = 1e-3;
 inline const std::vector<double> kMachineTargets = {0,     5e-3,    10.2e-3, 14.9e-3,
                                                     20e-3, 25.1e-3, 30e-3};
 
-// What a visit should be called.
+// The expected labels of a visit.
 struct Truth {
   int target, run, direction;
 };
 
-// Goes where it is told and keeps what each stop is.
+// Moves as the test commands and records the expected labels of each stop.
 struct Machine : SteppingAxis {
   using SteppingAxis::SteppingAxis;
   std::vector<Truth> truth;
@@ -44,7 +45,7 @@ struct Machine : SteppingAxis {
       beyond(1, -1);
     }
   }
-  // Each of these targets from below and from above so often.
+  // Visits one target `runs` times, each time from below and then from above.
   void oscillate(int target, int first_run, int runs) {
     for (int run = first_run; run < first_run + runs; ++run) {
       beyond(target, -1);

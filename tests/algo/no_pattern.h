@@ -1,5 +1,5 @@
-// Numbers without a pattern, the same in every build: a wrong index or sign shows in what is made
-// of them.
+// Numbers without a pattern, identical in every build. A wrong index or sign changes the results
+// that a test calculates from them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // Height maps, fixtures, means, tables and the aligner against models that share no code with them:
-// sums of tent functions, bisection along a probe's line, figures worked by hand.
+// sums of tent functions, bisection along the line of a probe, values calculated by hand.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,7 @@
 namespace mdof::algo {
 namespace {
 
-// 1 at node k, 0 at its neighbours, straight between; held beyond the ends.
+// 1 at node k, 0 at its neighbours, linear in between, constant beyond the ends.
 double tent(const std::vector<double>& nodes, std::size_t k, double x) {
   x = std::min(std::max(x, nodes.front()), nodes.back());
   if (k > 0 && x < nodes[k]) return std::max(0.0, (x - nodes[k - 1]) / (nodes[k] - nodes[k - 1]));
@@ -35,7 +35,7 @@ double model_height(const HeightMap& map, double first_m, double second_m) {
   return sum;
 }
 
-// Uneven nodes, more of them one way than the other, slopes of some 1e-4.
+// Uneven nodes, a different number in each direction, slopes of about 1e-4.
 HeightMap random_map(std::mt19937_64& engine) {
   std::uniform_real_distribution<> unit(0, 1);
   HeightMap map;
@@ -46,7 +46,7 @@ HeightMap random_map(std::mt19937_64& engine) {
   return map;
 }
 
-TEST(OutsideTruth, AHeightMapIsTheSumOfItsTents) {
+TEST(OutsideTruth, HeightMapEqualsSumOfTentFunctions) {
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<> across(-0.05, 0.05);
   for (int round = 0; round < 20; ++round) {
@@ -64,7 +64,8 @@ double dot(const Vector& a, const Vector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// p in C of a point of M: Rᵀ (p - t), R = Rz Ry Rx written out by three turns, undone one by one.
+// Transforms a point p from frame M to frame C: Rᵀ (p - t). R = Rz Ry Rx is undone as three
+// rotations, one after the other.
 Vector to_carriage(Vector p, double travel_m, const Errors5& e) {
   p = {p[0] - travel_m, p[1] - e[0], p[2] - e[1]};
   const auto turn = [&p](std::size_t a, std::size_t b, double angle) {
@@ -78,7 +79,8 @@ Vector to_carriage(Vector p, double travel_m, const Errors5& e) {
   return p;
 }
 
-// Where the probe's line meets the surface z = h(x, y), or y = side + h(x, z): by bisection.
+// Distance along the line of the probe to the surface z = h(x, y) or y = side + h(x, z), by
+// bisection.
 double model_reading(const FixtureProbe& probe, bool top, double travel_m, const Errors5& e) {
   const auto above = [&](double s) {
     Vector p;
@@ -98,8 +100,8 @@ double model_reading(const FixtureProbe& probe, bool top, double travel_m, const
   return 0.5 * (low + high);
 }
 
-// Two of the probes look against their axis, two are oblique; both planes have a random height map.
-TEST(OutsideTruth, ReadingsOfARandomTargetAreThoseFoundByBisection) {
+// Two probes point against their axis, two are oblique; both planes have a random height map.
+TEST(OutsideTruth, ReadingsOfARandomTargetMatchBisection) {
   std::mt19937_64 engine(2);
   std::uniform_real_distribution<> unit(-1, 1);
   Rig rig = test::rig_oblique();
@@ -124,8 +126,8 @@ TEST(OutsideTruth, ReadingsOfARandomTargetAreThoseFoundByBisection) {
   }
 }
 
-// A hill of 1 µm under the probe A alone: the target comes 1 µm nearer along +Z.
-TEST(OutsideTruth, AHillReadsPositive) {
+// A hill of 1 µm under probe P1 alone: the surface is 1 µm nearer along +Z.
+TEST(OutsideTruth, HillGivesPositiveReading) {
   Rig rig = test::rig_oblique();
   for (auto& plane : rig.planes)
     if (plane.id == "top")
@@ -136,10 +138,10 @@ TEST(OutsideTruth, AHillReadsPositive) {
   EXPECT_NEAR(readings(1), 0, 1e-12);
 }
 
-// Fixtures other than the default, D not at x = 0, against the same bisection: what the exact model
-// leaves to a true rotation is of second order, 31 nm at 1 mrad; a tenth of the angles, a
-// hundredth.
-TEST(OutsideTruth, TheExactModelHoldsForOtherFixtures) {
+// Fixtures that differ from the default, with D not at x = 0, against the same bisection. The exact
+// model differs from a true rotation in second order: by 31 nm at 1 mrad, by a hundredth of that at
+// 0.1 mrad.
+TEST(OutsideTruth, ExactModelHoldsForOtherFixtures) {
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<> unit(-1, 1);
   for (int round = 0; round < 20; ++round) {
@@ -178,8 +180,9 @@ MeasuredPoint point(int target, int run, int direction, double position_m, doubl
   return p;
 }
 
-// 1, 2 and 4: mean 7/3, Σ(x - mean)² = 14/3, sd of the mean √(14/3 / 2 / 3) = √(7/9).
-TEST(OutsideTruth, AMeanAndItsUncertaintyByHand) {
+// 1, 2 and 4 have mean 7/3, Σ(x - mean)² = 14/3 and standard deviation of the mean √(14/3 / 2 / 3)
+// = √(7/9).
+TEST(OutsideTruth, MeanAndItsUncertaintyByHand) {
   const MovingAxis moving{Axis::x, {}};
   const auto of = [&](double u) {
     return target_means(
@@ -194,15 +197,15 @@ TEST(OutsideTruth, AMeanAndItsUncertaintyByHand) {
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_NEAR(std::abs(quiet[0].named[k]), 7.0 / 3, 1e-14);
     EXPECT_NEAR(quiet[0].u[k], std::sqrt(7.0 / 9), 1e-14);
-    EXPECT_NEAR(of(3)[0].u[k], std::sqrt(3.0), 1e-14);  // noise of 3 each: 3/√3
+    EXPECT_NEAR(of(3)[0].u[k], std::sqrt(3.0), 1e-14);  // u = 3 of each value: 3/√3
     EXPECT_NEAR(of(0.1)[0].u[k], std::sqrt(7.0 / 9), 1e-14);
   }
 }
 
-// A curve on uneven positions: between its points it goes straight, over a hole from neighbour to
-// neighbour, beyond its ends it is held. u is the larger of the neighbours', and what interpolation
-// does.
-TEST(OutsideTruth, ATableOfACurveIsStraightBetweenItsPoints) {
+// A curve at uneven positions: linear between its points, linear across a missing value, constant
+// beyond its ends. u is interpolated linearly, too; the uncertainty of the interpolation is added
+// in quadrature.
+TEST(OutsideTruth, TableIsLinearBetweenItsPoints) {
   CompensationTable table;
   table.position_m = {0, 1, 3, 4, 8};
   for (std::size_t k = 0; k < 5; ++k) {
@@ -234,8 +237,8 @@ TEST(OutsideTruth, ATableOfACurveIsStraightBetweenItsPoints) {
   }
 }
 
-// Three devices with uneven times of their own: position and readings of each frame are those of
-// plain interpolation in what was sent.
+// Three devices with different, uneven time stamps: the position and the readings of each frame
+// equal the linear interpolation of the sent samples.
 TEST(OutsideTruth, FramesOfSeveralDevicesAreInterpolated) {
   std::mt19937_64 engine(4);
   std::uniform_real_distribution<> unit(0, 1);

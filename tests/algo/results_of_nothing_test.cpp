@@ -1,4 +1,4 @@
-// Of no reading, of one, of what does not change: each figure is 0, not what a formula makes of it.
+// Without readings, with one reading or with constant readings each result is 0, or "not found".
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -30,7 +30,7 @@ SurfaceMap even_map(std::size_t n, double z_m) {
   return {"map", 0, 0, 1e-3, 1e-3, n, n, std::vector<double>(n * n, z_m), {}};
 }
 
-TEST(ResultsOfNothing, AMapWithoutHeights) {
+TEST(ResultsOfNothing, MapWithoutHeightsGivesZeros) {
   const SurfaceMap empty = even_map(4, SurfaceMap::kMissing);
   const MapFigures figures = figures_of(empty);
   EXPECT_EQ(figures.pv_m, 0);
@@ -47,7 +47,7 @@ TEST(ResultsOfNothing, AMapWithoutHeights) {
   EXPECT_EQ(farthest.y_m, 0);
 }
 
-TEST(ResultsOfNothing, AMapOfOneHeight) {
+TEST(ResultsOfNothing, MapWithOneHeightGivesItsHeight) {
   SurfaceMap one = even_map(4, SurfaceMap::kMissing);
   one.z_m[6] = 5e-6;
   const Plane plane = plane_of(one);
@@ -58,7 +58,7 @@ TEST(ResultsOfNothing, AMapOfOneHeight) {
   EXPECT_EQ(figures_of(one).rms_m, 0);
 }
 
-TEST(ResultsOfNothing, APlateThatIsNotBentHasNoStress) {
+TEST(ResultsOfNothing, FlatPlateHasNoStress) {
   const auto stress = plate_stress(even_map(9, 0), {1e-3, 70e9, 0.3}, 4e-3);
   ASSERT_TRUE(stress);
   EXPECT_EQ(stress->max_Pa, 0);
@@ -66,7 +66,7 @@ TEST(ResultsOfNothing, APlateThatIsNotBentHasNoStress) {
   EXPECT_EQ(stress->y_m, 0);
 }
 
-TEST(ResultsOfNothing, APathWithoutALowPassLeavesNothingOut) {
+TEST(ResultsOfNothing, PathWithoutLowPassOmitsNothing) {
   TurnSpectrum path(8, -1);
   for (int k = 0; k < 16; ++k) path.add(1e-15 * std::cos(k * std::numbers::pi / 4));
   path.finish();
@@ -88,7 +88,7 @@ TEST(ResultsOfNothing, TwoPointsLeaveNoResidual) {
   EXPECT_EQ(Line{}.at(5), 0);
 }
 
-TEST(ResultsOfNothing, FewReadings) {
+TEST(ResultsOfNothing, FewReadingsGiveNoScatter) {
   std::vector<double> scratch;
   const RobustMean none = robust_mean({}, 1e-9, scratch);
   for (const double figure : {none.mean, none.sd, none.u}) EXPECT_EQ(figure, 0);
@@ -109,16 +109,16 @@ TEST(ResultsOfNothing, FewReadings) {
   EXPECT_EQ(Resolution().step(), 0);
 }
 
-// Nothing is left out without a tolerance.
-TEST(ResultsOfNothing, NothingIsThinned) {
+// With tolerance 0 all points remain.
+TEST(ResultsOfNothing, ZeroToleranceKeepsAllPoints) {
   const auto all = thinned({0, 1, 2}, {{0, 5, 1}}, 0);
   ASSERT_TRUE(all);
   EXPECT_EQ(all->kept.size(), 3u);
   EXPECT_EQ(all->largest_deviation, 0);
 }
 
-// Each place visited once: a drift cannot be told from the form of the axis.
-TEST(ResultsOfNothing, VisitsThatShowNoDrift) {
+// Each place is visited once, so a drift cannot be distinguished from the form of the axis.
+TEST(ResultsOfNothing, SingleVisitsShowNoDrift) {
   const DriftOfRun none({});
   EXPECT_EQ(none.found().length_s, 0);
   EXPECT_EQ(none.freedom(), 0);
@@ -138,7 +138,7 @@ TEST(ResultsOfNothing, VisitsThatShowNoDrift) {
       EXPECT_EQ(figure, 0);
     EXPECT_FALSE(series.steps);
   }
-  EXPECT_EQ(slow_noises({0, 10, 20}).front().share, 0);  // white
+  EXPECT_EQ(slow_noises({0, 10, 20}).front().share, 0);  // white noise
 }
 
 TEST(ResultsOfNothing, NoPassesShowNoLag) {
@@ -150,7 +150,7 @@ TEST(ResultsOfNothing, NoPassesShowNoLag) {
   EXPECT_FALSE(lags[0].significant);
 }
 
-TEST(ResultsOfNothing, ARuleWithoutBlocksIsNotSettled) {
+TEST(ResultsOfNothing, RuleWithoutBlocksIsNotSettled) {
   const auto rule = AdaptiveRule::create({"EYX_um"}, {});
   ASSERT_TRUE(rule);
   EXPECT_EQ(rule->blocks(), 0u);
@@ -160,7 +160,7 @@ TEST(ResultsOfNothing, ARuleWithoutBlocksIsNotSettled) {
   EXPECT_FALSE(rule->output_that_never_settles());
 }
 
-// One turn cannot show a drift; without a radius there is no angle.
+// A single turn cannot show a drift. Without a radius there is no angle.
 TEST(ResultsOfNothing, OneTurnShowsNoDrift) {
   CircleReadings readings;
   for (int k = 0; k < 36; ++k) {

@@ -1,4 +1,4 @@
-// Fixtures for tests, written as a user writes them.
+// Rigs for tests, in the TOML that a user writes.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace mdof::test {
 
-// The default fixture of the paper with its three lengths, axis X.
+// The default fixture of the paper, axis X, with its three lengths in mm.
 inline std::string rig_x_toml(double l_mm = 10, double h_mm = 15, double z_mm = 20) {
   const auto probe = [](const std::string& id, double x, double y, double z, const char* measures) {
     return "[[probe]]\nid = \"" + id + "\"\nposition_mm = [" + std::to_string(x) + ", " +
@@ -23,7 +23,7 @@ inline Rig rig_x(double l_mm = 10, double h_mm = 15, double z_mm = 20) {
   return parse_rig(rig_x_toml(l_mm, h_mm, z_mm), "rig_X.toml").value();
 }
 
-// The same with `keys` in the table of one probe, and `end` behind all.
+// The default fixture with `keys` added to the table of one probe and `end` appended to the file.
 inline Rig rig_x_with(const std::string& probe, const std::string& keys,
                       const std::string& end = "") {
   std::string toml = rig_x_toml();
@@ -32,7 +32,7 @@ inline Rig rig_x_with(const std::string& probe, const std::string& keys,
   return parse_rig(toml + end, "rig_X.toml").value();
 }
 
-// Seven probes in general positions and directions, no two alike.
+// Seven probes, each at a different position and in a different direction.
 inline Rig rig_oblique() {
   return parse_rig(R"(
 name = "oblique"

@@ -1,4 +1,4 @@
-// A machine's axis as its encoder sees it, moving and stopping as a test says.
+// A simulated machine axis and its encoder, which moves and stops as a test commands.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 
 namespace mdof::algo {
 
-// Stops are made by stop(); what a test counts, it counts by itself.
+// stop() makes the stops; the test itself counts them.
 struct SteppingAxis {
   double rate_hz = 500, dwell_s = 0.4, speed_m_s = 0.05, noise_m = 10e-9;
   double x_m = -1e-3;
@@ -46,7 +46,7 @@ struct SteppingAxis {
     move_to(target_m);
     wait(dwell_s);
   }
-  // Past the target by so much, and back.
+  // Moves past the target by `by_m`, returns and stops.
   void stop_overshot(double target_m, double by_m) {
     move_to(target_m + (target_m > x_m ? by_m : -by_m));
     stop(target_m);

@@ -1,5 +1,5 @@
-// The log of an axis that steps to 13 targets, both ways, three times: 78 stops. A model of its own
-// that shares nothing with the code under test.
+// The log of an axis that steps to 13 targets, in both directions, three times: 78 stops. The model
+// shares no code with the code under test.
 #pragma once
 
 #include <algorithm>
@@ -24,12 +24,12 @@ struct SteppingLog {
   double pitch_mm = 5, overrun_mm = 1;
   int targets = 13, runs = 3;
   double encoder_noise_um = 0.005, probe_noise_um = 0.01;
-  double probe_step_um = 1e-6;  // the resolution of what is logged; 0: not rounded
+  double probe_step_um = 1e-6;  // resolution of the logged readings; 0: not rounded
   double drift_um_per_min = 0.005;
   std::size_t probes = 5;  // A ... E, and more top probes
   std::uint64_t seed = 1;
 
-  // Path: where the axis is at each scan, in mm.
+  // Position of the axis at each scan, mm.
   std::vector<double> path_mm() const {
     std::vector<double> stops;  // NaN: turn without a stop
     std::vector<bool> stays;
@@ -55,7 +55,8 @@ struct SteppingLog {
     return path;
   }
 
-  // What the probes read without noise at d, in µm: to first order, another curve for each seed.
+  // Readings of the probes without noise at position d (mm), in µm, to first order. The curve
+  // depends on the seed.
   std::vector<double> readings_um(double d) const {
     const double w = 0.09 * d, p = static_cast<double>(seed % 97);
     const double dy = 1.8 * std::sin(w + p) + 0.01 * d, dz = 1.3 * std::cos(2 * w + 2 * p);
@@ -99,14 +100,14 @@ struct SteppingLog {
   }
 };
 
-// The row of `frames` at this time.
+// The first row of `frames` at or after this time.
 inline std::size_t row_at(const FrameBlock& frames, double time_s) {
   const auto ns = static_cast<std::int64_t>(time_s * 1e9);
   const auto at = std::lower_bound(frames.time_ns.begin(), frames.time_ns.end(), ns);
   return static_cast<std::size_t>(at - frames.time_ns.begin());
 }
 
-// Rows from ... to - 1.
+// Rows `from` to `to` - 1.
 inline FrameBlock cut_frames(const FrameBlock& frames, std::size_t from, std::size_t to) {
   const auto cut = [&](const auto& c) {
     using Cut = std::decay_t<decltype(c)>;

@@ -29,13 +29,13 @@ TEST(LeastSquares, FindsTheLineOfTheTextbook) {
   EXPECT_NEAR(both(0, 1), 1, 1e-14);
 }
 
-TEST(LeastSquares, TheBasisSpansTheColumns) {
+TEST(LeastSquares, BasisSpansTheColumns) {
   const MatrixXd A = three_by_two(), Q = LeastSquares(A).basis();
   EXPECT_LT((Q.transpose() * Q - MatrixXd::Identity(2, 2)).norm(), 1e-14);
   EXPECT_LT((A - Q * (Q.transpose() * A)).norm(), 1e-14);
 }
 
-TEST(LeastSquares, ADependentColumnIsTakenOutByTheTolerance) {
+TEST(LeastSquares, ToleranceRemovesDependentColumns) {
   MatrixXd A(3, 3);
   A << three_by_two(), VectorXd{{1.0, 2.0, 3.0 + 1e-8}};
   EXPECT_EQ(LeastSquares(A).rank(), 3);
@@ -44,8 +44,9 @@ TEST(LeastSquares, ADependentColumnIsTakenOutByTheTolerance) {
   EXPECT_EQ(fit.basis().cols(), 2);
 }
 
-// x + y = 2 alone: of all solutions (1, 1) is the shortest, and (1, -1) is not told.
-TEST(LeastNorm, GivesTheShortestSolutionAndWhatIsNotTold) {
+// The equation x + y = 2 has the shortest solution (1, 1) and does not determine the direction (1,
+// -1).
+TEST(LeastNorm, GivesTheShortestSolutionAndTheNullSpace) {
   const LeastNorm fit(MatrixXd{{1.0, 1.0}, {2.0, 2.0}, {0.0, 0.0}});
   EXPECT_EQ(fit.rank(), 1);
   const VectorXd b{{2.0, 4.0, 7.0}}, x = fit.solve(b);
@@ -58,7 +59,7 @@ TEST(LeastNorm, GivesTheShortestSolutionAndWhatIsNotTold) {
   EXPECT_NEAR(null.norm(), 1, 1e-14);
 }
 
-TEST(LeastNorm, TheToleranceSaysWhatCountsAsTold) {
+TEST(LeastNorm, ToleranceDeterminesTheRank) {
   const MatrixXd A{{1.0, 1.0}, {1.0, 1.0 + 1e-8}};
   EXPECT_EQ(LeastNorm(A).rank(), 2);
   EXPECT_EQ(LeastNorm(A).null_space().cols(), 0);
@@ -66,7 +67,7 @@ TEST(LeastNorm, TheToleranceSaysWhatCountsAsTold) {
 }
 
 // The four conditions of Moore and Penrose.
-TEST(LeastNorm, TheInverseIsThatOfMooreAndPenrose) {
+TEST(LeastNorm, InverseIsTheMoorePenroseInverse) {
   MatrixXd A(5, 4);
   for (Eigen::Index i = 0; i < 5; ++i)
     for (Eigen::Index j = 0; j < 4; ++j) A(i, j) = std::sin(static_cast<double>((i + 1) * (j + 1)));
@@ -81,7 +82,7 @@ TEST(LeastNorm, TheInverseIsThatOfMooreAndPenrose) {
   EXPECT_LT((A * fit.null_space()).norm(), 1e-13);
 }
 
-TEST(ThinQr, FactorsWhatItIsGiven) {
+TEST(ThinQr, FactorsTheMatrix) {
   const MatrixXd A = three_by_two();
   const auto [Q, R] = thin_qr(A);
   EXPECT_LT((Q * R - A).norm(), 1e-14);

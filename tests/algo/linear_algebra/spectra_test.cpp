@@ -10,7 +10,7 @@ namespace {
 using Eigen::MatrixXd;
 
 // By hand: A Aᵀ of [[3, 0], [4, 5]] has the eigenvalues 45 and 5.
-TEST(SingularValues, OfTheTextbook) {
+TEST(SingularValues, MatchTheTextbook) {
   const MatrixXd A{{3.0, 0.0}, {4.0, 5.0}};
   const auto svd = singular_values(A);
   EXPECT_NEAR(svd.values(0), std::sqrt(45.0), 1e-14);
@@ -18,7 +18,7 @@ TEST(SingularValues, OfTheTextbook) {
   EXPECT_LT((svd.U * svd.values.asDiagonal() * svd.V.transpose() - A).norm(), 1e-14);
 }
 
-TEST(SingularValues, VHasTheColumnsThatGoToZeroToo) {
+TEST(SingularValues, VIncludesTheNullSpace) {
   const MatrixXd A{{1.0, 2.0, 2.0}};
   const auto svd = singular_values(A);
   ASSERT_EQ(svd.values.size(), 1);

@@ -1,4 +1,4 @@
-// Certificates as a laboratory may write them, given in SI as read_dcc() does. All numbers by hand.
+// Certificates as a laboratory may write them, in SI units as from read_dcc(). Values by hand.
 #include "algo/calibration/certified_probe.h"
 #include "tests/shown.h"
 
@@ -76,7 +76,7 @@ Result<CertifiedProbe> of_b(const Rig& rig, const DccCertificate& c,
   return certified_probe(rig, 1, c, which);
 }
 
-// Whether it is refused with a message that has all of these; else what was said.
+// Whether the certificate is refused with a message that contains all `parts`.
 testing::AssertionResult refused(const Result<CertifiedProbe>& found,
                                  const std::vector<std::string>& parts,
                                  ErrorCode code = ErrorCode::bad_input) {
@@ -106,14 +106,14 @@ void expect_rows(const std::vector<std::array<double, 2>>& rows,
     for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(rows[i][c], expected[i][c], 1e-9) << i << c;
 }
 
-TEST(CertifiedProbe, SensitivityOfVoltsPerLengthWithTheZeroOfTheRig) {
+TEST(CertifiedProbe, ConvertsVoltsPerLengthAndTheZeroOfTheRig) {
   const auto found = of_b(rig_of(40, 12), certificate({sensitivity()}));
   ASSERT_TRUE(found) << found.error().message;
   const CalibratedProbe& p = found->probe;
   EXPECT_EQ(p.id, "B");
   EXPECT_NEAR(p.um_per_V.value(), 1000.0 / 21, 1e-9);
   EXPECT_NEAR(p.u_sensitivity_1, 0.004, 1e-15);
-  // The zero is 0.3 V: 12 µm at 40 µm/V.
+  // The zero is at 0.3 V: 12 µm at 40 µm/V.
   EXPECT_NEAR(p.offset_um.value(), 0.3 * 1000 / 21, 1e-9);
   EXPECT_EQ(p.u_offset_m, 0.7e-6);
   EXPECT_TRUE(p.linearity.empty());
@@ -133,8 +133,8 @@ TEST(CertifiedProbe, SensitivityOfVoltsPerLengthWithTheZeroOfTheRig) {
   EXPECT_EQ(f.u_linearity_m, 0);
 }
 
-// -50 µm/V with u = 0.1 µm/V. A rig without a scale or a zero has none to be moved.
-TEST(CertifiedProbe, SensitivityOfLengthPerVolt) {
+// -50 µm/V with u = 0.1 µm/V. Without a scale or a zero in the rig no zero is converted.
+TEST(CertifiedProbe, ReadsLengthPerVolt) {
   const DccQuantity s = quantity({}, {1e-6, 1, -1}, {-50e-6}, {0.1e-6}, 17);
   for (const auto& [um_per_V, offset_um] :
        {std::pair<std::optional<double>, double>{-40, 12}, {-40, 0}, {std::nullopt, 12}}) {
@@ -151,10 +151,10 @@ TEST(CertifiedProbe, SensitivityOfLengthPerVolt) {
   }
 }
 
-TEST(CertifiedProbe, RefusesAScaleThatIsNotThatOfTheRig) {
+TEST(CertifiedProbe, RefusesScaleThatContradictsTheRig) {
   const double um_per_V = 30e-6 * 1e6;
   const DccCertificate c = certificate({quantity({}, {1e-6, 1, -1}, {30e-6}, {1e-8}, 17)});
-  for (const double factor : {0.5, 1.3, 2.0})  // of the rig's: ratios of 2, 0.77 and 0.5
+  for (const double factor : {0.5, 1.3, 2.0})  // ratios to the scale of the rig: 2, 0.77 and 0.5
     EXPECT_TRUE(of_b(rig_of(um_per_V * factor, 0), c)) << factor;
   for (const double factor : {0.49, 2.05, -1.0})
     EXPECT_TRUE(refused(of_b(rig_of(um_per_V * factor, 0), c),
@@ -163,7 +163,7 @@ TEST(CertifiedProbe, RefusesAScaleThatIsNotThatOfTheRig) {
   EXPECT_TRUE(refused(of_b(rig_of(12.5, 0), c), {" has 12.5"}));
 }
 
-TEST(CertifiedProbe, RefusesASensitivityThatIsNotOneNumberWithItsUncertainty) {
+TEST(CertifiedProbe, RefusesAmbiguousOrIncompleteSensitivity) {
   const Rig rig = rig_of(40, 0);
   DccQuantity s = sensitivity();
   s.u.clear();
@@ -183,10 +183,10 @@ TEST(CertifiedProbe, RefusesASensitivityThatIsNotOneNumberWithItsUncertainty) {
   EXPECT_TRUE(refused(of_b(rig, certificate({sensitivity()}, {{s}})), {"c.xml:23: ", "line 17"}));
 }
 
-// Errors in µm; readings in another order than theirs. By the zero of 5 µm they are at -25, 5 and
-// 25 µm with corrections of 0.4, -0.11 and -0.3 µm; that at 0 lies 25/30 of the way from the first
-// to the second: -0.025 µm.
-TEST(CertifiedProbe, TableOfErrorsByHand) {
+// Errors in µm; the readings are not in ascending order. Relative to the zero of 5 µm they are at
+// -25, 5 and 25 µm with corrections of 0.4, -0.11 and -0.3 µm. The correction at 0 lies 25/30 of
+// the way from the first to the second: -0.025 µm.
+TEST(CertifiedProbe, ReadsTableOfErrors) {
   const auto found =
       of_b(rig_of(std::nullopt, 5),
            certificate({}, {{error(kMetre, {0.3e-6, -0.4e-6, 0.11e-6}, {0.05e-6, 0.08e-6, 0.06e-6}),
@@ -203,36 +203,36 @@ TEST(CertifiedProbe, TableOfErrorsByHand) {
   EXPECT_TRUE(has(found->not_taken, {"sensitivity_not_certified"}));
 }
 
-// In volts at -40 µm/V: readings of -10, 30 µm and errors of -2, 1.2 µm; u is positive.
-TEST(CertifiedProbe, TableOfVoltsByTheScaleOfTheRig) {
+// In volts at -40 µm/V: readings of -10 and 30 µm, errors of -2 and 1.2 µm; u is positive.
+TEST(CertifiedProbe, ConvertsTableInVoltsByTheRigScale) {
   const std::vector<DccQuantity> table = {measured(kVolt, {0.25, -0.75}),
                                           error(kVolt, {0.05, -0.03}, {0.002, 0.003})};
   const auto found = of_b(rig_of(-40, 0), certificate({}, {table}));
   ASSERT_TRUE(found) << found.error().message;
-  // Corrections of 2 and -1.2 µm; at 0, a quarter of the way, 1.2 µm.
+  // Corrections of 2 and -1.2 µm; the correction at 0, a quarter of the way, is 1.2 µm.
   expect_rows(found->probe.linearity, {{-10, 0.8}, {30, -2.4}});
   EXPECT_NEAR(found->facts.u_linearity_m, 0.12e-6, 1e-18);
   EXPECT_TRUE(refused(of_b(rig_of(std::nullopt, 0), certificate({}, {table})),
                       {"c.xml:31: ", "\"B\" of r.toml"}));
 }
 
-// The certificate's own scale and the zero by it come before the rig's: 50 µm/V, zero 0.2 V.
-TEST(CertifiedProbe, TableOfVoltsByTheScaleOfTheCertificate) {
+// The certificate's scale and zero have priority over the rig's: 50 µm/V, zero at 0.2 V.
+TEST(CertifiedProbe, ConvertsTableInVoltsByTheCertificateScale) {
   const DccQuantity s = quantity({}, {1, 1, -1}, {50e-6}, {1e-6}, 17);
   const auto found =
       of_b(rig_of(40, 8), certificate({s}, {{measured(kVolt, {0.6, -0.6}),
                                              error(kMetre, {1.5e-6, -0.3e-6}, {3e-8, 2e-8})}}));
   ASSERT_TRUE(found) << found.error().message;
-  // At 30 - 10 and -30 - 10 µm; two thirds of the way from 0.3 to -1.5 µm is -0.9.
+  // At 30 - 10 and -30 - 10 µm; at 0, two thirds of the way from 0.3 to -1.5 µm, it is -0.9.
   expect_rows(found->probe.linearity, {{-40, 1.2}, {20, -0.6}});
   EXPECT_NEAR(found->facts.u_linearity_m, 0.03e-6, 1e-18);
   EXPECT_EQ(found->taken.size(), 5u);
   EXPECT_TRUE(found->not_taken.empty());
 }
 
-// 0.0499 V/um with u = 0.02 %; a table in um at -80, 0 and 80 um with u = 6 nm, read with 20 um/V:
-// 3.992 V is 79.84 um by that and 80 um by the certificate, which leaves no correction.
-TEST(CertifiedProbe, AScaleIsCorrectedOnce) {
+// 0.0499 V/um with u = 0.02 %; a table in um at -80, 0 and 80 um with u = 6 nm, read with 20 um/V.
+// 3.992 V is 79.84 um with 20 um/V and 80 um with the certificate: no correction remains.
+TEST(CertifiedProbe, CorrectsTheScaleOnlyOnce) {
   const DccQuantity s = quantity({}, {1e6, -1, 1}, {0.0499e6}, {10}, 17);
   const auto found = [&](std::optional<double> um_per_V, double read_um) {
     return of_b(rig_of(um_per_V, 0),
@@ -244,19 +244,19 @@ TEST(CertifiedProbe, AScaleIsCorrectedOnce) {
   EXPECT_NEAR(read_with_rig->probe.um_per_V.value(), 1 / 0.0499, 1e-9);
   expect_rows(read_with_rig->probe.linearity, {{-80, 0}, {0, 0}, {80, 0}});
   EXPECT_TRUE(has(read_with_rig->taken, {"certified_readings_converted from_um_per_V=20 "}));
-  // Read with the certificate's own: within 3 u (48 nm at 80 um) nothing is converted.
+  // Read with the scale of the certificate: within 3 u (48 nm at 80 um) nothing is converted.
   const auto read_with_own = found(20, 79.97);
   ASSERT_TRUE(read_with_own) << read_with_own.error().message;
   expect_rows(read_with_own->probe.linearity, {{-79.97, -0.03}, {0, 0}, {79.97, 0.03}});
   EXPECT_FALSE(has(read_with_own->taken, {"certified_readings_converted"}));
-  // By neither.
+  // Readings that match neither scale.
   for (const std::optional<double> um_per_V : {std::optional<double>(), {20.04}, {20.1}})
     EXPECT_TRUE(refused(found(um_per_V, 79.84), {"c.xml:31: ", "scale twice", "\"B\" in r.toml"}));
   EXPECT_TRUE(refused(found(20, 79.7), {"c.xml:31: ", "20.0401 um/V", "\"as found\""}));
 }
 
-// Reference values in the place of errors: corrections of 2, -3 and 1 µm at -19, 0 and 41 µm.
-TEST(CertifiedProbe, TableOfReferenceValuesByHand) {
+// Reference values instead of errors: corrections of 2, -3 and 1 µm at -19, 0 and 41 µm.
+TEST(CertifiedProbe, ReadsTableOfReferenceValues) {
   const std::vector<double> read = {41e-6, -19e-6, 0.5e-6}, x = {42e-6, -17e-6, -2.5e-6};
   const std::vector<double> u_read = {3e-8, 5e-8, 4e-8}, u_x = {4e-8, 1e-8, 5e-8};
   const auto found = [&](const std::vector<double>& ur, const std::vector<double>& ux) {
@@ -266,7 +266,7 @@ TEST(CertifiedProbe, TableOfReferenceValuesByHand) {
   const auto both = found(u_read, u_x);
   ASSERT_TRUE(both) << both.error().message;
   expect_rows(both->probe.linearity, {{-19.5, 5}, {0, 0}, {40.5, 4}});
-  // Of each row together: 5, 5.1 and √41 times 10 nm.
+  // The combined u of the rows are 5, 5.1 and √41 times 10 nm.
   EXPECT_NEAR(both->facts.u_linearity_m, std::sqrt(41.0) * 1e-8, 1e-18);
   EXPECT_TRUE(has(both->taken, {"corrections=3", "ref_type=basic_referenceValue"}));
   EXPECT_EQ(both->not_taken.size(), 1u);
@@ -281,8 +281,8 @@ TEST(CertifiedProbe, TableOfReferenceValuesByHand) {
   EXPECT_TRUE(refused(found({}, {}), {"c.xml:31: ", "table", "no uncertainty"}));
 }
 
-// Errors without an uncertainty take that of the readings, and those without either are refused.
-TEST(CertifiedProbe, ErrorsWithoutUncertainty) {
+// Errors without u get the u of the readings; a table without any u is refused.
+TEST(CertifiedProbe, ErrorsWithoutUTakeUOfTheReadings) {
   const auto found = [](const std::vector<double>& u_read) {
     return of_b(rig_of(std::nullopt, 0), certificate({}, {{measured(kMetre, {4e-6, 9e-6}, u_read),
                                                            error(kMetre, {0.2e-6, 0.5e-6})}}));
@@ -294,8 +294,8 @@ TEST(CertifiedProbe, ErrorsWithoutUncertainty) {
   EXPECT_TRUE(refused(found({}), {"c.xml:47: ", "table", "no uncertainty"}));
 }
 
-// At 32 µm/V all numbers are exact, so that both sides of a bound can be asked for.
-TEST(CertifiedProbe, ErrorsAreReadingsLessReferenceWithinTheirUncertainty) {
+// At 32 µm/V all numbers are exact, so the test can check both sides of a limit.
+TEST(CertifiedProbe, RefusesErrorsThatContradictTheReference) {
   const auto found = [](double error_V, const std::vector<double>& u_V, double read_V = 0.5) {
     return of_b(rig_of(32, 0),
                 certificate({}, {{measured(kVolt, {-0.25, read_V, 1.0}, {0.001, 0.001, 0.001}),
@@ -313,14 +313,14 @@ TEST(CertifiedProbe, ErrorsAreReadingsLessReferenceWithinTheirUncertainty) {
         << more_um;
   }
   EXPECT_TRUE(found(3, {}));
-  // The lines of each row count: the reading alone is off.
+  // Each row is checked by itself: here only the reading is wrong.
   EXPECT_TRUE(refused(found(0.25, u, 0.75), {"value 2 is 8 um", "reference is 16 um"}));
 }
 
-// Readings by reference values over their whole way, lowest to highest: from half to double.
-TEST(CertifiedProbe, ReadingsGrowWithReferenceValues) {
+// The slope of the readings from the lowest to the highest reference value must be 0.5 to 2.
+TEST(CertifiedProbe, RefusesReadingsWithImplausibleSlope) {
   const auto found = [](double slope) {
-    // Reference -0.25 (second) to 0.75 V (third); the first reading lies off the line.
+    // Reference values from -0.25 V (second) to 0.75 V (third); the first reading is off the line.
     return of_b(rig_of(32, 0),
                 certificate({}, {{measured(kVolt, {0.9, -0.5, -0.5 + slope}),
                                   reference(kVolt, {0.5, -0.25, 0.75}, {1, 1, 1})}}));
@@ -331,7 +331,7 @@ TEST(CertifiedProbe, ReadingsGrowWithReferenceValues) {
   EXPECT_TRUE(refused(found(2.125), {"by 2.125 um when the reference values change by 1 um"}));
 }
 
-TEST(CertifiedProbe, RefusesTablesThatCannotBeRead) {
+TEST(CertifiedProbe, RefusesTablesWithInconsistentRows) {
   const Rig rig = rig_of(40, 0);
   const DccQuantity r = measured(kMetre, {4e-6, 9e-6, 7e-6}),
                     e = error(kMetre, {1e-7, 2e-7}, {1e-8});
@@ -348,8 +348,8 @@ TEST(CertifiedProbe, RefusesTablesThatCannotBeRead) {
               {"c.xml:31: ", "same reading"}));
 }
 
-// A second table; which result to read by its name or its type.
-TEST(CertifiedProbe, OneOfSeveralResults) {
+// A second table is refused unless the name or the type of a result selects one.
+TEST(CertifiedProbe, SelectsAResultByNameOrType) {
   DccCertificate c = certificate(
       {}, {{measured(kMetre, {4e-6, 9e-6}), error(kMetre, {0.2e-6, 0.5e-6}, {1e-8, 2e-8})}});
   c.results.push_back(c.results[0]);
@@ -378,8 +378,8 @@ TEST(CertifiedProbe, OneOfSeveralResults) {
   EXPECT_TRUE(refused(of_b(rig, c), {"c.xml: ", "no sensitivity"}));
 }
 
-// What has another unit, no other column or no list beside it, is neither sensitivity nor table.
-TEST(CertifiedProbe, LeavesOutWhatIsNeither) {
+// Quantities with another unit, or without a second column or a list, are ignored.
+TEST(CertifiedProbe, IgnoresUnrelatedQuantities) {
   std::vector<DccQuantity> others;
   for (const SiUnit unit :
        {SiUnit{1, 0, 0}, {1, 1, 1}, {1, -1, -1}, {1, -1, 0}, {1, 0, -1}, {1, -1, 2}, {1, 2, -1}})

@@ -1,4 +1,4 @@
-// The unknowns of probes that look in any direction, and the derivatives of their readings.
+// The unknowns of probes in any direction, and the derivatives of their readings.
 #include "algo/calibration/mounting_model.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ std::vector<Clamping> clampings_of(std::size_t probes) {
   return clampings;
 }
 
-TEST(MountingModel, UnknownsAreAlongUnitVectorsAcross) {
+TEST(MountingModel, UnknownsAreAlongOrthogonalUnitVectors) {
   const Rig rig = test::rig_oblique();
   const auto model = MountingModel::create(rig, clampings_of(7));
   ASSERT_TRUE(model) << model.error().message;
@@ -56,7 +56,7 @@ TEST(MountingModel, UnknownsAreAlongUnitVectorsAcross) {
   EXPECT_EQ(model->readings().size(), 3u * 2 * 4 * 7);
 }
 
-// Each column is the slope of what is left of the readings, by differences, at tilts of 20 mrad.
+// Each column equals the central difference of the residuals, at tilts of 20 mrad.
 void expect_derivatives(const MountingModel& model) {
   Eigen::VectorXd pose(model.pose_unknowns()), probe(model.unknowns());
   for (Eigen::Index i = 0; i < pose.size(); ++i)
@@ -65,7 +65,7 @@ void expect_derivatives(const MountingModel& model) {
   for (Eigen::Index i = 0; i < probe.size(); ++i)
     probe(i) = 0.5 * std::cos(1.7 * static_cast<double>(i));
   const auto at = model.linearised(pose, probe);
-  // The misfit falls as the model's reading grows.
+  // The misfit decreases when the reading of the model increases.
   const auto compare = [&](const Eigen::VectorXd& column, const Eigen::VectorXd& above,
                            const Eigen::VectorXd& below, double step, Eigen::Index i) {
     const Eigen::VectorXd slope = (below - above) / (2 * step);
@@ -90,7 +90,7 @@ void expect_derivatives(const MountingModel& model) {
   }
 }
 
-TEST(MountingModel, DerivativesAreThoseOfTheMisfit) {
+TEST(MountingModel, DerivativesMatchFiniteDifferences) {
   expect_derivatives(MountingModel::create(test::rig_oblique(), clampings_of(7)).value());
   const Rig rig = test::rig_x_with("B", "u_sensitivity_ppm = 1000");
   const auto model = MountingModel::create(rig, clampings_of(5)).value();
@@ -99,12 +99,13 @@ TEST(MountingModel, DerivativesAreThoseOfTheMisfit) {
   expect_derivatives(model);
 }
 
-// What is declared of a place is along the machine's axes; what is not is that of clamping by hand.
-TEST(MountingModel, ScalesAreWhatTheRigDeclares) {
+// A declared position uncertainty is along the axes of the machine; undeclared scales have the
+// values for clamping by hand.
+TEST(MountingModel, ScalesComeFromTheRigOrFromDefaults) {
   const Rig rig = test::rig_x_with(
       "D", "u_position_mm = [0.02, 0.03, 0.04]\nu_direction_mrad = 7\nu_sensitivity_ppm = 300");
   const auto model = MountingModel::create(rig, clampings_of(5)).value();
-  // D looks at a side: its place is along X and Z.
+  // D faces the side plane: its position unknowns are along X and Z.
   for (const auto& [which, axis, u] :
        {std::tuple(kPlace1, 0, 0.02e-3), std::tuple(kPlace2, 2, 0.04e-3)}) {
     EXPECT_NEAR(std::abs(model.along(3, which == kPlace1 ? 0 : 1)(axis)), 1, 1e-12);
@@ -122,8 +123,8 @@ TEST(MountingModel, ScalesAreWhatTheRigDeclares) {
   EXPECT_FALSE(model.declared(unknown_of(3, kZero)));
 }
 
-// On a plane that is tilted by t an encoder's u shows as t u.
-TEST(MountingModel, ATiltMakesTheEncodersErrorOneOfReadings) {
+// On a plane that is tilted by t the encoder uncertainty u contributes t u to a reading.
+TEST(MountingModel, EncoderUncertaintyEntersThroughTilts) {
   auto model = MountingModel::create(test::rig_x(), clampings_of(5)).value();
   Eigen::VectorXd pose = Eigen::VectorXd::Zero(model.pose_unknowns());
   pose(3 + 1) = 2;  // the second clamping is pitched by 20 mrad
@@ -132,7 +133,7 @@ TEST(MountingModel, ATiltMakesTheEncodersErrorOneOfReadings) {
   model.widen_by_encoder(pose, 1e-6);
   for (const TraverseReading& seen : model.readings()) {
     const bool is_pitched = seen.clamping == 1 && seen.probe < 3 && seen.traverse % 2 == 0;
-    const bool is_driven_into = seen.probe >= 3 && seen.traverse % 2 == 1;  // Y against the side
+    const bool is_driven_into = seen.probe >= 3 && seen.traverse % 2 == 1;  // along Y
     const double by_encoder = is_pitched ? 0.02e-6 : is_driven_into ? 1e-6 : 0;
     EXPECT_NEAR(seen.u_m, std::hypot(1e-8, by_encoder), 1e-3 * by_encoder + 1e-15)
         << seen.clamping << ' ' << seen.traverse << ' ' << seen.probe;

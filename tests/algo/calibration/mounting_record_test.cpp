@@ -1,4 +1,4 @@
-// What a calibration record says of the clampings that it is made of.
+// The contents of a calibration record and the clampings from which it was calculated.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ Rig rig_of_record() {
       .value();
 }
 
-// The place is along X and Y on the top, along X and Z on the side.
-TEST(MountingRecord, SaysWhereEachProbeIsAndHowWell) {
+// Positions are along X and Y on the top plane, along X and Z on the side plane.
+TEST(MountingRecord, StatesPositionsAndUncertainties) {
   std::mt19937_64 rng(21);
   test::TiltedTarget target(rng, 50e-6, 0, 3e-6);
   target.clamp(6, 5e-3, rng);
@@ -41,12 +41,12 @@ TEST(MountingRecord, SaysWhereEachProbeIsAndHowWell) {
     EXPECT_NEAR(probe.zero_m, fit->change(i + 2), 1e-18);
     EXPECT_NEAR(probe.zero_m, target.probes[k].zero, 2e-6);
     EXPECT_EQ(probe.scale_1, 0);
-    EXPECT_TRUE(std::isnan(probe.u_scale_1));  // the rig does not say that it is exact
+    EXPECT_TRUE(std::isnan(probe.u_scale_1));  // the rig does not declare it
     EXPECT_GT(probe.u_position_m[0], 0);
     EXPECT_GE(probe.u_position_m[0], 0.999 * std::sqrt(fit->covariance(i, i)));
     EXPECT_GE(probe.u_position_m[across], 0.999 * std::sqrt(fit->covariance(i + 1, i + 1)));
     EXPECT_EQ(probe.u_position_m[facing], 0) << k;
-    // Directions are not seen: they stay the rig's.
+    // The clampings do not determine the directions; the rig's values remain.
     EXPECT_EQ(probe.direction, rig.probes[k].direction);
     EXPECT_TRUE(probe.zero_seen);
     EXPECT_LE(probe.readings, 6u * 2 * 5);
@@ -55,7 +55,7 @@ TEST(MountingRecord, SaysWhereEachProbeIsAndHowWell) {
   }
   EXPECT_EQ(found.readings, readings);
   EXPECT_EQ(found.clampings, 6u);
-  // Largest angle between two tilts: of the clampings as they were drawn.
+  // Largest angle between two tilts, of the clampings as simulated.
   double most = 0;
   for (const auto& a : target.clampings)
     for (const auto& b : target.clampings)
@@ -64,15 +64,15 @@ TEST(MountingRecord, SaysWhereEachProbeIsAndHowWell) {
   EXPECT_NEAR(found.tilt_rad, most, 0.02 * most);
 }
 
-// The matrix is symmetric, its diagonal what is said of each probe.
-TEST(MountingRecord, TheMatrixHasTheUncertaintiesOfThePlaces) {
+// The matrix is symmetric; its diagonal has the variances of the single probes.
+TEST(MountingRecord, MatrixContainsThePositionUncertainties) {
   std::mt19937_64 rng(22);
   test::TiltedTarget target(rng, 50e-6, 0, 3e-6);
   target.clamp(6, 5e-3, rng);
   const auto fit = fit_mounting(rig_of_record(), target.logs(rng));
   ASSERT_TRUE(fit) << fit.error().message;
   const CalibrationCovariance& covariance = fit->found.covariance;
-  ASSERT_EQ(covariance.of.size(), 5u * 3);  // two components of the place, and the zero
+  ASSERT_EQ(covariance.of.size(), 5u * 3);  // two components of the position, and the zero
   const auto at = [&](const std::string& name) {
     const auto found = std::find(covariance.of.begin(), covariance.of.end(), name);
     EXPECT_NE(found, covariance.of.end()) << name;
@@ -93,7 +93,7 @@ TEST(MountingRecord, TheMatrixHasTheUncertaintiesOfThePlaces) {
       EXPECT_LE(std::abs(covariance.m2[i][j]),
                 std::sqrt(covariance.m2[i][i] * covariance.m2[j][j]) * (1 + 1e-9));
     }
-  // Neighbours' places go together, as they were tilted together.
+  // Positions of neighbouring probes are correlated, because the same tilts determined them.
   const std::size_t a = at(place_name("A", 0)), b = at(place_name("B", 0));
   const Eigen::Index ia = 0, ib = 6;
   EXPECT_NEAR(covariance.m2[a][b], fit->covariance(ia, ib), 1e-14);

@@ -1,4 +1,4 @@
-// Mountings that are known, from simulated clampings (tilted_target.h).
+// Known mountings, from simulated clampings (tilted_target.h).
 #include "algo/calibration/mounting.h"
 
 #include <gtest/gtest.h>
@@ -24,8 +24,8 @@ Rig rig_with(const std::string& of_probes) {
   return parse_rig(test::mounting_rig_toml(of_probes), "rig_X.toml").value();
 }
 
-// True minus nominal, in the order of MountingFit::change. Tangents of both planes are the local
-// axes; a direction is known by its components along them.
+// True minus nominal values, in the order of MountingFit::change. The tangents of both planes are
+// the local axes; a direction is given by its components along them.
 Eigen::VectorXd truth_of(const TiltedTarget& target, const Rig& rig) {
   Eigen::VectorXd truth(30);
   for (std::size_t k = 0; k < 5; ++k) {
@@ -42,7 +42,7 @@ Eigen::VectorXd truth_of(const TiltedTarget& target, const Rig& rig) {
   return truth;
 }
 
-TEST(Mounting, ExactReadingsGiveThePlacesBackButForAllTogether) {
+TEST(Mounting, ExactReadingsGiveRelativePositions) {
   std::mt19937_64 rng(1);
   TiltedTarget target(rng, kPlace_m, 0, 3e-6);
   target.noise_m = 0;
@@ -52,7 +52,7 @@ TEST(Mounting, ExactReadingsGiveThePlacesBackButForAllTogether) {
   ASSERT_TRUE(fit) << fit.error().message;
   const Eigen::VectorXd truth = truth_of(target, rig);
   const Eigen::VectorXd part = fit->seen * truth;
-  // Each probe against the first of its plane.
+  // Each probe relative to the first one of its plane.
   for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {3, 4}})
     for (int j = 0; j < 3; ++j) {
       const double found = fit->change(6 * a + j) - fit->change(6 * b + j);
@@ -63,8 +63,9 @@ TEST(Mounting, ExactReadingsGiveThePlacesBackButForAllTogether) {
   EXPECT_LT(fit->found.chi_square, 1);
 }
 
-// Within five of its uncertainties, χ² as it must be, and what cannot be seen is named.
-TEST(Mounting, NoisyReadingsGiveThemWithinTheirUncertainties) {
+// χ² differs from the degrees of freedom by less than five of its standard deviations, and the
+// combinations that the clampings do not show are named.
+TEST(Mounting, NoisyReadingsGiveTheExpectedUncertainties) {
   std::mt19937_64 rng(2);
   TiltedTarget target(rng, kPlace_m, kWay_rad, 3e-6);
   target.clamp(6, kTilt_rad, rng);
@@ -88,15 +89,16 @@ TEST(Mounting, NoisyReadingsGiveThemWithinTheirUncertainties) {
     EXPECT_TRUE(std::any_of(found.not_seen.begin(), found.not_seen.end(), [&](const auto& line) {
       return line.find(says) != std::string::npos;
     })) << says;
-  // Independent ones of 50 um, as the mean of two or three probes.
+  // Mean of two or three independent positions with u = 50 um each.
   EXPECT_NEAR(found.u_together_m[0], kPlace_m / std::sqrt(2), 1e-9);
   EXPECT_NEAR(found.u_together_m[1], kPlace_m / std::sqrt(3), 1e-9);
   EXPECT_NEAR(found.u_together_m[2], kPlace_m / std::sqrt(2), 1e-9);
 }
 
-// Of 500 calibrations, with everything drawn anew, 95 % intervals hold the truth in 94 to 96.5 %:
-// of what is seen alone, and of all places with what the rig declares beside it.
-TEST(Mounting, TheCovarianceCovers) {
+// In 500 calibrations, with everything drawn anew, 94 to 96.5 % of the 95 % intervals contain the
+// truth: both for the determined part alone, and for all positions when the declared uncertainty of
+// the rig is added.
+TEST(Mounting, IntervalsCoverTheTruth) {
   std::mt19937_64 rng(3);
   const Rig rig = rig_with(kDeclared);
   int inside = 0, all_inside = 0, n = 0;
@@ -129,9 +131,9 @@ TEST(Mounting, TheCovarianceCovers) {
   EXPECT_NEAR(distance / 500, 1, 0.2) << "the correlations too";
 }
 
-// The scale of a probe is an unknown where the rig declares its uncertainty: else it would be taken
-// for a place that is ten micrometres off.
-TEST(Mounting, SensitivitiesThatAreDeclaredDoNoHarm) {
+// The scale of a probe is an unknown if the rig declares its uncertainty. Otherwise a scale error
+// would appear as a position error of ten micrometres.
+TEST(Mounting, DeclaredSensitivityUKeepsPositionsCorrect) {
   std::mt19937_64 rng(4);
   TiltedTarget target(rng, kPlace_m, 0, 3e-6);
   target.probes[0].scale = 1.001;
@@ -154,7 +156,7 @@ TEST(Mounting, SensitivitiesThatAreDeclaredDoNoHarm) {
     EXPECT_EQ(fit.found.probes[k].scale_1, fit.change(static_cast<Eigen::Index>(6 * k + 5))) << k;
 }
 
-TEST(Mounting, ResidualsThatNothingExplainsWidenTheUncertainties) {
+TEST(Mounting, UnexplainedResidualsIncreaseU) {
   std::mt19937_64 rng(5);
   TiltedTarget target(rng, kPlace_m, 0, 3e-6);
   target.clamp(4, kTilt_rad, rng);
@@ -171,8 +173,9 @@ TEST(Mounting, ResidualsThatNothingExplainsWidenTheUncertainties) {
   EXPECT_NEAR(stated.covariance(0, 0) / right.covariance(0, 0), 1, 0.3);
 }
 
-// A probe that is 1 % off without a word in the rig: about 0.1 um of 10 nm of noise.
-TEST(Mounting, AMisfitThatNoFactorCoversIsRefused) {
+// One probe has a scale error of 1 % that the rig does not declare: about 0.1 um, at a noise of 1
+// nm.
+TEST(Mounting, RefusesALargeMisfit) {
   const auto refused = [](double scale, double noise_m, const std::string& declared) {
     std::mt19937_64 rng(8);
     TiltedTarget target(rng, kPlace_m, 0, 3e-6);
@@ -187,7 +190,7 @@ TEST(Mounting, AMisfitThatNoFactorCoversIsRefused) {
   EXPECT_EQ(refused(1.0001, 1e-9, ""), Remedy::none) << "widened";
 }
 
-TEST(Mounting, WhatTheClampingsDoNotShowIsNotMadeUp) {
+TEST(Mounting, RefusesTooFewTilts) {
   std::mt19937_64 rng(6);
   TiltedTarget target(rng, kPlace_m, 0, 3e-6);
   target.clamp(1, kTilt_rad, rng);
@@ -196,7 +199,7 @@ TEST(Mounting, WhatTheClampingsDoNotShowIsNotMadeUp) {
   ASSERT_FALSE(once);
   EXPECT_EQ(once.error().code, ErrorCode::check);
   EXPECT_NE(once.error().message.find("Clamp the target at three"), std::string::npos);
-  // Two tilts show each probe along one direction only.
+  // Two tilts determine each position along one direction only.
   target.clamp(2, kTilt_rad, rng);
   target.clampings.erase(target.clampings.begin());
   const auto twice = fit_mounting(rig, target.logs(rng));
@@ -205,7 +208,7 @@ TEST(Mounting, WhatTheClampingsDoNotShowIsNotMadeUp) {
             std::string::npos);
 }
 
-TEST(Mounting, AnAxisThatGoesTheOtherWayIsFound) {
+TEST(Mounting, DetectsAReversedAxis) {
   std::mt19937_64 rng(7);
   TiltedTarget target(rng, kPlace_m, 0, 3e-6);
   target.clamp(4, kTilt_rad, rng);
@@ -217,10 +220,11 @@ TEST(Mounting, AnAxisThatGoesTheOtherWayIsFound) {
   EXPECT_EQ(fit.error().remedy, Remedy::reverse_target) << fit.error().message;
 }
 
-// The errors that a mounting induces in a measurement, before and after: readings of random errors
-// of the axis (simulation II: 1 mrad, 50 um) by the probes as they are, solved with the rig as
-// declared and as calibrated. Straightness at the point of the calibrated rig, see the README.
-TEST(Mounting, InducedErrorsAreTwentyTimesSmaller) {
+// Errors that the mounting induces in a measurement, before and after the calibration. The true
+// probes read random errors of the axis (simulation II: 1 mrad, 50 um); the readings are solved
+// with the rig as declared and as calibrated. Straightness refers to the point of the calibrated
+// rig, see the README.
+TEST(Mounting, CalibrationReducesInducedErrorsTwentyfold) {
   std::mt19937_64 rng(8);
   const Rig rig = rig_with(kDeclared);
   std::uniform_real_distribution<> angle(-1e-3, 1e-3), shift(-50e-6, 50e-6), travel(0, 0.01);
@@ -234,7 +238,8 @@ TEST(Mounting, InducedErrorsAreTwentyTimesSmaller) {
       calibrated.probes[k].position_m = fit.found.probes[k].position_m;
     const auto declared = Solver::create(rig, Model::rigid).value();
     const auto known = Solver::create(calibrated, Model::rigid).value();
-    // Where the axis' origin is for the probes as they are: nobody can see their mean.
+    // Offset of the origin of the axis relative to the true probes: the clampings do not show their
+    // mean position.
     const Eigen::VectorXd off = truth_of(target, rig) - fit.seen * truth_of(target, rig);
     for (int trial = 0; trial < 200; ++trial) {
       const test::TrueClamping e{{angle(rng), angle(rng), angle(rng)}, {0, shift(rng), shift(rng)}};
@@ -281,8 +286,8 @@ CalibrationRecord record_of(const MountingFit& fit, const Rig& rig, bool with_co
   return record;
 }
 
-// Angles of a target that is tilted by some mrad, measured with the calibrated rig read back from
-// its record: how many of 300 are held, in the order of Errors5.
+// Angles of a target that is tilted by some mrad, measured with the calibrated rig as read from its
+// record. Returns the share (%) of 300 intervals that contain the truth, in the order of Errors5.
 std::array<double, 5> angles_held(bool with_covariance) {
   std::mt19937_64 rng(11);
   const std::string text = test::mounting_rig_toml(kDeclared);
@@ -326,19 +331,20 @@ std::array<double, 5> angles_held(bool with_covariance) {
   return held;
 }
 
-// Zeros and places found together belong together: what one reads more the other reads less.
-TEST(Mounting, ARecordKeepsTheCovariancesThatTheBudgetNeeds) {
+// The zeros and positions of one calibration are correlated, and their effects partly cancel.
+TEST(Mounting, RecordKeepsCovariancesForTheBudget) {
   const auto with = angles_held(true), without = angles_held(false);
   for (const std::size_t e : {kEx, kEy, kEz}) {
     std::printf("held %.1f %%, without covariances %.1f %%\n", with[e], without[e]);
-    EXPECT_GT(with[e], 91.2) << e;  // three standard deviations of 300
+    EXPECT_GT(with[e], 91.2) << e;  // 95 % less three standard deviations of 300 trials
   }
   EXPECT_LT(without[kEz], 85);
 }
 
-// Steep tilts and probes of a long range show directions too. Of 80 calibrations: how far all that
-// is seen of the directions is off, by the matrix of the record.
-TEST(Mounting, DirectionsThatAreSeenAreInTheMatrix) {
+// Large tilts and probes with a long range also determine directions. Over 80 calibrations: the
+// squared distance of the determined directions from the true ones, normalised by the matrix of the
+// record.
+TEST(Mounting, MatrixContainsTheDeterminedDirections) {
   std::mt19937_64 rng(21);
   const Rig rig = parse_rig(test::mounting_rig_toml(kDeclared, 4000), "rig_X.toml").value();
   double distance = 0, strongest = 0;

@@ -1,4 +1,4 @@
-// The names of what clampings do not show, for combinations that are given.
+// The sentences about combinations that the clampings do not show, for given combinations.
 #include "algo/calibration/mounting_view.h"
 
 #include <gtest/gtest.h>
@@ -10,14 +10,14 @@
 namespace mdof::algo {
 namespace {
 
-// A, B and C look at one plane, D and E at another; all places are known to 20 um.
+// A, B and C face one plane, D and E another; all positions are known with u = 20 um.
 MountingModel model_of_two_planes() {
   Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 300");
   for (Probe& probe : rig.probes) probe.uncertainty.position.u = {20e-6, 20e-6, 20e-6};
   return MountingModel::create(rig, {}).value();
 }
 
-// Nothing but these directions, in units of scale(), is unseen.
+// Sentences if only these directions, in units of scale(), are unseen.
 Unseen named(const MountingModel& model, const std::vector<Eigen::VectorXd>& directions) {
   MountingView view;
   view.unseen = Eigen::MatrixXd(model.unknowns(), static_cast<Eigen::Index>(directions.size()));
@@ -28,7 +28,7 @@ Unseen named(const MountingModel& model, const std::vector<Eigen::VectorXd>& dir
 Eigen::VectorXd unit(const MountingModel& model, std::size_t probe, MountingUnknown which) {
   return Eigen::VectorXd::Unit(model.unknowns(), unknown_of(probe, which));
 }
-// The same unknown of several probes, each along the first one's way.
+// The same unknown of several probes, each along the direction of the first probe.
 Eigen::VectorXd together(const MountingModel& model, const std::vector<std::size_t>& probes,
                          MountingUnknown which) {
   const std::size_t j = which == kPlace1 ? 0 : 1;
@@ -38,7 +38,7 @@ Eigen::VectorXd together(const MountingModel& model, const std::vector<std::size
   return sum;
 }
 
-TEST(MountingView, NamesAProbeBesideTheOthers) {
+TEST(MountingView, NamesAProbeRelativeToTheOthers) {
   const MountingModel model = model_of_two_planes();
   const auto sentences = [&](std::size_t probe, MountingUnknown which) {
     const Unseen unseen = named(model, {unit(model, probe, which)});
@@ -55,7 +55,7 @@ TEST(MountingView, NamesAProbeBesideTheOthers) {
               Sentences{"the direction of E: the tilts and readings are too small"});
   EXPECT_EQ(sentences(3, algo::kScale), Sentences{"the sensitivity of D: only a calibration of the "
                                                   "sensitivity can determine the sensitivity"});
-  // D looks along Y.
+  // D measures along Y.
   for (const auto which : {kPlace1, kPlace2}) {
     const bool is_x = std::abs(model.along(3, which == kPlace1 ? 0 : 1).x()) > 0.5;
     EXPECT_EQ(sentences(3, which),
@@ -63,7 +63,7 @@ TEST(MountingView, NamesAProbeBesideTheOthers) {
                         " relative to the other probes: clamp the target at more tilts, with "
                         "larger differences"});
   }
-  // A sensitivity that is exact is not one of the unknowns.
+  // An exact sensitivity is not an unknown.
   EXPECT_TRUE(named(model, {unit(model, 0, algo::kScale)}).sentences.empty());
 }
 
@@ -71,7 +71,7 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
   const MountingModel model = model_of_two_planes();
   const Unseen both =
       named(model, {together(model, {3, 4}, kPlace1), together(model, {3, 4}, kPlace2)});
-  // Two places that are known to 20 um each have a mean that is known to 20 um / sqrt(2).
+  // Two positions with u = 20 um each have a mean with u = 20 um / sqrt(2).
   ASSERT_EQ(both.sentences.size(), 2u);
   for (const auto& sentence : both.sentences)
     EXPECT_NE(sentence.find("the common position of D, E along "), std::string::npos) << sentence;
@@ -93,8 +93,8 @@ TEST(MountingView, NamesProbesOfAPlaneTogether) {
   EXPECT_EQ(zero.apart.cols(), 1);
 }
 
-// What the rig does not declare of one probe is not known of all together.
-TEST(MountingView, TogetherIsNotKnownWhereOneIsNot) {
+// If the rig does not declare u for one probe, u of the common mean is unknown.
+TEST(MountingView, OneUndeclaredPositionMakesTheMeanUnknown) {
   Rig rig = test::rig_x();
   for (Probe& probe : rig.probes)
     if (probe.id != "B") probe.uncertainty.position.u = {20e-6, 20e-6, 20e-6};
@@ -111,9 +111,9 @@ TEST(MountingView, TogetherIsNotKnownWhereOneIsNot) {
   EXPECT_EQ(unseen.u_together_m[2], 0);
 }
 
-// Probes in general directions along X, and the same fixture turned for Y, where local x is +Y and
-// local y is -X: a place is named by the axis of the machine that its way is nearest to.
-TEST(MountingView, NamesAPlaceByTheNearestAxisOfTheMachine) {
+// Probes in general directions for the axis X, and the same fixture turned for Y, where local x is
+// +Y and local y is -X. A position is named by the machine axis that is nearest to its direction.
+TEST(MountingView, NamesAPositionByTheNearestMachineAxis) {
   const Rig along_x = test::rig_oblique();
   Rig along_y = along_x;
   along_y.axis = Axis::y;

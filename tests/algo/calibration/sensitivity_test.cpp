@@ -29,8 +29,9 @@ Traverse along_z(Reads reads, int n = 11, double reach_m = 80e-6) {
   return traverse;
 }
 
-TEST(Sensitivity, IsThatOfTheReadingsWithItsUncertainty) {
-  // ±20 nm in turn about a line: the sd of a slope over 11 points by hand.
+TEST(Sensitivity, MatchesSlopeAndUncertaintyByHand) {
+  // The readings alternate by ±20 nm about a line; the standard deviation of a slope over 11 points
+  // is calculated by hand.
   int k = 0;
   const auto found = fit_sensitivity(test::rig_x(), kA, along_z([&](double z) {
                                        return 3e-6 + 1.002 * z + (k++ % 2 ? 20e-9 : -20e-9);
@@ -47,8 +48,9 @@ TEST(Sensitivity, IsThatOfTheReadingsWithItsUncertainty) {
   EXPECT_FALSE(found->um_per_V);
 }
 
-// Eleven places, there and back: white noise, and an error of the encoder that is the same at both
-// visits of a place. How many of 5,000 intervals hold the truth, by the degrees of freedom.
+// Share (%) of 5,000 intervals, with the coverage factor for the degrees of freedom, that contain
+// the true sensitivity. The axis visits `places` positions there and back; the readings have white
+// noise and an encoder error that is the same at both visits of a position.
 double held_percent(const std::string& of_rig, double encoder_m, double noise_m, int places) {
   const Rig rig = test::rig_x_with("", "", of_rig);
   std::mt19937_64 engine(5);
@@ -71,18 +73,18 @@ double held_percent(const std::string& of_rig, double encoder_m, double noise_m,
   return 100.0 * held / kTrials;
 }
 
-TEST(Sensitivity, TheEncoderErrsOnceAtEachPlace) {
+TEST(Sensitivity, IntervalsCoverAnEncoderErrorAtEachPosition) {
   const std::string declared = "[encoder]\nu_um = 0.2\n";
-  // 95 % and three standard deviations of 5,000.
+  // 95 % less three standard deviations of 5,000 trials.
   for (const int places : {5, 11}) {
     SCOPED_TRACE(places);
     EXPECT_GT(held_percent(declared, 0.2e-6, 10e-9, places), 94);
-    EXPECT_GT(held_percent("", 0.2e-6, 10e-9, places), 94);  // seen by what the line leaves
+    EXPECT_GT(held_percent("", 0.2e-6, 10e-9, places), 94);  // the residuals show it
     EXPECT_GT(held_percent("", 0, 50e-9, places), 94);
   }
 }
 
-TEST(Sensitivity, WhatItCannotSeeIsSaid) {
+TEST(Sensitivity, ReportsUnseenContributions) {
   const auto says = [](const Rig& rig) {
     const auto found = fit_sensitivity(rig, kA, along_z([](double z) { return z; })).value();
     std::string all;
@@ -96,8 +98,8 @@ TEST(Sensitivity, WhatItCannotSeeIsSaid) {
             std::string::npos);
 }
 
-// What is proposed makes the readings true, whichever way the probe counts.
-TEST(Sensitivity, TheProposedTableMakesReadingsTrue) {
+// The proposed table corrects the readings, for both senses of the probe.
+TEST(Sensitivity, ProposedTableCorrectsTheReadings) {
   const auto curve = [](double z) { return 2e-6 + 1.003 * z + 40 * z * z; };
   for (const char* reads : {"displacement", "gap"})
     for (const char* volts : {"", "um_per_V = 10\n"}) {
@@ -112,7 +114,7 @@ TEST(Sensitivity, TheProposedTableMakesReadingsTrue) {
       std::size_t k = 0;
       for (const auto& [t_um, correction_um] : found->linearity) {
         if (t_um < found->calibrated_um[0] || t_um > found->calibrated_um[1]) continue;
-        // Back to the raw number, then by the rig as it is proposed.
+        // Returns to the raw number, then applies the rig as proposed.
         const double displacement_um = sign * (t_um + correction_um);
         const auto i = sign > 0 ? k : 10 - k;
         const double z = 80e-6 * (2.0 * static_cast<double>(i) / 10 - 1);
@@ -127,8 +129,9 @@ TEST(Sensitivity, TheProposedTableMakesReadingsTrue) {
     }
 }
 
-// Steps of +-12 um say what the probe reads anywhere in its range: raw = 100 +- (5 + 1.02 z).
-TEST(Sensitivity, TheTableOfAProbeWithoutScaleHoldsOverItsRange) {
+// The traverse covers +-12 um, and the table continues with the same slope over the whole range:
+// raw = 100 +- (5 + 1.02 z).
+TEST(Sensitivity, TableWithoutScaleCoversTheRange) {
   for (const double sign : {1.0, -1.0}) {
     const Rig rig = test::rig_x_with("A", std::string("reads = ") +
                                               (sign > 0 ? "\"displacement\"" : "\"gap\"") +
@@ -141,7 +144,7 @@ TEST(Sensitivity, TheTableOfAProbeWithoutScaleHoldsOverItsRange) {
     Calibration as_proposed;
     as_proposed.linearity = found->linearity;
     for (const double raw_um : {-40.0, 10.0, 100.0, 103.0, 180.0, 250.0}) {
-      const double t_um = raw_um - 100;  // away from where the raw number is 100, by 1.02
+      const double t_um = raw_um - 100;  // 1.02 times the true displacement from raw = 100
       EXPECT_NEAR(t_um + linearity_um(as_proposed, t_um), t_um / 1.02, 1e-9) << raw_um;
     }
     EXPECT_NEAR(found->linearity.front()[0], -140, 1e-12);
@@ -149,7 +152,7 @@ TEST(Sensitivity, TheTableOfAProbeWithoutScaleHoldsOverItsRange) {
   }
 }
 
-TEST(Sensitivity, WhatCannotBeIsRefused) {
+TEST(Sensitivity, RefusesImplausibleTraverses) {
   const Rig rig = test::rig_x();
   const auto says = [&](const Traverse& traverse, const char* what) {
     const auto found = fit_sensitivity(rig, kA, traverse);
@@ -166,13 +169,14 @@ TEST(Sensitivity, WhatCannotBeIsRefused) {
   EXPECT_EQ(approaching_axis(rig, 3).value(), Axis::y);
 }
 
-// A probe that reads as the axis travels is right as it is, wherever both have their zero.
-TEST(Sensitivity, TheTableOfAStraightProbeCorrectsNothing) {
+// A probe with the slope 1 needs no correction, wherever the zeros of the probe and of the axis
+// are.
+TEST(Sensitivity, ExactProbeGetsNoCorrection) {
   int k = 0;
   const auto found = fit_sensitivity(
       test::rig_x(), kA, along_z([&](double z) { return 3e-6 + z + (k++ % 2 ? 1e-15 : 0); }));
   ASSERT_TRUE(found) << found.error().message;
-  ASSERT_EQ(found->linearity.size(), 13u);  // and the ends of the range
+  ASSERT_EQ(found->linearity.size(), 13u);  // 11 positions and both ends of the range
   for (std::size_t i = 0; i < 13; ++i) {
     const double at_um = i == 0 ? -100 : i == 12 ? 100 : 3 - 80 + 16.0 * static_cast<double>(i - 1);
     EXPECT_NEAR(found->linearity[i][0], at_um, 1e-6);
@@ -182,8 +186,9 @@ TEST(Sensitivity, TheTableOfAStraightProbeCorrectsNothing) {
   EXPECT_NEAR(found->to_m, 83e-6, 1e-12);
 }
 
-// Noise of each visit and one error of the encoder at each place, by the levers of the slope.
-TEST(Sensitivity, UncertaintyIsThatOfVisitsAndPlaces) {
+// Noise of each visit and one encoder error at each position, weighted by the coefficients of the
+// slope.
+TEST(Sensitivity, UncertaintyCombinesVisitsAndPositions) {
   const Rig rig = test::rig_x_with("", "", "[encoder]\nu_um = 0.3\n");
   Traverse traverse = along_z([](double z) { return 1.01 * z; }, 5);
   traverse.stops.push_back(traverse.stops[1]);
@@ -209,17 +214,17 @@ TEST(Sensitivity, UncertaintyIsThatOfVisitsAndPlaces) {
   EXPECT_EQ(found->id, "A");
 }
 
-TEST(Sensitivity, WhatTheLineLeavesIsStated) {
+TEST(Sensitivity, StatesTheResidualStandardDeviation) {
   int k = 0;
   const auto found = fit_sensitivity(
       test::rig_x(), kA, along_z([&](double z) { return z + (k++ % 2 ? 20e-9 : -20e-9); }));
-  // About the mean of -20/11 nm, which alternates symmetrically: nine degrees of freedom.
+  // The readings alternate about their mean of -20/11 nm; nine degrees of freedom.
   const double mean = -20e-9 / 11;
   EXPECT_NEAR(found->residual_sd_m, std::sqrt((11 * 400e-18 - 11 * mean * mean) / 9), 1e-15);
 }
 
-// A sensitivity from a half to two is one that probes have.
-TEST(Sensitivity, IsFromAHalfToTwo) {
+// A sensitivity from 0.5 to 2 is plausible.
+TEST(Sensitivity, AcceptsSensitivitiesFromHalfToTwo) {
   const auto is_taken = [](double by) {
     return fit_sensitivity(test::rig_x(), kA, along_z([&](double z) { return by * z; }))
         .has_value();

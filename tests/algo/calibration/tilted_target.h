@@ -1,5 +1,6 @@
-// A machine whose target is clamped at tilts, in its own arithmetic: planes through three turned
-// points, probes as lines that meet them. Shares nothing with algo/calibration. The X axis.
+// A simulated machine whose target is clamped at several tilts. It calculates the planes from three
+// rotated points and intersects them with the lines of the probes; it shares no code with
+// algo/calibration. The X axis.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@ namespace mdof::test {
 
 struct TrueProbe {
   Vec3 place{}, way{};
-  bool top = true;  // looks at z = 0, else at y = h
+  bool top = true;  // faces the plane z = 0, else y = h
   double zero = 0, scale = 1;
 };
 
@@ -32,7 +33,7 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-// About x, then y, then z.
+// Rotates p about x, then y, then z.
 inline Vec3 turned(const Vec3& angle, const Vec3& p) {
   Vec3 q = p;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -64,7 +65,8 @@ struct TiltedTarget {
   int stops = 5;
   std::vector<Axis> travels = {Axis::x, Axis::y};
 
-  // The default fixture, mounted by hand: places, directions, zeros.
+  // The default fixture, mounted by hand: its positions, directions and zeros deviate by these
+  // standard uncertainties.
   TiltedTarget(std::mt19937_64& rng, double u_place_m, double u_way_rad, double u_zero_m) {
     const std::array<Vec3, 5> places = {
         {{.01, 0, 0}, {0, .01, 0}, {0, -.01, 0}, {0, .015, .02}, {.01, .015, .02}}};
@@ -83,7 +85,7 @@ struct TiltedTarget {
     }
   }
 
-  // Every tilt in its direction and against it, about axes that differ.
+  // Clamps the target n times, at pairs of opposite tilts about different axes.
   void clamp(int n, double tilt_rad, std::mt19937_64& rng) {
     const std::array<Vec3, 6> tilts = {
         {{1, 1, 1}, {-1, -1, -1}, {1, -1, -1}, {-1, 1, 1}, {-1, 1, -1}, {1, -1, 1}}};
@@ -94,7 +96,7 @@ struct TiltedTarget {
         c.angle[k] = tilts[static_cast<std::size_t>(i) % 6][k] * tilt_rad * more(rng);
         c.offset[k] = away(rng);
       }
-      // The side probes are 20 mm up: the target is clamped where they are in range.
+      // The side probes are at a height of 20 mm; the offset keeps the target in their range.
       const Vec3 side = turned(c.angle, {0.005, 0.015, 0.02}), top = turned(c.angle, {0.003, 0, 0});
       c.offset[1] -= side[1] - 0.015;
       c.offset[2] -= top[2];

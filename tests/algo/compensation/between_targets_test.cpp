@@ -1,5 +1,5 @@
-// What interpolation does to u between the targets of a table. The truth is an axis of random
-// waves, which the table knows at its targets only.
+// Contribution of the interpolation to u between the targets of a table. The truth is an axis with
+// random waves, which the table contains at its targets only.
 #include "algo/compensation/between_targets.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ Draw waves(double shortest, double longest) {
   };
 }
 
-// A long bend, and a ball screw whose pitch is 3 to 8 steps.
+// A long bend, and a ball screw with a pitch of 3 to 8 steps.
 Draw screw() {
   return [](std::mt19937_64& random) -> RandomAxis {
     const RandomAxis bend = waves(15, 60)(random);
@@ -96,9 +96,9 @@ CompensationTable table_of(const RandomAxis& axis, std::size_t targets, double n
 }
 
 struct Coverage {
-  double at_targets = 0, between = 0, without = 0;  // %; without: by the u of the targets alone
-  double rms = 0;                                   // of the errors between targets, by their u
-  double of_95 = 0;                                 // 95 % of them are smaller, by their u
+  double at_targets = 0, between = 0, without = 0;  // %; without: with u of the targets alone
+  double rms = 0;    // root mean square of error / u between the targets
+  double of_95 = 0;  // 95 % of error / u between the targets are smaller
 };
 
 Coverage coverage(const Draw& draw, std::size_t targets, double noise_m) {
@@ -128,8 +128,8 @@ Coverage coverage(const Draw& draw, std::size_t targets, double noise_m) {
           std::sqrt(square), sizes[kTables * 95 / 100]};
 }
 
-// u is the root mean square of the errors. Those of a few waves are bounded, so that 1.96 u holds
-// more than 95 % of them.
+// u is the root mean square of the errors. The errors of a few waves are bounded, so intervals of
+// 1.96 u contain more than 95 % of them.
 TEST(BetweenTargets, AnIntervalHoldsTheTruthOfARandomAxis) {
   const struct {
     const char* name;
@@ -170,8 +170,8 @@ CompensationTable bare(const std::vector<double>& values, double u) {
   return table;
 }
 
-// Of y = c x² each second derivative is 2 c: a parabola lies c s (1 - s) h² off its chord.
-TEST(BetweenTargets, OfAParabolaItIsTheDistanceFromTheChord) {
+// y = c x² has the second derivative 2 c: the parabola is c s (1 - s) h² away from its chord.
+TEST(BetweenTargets, ParabolaGivesTheDistanceFromTheChord) {
   constexpr double c = 2e-3;
   std::vector<double> values;
   for (int i = 0; i < 9; ++i) values.push_back(c * std::pow(kStep_m * i, 2));
@@ -183,7 +183,7 @@ TEST(BetweenTargets, OfAParabolaItIsTheDistanceFromTheChord) {
   }
 }
 
-TEST(BetweenTargets, IsZeroAtTargetsAndNeverBelowTheStraightLineOfTheirU) {
+TEST(BetweenTargets, IsZeroAtTargetsAndNeverReducesU) {
   auto table = bare({0, 1e-6, -1e-6, 2e-6, 0, 1e-6, 3e-6}, 1e-8);
   table.u_forward[0][3] = 5e-8;
   for (std::size_t i = 0; i < table.position_m.size(); ++i) {
@@ -197,11 +197,12 @@ TEST(BetweenTargets, IsZeroAtTargetsAndNeverBelowTheStraightLineOfTheirU) {
                 (1 - s) * table.u_forward[0][i] + s * table.u_forward[0][i + 1]);
     }
   }
-  EXPECT_EQ(table_at(table, 1, TableSide::forward).u_interpolation[0], 0);  // an end value is held
+  EXPECT_EQ(table_at(table, 1, TableSide::forward).u_interpolation[0],
+            0);  // beyond the end the end value is used
 }
 
-// Noise bends nothing, and what it seems to bend is taken off.
-TEST(BetweenTargets, NoiseAloneIsNoCurvature) {
+// Noise is not curvature: its part of the second differences is subtracted.
+TEST(BetweenTargets, NoiseIsSubtractedFromCurvature) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal(0, 1e-8);
   double sum = 0;
@@ -211,10 +212,10 @@ TEST(BetweenTargets, NoiseAloneIsNoCurvature) {
     const TableValue v = table_at(bare(values, 1e-8), 30.5 * kStep_m, TableSide::forward);
     sum += v.u_interpolation[0] * v.u_interpolation[0] / 200;
   }
-  EXPECT_LT(std::sqrt(sum), 1.0e-8);  // not subtracted: 1.22e-8 and more
+  EXPECT_LT(std::sqrt(sum), 1.0e-8);  // without subtraction: 1.22e-8 and more
 }
 
-TEST(BetweenTargets, PreparedAndUnpreparedAreOneAndHolesAreBridged) {
+TEST(BetweenTargets, PreparedTableIsEqualAndGapsAreBridged) {
   auto table = bare({0, 1e-6, kNaN, 2e-6, 0, 1e-6, 3e-6}, 1e-8);
   auto prepared = table;
   add_curvatures(prepared);

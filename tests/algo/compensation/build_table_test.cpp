@@ -1,4 +1,4 @@
-// Tables of runs whose errors are written by hand: a parabola, a line, a reversal.
+// Tables of runs with errors by hand: a parabola, a line, a reversal.
 #include <gtest/gtest.h>
 
 #include "algo/compensation/compensation.h"
@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kReversal_m = 0.4e-6, kReversal_rad = 3e-6, kScatter_m = 20e-9;
 
-// Targets 0, 10 … 40 mm, twice each way. EYX = 1 µm + 5e-5 x + 4e-3/m x² ± reversal, ECX = 1e-3 x ±
-// reversal, EZX = 0 and ± 20 nm from repeat to repeat.
+// Targets 0, 10 … 40 mm, twice in each direction. EYX = 1 µm + 5e-5 x + 4e-3/m x² ± reversal, ECX =
+// 1e-3 x ± reversal, EZX = 0 with ± 20 nm from repeat to repeat.
 Run run_by_hand(std::int64_t id, double away_m = 0) {
   Run run;
   run.header.id = id;
@@ -53,8 +53,8 @@ std::string refusal(const std::vector<Run>& runs) {
   return table ? "" : table.error().message;
 }
 
-// Over equal steps the least-squares line leaves of a parabola c ((x - middle)² - its mean).
-TEST(BuildTable, RefersStraightnessToItsLineAndAnglesToTheStart) {
+// With equal steps a parabola minus its least-squares line is c ((x - middle)² - mean of it).
+TEST(BuildTable, RefersStraightnessToLineAndAnglesToStart) {
   const auto about_line = built({run_by_hand(1)}, true), kept = built({run_by_hand(1)}, false);
   ASSERT_EQ(about_line.position_m.size(), 5U);
   for (std::size_t i = 0; i < 5; ++i) {
@@ -69,8 +69,8 @@ TEST(BuildTable, RefersStraightnessToItsLineAndAnglesToTheStart) {
       EXPECT_NEAR(table->forward[4][i], 1e-3 * x + kReversal_rad, 1e-14);
       EXPECT_NEAR(table->reverse[4][i], 1e-3 * x - kReversal_rad, 1e-14);
     }
-    // Two repeats 40 nm apart, all targets together: u = 20 nm of a value as it was measured, and
-    // nothing about a line, which goes with it.
+    // The two repeats differ by 40 nm, equally at all targets: u of a value as measured is 20 nm.
+    // About the line u is 0, because the line moves with the values.
     for (const auto* u : {&kept.u_forward, &kept.u_reverse})
       EXPECT_NEAR((*u)[1][i], kScatter_m, 1e-14);
     for (const auto* u : {&about_line.u_forward, &about_line.u_reverse})
@@ -80,7 +80,7 @@ TEST(BuildTable, RefersStraightnessToItsLineAndAnglesToTheStart) {
   EXPECT_FALSE(kept.slope_removed);
 }
 
-TEST(BuildTable, NamesItsRunsAndIsSimulatedAsTheyAre) {
+TEST(BuildTable, TakesRunsAndSimulatedFlagFromItsRuns) {
   for (const bool simulated : {false, true}) {
     std::vector<mdof::Run> runs = {run_by_hand(7), run_by_hand(9)};
     for (mdof::Run& run : runs) run.header.simulated = simulated;
@@ -90,15 +90,15 @@ TEST(BuildTable, NamesItsRunsAndIsSimulatedAsTheyAre) {
   }
 }
 
-// Targets of two runs are one within 2 % of the step, 0.2 mm.
-TEST(BuildTable, TakesTargetsForOneWithinTheirWindow) {
+// Targets of two runs are the same within 2 % of the step, 0.2 mm.
+TEST(BuildTable, MergesTargetsWithinTheWindow) {
   EXPECT_EQ(refusal({run_by_hand(1), run_by_hand(2, 0.19e-3)}), "");
   EXPECT_NE(refusal({run_by_hand(1), run_by_hand(2, 0.21e-3)})
                 .find("run 2 has a measured point at 0.21 mm"),
             std::string::npos);
 }
 
-TEST(BuildTable, RefusesRunsThatDoNotBelongTogether) {
+TEST(BuildTable, RefusesIncompatibleRuns) {
   EXPECT_NE(refusal({}).find("at least one run"), std::string::npos);
   mdof::Run other = run_by_hand(2);
   other.header.axis = Axis::y;
@@ -112,7 +112,7 @@ TEST(BuildTable, RefusesRunsThatDoNotBelongTogether) {
   EXPECT_NE(refusal({few}).find("2 targets with calculated errors"), std::string::npos);
 }
 
-TEST(BuildTable, SaysWhereAndOfWhatItsValuesAre) {
+TEST(BuildTable, StatesThePointAndTheRuns) {
   const auto table = built({run_by_hand(1), run_by_hand(2)}, true);
   EXPECT_EQ(table.stated, kAtCarriage);
   EXPECT_TRUE(table.slope_removed);

@@ -1,5 +1,5 @@
-// What rigs declare, carried to the values of a table. EYX at the fixture is what probe D reads
-// where nothing turns: a table of it follows D's faults one to one.
+// Declared uncertainties of rigs, propagated to the values of a table. Without angles, EYX at the
+// fixture is the reading of probe D: a table of EYX follows the errors of D one to one.
 #include "algo/compensation/declared_uncertainty.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ Run bent(const Rig& rig, std::int64_t id) {
   synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
   Run run = synthetic.measure();
   run.header.id = id;
-  for (MeasuredPoint& p : run.points) {  // a run an hour: no reading is of two runs
+  for (MeasuredPoint& p : run.points) {  // one run an hour, so that runs share no reading
     p.point.begin_ns += id * 3'600'000'000'000;
     p.point.end_ns += id * 3'600'000'000'000;
   }
@@ -43,13 +43,13 @@ CompensationTable table_of(const std::vector<Rig>& rigs, bool remove_slope = tru
   return table;
 }
 
-TEST(DeclaredUncertainty, OfNothingIsNone) {
+TEST(DeclaredUncertainty, IsEmptyWithoutDeclarations) {
   const auto table = table_of({rig_x_with("", "")});
   EXPECT_FALSE(table.has_declared());
   EXPECT_EQ(table.u_of(table.u_forward, 0, 1), table.u_forward[0][1]);
 }
 
-TEST(DeclaredUncertainty, AnOffsetCancelsAboutALineAndStaysAsMeasured) {
+TEST(DeclaredUncertainty, OffsetCancelsAboutALineOnly) {
   const Rig rig = rig_x_with("D", "u_calibration_um = 0.1");
   const auto about_line = table_of({rig}), as_measured = table_of({rig}, false);
   for (std::size_t i = 0; i < about_line.position_m.size(); ++i) {
@@ -59,8 +59,8 @@ TEST(DeclaredUncertainty, AnOffsetCancelsAboutALineAndStaysAsMeasured) {
   }
 }
 
-// A scale error of D changes the table by that part of itself.
-TEST(DeclaredUncertainty, AScaleErrorIsAPartOfTheValue) {
+// A scale error of D changes the table by the same fraction.
+TEST(DeclaredUncertainty, ScaleErrorIsProportionalToTheValue) {
   const auto table = table_of({rig_x_with("D", "u_sensitivity_ppm = 1000")});
   double most = 0;
   for (std::size_t i = 0; i < table.position_m.size(); ++i) {
@@ -70,8 +70,9 @@ TEST(DeclaredUncertainty, AScaleErrorIsAPartOfTheValue) {
   EXPECT_GT(most, 1e-10);
 }
 
-// Of one u for both approaches it is the larger: D reads 1 µm more, or less, on the way back.
-TEST(DeclaredUncertainty, IsThatOfTheApproachWithMore) {
+// The table has one u for both approaches, the larger one: on the way back D reads 1 µm more, or
+// less.
+TEST(DeclaredUncertainty, UsesTheApproachWithTheLargerU) {
   const Rig rig = rig_x_with("D", "u_sensitivity_ppm = 1000");
   for (const double more_m : {1e-6, -1e-6}) {
     SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
@@ -93,15 +94,16 @@ TEST(DeclaredUncertainty, IsThatOfTheApproachWithMore) {
   }
 }
 
-// The same fixture twice errs twice alike; one of two fixtures by half.
-TEST(DeclaredUncertainty, OneFixtureIsNotMadeBetterByMoreRuns) {
+// Two runs with the same fixture have the same error; with two fixtures, one of which is exact,
+// half of it remains.
+TEST(DeclaredUncertainty, MoreRunsOfOneFixtureDoNotReduceIt) {
   const Rig rig = rig_x_with("D", "u_calibration_um = 0.1"), exact = rig_x_with("", "");
   EXPECT_NEAR(table_of({rig, rig}, false).u_declared[0][3], 0.1e-6, 1e-13);
   EXPECT_NEAR(table_of({rig, exact}, false).u_declared[0][3], 0.05e-6, 1e-13);
 }
 
-// Two runs whose targets are some micrometres apart meet the same surface.
-TEST(DeclaredUncertainty, RunsOverOnePlaneShareItsSurface) {
+// Two runs whose targets differ by some micrometres measure the same surface.
+TEST(DeclaredUncertainty, RunsOverOnePlaneShareItsFlatness) {
   const Rig rig = rig_x_with("", "",
                              "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
                              "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.1\n");
@@ -118,7 +120,7 @@ TEST(DeclaredUncertainty, RunsOverOnePlaneShareItsSurface) {
     EXPECT_NEAR(both.u_declared[0][i] / one.u_declared[0][i], 1, 0.01) << i;
 }
 
-TEST(DeclaredUncertainty, IsInWhatIsReadOfTheTableAndInItsHash) {
+TEST(DeclaredUncertainty, EntersTableValuesAndHash) {
   const auto table = table_of({rig_x_with("D", "u_calibration_um = 0.1")}, false);
   for (const TableSide side : {TableSide::forward, TableSide::reverse, TableSide::mean}) {
     EXPECT_NEAR(table_at(table, table.position_m[3], side).u[0], 0.1e-6, 1e-13);
@@ -130,7 +132,7 @@ TEST(DeclaredUncertainty, IsInWhatIsReadOfTheTableAndInItsHash) {
   EXPECT_NE(table_sha256(table), table_sha256(without));
 }
 
-TEST(DeclaredUncertainty, WhatWouldTakeLongIsSaid) {
+TEST(DeclaredUncertainty, RefusesTooManyPoints) {
   const Rig rig = rig_x_with("D", "u_direction_mrad = 1");
   auto run = bent(rig, 1);
   run.points.resize(20'001, run.points.front());

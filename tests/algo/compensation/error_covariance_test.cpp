@@ -1,7 +1,7 @@
-// Covariance of the errors of one set of probes. By hand, of the default fixture (B and C at
-// y = 10 and -10 mm, A at x = 10, D at z = 20, E at x = 10 beside it), with equal noise s of all
-// probes: EAX = (B - C) / 20 mm, EYX = D + 20 mm EAX, ECX = (E - D) / 10 mm, EZX = (B + C) / 2,
-// EBX = (EZX - A) / 10 mm.
+// Covariance of the errors from one set of probes. By hand, for the default fixture (B and C at y =
+// 10 and -10 mm, A at x = 10, D at z = 20, E at x = 10 beside it), with equal noise s of all
+// probes: EAX = (B - C) / 20 mm, EYX = D + 20 mm EAX, ECX = (E - D) / 10 mm, EZX = (B + C) / 2, EBX
+// = (EZX - A) / 10 mm.
 #include "algo/compensation/error_covariance.h"
 
 #include <gtest/gtest.h>
@@ -26,13 +26,13 @@ struct Case {
     return covariances.noise[row][kl] +
            (covariances.declared.empty() ? 0 : covariances.declared[row][kl]);
   }
-  // Coefficient of correlation.
+  // Correlation coefficient.
   double of(std::size_t k, std::size_t l, std::size_t row) const {
     return covariance(k, l, row) / std::sqrt(covariance(k, k, row) * covariance(l, l, row));
   }
 };
 
-// EYX bends; `noise`: u of all values by noise.
+// EYX is a parabola. `noise`: u of all values by noise.
 Case made_of(const Rig& rig, double noise) {
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
@@ -48,10 +48,11 @@ Case made_of(const Rig& rig, double noise) {
   return c;
 }
 
-TEST(ErrorCovariance, OfEqualNoiseIsThatOfTheFixture) {
+TEST(ErrorCovariance, EqualNoiseGivesTheFixtureCorrelations) {
   const Case c = made_of(test::rig_x_with("", ""), 1e-9);
   const std::size_t row = 2;
-  // Straightness is as measured, angles less the first target: 1/sqrt(2) between them is left.
+  // Straightness is as measured and angles refer to the first target: this reduces the correlation
+  // between straightness and angles by 1/sqrt(2).
   EXPECT_NEAR(c.of(kIsEYX, kIsEAX, row), 1 / std::sqrt(3.0), 1e-3);
   EXPECT_NEAR(c.of(kIsEYX, kIsECX, row), -1 / std::sqrt(12.0), 1e-3);
   EXPECT_NEAR(c.of(kIsEZX, kIsEBX, row), 1 / std::sqrt(6.0), 1e-3);
@@ -64,11 +65,11 @@ TEST(ErrorCovariance, OfEqualNoiseIsThatOfTheFixture) {
         EXPECT_NEAR(c.covariance(k, l, row), 1e-18, 1e-27);
       }
     }
-  EXPECT_EQ(c.of(kIsEYX, kIsEAX, 0), 0);  // there the angle is 0 by definition
+  EXPECT_EQ(c.of(kIsEYX, kIsEAX, 0), 0);  // the angle is 0 by definition
 }
 
-// A gain of D alone: EYX by s D, ECX by -s (D - D0) / 10 mm. At x = 10 mm they cancel.
-TEST(ErrorCovariance, AFaultOfOneProbeMovesItsErrorsTogether) {
+// A scale error s of D changes EYX by s D and ECX by -s (D - D0) / 10 mm. At x = 10 mm both cancel.
+TEST(ErrorCovariance, ErrorOfOneProbeCorrelatesTheErrors) {
   const Case c = made_of(test::rig_x_with("D", "u_sensitivity_ppm = 1000"), 0);
   const std::size_t last = c.table.position_m.size() - 1;
   ASSERT_GT(c.table.u_declared[kIsEYX][last], 1e-9);
@@ -82,8 +83,8 @@ TEST(ErrorCovariance, AFaultOfOneProbeMovesItsErrorsTogether) {
   EXPECT_NEAR(u(c.covariances), 0, 1e-3 * alone);
 }
 
-// The same where all targets were approached in reverse only.
-TEST(ErrorCovariance, IsThatOfTheOneApproachThatWasMeasured) {
+// The same correlation if all targets were approached in reverse only.
+TEST(ErrorCovariance, UsesTheOnlyMeasuredApproach) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 1000");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.truth = [](double d) { return Errors5{2e-3 * d * d, 0, 0, 0, 0}; };
@@ -99,9 +100,9 @@ TEST(ErrorCovariance, IsThatOfTheOneApproachThatWasMeasured) {
   EXPECT_NEAR(of(kIsEYX, kIsECX) / std::sqrt(of(kIsEYX, kIsEYX) * of(kIsECX, kIsECX)), -1, 1e-9);
 }
 
-// The target turns about Z by the square of the travel; E reads 1000 ppm too much in the second
-// run. The angle is 0 in the middle of the travel, so that E's scale has no part in it there.
-TEST(ErrorCovariance, IsThatOfAnglesFromWhereTheyAreZero) {
+// The target rotates about Z with the square of the travel; in the second run E reads 1000 ppm too
+// much. The angle is 0 in the middle of the travel, so the scale of E has no effect there.
+TEST(ErrorCovariance, UsesTheZeroPositionOfAngles) {
   const Rig rig = test::rig_x_with("E", "u_sensitivity_ppm = 1000");
   const auto tables = [&](double off, const TableOptions& options) {
     SyntheticRun synthetic{.rig = rig, .model = Model::simplified};

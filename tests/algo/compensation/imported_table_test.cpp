@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// Positioning of X at 0, 10 and 20 mm, `repeats` readings from each side.
+// Positioning of X at 0, 10 and 20 mm, `repeats` readings from each direction.
 Run imported(std::int64_t id, int repeats, double declared_m = 0) {
   mdof::Run run;
   run.header.id = id;
@@ -55,7 +55,7 @@ TEST(ImportedTable, MeansAndTheirUncertaintyByHand) {
   EXPECT_TRUE(positioning_notices({imported(3, 3)}).empty());
 }
 
-TEST(ImportedTable, OneReadingHasNoRepeatability) {
+TEST(ImportedTable, SingleReadingHasNoRepeatability) {
   mdof::Run run = imported(1, 1);
   std::erase_if(run.points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
   const auto table = build_positioning_table({run});
@@ -71,7 +71,7 @@ TEST(ImportedTable, OneReadingHasNoRepeatability) {
   EXPECT_EQ(unknown->positioning.forward, unknown->positioning.reverse);
 }
 
-TEST(ImportedTable, RefusesRunsThatDoNotGoTogether) {
+TEST(ImportedTable, RefusesIncompatibleRuns) {
   const mdof::Run first = imported(1, 2), second = imported(2, 2);
   EXPECT_EQ(refusal({first, second}), "");
   EXPECT_NE(refusal({}).find("at least one run"), std::string::npos);
@@ -105,8 +105,8 @@ TEST(ImportedTable, RefusesRunsThatDoNotGoTogether) {
   EXPECT_NE(refusal({other}).find("has one target"), std::string::npos);
 }
 
-// Targets that lie within 0.1 µm are one, from either side.
-TEST(ImportedTable, TargetsOfSeveralRunsAreOneWithinATenthOfAMicrometre) {
+// Targets that differ by less than 0.1 µm, in either direction, are the same.
+TEST(ImportedTable, MergesTargetsWithinTenthOfAMicrometre) {
   const mdof::Run first = imported(1, 2);
   for (const double off_m : {0.099e-6, -0.099e-6}) {
     mdof::Run other = imported(2, 2);
@@ -117,7 +117,7 @@ TEST(ImportedTable, TargetsOfSeveralRunsAreOneWithinATenthOfAMicrometre) {
   }
 }
 
-TEST(ImportedTable, IsOfTheAxisOfItsRuns) {
+TEST(ImportedTable, TakesTheAxisOfItsRuns) {
   mdof::Run run = imported(1, 1);
   run.header.axis = Axis::y;
   run.header.provenance.model = "EYY";
@@ -127,7 +127,7 @@ TEST(ImportedTable, IsOfTheAxisOfItsRuns) {
   EXPECT_FALSE(table->slope_removed);
 }
 
-TEST(ImportedTable, TheNearestTarget) {
+TEST(ImportedTable, FindsTheNearestTarget) {
   const std::vector<double> targets = {0, 10e-3, 30e-3};
   for (const auto& [at_m, place] : {std::pair{-5e-3, 0},
                                     {0.0, 0},
@@ -146,8 +146,9 @@ TEST(ImportedTable, TheNearestTarget) {
             (std::vector<double>{0, 10e-3, 10.0002e-3}));
 }
 
-// A machine whose table goes back as the command grows counts the readings of a body with -.
-TEST(ImportedTable, GoesWithTheTravelOfTheMachine) {
+// If the table of the machine moves back as the command increases (`against`), imported runs must
+// have the travel "-", else "+".
+TEST(ImportedTable, RefusesTravelThatContradictsTheMachine) {
   const auto built = [](const char* options, std::optional<bool> against) {
     mdof::Run run = imported(7, 1);
     run.header.provenance.options_json = options;
@@ -168,8 +169,9 @@ TEST(ImportedTable, GoesWithTheTravelOfTheMachine) {
   }
 }
 
-// Of the sense "body" the readings count with - where the table goes back; of the command never.
-TEST(ImportedTable, TheSenseOfTheBodyIsTurnedByTheTravel) {
+// With the sense "body" the readings change their sign if the table moves back; with the sense of
+// the command they never do.
+TEST(ImportedTable, TravelInvertsTheSenseOfTheBody) {
   const auto built = [](const char* options, std::optional<bool> against = std::nullopt) {
     mdof::Run run = imported(7, 1);
     run.header.provenance.options_json = options;
@@ -191,7 +193,7 @@ TEST(ImportedTable, TheSenseOfTheBodyIsTurnedByTheTravel) {
 }
 
 // Two targets are enough, and so are two readings: 3.1 and 3.5 µm have s = 0.4/√2 and u = 0.2 µm.
-TEST(ImportedTable, TwoReadingsAtEachOfTwoTargets) {
+TEST(ImportedTable, TwoReadingsAtTwoTargetsAreEnough) {
   mdof::Run run = imported(1, 2, 0.3e-6);
   std::erase_if(run.points, [](const MeasuredPoint& p) { return p.target_m > 15e-3; });
   run.points[1].point.probe_m = {3.1e-6};  // the second target, forward, first and second time

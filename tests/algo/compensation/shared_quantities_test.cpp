@@ -1,5 +1,6 @@
-// u of a tool that two axes move, measured with the same probes. Truth: the tables of readings of a
-// probe whose scale is off, and where the machine's product of frames puts the tool by them.
+// u of the position of a tool on two axes that were measured with the same probes. Truth: the
+// tables from readings of a probe with a scale error, and the tool position that the model of the
+// machine calculates from them.
 #include "algo/compensation/shared_quantities.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ namespace {
 const Eigen::Vector3d kToolPlace_m(5e-3, -3e-3, -30e-3);
 constexpr std::size_t kRow = 6;
 
-// The same fixture for both axes; Y's frame is x = +Y, y = -X.
+// The same fixture for both axes; the local frame of Y is x = +Y, y = -X.
 Rig rig_of_axis(Axis axis, const std::string& certificate) {
   const bool y = axis == Axis::y;
   std::string toml = std::string("name = \"test\"\naxis = \"") + letter(axis) + "\"\n";
@@ -41,7 +42,7 @@ Rig rig_of_axis(Axis axis, const std::string& certificate) {
   return parse_rig(toml, "rig.toml").value();
 }
 
-// B reads by `off` of its reading too much.
+// B reads too much by the fraction `off`.
 BuiltFrom built(Axis axis, double off, const std::string& certificate = "1") {
   const Rig rig = rig_of_axis(axis, certificate);
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
@@ -96,7 +97,7 @@ Eigen::Vector3d tool_of(const std::vector<BuiltFrom>& tables) {
   return tool_error(machine, command_at_row(tables), MachineApproach::forward).exact.head<3>();
 }
 
-TEST(SharedQuantities, AProbeOfTwoAxesMovesTheToolByBothTogether) {
+TEST(SharedQuantities, CommonProbeMovesTheToolThroughBothAxes) {
   const std::vector<BuiltFrom> tables = {built(Axis::x, 0), built(Axis::y, 0)};
   const Eigen::Vector3d moved =
       (tool_of({built(Axis::x, 1e-3), built(Axis::y, 1e-3)}) - tool_of(tables)).cwiseAbs();
@@ -117,7 +118,7 @@ TEST(SharedQuantities, AProbeOfTwoAxesMovesTheToolByBothTogether) {
     for (const PartCause& cause : causes) square += cause.u_m[0](c) * cause.u_m[0](c);
     EXPECT_NEAR(std::sqrt(square), moved(c), 2e-3 * moved(c)) << c;
   }
-  // The control: taken as two probes.
+  // Control: treated as two independent probes.
   for (std::size_t t = 0; t < tables.size(); ++t) {
     const auto alone =
         error_covariances(tables[t].table, tables[t].rigs, tables[t].runs, tables[t].options);
@@ -128,7 +129,7 @@ TEST(SharedQuantities, AProbeOfTwoAxesMovesTheToolByBothTogether) {
   EXPECT_GT(std::abs(apart.z() / moved.z() - 1), 0.1);
 }
 
-TEST(SharedQuantities, OtherCertificatesAreOtherProbes) {
+TEST(SharedQuantities, DifferentCertificatesAreDifferentProbes) {
   const auto shared = shared_quantities({built(Axis::x, 0), built(Axis::y, 0, "2")}).value();
   EXPECT_TRUE(shared.empty());
 }

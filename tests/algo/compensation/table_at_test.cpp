@@ -8,7 +8,7 @@
 namespace mdof::algo {
 namespace {
 
-// Error 0 at 0, 10 and 40 mm; the others are 0.
+// The first error has values at 0, 10 and 40 mm; the other errors are 0.
 CompensationTable table_by_hand() {
   CompensationTable table;
   table.position_m = {0, 10e-3, 40e-3};
@@ -21,7 +21,7 @@ CompensationTable table_by_hand() {
   return table;
 }
 
-TEST(TableAt, IsLinearBetweenTargetsAndHeldOutside) {
+TEST(TableAt, IsLinearBetweenTargetsAndConstantOutside) {
   const CompensationTable table = table_by_hand();
   struct Case {
     double at_m, forward, reverse;
@@ -41,8 +41,8 @@ TEST(TableAt, IsLinearBetweenTargetsAndHeldOutside) {
   }
 }
 
-// At the last target, and one number beside it on either side, it is the last value.
-TEST(TableAt, TheLastTargetIsItsOwn) {
+// The last value applies at the last target and at the next floating-point number on either side.
+TEST(TableAt, GivesTheValueOfTheLastTarget) {
   const CompensationTable table = table_by_hand();
   const double last_m = table.position_m.back();
   for (const double at_m : {std::nextafter(last_m, 0.0), last_m, std::nextafter(last_m, 1.0)})
@@ -51,13 +51,13 @@ TEST(TableAt, TheLastTargetIsItsOwn) {
   EXPECT_EQ(table_at(table, 0, TableSide::forward).error[0], 1e-6);
 }
 
-TEST(TableAt, OfNoRunsNothingIsUneven) {
+TEST(TableAt, NoRunsHaveNoUnevenVisits) {
   const auto uneven = uneven_visits_of({});
   ASSERT_TRUE(uneven);
   EXPECT_TRUE(uneven->empty());
 }
 
-TEST(TableAt, AHoleIsBridgedByItsNeighbours) {
+TEST(TableAt, MissingValueIsBridgedByItsNeighbours) {
   CompensationTable table = table_by_hand();
   table.position_m = {0, 10e-3, 20e-3, 40e-3};
   for (auto* columns : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
@@ -72,14 +72,14 @@ TEST(TableAt, AHoleIsBridgedByItsNeighbours) {
     EXPECT_NEAR(table_at(table, at_m, TableSide::forward).error[0], expected, 1e-18) << at_m;
   EXPECT_FALSE(table_at(table, 5e-3, TableSide::forward).inside);
   EXPECT_TRUE(table_at(table, 15e-3, TableSide::forward).inside);
-  table.forward[0].assign(4, kNaN);  // then the other approach is given, and said to be
+  table.forward[0].assign(4, kNaN);  // the other approach is given, with inside = false
   EXPECT_EQ(table_at(table, 15e-3, TableSide::mean).error[0], 0);
   EXPECT_FALSE(table_at(table, 15e-3, TableSide::mean).inside);
   table.forward[0] = {1e-6, kNaN, kNaN, kNaN};
   EXPECT_NEAR(table_at(table, 15e-3, TableSide::forward).error[0], 1e-6, 1e-18);
 }
 
-TEST(TableAt, OneTargetIsHeldEverywhere) {
+TEST(TableAt, SingleTargetIsConstantEverywhere) {
   CompensationTable table;
   table.position_m = {10e-3};
   for (auto* columns : {&table.forward, &table.reverse, &table.u_forward, &table.u_reverse})
@@ -95,9 +95,9 @@ CompensationTable table_with_u() {
   return table;
 }
 
-// Of what is declared and of what is random alike. The error is 0 everywhere, so that interpolation
-// adds nothing. The larger of both would jump beside a target.
-TEST(TableAt, BetweenTargetsUIsLinear) {
+// This holds for the declared and for the random part. The error is 0 everywhere, so the
+// interpolation adds nothing. The larger u of both targets would jump beside a target.
+TEST(TableAt, UIsLinearBetweenTargets) {
   const CompensationTable table = table_with_u();
   ASSERT_TRUE(table.has_declared());
   struct Case {
@@ -112,7 +112,7 @@ TEST(TableAt, BetweenTargetsUIsLinear) {
   }
 }
 
-TEST(TableAt, ANanometreBesideATargetUIsThatOfTheTarget) {
+TEST(TableAt, UIsContinuousAtTargets) {
   const CompensationTable table = table_with_u();
   for (const double target_m : table.position_m)
     for (const double beside_m : {-1e-9, 1e-9})
@@ -122,7 +122,7 @@ TEST(TableAt, ANanometreBesideATargetUIsThatOfTheTarget) {
 }
 
 // Variance of (1 - s) a + s b: GUM 5.2.2.
-TEST(TableAt, NoCorrelationOfTwoTargetsMakesUTooSmall) {
+TEST(TableAt, UIsSufficientForAnyCorrelation) {
   CompensationTable table = table_with_u();
   for (auto& column : table.u_declared) column.clear();
   const double a = table.u_forward[1][1] = 2e-9, b = table.u_forward[1][2];

@@ -1,5 +1,5 @@
-// What a table makes of a point beside the fixture: errors with levers, told from the vectors of a
-// small turn, and u by the machine's own product of frames.
+// Effect of a table on a point beside the fixture: the errors with their levers, by the vectors of
+// a small rotation; u by the model of the machine, tool_error().
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,7 +11,8 @@
 
 namespace mdof::test {
 
-// Displacement of the point of the body at `point_m` by the errors of a row: shift + turn x arm.
+// Displacement of the point of the body at `point_m` by the errors of a row: shift + rotation x
+// arm.
 inline Eigen::Vector3d moved_by(const CompensationTable& table, std::size_t row,
                                 const Eigen::Vector3d& point_m) {
   Eigen::Vector3d shift = Eigen::Vector3d::Zero(), turn = Eigen::Vector3d::Zero();
@@ -22,8 +23,8 @@ inline Eigen::Vector3d moved_by(const CompensationTable& table, std::size_t row,
   return shift + turn.cross(point_m);
 }
 
-// One axis that carries the tool at `point_m`, with the table's errors about the fixture.
-// `covariances`: empty: each error has its u alone.
+// A machine with one axis, which carries the tool at `point_m`; the errors of the table are at the
+// fixture. `covariances`: empty: each error has its own u only.
 inline Machine machine_of(const CompensationTable& table, const Eigen::Vector3d& point_m,
                           const algo::ErrorCovariances& covariances) {
   Machine machine;
@@ -59,7 +60,7 @@ inline Machine machine_of(const CompensationTable& table, const Eigen::Vector3d&
   return machine;
 }
 
-// u of the tool's place where the axis stands at a row.
+// u of the tool position at the axis position of a row.
 inline Eigen::Vector3d u_of_tool(const Machine& machine, const CompensationTable& table,
                                  std::size_t row) {
   algo::Command command{};

@@ -25,7 +25,7 @@ TEST(TableLimits, ValueAndSlopeUpToTheLimitPass) {
   EXPECT_EQ(refusal(false, {kNaN, kNaN, kNaN}), "");
 }
 
-TEST(TableLimits, WhatIsBeyondIsNamedWithItsPlaceTheLimitAndTheOption) {
+TEST(TableLimits, ReportsPositionLimitAndRemedy) {
   expect_said(refusal(false, {0, 0.2e-3, 1.01e-3}),
               {"EXX forward", "1010 um at 40 mm", "the limit of 1000 um"});
   expect_said(refusal(false, {0, 0.51e-3, 0.5e-3}),
@@ -38,11 +38,11 @@ TEST(TableLimits, WhatIsBeyondIsNamedWithItsPlaceTheLimitAndTheOption) {
   expect_said(refusal(false, {0, kNaN, -2.4e-3}), {"-2400 um at 40 mm"});
   expect_said(refusal(false, {0, 1e302, 0}), {"at 10 mm", "the limit"});
   expect_said(refusal(false, {0, std::numeric_limits<double>::infinity(), 0}), {"at 10 mm"});
-  // Over a hole in between.
+  // Across a missing value.
   expect_said(refusal(true, {-9e-3, kNaN, 9.9e-3 + 3e-3}), {"the limit"});
 }
 
-TEST(TableLimits, AreRaisedByTheirOptionsAndNotBeyondReason) {
+TEST(TableLimits, OptionsRaiseThemUpToAMaximum) {
   const double um = 3000, slope = 200;
   const auto raised = TableLimits::asked(&um, &slope);
   ASSERT_TRUE(raised);
@@ -56,7 +56,7 @@ TEST(TableLimits, AreRaisedByTheirOptionsAndNotBeyondReason) {
   }
 }
 
-TEST(TableLimits, HoldForEachErrorOfATableBothWays) {
+TEST(TableLimits, ApplyToEachErrorAndApproach) {
   const auto refused = [](auto spoil) {
     CompensationTable table;
     table.position_m = {0, 0.01};
@@ -75,7 +75,7 @@ TEST(TableLimits, HoldForEachErrorOfATableBothWays) {
               {"EXX reverse: changes by 60 um/mm"});
 }
 
-// Each option is for itself, and for lengths and angles alike.
+// Each option changes its own limit only, for lengths and angles alike.
 TEST(TableLimits, AreInMicrometresAndMicrometresPerMillimetre) {
   const TableLimits usual;
   const double um = 20, slope = 80;

@@ -1,5 +1,5 @@
-// Noise of tables, drawn at each reading and shared by the targets of a pass: stated u against the
-// spread of the tables' errors.
+// Stated u of tables compared with the spread of their errors. The noise is drawn for each reading
+// and for each pass, where all targets share it.
 #include "algo/compensation/table_uncertainty.h"
 
 #include <gtest/gtest.h>
@@ -23,8 +23,9 @@ struct Spread {
   double ratio() const { return std::sqrt(u_square / square); }
 };
 
-// Root mean square of u over that of the error, of EYX and ECX at each place of many tables of an
-// axis without errors. Each pass of nine targets has its own level, of probes D and E together.
+// Root mean square of u divided by that of the error, for EYX and ECX at each target of many tables
+// of an axis without errors. Each pass of nine targets has its own level, common to probes D and E,
+// and its own yaw.
 std::map<std::string, Spread> spreads(double level_m, double slope_m, bool remove_slope) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(17);
@@ -59,8 +60,8 @@ std::map<std::string, Spread> spreads(double level_m, double slope_m, bool remov
   return all;
 }
 
-// 500 values. Without a level u is 6 to 10 % larger than the spread, as it takes the larger of
-// noise and scatter, and a variance that is found below 0 for 0.
+// 500 values. Without a level u exceeds the spread by 6 to 10 %, because u uses the larger of noise
+// and scatter and replaces a negative estimate of a variance by 0.
 TEST(TableUncertainty, IsTheSpreadOfItsErrors) {
   for (const double level_m : {0.0, 200e-9})
     for (const bool remove_slope : {true, false})
@@ -69,15 +70,16 @@ TEST(TableUncertainty, IsTheSpreadOfItsErrors) {
             << name << ", level " << level_m << " " << remove_slope;
 }
 
-// By hand: the line through five equal steps at its end counts 3/5, 2/5, 1/5, 0, -1/5.
-TEST(TableUncertainty, ReferencesAreSharesOfTheMeans) {
+// By hand: at the first of five equidistant targets the line has the weights 3/5, 2/5, 1/5, 0,
+// -1/5.
+TEST(TableUncertainty, ReferencesAreWeightsOfTheMeans) {
   const Reference end = line_at({0, 1, 2, 3, 4}, 0), beyond = line_at({0, 1, 2}, 4);
   const double expected[] = {0.6, 0.4, 0.2, 0, -0.2};
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(end[i], expected[i], 1e-15);
   EXPECT_NEAR(beyond[0] * 7 + beyond[1] * 9 + beyond[2] * 11, 15, 1e-12);
   EXPECT_EQ(interpolation_at({1, 2, 4}, 1), (Reference{1, 0, 0}));
   EXPECT_EQ(interpolation_at({1, 2, 4}, 2.5), (Reference{0, 0.75, 0.25}));
-  EXPECT_EQ(interpolation_at({1, 2, 4}, 0), (Reference{1, 0, 0}));  // the ends are held
+  EXPECT_EQ(interpolation_at({1, 2, 4}, 0), (Reference{1, 0, 0}));  // constant beyond the ends
   EXPECT_EQ(interpolation_at({1, 2, 4}, 9), (Reference{0, 0, 1}));
   EXPECT_EQ(as_measured(2), (Reference{0, 0}));
 }

@@ -1,4 +1,4 @@
-// Thinning against every choice of points there is, and what it refuses.
+// Thinning compared with all possible choices of points, and the inputs that it refuses.
 #include "algo/compensation/thinning.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,8 @@ namespace {
 
 using ManyColumns = std::vector<std::vector<double>>;
 
-// Largest distance of any left-out point, for the points that `chosen` has a bit of.
+// Largest deviation of an omitted point from the lines between the chosen points; bit i of `chosen`
+// selects point i.
 double worst_of_choice(const std::vector<double>& x, const ManyColumns& columns, unsigned chosen) {
   double worst = 0;
   std::size_t before = 0;
@@ -28,7 +29,7 @@ double worst_of_choice(const std::vector<double>& x, const ManyColumns& columns,
   return worst;
 }
 
-TEST(Thinning, NeverMoreThanTheFewestPointsThereAre) {
+TEST(Thinning, KeepsTheFewestPossiblePoints) {
   std::vector<double> x;
   ManyColumns columns(2);
   for (int i = 0; i < 13; ++i) {
@@ -53,12 +54,12 @@ TEST(Thinning, NeverMoreThanTheFewestPointsThereAre) {
   }
 }
 
-TEST(Thinning, AllPointsStayWithoutATolerance) {
+TEST(Thinning, ZeroToleranceKeepsAllPoints) {
   EXPECT_EQ(thinned({0, 1, 2}, {{0, 0, 0}}, 0).value().kept, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(thinned({0, 1, 2}, {{0, 0, 0}}, 1e-9).value().kept, (std::vector<std::size_t>{0, 2}));
 }
 
-TEST(Thinning, SaysWhichToleranceIsEnough) {
+TEST(Thinning, FindsTheSmallestSufficientTolerance) {
   std::vector<double> x;
   ManyColumns columns(1);
   for (int i = 0; i < 257; ++i) {
@@ -71,7 +72,7 @@ TEST(Thinning, SaysWhichToleranceIsEnough) {
   EXPECT_EQ(tolerance_for(x, columns, 257).value(), 0);
 }
 
-TEST(Thinning, RefusesWhatIsNoTable) {
+TEST(Thinning, RefusesInvalidInput) {
   constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(thinned({}, {}, 1));
   EXPECT_FALSE(thinned({0}, {{1}}, 1));
@@ -84,7 +85,7 @@ TEST(Thinning, RefusesWhatIsNoTable) {
   EXPECT_FALSE(tolerance_for({0, 1}, {{1, 2}}, 1));
 }
 
-TEST(Thinning, OfNoToleranceKeepsAllAndDeviatesByNothing) {
+TEST(Thinning, ZeroToleranceHasNoDeviation) {
   const auto all = thinned({0, 1, 2, 5}, {{0, 1, 5, 2}}, 0);
   ASSERT_TRUE(all);
   EXPECT_EQ(all->kept, (std::vector<std::size_t>{0, 1, 2, 3}));

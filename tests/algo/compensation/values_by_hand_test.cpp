@@ -1,5 +1,5 @@
-// Repeatability of a table's values, and curvatures between its targets, of a few values worked by
-// hand.
+// Repeatability of the values of a table, and curvatures between its targets, for a few values
+// calculated by hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace mdof::algo {
 namespace {
 
-// Two runs of three targets both ways. Forward the first run is 3 higher, and 1, 0, -1 besides;
-// reverse 5, and 2, -1, -1; the second as much lower. Reverse is 7 lower. Error k is k + 1 times
-// that.
+// Two runs of three targets in both directions. In the first run the forward values are higher by 3
+// plus 1, 0, -1 and the reverse values by 5 plus 2, -1, -1; in the second run they are lower by the
+// same amounts. Reverse is 7 lower than forward. Error k is k + 1 times this value.
 std::vector<MeasuredPoint> visits_of_table() {
   const double shift[] = {3, 5}, off[2][3] = {{1, 0, -1}, {2, -1, -1}};
   std::vector<MeasuredPoint> points;
@@ -46,13 +46,14 @@ SeriesOfErrors u_by_hand(const std::vector<MeasuredPoint>& points, Approach appr
                            references);
 }
 
-// Of one way 6 visits have 3 targets and 1 pass beside the first: 2 degrees of freedom. The
-// variance of a visit is 4/2 forward and 12/2 reverse, half of it that of a mean. The level of a
-// way varies by 2 * 9 and 2 * 25, less a third of that, and its mean by half.
+// Each direction has 6 visits of 3 targets and 1 pass beside the first: 2 degrees of freedom. The
+// variance of a visit is 4/2 forward and 12/2 reverse; a mean of two visits has half of it. The
+// level of a pass has the variance 2 * 9 and 2 * 25, less a third of the variance of a visit; its
+// mean has half of that.
 constexpr double kOfForward = 1, kOfReverse = 3;
 constexpr double kLevelForward = (18 - 2 / 3.) / 2, kLevelReverse = (50 - 6 / 3.) / 2;
-// Half of forward less reverse is 1 lower in the first run: -1.5, -0.5, -1; the mean square of both
-// runs is 2, less (3.5/3 - 1)/2 of the visits, and half of it is that of the mean.
+// Half of forward minus reverse is -1.5, -0.5, -1 in the first run, -1 on average, and +1 in the
+// second: variance 2, less (3.5/3 - 1)/2 from the visits; the mean of both runs has half of it.
 constexpr double kApart = (2 - (3.5 / 3 - 1) / 2) / 2;
 
 void expect_u(const SeriesOfErrors& u, const std::vector<double>& variances) {
@@ -64,15 +65,15 @@ void expect_u(const SeriesOfErrors& u, const std::vector<double>& variances) {
   }
 }
 
-TEST(TableUncertaintyByHand, OfValuesAsTheyWereMeasured) {
+TEST(TableUncertaintyByHand, ValuesAsMeasured) {
   const std::vector<Reference> none(3, as_measured(3));
   const double forward = kOfForward + kLevelForward, reverse = kOfReverse + kLevelReverse;
   expect_u(u_by_hand(visits_of_table(), Approach::forward, none), {forward, forward, forward});
   expect_u(u_by_hand(visits_of_table(), Approach::reverse, none), {reverse, reverse, reverse});
 }
 
-// The mean of both ways at the start has a half of each.
-TEST(TableUncertaintyByHand, AgainstTheStart) {
+// The mean of both directions at the start has half of each.
+TEST(TableUncertaintyByHand, ValuesReferredToTheStart) {
   const std::vector<Reference> from_start(3, Reference{1, 0, 0});
   const double of_start = (kOfForward + kOfReverse) / 4;
   const auto later = [&](double own) { return own + of_start + kApart; };
@@ -82,8 +83,8 @@ TEST(TableUncertaintyByHand, AgainstTheStart) {
            {of_start + kApart, later(kOfReverse), later(kOfReverse)});
 }
 
-// Each visit twice: twice the squares over 12 - 3 - 1 degrees of freedom are half the variance, of
-// which a mean of four has a quarter; the ways differ as before.
+// Each visit twice: twice the squares and 12 - 3 - 1 degrees of freedom give half the variance; a
+// mean of four visits has a quarter of it. The difference of the directions is unchanged.
 TEST(TableUncertaintyByHand, VisitsOfARunAreAveraged) {
   auto points = visits_of_table();
   const auto once = points;
@@ -94,8 +95,8 @@ TEST(TableUncertaintyByHand, VisitsOfARunAreAveraged) {
            {of_start + kApart, forward + of_start + kApart, forward + of_start + kApart});
 }
 
-// The line has 5/6, 1/3 and -1/6 of the means at the first target, a third of each in the middle.
-TEST(TableUncertaintyByHand, AgainstTheLine) {
+// The line has the weights 5/6, 1/3 and -1/6 at the first target, 1/3 each in the middle.
+TEST(TableUncertaintyByHand, ValuesReferredToTheLine) {
   const std::vector<double> x = {0, 1, 2};
   const std::vector<Reference> line = {line_at(x, 0), line_at(x, 1), line_at(x, 2)};
   const double share[3][3] = {
@@ -113,8 +114,9 @@ TEST(TableUncertaintyByHand, AgainstTheLine) {
   expect_u(u_by_hand(visits_of_table(), Approach::forward, line), variances);
 }
 
-// Where one way was measured alone, the mean is its own, and nothing tells both ways apart.
-TEST(TableUncertaintyByHand, OfOneWayAlone) {
+// With one direction only, the mean is that of this direction, and there is no difference of
+// directions.
+TEST(TableUncertaintyByHand, OneDirectionOnly) {
   auto points = visits_of_table();
   std::erase_if(points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
   const auto against_start =
@@ -126,8 +128,8 @@ TEST(TableUncertaintyByHand, OfOneWayAlone) {
     for (const double u : of_error) EXPECT_TRUE(std::isnan(u));
 }
 
-// A single run shows no scatter and no level.
-TEST(TableUncertaintyByHand, OfASingleRunIsItsNoise) {
+// A single run shows neither scatter nor level.
+TEST(TableUncertaintyByHand, SingleRunHasItsNoiseOnly) {
   auto points = visits_of_table();
   points.resize(6);
   for (MeasuredPoint& p : points)
@@ -142,8 +144,8 @@ TEST(TableUncertaintyByHand, OfASingleRunIsItsNoise) {
 constexpr double kHoleOfTable = std::numeric_limits<double>::quiet_NaN();
 using Series = std::vector<double>;
 
-// Second derivative of the parabola through three values, by divided differences, and what their u
-// makes of it.
+// Square of the second derivative of the parabola through three values, by divided differences,
+// less the contribution of their u.
 double square_of_curvature(const Series& x, const Series& y, const Series& u, std::size_t a,
                            std::size_t b, std::size_t c) {
   const auto bend = [&](double ya, double yb, double yc) {
@@ -159,7 +161,7 @@ double mean_of_all(const Series& x, const Series& y, const Series& u, std::size_
     sum += square_of_curvature(x, y, u, i - step, i, i + step);
   return std::max(0.0, sum / n);
 }
-// Between values i and i + 1, by algo/README.md: those at i - 1 to i + 2 are the nearest.
+// Between values i and i + 1, by algo/README.md: the values i - 1 to i + 2 are the nearest.
 double expected_curvature(const Series& x, const Series& y, const Series& u, std::size_t i,
                           double R) {
   double near = 0, n = 0;
@@ -171,19 +173,19 @@ double expected_curvature(const Series& x, const Series& y, const Series& u, std
   return R * std::sqrt(std::max(0.0, 6 * mean_of_all(x, y, u, 1) + near) / (6 + n));
 }
 
-TEST(CurvaturesByHand, OfThreeValues) {
+TEST(CurvaturesByHand, ThreeValues) {
   const Series found = curvatures({0, 1, 3}, {0, 1, 0}, {0.3, 0.3, 0.6});
   ASSERT_EQ(found.size(), 2u);
-  // -1, and of u (2/3 of 0.3)² + 0.3² + (1/3 of 0.6)².
+  // The second difference is -1; u contributes (2/3 of 0.3)² + 0.3² + (1/3 of 0.6)².
   for (const double c : found) EXPECT_NEAR(c, 4 * std::sqrt(1 - 0.17), 1e-12);
-  // Noise that could make it all: none.
+  // If noise explains the whole second difference, the curvature is 0.
   for (const double c : curvatures({0, 1, 3}, {0, 1, 0}, {0, 1.1, 0})) EXPECT_EQ(c, 0);
   for (const double c : curvatures({0, 1}, {0, 1}, {0, 0})) EXPECT_TRUE(std::isnan(c));
   EXPECT_TRUE(curvatures({}, {}, {}).empty());
   EXPECT_TRUE(curvatures({1}, {1}, {0}).empty());
 }
 
-TEST(CurvaturesByHand, OfFewValuesAreTakenFourTimesOrTwice) {
+TEST(CurvaturesByHand, FewValuesGiveTheFactorFourOrTwo) {
   const Series x = {0, 1, 3, 4, 6, 7}, y = {0, 2, 1, 5, -1, 3}, u = {0.1, 0.2, 0.1, 0.3, 0.2, 0.1};
   for (const std::size_t n : {4u, 5u, 6u}) {
     const Series xs(x.begin(), x.begin() + static_cast<std::ptrdiff_t>(n)),
@@ -196,8 +198,8 @@ TEST(CurvaturesByHand, OfFewValuesAreTakenFourTimesOrTwice) {
   }
 }
 
-// R by the ratio q of the curvature over one step to that over two.
-TEST(CurvaturesByHand, RoughnessOfManyValues) {
+// R follows from the ratio q of the curvature over one step to the curvature over two steps.
+TEST(CurvaturesByHand, FactorFollowsTheRoughness) {
   const Series u(9, 0.01);
   const Series smooth = {0, 1, 4, 9, 16, 25, 36, 49, 64},  // q = 1
       wavy = {0, 1, 1.2, 0.5, -1, -2, -1.5, 0.3, 2},       // between
@@ -216,7 +218,7 @@ TEST(CurvaturesByHand, RoughnessOfManyValues) {
   }
   EXPECT_LT(least, 1.1);
   EXPECT_GT(most, 1.5);
-  // Over two steps nothing is bent: as rough as can be.
+  // The curvature over two steps is 0: the roughness has its maximum.
   const Series zigzag = {0, 1, 0, 1, 0, 1, 0, 1, 0};
   Series even;
   for (int i = 0; i < 9; ++i) even.push_back(i);
@@ -224,14 +226,14 @@ TEST(CurvaturesByHand, RoughnessOfManyValues) {
   for (const double c : curvatures(even, Series(9, 3.0), Series(9, 0.1))) EXPECT_EQ(c, 0);
 }
 
-// Series that are missing are not there: between their neighbours it is as of one step.
-TEST(CurvaturesByHand, AHoleIsNoValue) {
+// Missing values are skipped: the interval between their neighbours counts as one step.
+TEST(CurvaturesByHand, MissingValuesAreSkipped) {
   const Series x = {0, 1, 3, 4, 6, 7, 9}, u = {0.1, kHoleOfTable, 0.1, 0.3, 0.2, 0.1, 0.2};
   const Series y = {kHoleOfTable, 2, 1, kHoleOfTable, -1, 3, kHoleOfTable};
   const Series found = curvatures(x, y, u);
   ASSERT_EQ(found.size(), 6u);
   const Series xs = {1, 3, 6, 7}, ys = {2, 1, -1, 3}, us = {0, 0.1, 0.2, 0.1};
-  const std::size_t between[] = {0, 0, 1, 1, 2, 3};  // behind the last as behind it
+  const std::size_t between[] = {0, 0, 1, 1, 2, 3};  // 3: after the last value
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_NEAR(found[i], expected_curvature(xs, ys, us, between[i], 4), 1e-12) << i;
 }

@@ -1,4 +1,4 @@
-// Sums and products of functions of one axis against grids made of known ones.
+// Separation into sums and products of functions of one axis, for grids of known functions.
 #include "algo/compensation/volumetric/separable.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ VolumetricTable table_of_function(CorrectionFunction f, std::size_t nx = 5, std:
   return t;
 }
 
-// The sum by its definition.
+// Largest residual, with the sum calculated by its definition.
 double largest_left(const VolumetricTable& t, const SeparableCorrection& sum) {
   double most = 0;
   for (std::size_t node = 0; node < t.nodes(); ++node) {
@@ -40,7 +40,7 @@ double largest_left(const VolumetricTable& t, const SeparableCorrection& sum) {
   return most;
 }
 
-TEST(Separable, SumsAreHeldWithoutProducts) {
+TEST(Separable, SumsNeedNoProducts) {
   const auto t = table_of_function(
       [](double x, double y, double z) { return 3e-6 + 1e-4 * x * x - 2e-5 * y + 1e-5 * z * z; });
   const auto sum = separate(t, 1, 1e-12);
@@ -49,15 +49,15 @@ TEST(Separable, SumsAreHeldWithoutProducts) {
   EXPECT_LT(largest_left(t, sum), 1e-20);
 }
 
-TEST(Separable, AnAngleAndItsLeverAreOneProduct) {
-  // Roll of X at the height of Z, yaw of X at Y.
+TEST(Separable, AngleWithItsLeverIsOneProduct) {
+  // Roll of X with the lever Z, yaw of X with the lever Y.
   const auto t = table_of_function([](double x, double y, double z) {
     return 1e-6 * std::sin(100 * x) * (z - 0.02) + 2e-3 * x * x * y;
   });
   const auto sum = separate(t, 1, 1e-13);
   EXPECT_EQ(sum.products.size(), 2U);
   EXPECT_LT(largest_left(t, sum), 1e-13);
-  for (const AxisProduct& p : sum.products) {  // of one size, so that neither is a place
+  for (const AxisProduct& p : sum.products) {  // both factors have the same size
     double first = 0, second = 0;
     for (const double x : p.of_first) first = std::max(first, std::abs(x));
     for (const double x : p.of_second) second = std::max(second, std::abs(x));
@@ -65,14 +65,14 @@ TEST(Separable, AnAngleAndItsLeverAreOneProduct) {
   }
 }
 
-TEST(Separable, SaysWhatThreeAxesDoTogether) {
+TEST(Separable, ReportsTheResidualOfThreeAxes) {
   const auto t = table_of_function([](double x, double y, double z) { return x * y * z; });
   const auto sum = separate(t, 1, 1e-12);
   EXPECT_GT(sum.left_m, 1e-7);
   EXPECT_NEAR(largest_left(t, sum), sum.left_m, 1e-18);
 }
 
-TEST(Separable, APlaneHasTheTablesOfItsAxes) {
+TEST(Separable, PlaneHasTheTablesOfItsAxes) {
   const auto t =
       table_of_function([](double x, double y, double) { return 1e-3 * x * y; }, 5, 4, 1);
   const auto sum = separate(t, 1, 1e-12);
@@ -80,10 +80,11 @@ TEST(Separable, APlaneHasTheTablesOfItsAxes) {
   EXPECT_TRUE(sum.along[2].empty());
   EXPECT_EQ(sum.products.size(), 1U);
   EXPECT_LT(largest_left(t, sum), 1e-15);
-  EXPECT_EQ(separate(t, 0, 1e-12).left_m, 0);  // nothing at all
+  EXPECT_EQ(separate(t, 0, 1e-12).left_m, 0);  // X has no correction
 }
 
-// Two nodes of each axis: mean, half differences, and a quarter of the alternating sum.
+// With two nodes of each axis the result has the mean, half the differences and a quarter of the
+// alternating sum.
 TEST(Separable, TwoNodesOfEachAxisAreEnough) {
   const auto t =
       table_of_function([](double x, double y, double) { return 1e-3 * x * y; }, 2, 2, 1);

@@ -1,5 +1,5 @@
-// The parts of u of a volumetric table against simulated measurements: the tool by matrices in long
-// double, errors drawn anew in each trial.
+// The parts of u of a volumetric table compared with simulated measurements: the tool position by
+// matrices in long double, with errors drawn anew in each trial.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace {
 
 constexpr double kTravelOfParts_m = 0.1;
 constexpr int kTrialsOfParts = 8000;
-constexpr double kSameSpread = 0.05;  // six standard deviations of such an estimate
+constexpr double kSameSpread = 0.05;  // six standard deviations of this estimate
 
 using NoiseMixing = std::array<std::array<double, kBodyErrors>, kBodyErrors>;
 
-// What one of six independent parts of the noise of an axis does to each error, m or rad.
+// Effect of each of six independent parts of the noise of an axis on each error, m or rad.
 struct Axis6 {
   NoiseMixing noise{};
   std::array<double, kBodyErrors> common{};  // u of a shift of the whole table
@@ -30,7 +30,7 @@ struct Axis6 {
 
 struct Simulated {
   Machine machine;
-  Command others{};  // where a rotary axis stands
+  Command others{};  // position of a rotary axis
   std::array<Axis6, 3> axes;
   double u_EC0Y = 3e-6;
 };
@@ -104,7 +104,7 @@ struct SpreadOfNodes {
   Vec3 first{}, last{}, product{};  // sums over the trials, about the truth
 };
 
-// The commands of X, Y, Z that move the tool as far.
+// The commands of X, Y, Z that move the tool by `place`.
 std::array<test::Real, 3> as_commands(const Machine& machine, const Command& at,
                                       const std::array<test::Real, 3>& place) {
   const test::Matrix4 here = test::tool_matrix(machine, at, false);
@@ -144,9 +144,10 @@ SpreadOfNodes spread_of_nodes(const Simulated& s, unsigned seed, bool with_commo
   return sums;
 }
 
-TEST(VolumetricParts, AreTheSpreadOfTheirCauses) {
+TEST(VolumetricParts, MatchTheSpreadOfTheirCauses) {
   for (unsigned seed = 1; seed <= 4; ++seed) {
-    // Beside a turned rotary axis the commands have other directions than the work's coordinates.
+    // With a rotated rotary axis the commands have other directions than the coordinates of the
+    // work.
     const Simulated s = simulated_axes(seed, seed <= 2 ? "" : seed == 3 ? "C" : "B");
     VolumetricRequest request;
     request.others = s.others;
@@ -168,7 +169,7 @@ TEST(VolumetricParts, AreTheSpreadOfTheirCauses) {
       near(noise.last[k], table->u_independent_at(7)[k]);
       near(common.first[k], table->u_common_at(0)[k]);
       near(common.last[k], table->u_common_at(7)[k]);
-      // Nodes without a common command have no noise in common.
+      // Nodes without a common command share no noise.
       EXPECT_NEAR(noise.product[k] / std::sqrt(noise.first[k] * noise.last[k]), 0, 0.05);
     }
     const VolumetricValue value = volumetric_at(*table, {0.03, 0.05, 0.07});
@@ -177,7 +178,7 @@ TEST(VolumetricParts, AreTheSpreadOfTheirCauses) {
   }
 }
 
-// Noise of an axis at two neighbouring nodes counted as one number: the rule that is wrong.
+// Control with a wrong rule: the noise of an axis at two neighbouring nodes is one quantity.
 double u_if_noise_were_common(const VolumetricTable& table, const Vec3& part, std::size_t k) {
   double common = 0, noise = 0;
   for (std::size_t node = 0; node < 8; ++node) {
@@ -190,8 +191,8 @@ double u_if_noise_were_common(const VolumetricTable& table, const Vec3& part, st
   return std::hypot(common, noise, table.interpolation_m[k] / std::sqrt(3.0));
 }
 
-// Two nodes; then drawn anew in each simulation: within the cell, on a face of it, on an edge; and
-// the middle of the cell, where straight lines are off most.
+// Two nodes; then places that are drawn anew in each simulation: inside the cell, on a face, on an
+// edge; and the centre of the cell, where linear interpolation deviates most.
 constexpr double kMiddle_m = kTravelOfParts_m / 2;
 using Places = std::array<Vec3, 6>;
 Places drawn_places(std::mt19937_64& source) {
@@ -237,7 +238,7 @@ void measure_often(const Simulated& s, int simulations, std::mt19937_64& source,
   }
 }
 
-// Bar: 94 ... 96.5 % at nodes and between them.
+// Required: 94 to 96.5 % at nodes and between them.
 TEST(VolumetricParts, ValuesHoldTheTruth) {
   const int machines = 10, simulations = test::coverage_runs(300);
   Held held{}, by_the_wrong_rule{};
@@ -253,12 +254,12 @@ TEST(VolumetricParts, ValuesHoldTheTruth) {
       EXPECT_LE(share, 0.965) << i << " of " << k;
       too_often += by_the_wrong_rule[i][k] > 0.965 * machines * simulations ? 1 : 0;
     }
-  EXPECT_GE(too_often, 9);  // of twelve between nodes
+  EXPECT_GE(too_often, 9);  // of twelve values between nodes
 }
 
-// Nodes between two targets have the noise of both, so that between such nodes less is averaged:
-// the spread of the value over many measurements.
-TEST(VolumetricParts, OfAGridThatIsFinerThanTheTargets) {
+// Nodes between two targets contain the noise of both, so interpolation between such nodes averages
+// less; u is the spread of the value over many measurements.
+TEST(VolumetricParts, GridFinerThanTheTargetsKeepsU) {
   Simulated s = simulated_axes(3);
   VolumetricRequest request;
   request.step_m = kTravelOfParts_m;
@@ -267,8 +268,8 @@ TEST(VolumetricParts, OfAGridThatIsFinerThanTheTargets) {
   request.step_m = kTravelOfParts_m / 4;
   const auto fine = build_volumetric(s.machine, request);
   ASSERT_TRUE(coarse && fine);
-  // At the first target nothing has changed; beside it, where the nodes' noise is mostly that of
-  // one target, nearly nothing is averaged.
+  // At the first target u is unchanged. Beside it the noise of the nodes is mostly that of one
+  // target, so almost nothing is averaged.
   const Vec3 at{0.00625, 0.00625, 0.00625};
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_NEAR(fine->u_independent_at(0)[k], coarse->u_independent_at(0)[k], 1e-18);
@@ -279,9 +280,9 @@ TEST(VolumetricParts, OfAGridThatIsFinerThanTheTargets) {
   }
 }
 
-// Noise that differs from node to node, on a grid of another number of nodes along each axis: what
-// a node has is what is read there.
-TEST(VolumetricParts, OfANodeAreItsOwn) {
+// Noise that differs from node to node, on a grid with a different number of nodes along each axis:
+// at a node, volumetric_at() returns the value of this node.
+TEST(VolumetricParts, AtANodeAreTheValuesOfTheNode) {
   Simulated s = simulated_axes(3);
   for (MachineFrame& frame : s.machine.frames) {
     frame.range = {0, kTravelOfParts_m / static_cast<double>(1 + frame.direction)};

@@ -1,5 +1,5 @@
-// Corrections over a plane or a volume against what follows by hand from one error at a time, and
-// against the tool of the true machine.
+// Corrections over a plane or a volume, compared with results by hand for one error at a time, and
+// with the tool of the true machine.
 #include "algo/compensation/volumetric/volumetric.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 namespace mdof::algo {
 namespace {
 
-// X, Y, Z with the tool's point at (0, 0, 50) mm, errors stated at the origin. `work`: axes that
-// carry the work.
+// X, Y, Z with the tool point at (0, 0, 50) mm; errors are stated at the origin. `x`, `y`, `z`: the
+// keys of their errors.
 std::string machine_text(const std::string& chain, const std::string& x, const std::string& y,
                          const std::string& z) {
   const auto axis = [](const std::string& id, const std::string& errors) {
@@ -23,7 +23,7 @@ std::string machine_text(const std::string& chain, const std::string& x, const s
          axis("X", x) + axis("Y", y) + axis("Z", z);
 }
 
-// All errors of an axis as 0 but those that are given.
+// The given errors of an axis, and 0 for all others.
 std::string others_zero(const std::string& axis, const std::string& given) {
   std::string text = given;
   for (const char direction : std::string("XYZABC")) {
@@ -52,9 +52,9 @@ VolumetricTable built(const Machine& m, const VolumetricRequest& request = {}) {
   return *table;
 }
 
-// A screw of 10 mm pitch, read each 2.5 mm: nodes each 10 mm see nothing of it. The middles of the
-// cells see nothing either. Y has one bend of its own, 1 mm from a node, which adds to that.
-TEST(Volumetric, WhatBendsBetweenNodesIsLeft) {
+// A ball screw with a pitch of 10 mm, read every 2.5 mm: neither nodes every 10 mm nor the centres
+// of the cells show its error. Y has a bend 1 mm from a node, which adds to it.
+TEST(Volumetric, StatesErrorsBetweenNodes) {
   std::string exx = "EXX_um = [", exy = "EXY_um = [[0, 0], [1, 0.9], [40, 0]]";
   for (int quarter = 0; quarter <= 16; ++quarter)
     exx += "[" + std::to_string(2.5 * quarter) + ", " +
@@ -63,15 +63,16 @@ TEST(Volumetric, WhatBendsBetweenNodesIsLeft) {
   request.step_m = 10e-3;
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", exx + "]", exy), request);
   EXPECT_NEAR(largest_correction_m(t, 0), 0.69e-6, 0.01e-6);  // of EXY at Y = 10 mm
-  // The corrected command stands beside the peak, on a slope of 4 um/mm: 10/1.004 um. And 0.9 um
-  // less what the line from 0 to 30/39 of 0.9 um has at a tenth of the cell.
+  // The corrected command is beside the peak, on a slope of 4 um/mm: 10/1.004 um. EXY adds 0.9 um,
+  // less the line from 0 to 30/39 of 0.9 um at a tenth of the cell.
   EXPECT_NEAR(t.interpolation_m[0], (10 / 1.004 + 0.9 - 0.09 * 30 / 39) * 1e-6, 1e-9);
   EXPECT_NEAR(t.interpolation_m[1], 0, 1e-12);
 }
 
-TEST(Volumetric, AnErrorOfTheToolIsTakenAwayAndOneOfTheWorkIsAdded) {
-  // EXX = 2 µm at 40 mm: the body goes too far. Of the tool, the command is 2 µm less; of the work,
-  // whose command grows against the tool's place, the same body again goes too far: 2 µm less, too.
+TEST(Volumetric, CorrectsErrorsOfToolAndWorkAxes) {
+  // EXX = 2 µm at 40 mm: the body moves too far. If the body is the tool, the command is 2 µm less.
+  // If it is the work, whose command increases against the tool, the body also moves too far: 2 µm
+  // less, too.
   const std::string exx = "EXX_um = [[0, 0], [40, 2]]";
   for (const char* chain : {"w-b-X-Y-Z-t", "w-X-b-Y-Z-t"}) {
     const VolumetricTable t = built(machine(chain, exx));
@@ -79,7 +80,7 @@ TEST(Volumetric, AnErrorOfTheToolIsTakenAwayAndOneOfTheWorkIsAdded) {
     EXPECT_NEAR(t.correction_m[t.node(2, 3, 1)][0], -1e-6, 1e-10) << chain;
     EXPECT_NEAR(t.correction_m[t.node(4, 4, 4)][1], 0, 1e-12) << chain;
   }
-  // EYX of the tool's body: Y goes back by it; of the work's, Y carries the tool after it.
+  // EYX of the tool: Y moves back by it. EYX of the work: Y moves the tool after it.
   const std::string eyx = "EYX_um = [[0, 0], [40, 4]]";
   const VolumetricTable tool = built(machine("w-b-X-Y-Z-t", eyx));
   EXPECT_NEAR(tool.correction_m[tool.node(4, 1, 2)][1], -4e-6, 1e-10);
@@ -87,15 +88,15 @@ TEST(Volumetric, AnErrorOfTheToolIsTakenAwayAndOneOfTheWorkIsAdded) {
   EXPECT_NEAR(work.correction_m[work.node(4, 1, 2)][1], +4e-6, 1e-10);
 }
 
-TEST(Volumetric, SquarenessIsCorrectedInProportionToTheOtherAxis) {
-  // EC0Y = 100 µrad: at 40 mm of Y its body is 4 µm at -X, and X has to add 4 µm.
+TEST(Volumetric, SquarenessCorrectionIsProportionalToTravel) {
+  // EC0Y = 100 µrad: at 40 mm of Y its body is 4 µm too far towards -X, and X must add 4 µm.
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", "", "EC0Y_urad = 100"));
   EXPECT_NEAR(t.correction_m[t.node(1, 4, 0)][0], 4e-6, 1e-9);
   EXPECT_NEAR(t.correction_m[t.node(3, 2, 4)][0], 2e-6, 1e-9);
   EXPECT_NEAR(t.correction_m[t.node(0, 0, 4)][0], 0, 1e-12);
 }
 
-TEST(Volumetric, AnAngleActsByItsLever) {
+TEST(Volumetric, AnglesActByTheirLever) {
   // EBX = 50 µrad about +Y at the tool's height of 50 mm + Z: x moves by +EB * (50 mm + z).
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", "EBX_urad = [[0, 0], [40, 50]]"));
   EXPECT_NEAR(t.correction_m[t.node(4, 0, 0)][0], -50e-6 * 0.050, 1e-9);
@@ -104,13 +105,13 @@ TEST(Volumetric, AnAngleActsByItsLever) {
   EXPECT_LT(t.place_left_m, 1e-11);
 }
 
-TEST(Volumetric, TheToolOfTheTrueMachineIsWhereItShouldBe) {
+TEST(Volumetric, CorrectedToolReachesTheNominalPosition) {
   const Machine m = machine(
       "w-Y-X-b-Z-t", "EXX_um = [[0, 0], [15, 3], [40, -2]]\nECX_urad = [[0, 0], [40, 90]]",
       "EZY_um = [[0, 1], [25, -4], [40, 2]]\nEC0Y_urad = -70\nEAY_urad = [[0, 0], [40, 60]]",
       "EB0Z_urad = 40\nEA0Z_urad = -30\nEYZ_um = [[0, 0], [40, 2]]");
   VolumetricRequest request;
-  request.step_m = 0.0025;  // all tables' positions are nodes
+  request.step_m = 0.0025;  // all positions of the tables are nodes
   const VolumetricTable t = built(m, request);
   double before = 0, after = 0;
   for (const Vec3& at : {Vec3{0.0013, 0.039, 0.021}, {0.033, 0.0072, 0.0388}, {0.0199, 0.02, 0}}) {
@@ -133,8 +134,9 @@ TEST(Volumetric, TheToolOfTheTrueMachineIsWhereItShouldBe) {
   EXPECT_LT(after, before / 500);
 }
 
-TEST(Volumetric, BetweenNodesTheDeviationOfStraightLinesIsStatedAndIsInU) {
-  // A roof of 2 µm at 5 mm, which a step of 10 mm does not see; u of the error is 0.03 µm.
+TEST(Volumetric, UIncludesTheInterpolationBetweenNodes) {
+  // A roof-shaped error of 2 µm at 5 mm, which a step of 10 mm does not show; u of the error is
+  // 0.03 µm.
   const std::string roof = "EXX_um = [[0, 0], [5, 2], [10, 0], [40, 0]]\nu_EXX_um = 0.03";
   VolumetricRequest request;
   request.along = {true, true, false};
@@ -148,10 +150,10 @@ TEST(Volumetric, BetweenNodesTheDeviationOfStraightLinesIsStatedAndIsInU) {
   EXPECT_LT(built(machine("w-b-X-Y-Z-t", roof), request).interpolation_m[0], 1e-9);
 }
 
-TEST(Volumetric, OutsideTheGridTheNearestPlaceHoldsAndItIsSaid) {
+TEST(Volumetric, OutsideTheGridTheNearestValueApplies) {
   VolumetricRequest request;
   request.along = {true, true, false};
-  request.others[2] = 0.03;  // Z stands
+  request.others[2] = 0.03;  // Z does not move
   const VolumetricTable t = built(machine("w-b-X-Y-Z-t", "EXX_um = [[0, 1], [40, 2]]"), request);
   EXPECT_EQ(t.command_m[2], std::vector<double>{0.03});
   const VolumetricValue end = volumetric_at(t, {0.05, 0.01, 0.03});
@@ -161,10 +163,10 @@ TEST(Volumetric, OutsideTheGridTheNearestPlaceHoldsAndItIsSaid) {
   EXPECT_NEAR(volumetric_at(t, {-0.001, 0.01, 0.03}).correction_m[0], -1e-6, 1e-10);
   EXPECT_TRUE(volumetric_at(t, {0, 0.04, 0.03}).inside);
   EXPECT_TRUE(volumetric_at(t, {0.04, 0, 0.03}).inside);
-  EXPECT_FALSE(volumetric_at(t, {0.02, 0.02, 0.031}).inside);  // Z has been measured nowhere else
+  EXPECT_FALSE(volumetric_at(t, {0.02, 0.02, 0.031}).inside);  // Z has no other command
 }
 
-TEST(Volumetric, WhatWasNotMeasuredIsRefusedOrNamed) {
+TEST(Volumetric, UnmeasuredErrorsAreRefusedOrNamed) {
   const auto parsed = parse_machine(
       "name = \"m\"\nmachine = {chain = \"w-b-X-Y-t\"}\n[[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, "
       "0]\npoint = \"moving\"\nrange_mm = [0, 10]\nEXX_um = 1\n[[axis]]\nid = \"Y\"\nholds_at_mm = "
@@ -181,7 +183,7 @@ TEST(Volumetric, WhatWasNotMeasuredIsRefusedOrNamed) {
   const VolumetricTable t = built(*parsed, request);
   EXPECT_NE(std::find(t.not_measured.begin(), t.not_measured.end(), "EYX"), t.not_measured.end());
   EXPECT_EQ(std::find(t.not_measured.begin(), t.not_measured.end(), "EXX"), t.not_measured.end());
-  EXPECT_TRUE(std::isnan(t.u_m[0][0]));  // of nothing u is declared
+  EXPECT_TRUE(std::isnan(t.u_m[0][0]));  // no u is declared
 }
 
 TEST(Volumetric, LimitsAxesAndSizesAreChecked) {

@@ -1,5 +1,5 @@
-// Values of a volumetric table against three linear interpolations, one axis after the other, and
-// what a built table says against errors that add in closed form.
+// Values of a volumetric table compared with three linear interpolations, one axis after the other;
+// facts of a built table compared with errors that add in closed form.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-// 3 x 4 x 2 nodes at uneven commands, with numbers of no pattern.
+// 3 x 4 x 2 nodes at uneven commands, with values without a pattern.
 VolumetricTable uneven_table() {
   VolumetricTable t;
   t.command_m = {std::vector<double>{-0.01, 0.002, 0.03}, {0, 0.004, 0.01, 0.05}, {0.1, 0.13}};
@@ -29,7 +29,7 @@ double line(double x, double x0, double x1, double y0, double y1) {
   return y0 + (y1 - y0) * (x - x0) / (x1 - x0);
 }
 
-// Z last, Y before it, X first, in the cell that begins at node (i, j, 0).
+// Interpolates along X, then Y, then Z, in the cell that begins at node (i, j, 0).
 double by_lines(const VolumetricTable& t, const std::vector<Vec3>& values, const Vec3& at,
                 std::size_t i, std::size_t j, std::size_t k) {
   const auto &x = t.command_m[0], &y = t.command_m[1], &z = t.command_m[2];
@@ -43,7 +43,7 @@ double by_lines(const VolumetricTable& t, const std::vector<Vec3>& values, const
   return line(at[2], z[0], z[1], along_y(0), along_y(1));
 }
 
-TEST(VolumetricValues, AreThreeLinearInterpolations) {
+TEST(VolumetricValues, EqualThreeLinearInterpolations) {
   const VolumetricTable t = uneven_table();
   const auto &x = t.command_m[0], &y = t.command_m[1], &z = t.command_m[2];
   test::NoPattern random(6);
@@ -55,7 +55,7 @@ TEST(VolumetricValues, AreThreeLinearInterpolations) {
       EXPECT_TRUE(v.inside);
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_NEAR(v.correction_m[k], by_lines(t, t.correction_m, at, i, j, k), 1e-13);
-        // A parabola through two nodes is off by its largest deviation in the middle between them.
+        // A parabola through two nodes has its largest deviation in the middle between them.
         const auto off = [](double place, double from, double to) {
           return (place - from) * (to - place) / ((to - from) * (to - from) / 4);
         };
@@ -68,7 +68,7 @@ TEST(VolumetricValues, AreThreeLinearInterpolations) {
   }
 }
 
-TEST(VolumetricValues, AtANodeAreItsOwnAndOnAnEdgeThoseOfItsEnds) {
+TEST(VolumetricValues, AreExactAtNodesAndLinearOnEdges) {
   const VolumetricTable t = uneven_table();
   for (std::size_t node = 0; node < t.nodes(); ++node) {
     const VolumetricValue v = volumetric_at(t, t.command_at(node));
@@ -86,7 +86,7 @@ TEST(VolumetricValues, AtANodeAreItsOwnAndOnAnEdgeThoseOfItsEnds) {
   }
 }
 
-TEST(VolumetricValues, ANanometreBesideTheGridIsInIt) {
+TEST(VolumetricValues, OneNanometreBesideTheGridIsInside) {
   const VolumetricTable t = uneven_table();
   for (std::size_t k = 0; k < 3; ++k) {
     for (const bool low : {true, false}) {
@@ -103,7 +103,7 @@ TEST(VolumetricValues, ANanometreBesideTheGridIsInIt) {
   }
 }
 
-// X, Y, Z of 20 mm; errors of each that are given.
+// X, Y, Z with 20 mm of travel and the given errors.
 std::string machine_of(const std::string& x, const std::string& y, const std::string& z,
                        const std::string& more = "") {
   std::string text =
@@ -123,8 +123,9 @@ Machine parsed(const std::string& text) {
   return *machine;
 }
 
-TEST(VolumetricTables, InterpolationIsWorstInTheMiddleOfACellWhereRoofsOfAllAxesAdd) {
-  // Roofs of 1, 2 and 4 µm at 5 mm of X, Y and Z, all along X; along Y 3 and 0.5 of opposite sign.
+TEST(VolumetricTables, InterpolationErrorsOfAllAxesAdd) {
+  // Roof-shaped errors of 1, 2 and 4 µm at 5 mm of X, Y and Z in the direction X; errors of Y and Z
+  // in the direction Y.
   const Machine m =
       parsed(machine_of("EXX_um = [[0, 0], [5, 1], [10, 0], [20, 0]]",
                         "EXY_um = [[0, 0], [5, 2], [10, 0], [20, 0]]\nEYY_um = [[0, 0], [15, 3]]",
@@ -135,15 +136,16 @@ TEST(VolumetricTables, InterpolationIsWorstInTheMiddleOfACellWhereRoofsOfAllAxes
   const auto t = build_volumetric(m, request);
   ASSERT_TRUE(t) << t.error().message;
   EXPECT_NEAR(t->interpolation_m[0], 7e-6, 1e-8);
-  // EYY stays 3 µm beyond 15 mm: at 15 mm the line from 10 to 20 mm is at 2.5 µm, 0.5 below. EYZ
-  // is 0.5 above its line in the upper cell; both there: 1 µm.
+  // EYY is 3 µm from 15 mm on: at 15 mm the line from 10 to 20 mm is at 2.5 µm, 0.5 below. EYZ is
+  // 0.5 above its line in the upper cell; both add to 1 µm.
   EXPECT_NEAR(t->interpolation_m[1], 1e-6, 1e-8);
   EXPECT_NEAR(t->interpolation_m[2], 0, 1e-12);
 }
 
-TEST(VolumetricTables, SayWhatOneValueLeavesOfAReversal) {
-  // EXX forward 20 um above reverse, EXY of Y 6 um below: the mean leaves 10 + 3 um of X where the
-  // two come from unlike sides, one approach 20 + 6. EYX 2 um: 1 um of Y. Nothing of Z.
+TEST(VolumetricTables, StateTheUncorrectedReversal) {
+  // EXX is 20 um higher forward than reverse, EXY 6 um lower. The mean leaves 10 + 3 um in X where
+  // X and Y approach from different sides, one approach leaves 20 + 6. EYX with 2 um leaves 1 um in
+  // Y. Z has no reversal.
   const Machine m =
       parsed(machine_of("EXX_um = [[0, 25, 5], [20, 25, 5]]\n"
                         "EYX_um = [[0, 1, -1], [20, 1, -1]]",
@@ -165,7 +167,7 @@ TEST(VolumetricTables, SayWhatOneValueLeavesOfAReversal) {
   EXPECT_EQ(without->reversal_m, (Vec3{}));
 }
 
-TEST(VolumetricTables, SayWhatTheMachineSays) {
+TEST(VolumetricTables, StateTheFactsOfTheMachine) {
   Machine m = parsed(machine_of("u_EXX_um = 0.3\nEXX_um = [[0, 0], [15, 1]]",
                                 "EYY_um = 1\nu_EYY_um = 0.4", "EZZ_um = 1\nu_EZZ_um = 0.5"));
   m.simulated = true;
@@ -200,7 +202,7 @@ TEST(VolumetricTables, SayWhatTheMachineSays) {
   EXPECT_EQ(build_volumetric(m, request)->approach, "mean");
 }
 
-TEST(VolumetricTables, StandWhereTheOtherAxesStand) {
+TEST(VolumetricTables, UseTheCommandsOfTheOtherAxes) {
   const Machine m =
       parsed(machine_of("EXX_um = [[0, 0], [20, 2]]", "", "EXZ_um = [[0, 0], [20, 4]]"));
   VolumetricRequest request;
@@ -214,13 +216,14 @@ TEST(VolumetricTables, StandWhereTheOtherAxesStand) {
   EXPECT_EQ(t->command_m[2], std::vector<double>{0.01});
   ASSERT_EQ(t->nodes(), 3u);
   EXPECT_NEAR(t->correction_m[2][0], -4e-6, 1e-9);
-  // Beside the one command of Y and Z by the rounding of mm.
+  // Differs from the single command of Y and Z by rounding in mm only.
   EXPECT_TRUE(volumetric_at(*t, {0.01, 0.007 + 0.5e-9, 0.01 - 0.5e-9}).inside);
   EXPECT_FALSE(volumetric_at(*t, {0.01, 0.007 + 2e-9, 0.01}).inside);
 }
 
-TEST(VolumetricTables, WhatStaysIsTheLargestOfAllNodes) {
-  // A machine of X alone cannot take away EYX, nor any axis a turn: ECX is largest at its middle.
+TEST(VolumetricTables, UncorrectedPartIsTheLargestOfAllNodes) {
+  // A machine with X alone cannot correct EYX, and no axis can correct an angle: ECX is largest in
+  // the middle.
   const Machine m = parsed(
       "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n[[axis]]\nid = \"X\"\nholds_at_mm = [0, 0, "
       "0]\npoint = \"moving\"\nrange_mm = [0, 20]\nEYX_um = [[0, 1], [10, -4], [20, 2]]\nECX_urad "
@@ -234,7 +237,7 @@ TEST(VolumetricTables, WhatStaysIsTheLargestOfAllNodes) {
   EXPECT_NEAR(t->turn_left_rad, 130e-6, 1e-9);
 }
 
-TEST(VolumetricTables, NameTheLineWhoseCorrectionIsTooLargeOrTooSteep) {
+TEST(VolumetricTables, NameTheLineThatIsTooSteep) {
   const auto refused = [](const Machine& m, const VolumetricRequest& request) {
     const auto t = build_volumetric(m, request);
     return t ? std::string("built") : t.error().message;
@@ -242,7 +245,7 @@ TEST(VolumetricTables, NameTheLineWhoseCorrectionIsTooLargeOrTooSteep) {
   VolumetricRequest request;
   request.incomplete = true;
   request.limits.length_slope = 0.0003;
-  // 2 µm, then 4 µm in 10 mm: the second cell alone is too steep, along each axis in turn.
+  // 2 µm, then 4 µm in 10 mm: only the second cell is too steep, along each axis in turn.
   const char* steep = "_um = [[0, 0], [10, 2], [20, 6]]";
   const std::array<std::array<std::string, 2>, 3> all{
       {{"EYX", "the correction of Y along X from X 0 Y 0 Z 0 mm"},
@@ -257,7 +260,8 @@ TEST(VolumetricTables, NameTheLineWhoseCorrectionIsTooLargeOrTooSteep) {
   }
   request.limits.length_slope = 0.0005;
   EXPECT_EQ(refused(parsed(machine_of("", std::string("EZY") + steep, "")), request), "built");
-  // What is steep only where another axis is far out: Y by ECX, at the end of X alone.
+  // A line that is too steep only where another axis is at its end: X along Y by ECX, at the end of
+  // X.
   request.limits.length_slope = 0.00097;
   const Machine turned = parsed(machine_of("ECX_urad = [[0, 900], [10, 940], [20, 1000]]", "", ""));
   const std::string said = refused(turned, request);
@@ -265,7 +269,7 @@ TEST(VolumetricTables, NameTheLineWhoseCorrectionIsTooLargeOrTooSteep) {
   EXPECT_NE(said.find("the correction of X"), std::string::npos) << said;
 }
 
-TEST(VolumetricTables, HaveAtMostFiveHundredCommandsAnAxisAndAHundredThousandNodes) {
+TEST(VolumetricTables, HaveAtMostFiveHundredCommandsAnAxis) {
   const Machine m = parsed(machine_of("", "", ""));
   VolumetricRequest request;
   request.incomplete = true;

@@ -198,7 +198,7 @@ TEST(BetweenTargets, IsZeroAtTargetsAndNeverReducesU) {
     }
   }
   EXPECT_EQ(table_at(table, 1, TableSide::forward).u_interpolation[0],
-            0);  // beyond the end the end value is used
+            0);  // constant beyond the end
 }
 
 // Noise is not curvature: its part of the second differences is subtracted.

@@ -1,4 +1,4 @@
-// What is said of a drift, number by number, by hand.
+// The texts about a drift, with each number calculated by hand.
 #include "algo/drift/drift_sentences.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// 3 min: δy +0.25 µm, εz -5 µrad as a drift; δz +0.5 µm that may be steps.
+// In 3 min: δy +0.25 µm and εz -5 µrad by a drift; δz +0.5 µm, which may be steps.
 RunDrift three_changes() {
   RunDrift drift;
   drift.length_s = 180;
@@ -27,22 +27,22 @@ RunDrift three_changes() {
   return drift;
 }
 
-TEST(DriftSentences, NameEachErrorOfTheBodyThatMoves) {
+TEST(DriftSentences, NameEachErrorOfTheMovingBody) {
   const RunDrift drift = three_changes();
   EXPECT_EQ(changes_text(drift, {Axis::x, {}}, false),
             "EYX +0.2500 ± 0.0040 µm, ECX -5.00 ± 0.12 µrad from the first point to the last "
             "(3 min)");
   EXPECT_EQ(changes_text(drift, {Axis::x, {}}, true),
             "EZX +0.5000 ± 0.0030 µm from the first point to the last (3 min)");
-  // Of a fixture that moves the other sign; along Y δy is -EXY (and -1 twice is +).
+  // If the fixture moves, the sign is opposite. Along Y, δy is -EXY.
   const Sides fixture{.fixture_moves = true};
   EXPECT_EQ(changes_text(drift, {Axis::x, fixture}, false).substr(0, 24), "EYX -0.2500 ± 0.0040 µ");
   EXPECT_EQ(changes_text(drift, {Axis::y, {}}, false).substr(0, 11), "EXY -0.2500");
   EXPECT_EQ(changes_text(RunDrift{}, {Axis::x, {}}, false), "");
 }
 
-// GUM 7.2.6: two significant digits of u, also where rounding gives it one more.
-TEST(DriftSentences, RoundAsTheUncertaintySays) {
+// GUM 7.2.6: two significant digits of u, also if the rounding of u adds a digit.
+TEST(DriftSentences, RoundToTwoDigitsOfU) {
   const auto said = [](double change_m, double u_m) {
     RunDrift drift = three_changes();
     drift.errors[kEz] = {};
@@ -59,7 +59,7 @@ TEST(DriftSentences, RoundAsTheUncertaintySays) {
   EXPECT_EQ(said(4321.4e-6, 123.4e-6), "EYX +4320 ± 120 µm");
 }
 
-TEST(DriftSentences, SayWhatWasRemovedAndWhatWasNot) {
+TEST(DriftSentences, ReportRemovedAndRemainingDrifts) {
   RunDrift drift = three_changes();
   const std::string both = test::shown(removal_notices(drift, {Axis::x, {}}));
   EXPECT_EQ(both.find("drift_removed changes=EYX +0.2500"), 0U) << both;
@@ -87,7 +87,7 @@ TEST(DriftSentences, NameTheProbesAboveTheLimit) {
   EXPECT_EQ(test::shown(over_limit(drift, rig)), "");
 }
 
-// Local εx is EAX of X and -EBY of Y, and so on: each error has its own sign and size.
+// Local εx is EAX of X and EBY of Y, and so on: each error has its own sign and size.
 TEST(DriftSentences, NameAllFiveErrors) {
   RunDrift drift;
   drift.length_s = 60;

@@ -1,7 +1,7 @@
-// Do the stated 95 % intervals hold the truth where a drift was removed? The logs are made here:
-// form and reversal of an axis, a drift, white noise and noise that lasts. Truth is the error
-// against the start, where the system was zeroed. MDOF_COVERAGE_RUNS=1000 for figures worth
-// quoting.
+// Do the stated 95 % intervals contain the truth after a drift was removed? The test simulates the
+// logs: form and reversal of an axis, a drift, white noise and correlated noise. The truth is the
+// error relative to the start, where the system was zeroed. Set MDOF_COVERAGE_RUNS=1000 for
+// published figures.
 #include "algo/drift/removed_drift.h"
 
 #include <gtest/gtest.h>
@@ -25,13 +25,13 @@ namespace {
 
 constexpr int kTargets = 13;
 constexpr double kStop_s = 2, kWhite = 3e-9;
-constexpr std::array<double, 5> kSizes = {1, 1, 100, 100, 100};  // of errors against δy
+constexpr std::array<double, 5> kSizes = {1, 1, 100, 100, 100};  // of the errors, relative to δy
 
 double log_length_s(int runs) {
   return kStop_s * (2 * kTargets * runs - 1);
 }
 
-// What is added to an error at each stop, of size 1: white and lasting.
+// Correlated noise that is added to an error of size 1 at each stop.
 using Slow = std::function<std::vector<double>(std::mt19937_64&, std::size_t stops)>;
 
 Slow lasting(double correlation_s, double sd) {
@@ -45,7 +45,7 @@ Slow lasting(double correlation_s, double sd) {
   };
 }
 
-// sd: at the end of the log.
+// `sd`: standard deviation at the end of the log.
 Slow random_walk(double sd) {
   return [=](std::mt19937_64& engine, std::size_t stops) {
     std::normal_distribution<> normal;
@@ -62,7 +62,7 @@ Slow none() {
 
 struct World {
   int runs = 3;
-  std::function<double(double part)> drift = [](double) { return 0.0; };  // of the log, m
+  std::function<double(double part)> drift = [](double) { return 0.0; };  // m; part of the log
   Slow slow = none();
 
   static double form(double position_m, std::size_t k) {
@@ -170,7 +170,7 @@ void count_tables(Coverage& coverage, const Rig& rig, const Run& run, const Run&
   for (const double x : exact.position_m)
     for (std::size_t k = 0; k < 5; ++k) {
       const TableValue is = table_at(table, x, TableSide::mean);
-      if (names[k].angle && x == exact.position_m.front()) continue;  // 0 there
+      if (names[k].angle && x == exact.position_m.front()) continue;  // 0 by definition
       coverage[names[k].angle ? "table angles" : "table straightness"].count(
           is.error[k] - table_at(exact, x, TableSide::mean).error[k], 2 * is.u[k]);
     }
@@ -208,12 +208,12 @@ void print(const std::string& name, const Found& found, int runs) {
   std::printf("\n");
 }
 
-// Of the share of intervals of so many runs, in %.
+// Three standard deviations of the share of intervals, in %, for this number of runs.
 double three_sd(int runs) {
   return 65 / std::sqrt(runs);
 }
 
-// The angles of a table refer to its first target, whose noise is in no u: 88 % without any drift.
+// The angles of a table refer to its first target, whose noise is not in u: 88 % without any drift.
 void expect_covered(const Found& found, int runs, double table_angles) {
   for (const auto& [what, share] : found.coverage)
     EXPECT_GT(share.percent(), (what == "table angles" ? table_angles : 95) - three_sd(runs))
@@ -243,9 +243,10 @@ TEST(RemovedDrift, BesideARandomWalk) {
   expect_covered(found, runs, 75);
 }
 
-// The walk is in the part of the removed drift. It makes the slopes of the runs differ, too, and
-// there it must not count again: noise alone makes 3 nm/sqrt(6) over 13 places 5 mm apart.
-TEST(RemovedDrift, ASlopeHasTheSlowNoiseOnce) {
+// The uncertainty of the removed drift contains the random walk. The walk also changes the slopes
+// of the runs, but it must not count there again: white noise alone gives 3 nm/sqrt(6) for 13
+// positions 5 mm apart.
+TEST(RemovedDrift, SlopesContainSlowNoiseOnlyOnce) {
   World world;
   world.slow = random_walk(20e-9);
   world.drift = [](double part) { return 200e-9 * part; };
@@ -279,7 +280,7 @@ TEST(RemovedDrift, ARandomWalkAloneIsSeldomTakenForADrift) {
   EXPECT_LE(removed, 0.01 * logs);
 }
 
-TEST(RemovedDrift, WithoutItsUncertaintyTheTruthIsMissed) {
+TEST(RemovedDrift, IntervalsWithoutItsUMissTheTruth) {
   World world;
   world.drift = kDrifts.at("linear");
   Coverage coverage;
@@ -289,10 +290,10 @@ TEST(RemovedDrift, WithoutItsUncertaintyTheTruthIsMissed) {
     run.header.provenance.options_json = "{}";
     count_points(coverage, test::rig_x(), run);
   }
-  EXPECT_LT(coverage["points"].percent(), 90);  // 96 with it
+  EXPECT_LT(coverage["points"].percent(), 90);  // 96 % with this u
 }
 
-TEST(RemovedDrift, TheStartStaysAsItWasMeasured) {
+TEST(RemovedDrift, StartRemainsAsMeasured) {
   World world;
   world.drift = kDrifts.at("linear");
   const auto measured = world.measured(7);
@@ -302,8 +303,9 @@ TEST(RemovedDrift, TheStartStaysAsItWasMeasured) {
               10e-9);
 }
 
-// At a tool 50 mm above the fixture δy has the drift of εx as well, correlated with its own.
-TEST(RemovedDrift, AtTheToolItHasTheDriftOfTheAngles) {
+// At a tool 50 mm above the fixture, δy also contains the drift of εx, which is correlated with its
+// own.
+TEST(RemovedDrift, AtTheToolIncludesTheDriftOfAngles) {
   World world;
   world.drift = kDrifts.at("linear");
   bool removed = false;
@@ -323,7 +325,7 @@ TEST(RemovedDrift, AtTheToolItHasTheDriftOfTheAngles) {
   EXPECT_GT(u_last(there, kDy), 2 * u_last(run, kDy));
 }
 
-TEST(RemovedDrift, WhereNoneWasRemovedThereIsNoContributor) {
+TEST(RemovedDrift, HasNoContributorWithoutRemoval) {
   bool removed = true;
   const mdof::Run run = without_drift(World{}.measured(7), removed);
   EXPECT_FALSE(removed);

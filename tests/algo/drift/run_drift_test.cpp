@@ -10,15 +10,15 @@
 namespace mdof::algo {
 namespace {
 
-// 13 targets at 0 ... 60 mm, forward and back, a stop each 2 s: a run takes 52 s.
+// 13 targets at 0 ... 60 mm, forward and back, one stop every 2 s: a run takes 52 s.
 struct Log {
   int runs = 3, targets = 13;
   double noise_m = 0;
   std::uint32_t seed = 1;
   bool both_ways = true, back_to_start = false;
-  std::function<double(double)> drift = [](double) { return 0.0; };  // of δy, over s
+  std::function<double(double)> drift = [](double) { return 0.0; };  // of δy, m, at a time in s
   std::function<double(int)> reversal = [](int) { return 80e-9; };   // by target
-  std::function<double(int)> of_run = [](int) { return 0.0; };       // a step
+  std::function<double(int)> of_run = [](int) { return 0.0; };       // a step, by run
 
   double length_s() const { return 2.0 * (targets * (both_ways ? 2 : 1) * runs - 1); }
 
@@ -58,7 +58,7 @@ struct Log {
     out.push_back(p);
   }
   double noise(std::uint32_t point, std::uint32_t series) const {
-    // A hash of three numbers (splitmix64), so that no seed follows from another.
+    // A hash of three numbers (splitmix64), so that the numbers of different seeds are unrelated.
     std::uint64_t x = (std::uint64_t{seed} << 40) ^ (std::uint64_t{point} << 8) ^ series;
     x += 0x9e3779b97f4a7c15u;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -71,7 +71,7 @@ struct Log {
 
 constexpr double kNoise = 3e-9;
 
-// Largest deviation of δy over all points from form and reversal, the mean over all put aside.
+// Largest deviation of δy from form and reversal over all points, less the mean deviation.
 double worst_off(const Log& log, const std::vector<MeasuredPoint>& points) {
   double mean = 0;
   std::vector<double> off;
@@ -85,7 +85,7 @@ double worst_off(const Log& log, const std::vector<MeasuredPoint>& points) {
   return worst;
 }
 
-TEST(RunDrift, WithoutNoiseAStraightDriftIsFoundToTheLastPicometre) {
+TEST(RunDrift, FindsALinearDriftExactlyWithoutNoise) {
   Log log;
   log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
   const auto points = log.points();
@@ -102,9 +102,9 @@ TEST(RunDrift, WithoutNoiseAStraightDriftIsFoundToTheLastPicometre) {
   EXPECT_NEAR(worst_off(log, points), 100e-9, 1e-9);
 }
 
-// Noise whose neighbours in time follow each other (r = 0.6) looks like a drift to a fit that takes
-// them for independent: 144 of these 400 would be given one.
-TEST(RunDrift, NoiseThatFollowsItselfIsNoDrift) {
+// Noise with a correlation of 0.6 between successive readings. A fit that treats the readings as
+// independent would report a drift for 144 of these 400 logs.
+TEST(RunDrift, CorrelatedNoiseIsNoDrift) {
   int found = 0;
   constexpr int kSeeds = 400;
   for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
@@ -114,7 +114,7 @@ TEST(RunDrift, NoiseThatFollowsItselfIsNoDrift) {
     Log white;
     white.noise_m = kNoise;
     white.seed = seed + 10'000;
-    std::vector<double> slow;  // one a visit, each 2 s
+    std::vector<double> slow;  // one value per visit, every 2 s
     for (const MeasuredPoint& p : white.points()) {
       const double fresh = p.errors.local[kDz] - white.form(p.target) -
                            p.point.direction * 0.5 * white.reversal(p.target);
@@ -126,7 +126,7 @@ TEST(RunDrift, NoiseThatFollowsItselfIsNoDrift) {
   EXPECT_LE(found, kSeeds / 100);
 }
 
-TEST(RunDrift, UncertaintyIsTheScatterOverManySeeds) {
+TEST(RunDrift, UncertaintyMatchesTheScatter) {
   double square = 0, stated = 0;
   constexpr int kSeeds = 400;
   for (int seed = 1; seed <= kSeeds; ++seed) {
@@ -158,7 +158,7 @@ TEST(RunDrift, ALogWithoutDriftIsGivenNoneMoreOftenThanStated) {
         break;
       }
   }
-  EXPECT_LE(errors, 16);  // 10 expected at the most; 2 sd of chance more
+  EXPECT_LE(errors, 16);  // at most 10 expected, plus 2 standard deviations
   EXPECT_LE(probes, 16);
 }
 
@@ -174,11 +174,11 @@ TEST(RunDrift, AsOftenAsStatedOfTwoRuns) {
   EXPECT_LE(errors, 10);
 }
 
-// 200 nm of each kind over the runs, noise 3 nm: what is left.
-TEST(RunDrift, WhatIsLeftOfCurvedDrifts) {
+// Each drift has 200 nm over the runs, the noise 3 nm. `left_m`: limit of the remaining error.
+TEST(RunDrift, RemovesCurvedDriftsWithinLimits) {
   struct Kind {
     const char* name;
-    std::function<double(double)> of;  // of the part of the log that is over
+    std::function<double(double)> of;  // argument: elapsed fraction of the log
     double left_m;
   };
   const auto turns = [](double n) {
@@ -202,7 +202,7 @@ TEST(RunDrift, WhatIsLeftOfCurvedDrifts) {
   }
 }
 
-TEST(RunDrift, OneRunDoesNotTellADriftFromTheForm) {
+TEST(RunDrift, SingleRunCannotSeparateDriftFromForm) {
   Log log;
   log.runs = 1;
   log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
@@ -211,12 +211,12 @@ TEST(RunDrift, OneRunDoesNotTellADriftFromTheForm) {
   EXPECT_NE(drift.found().not_seen.find("measure two runs"), std::string::npos);
   EXPECT_FALSE(drift.found().significant());
   EXPECT_EQ(drift.without(points)[20].errors.local, points[20].errors.local);
-  ASSERT_EQ(drift.found().closures.size(), 1u);  // the reversal is in it
+  ASSERT_EQ(drift.found().closures.size(), 1u);  // it contains the reversal
   EXPECT_FALSE(drift.found().closures[0].same_side);
   EXPECT_NEAR(drift.found().closures[0].change[kDy], 200e-9 - 80e-9, 1e-15);
 }
 
-TEST(RunDrift, ClosuresAreFromTheSameSideWhereThereIsAVisitFromThere) {
+TEST(RunDrift, ClosuresUseAVisitFromTheSameSide) {
   Log log;
   log.runs = 2;
   log.back_to_start = true;
@@ -231,8 +231,8 @@ TEST(RunDrift, ClosuresAreFromTheSameSideWhereThereIsAVisitFromThere) {
   }
 }
 
-// 78 stops 2 s apart; points that tell nothing do not count.
-TEST(RunDrift, ItsLengthIsFromTheFirstToTheLastPoint) {
+// 78 stops 2 s apart; invalid points do not count.
+TEST(RunDrift, LengthIsFromFirstToLastValidPoint) {
   const Log log;
   EXPECT_NEAR(DriftOfRun(log.points()).found().length_s, 154, 1e-9);
   auto points = log.points();
@@ -241,7 +241,7 @@ TEST(RunDrift, ItsLengthIsFromTheFirstToTheLastPoint) {
   EXPECT_NEAR(DriftOfRun(points).found().length_s, 150, 1e-9);
 }
 
-TEST(RunDrift, TheClockOfTheLogBeginsAnywhere) {
+TEST(RunDrift, DoesNotDependOnTheStartTime) {
   Log log;
   log.noise_m = kNoise;
   log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
@@ -258,8 +258,8 @@ TEST(RunDrift, TheClockOfTheLogBeginsAnywhere) {
   EXPECT_NEAR(later.errors[kDy].change, at_zero.errors[kDy].change, 1e-13);
 }
 
-// Somebody touched the fixture between the runs: the same between the runs as a steady drift.
-TEST(RunDrift, StepsFromRunToRunAreNotTakenForADrift) {
+// Somebody touched the fixture between the runs. From run to run this looks like a steady drift.
+TEST(RunDrift, StepsBetweenRunsAreNotRemoved) {
   for (const int runs : {2, 3, 4}) {
     Log log;
     log.runs = runs;
@@ -274,14 +274,14 @@ TEST(RunDrift, StepsFromRunToRunAreNotTakenForADrift) {
   }
 }
 
-TEST(RunDrift, AReversalThatChangesAlongTheAxisIsNoDrift) {
+TEST(RunDrift, VaryingReversalIsNoDrift) {
   Log log;
   log.noise_m = kNoise;
   log.reversal = [](int target) { return 80e-9 + 20e-9 * target; };
   EXPECT_FALSE(DriftOfRun(log.points()).found().significant());
 }
 
-// Each run and direction has a shift of its own, as real machines have.
+// Each run and direction has its own random shift, as on real machines.
 TEST(RunDrift, RandomShiftsOfPassesAreNotTakenForADrift) {
   int removed = 0;
   for (std::uint32_t seed = 1; seed <= 500; ++seed) {
@@ -300,7 +300,7 @@ TEST(RunDrift, RandomShiftsOfPassesAreNotTakenForADrift) {
   EXPECT_LE(removed, 10);
 }
 
-TEST(RunDrift, OfOneDirectionADriftMayBeSteps) {
+TEST(RunDrift, DriftInOneDirectionMayBeSteps) {
   Log log;
   log.both_ways = false;
   log.noise_m = kNoise;
@@ -311,7 +311,7 @@ TEST(RunDrift, OfOneDirectionADriftMayBeSteps) {
   EXPECT_FALSE(drift.found().removable());
 }
 
-TEST(RunDrift, ItsUncertaintyGrowsFromTheStartOn) {
+TEST(RunDrift, UncertaintyGrowsFromTheStart) {
   Log log;
   log.noise_m = kNoise;
   log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
@@ -330,13 +330,13 @@ TEST(RunDrift, ItsUncertaintyGrowsFromTheStartOn) {
   EXPECT_GT(u_at(after.size() - 1, kDy), 0.3 * kNoise);
   EXPECT_LT(u_at(after.size() - 1, kDy), 3 * kNoise);
   EXPECT_GT(u_at(after.size() / 2, kDy), 0);
-  EXPECT_EQ(u_at(after.size() - 1, kDz), 0);  // none was taken from δz
+  EXPECT_EQ(u_at(after.size() - 1, kDz), 0);  // no drift was removed from δz
   EXPECT_EQ(again.freedom(), 78 - 26 - 6);
-  EXPECT_TRUE(drift.removal_shifts(points).empty());  // it is still in them
+  EXPECT_TRUE(drift.removal_shifts(points).empty());  // the points still contain the drift
   EXPECT_EQ(after.back().errors.covariance, points.back().errors.covariance);
 }
 
-TEST(RunDrift, PointsWithoutErrorsTellNothingAndStayAsTheyAre) {
+TEST(RunDrift, PointsWithoutErrorsRemainUnchanged) {
   Log log;
   log.noise_m = kNoise;
   log.drift = [&](double t) { return 200e-9 * t / log.length_s(); };
@@ -349,16 +349,16 @@ TEST(RunDrift, PointsWithoutErrorsTellNothingAndStayAsTheyAre) {
   EXPECT_TRUE(drift.found().probes[3].significant());
   const auto after = drift.without(points);
   EXPECT_EQ(after[5].errors.local, points[5].errors.local);
-  EXPECT_NE(after[6].errors.local, points[6].errors.local);  // its time is known
+  EXPECT_NE(after[6].errors.local, points[6].errors.local);  // its time and errors are known
   EXPECT_NE(DriftOfRun({}).found().not_seen, "");
 }
 
-TEST(DriftDesign, OrdersAreThoseThatVisitsSee) {
+TEST(DriftDesign, TakesOnlyOrdersThatVisitsShow) {
   std::vector<TimedVisit> visits;
   for (int i = 0; i < 20; ++i) visits.push_back({static_cast<std::size_t>(i % 10), 1.0 * i});
   const DriftDesign twice(visits);
   EXPECT_GE(twice.orders(), 1);
-  EXPECT_LT(twice.orders(), DriftDesign::kMostOrders);  // one is near a wave that both runs have
+  EXPECT_LT(twice.orders(), DriftDesign::kMostOrders);  // one is nearly the same in both runs
   EXPECT_DOUBLE_EQ(twice.freedom(), 20 - 10 - twice.orders());
   visits.resize(10);
   EXPECT_EQ(DriftDesign(visits).orders(), 0);
@@ -366,13 +366,13 @@ TEST(DriftDesign, OrdersAreThoseThatVisitsSee) {
   EXPECT_EQ(DriftDesign({{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}}).orders(), 0);
 }
 
-TEST(DriftDesign, CriticalTIsThatOfTheTables) {
+TEST(DriftDesign, CriticalTMatchesTheTables) {
   EXPECT_NEAR(critical_t(0.01, 4), 4.604, 0.001);
   EXPECT_NEAR(critical_t(0.05, 10), 2.228, 0.001);
 }
 
-// One that falls, and one that goes up by 120 nm and back to -40 nm: highest less lowest.
-TEST(RunDrift, ItsRangeIsFromTheLowestToTheHighest) {
+// A falling drift, and a drift that rises by 120 nm and returns to -40 nm.
+TEST(RunDrift, RangeIsHighestMinusLowest) {
   Log log;
   log.noise_m = 0.1 * kNoise;
   log.drift = [&](double t) { return -200e-9 * t / log.length_s(); };
@@ -386,7 +386,7 @@ TEST(RunDrift, ItsRangeIsFromTheLowestToTheHighest) {
   found = DriftOfRun(log.points()).found().errors[kDy];
   EXPECT_NEAR(found.range, 480e-9 * 0.25 * std::pow(1 - 4. / 48, 2) + 40e-9, 6e-9);
   EXPECT_NEAR(found.change, -40e-9, 5e-9);
-  // Where there is none, all of it is 0.
+  // Without a drift all values are 0.
   found = DriftOfRun(Log().points()).found().errors[kDz];
   EXPECT_EQ(found.order, 0);
   EXPECT_EQ(found.change, 0);

@@ -1,5 +1,6 @@
-// A drift among noise that lasts, by generalised least squares with the whole covariance matrix of
-// the visits, which the program never makes; Legendre's polynomials by their closed forms.
+// A drift in correlated noise, compared with generalised least squares with the whole covariance
+// matrix of the visits, which the program does not form. Legendre polynomials by their closed
+// forms.
 #include "algo/drift/slow_noise.h"
 
 #include <gtest/gtest.h>
@@ -13,9 +14,9 @@
 namespace mdof::algo {
 namespace {
 
-// Of visits that are 5 s apart on the average, the slow noise lasts 5, 10, 20 ... s, up to eight
-// times the log; it is a fourth of the white noise, as much, or more.
-TEST(SlowNoises, GoFromWhiteNoiseToARandomWalk) {
+// The correlation times are 1, 2, 4 ... times the mean interval of the visits, up to eight times
+// the log; the ratio of slow to white noise is 1/4, 1, 4 or more.
+TEST(SlowNoises, RangeFromWhiteNoiseToRandomWalk) {
   const std::vector<SlowNoise> all = slow_noises({2, 3, 20, 22});
   ASSERT_EQ(all.size(), 1 + 5 * 5u);
   EXPECT_EQ(all[0].share, 0);
@@ -30,8 +31,8 @@ TEST(SlowNoises, GoFromWhiteNoiseToARandomWalk) {
     }
 }
 
-// 24 steps fit into eight logs of three.
-TEST(SlowNoises, LastUpToEightTimesTheLog) {
+// The longest correlation time is at most eight times the log.
+TEST(SlowNoises, CorrelationTimesReachEightLogs) {
   EXPECT_EQ(slow_noises({0, 1}).size(), 1 + 4 * 5u);     // 1, 2, 4, 8 of one
   EXPECT_EQ(slow_noises({0, 1, 2}).size(), 1 + 5 * 5u);  // up to 16 of two
 }
@@ -52,7 +53,7 @@ DriftRows uneven_rows() {
   return rows;
 }
 
-TEST(WeighedFitByMatrices, IsThatOfGeneralisedLeastSquares) {
+TEST(WeighedFitByMatrices, EqualsGeneralisedLeastSquares) {
   const DriftRows rows = uneven_rows();
   EXPECT_EQ(rows.freedom(), 12 - 2 - 3);
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(12, 5);
@@ -94,14 +95,14 @@ TEST(WeighedFitByMatrices, IsThatOfGeneralisedLeastSquares) {
   }
 }
 
-// Columns that are the same have no solution.
-TEST(WeighedFitByMatrices, IsNotSolvedWhereColumnsAreNone) {
+// A column of zeros has no solution.
+TEST(WeighedFitByMatrices, IsNotSolvedWithAZeroColumn) {
   DriftRows rows = uneven_rows();
   rows.polynomials.col(1).setZero();
   EXPECT_FALSE(weighed_fit(rows, {2, 0.3}).solved);
 }
 
-// Four runs over six places, half as long again at the end.
+// Runs over all places in alternating directions; each run is slower than the one before.
 std::vector<TimedVisit> many_visits(std::size_t places, int runs) {
   std::vector<TimedVisit> visits;
   double time_s = 50;
@@ -129,7 +130,7 @@ double legendre_by_hand(int order, double x) {
   }
 }
 
-TEST(DriftDesignByHand, PolynomialsAreLegendresFromTheFirstVisitOn) {
+TEST(DriftDesignByHand, PolynomialsAreLegendreFromTheFirstVisit) {
   const DriftDesign design(many_visits(6, 12));
   ASSERT_EQ(design.orders(), 6);
   EXPECT_EQ(design.begin_s(), 52);
@@ -144,8 +145,8 @@ TEST(DriftDesignByHand, PolynomialsAreLegendresFromTheFirstVisitOn) {
   }
 }
 
-// Rows are in the order of time, without the means of their places.
-TEST(DriftDesignByHand, RowsAreWithoutTheirPlacesMeans) {
+// Rows are in the order of time; the mean of its place is subtracted from each row.
+TEST(DriftDesignByHand, RowsHaveNoMeansOfPlaces) {
   std::vector<TimedVisit> visits = many_visits(3, 8);
   std::swap(visits[1], visits[9]);
   const DriftDesign design(visits);
@@ -180,8 +181,8 @@ TEST(DriftDesignByHand, RowsAreWithoutTheirPlacesMeans) {
   EXPECT_EQ(rows.freedom(), 24 - 3 - design.orders());
 }
 
-// Of 49 places and more two neighbours have one row, of 97 three: the mean of those that were
-// visited one after the other.
+// From 49 places on two neighbours share a row, from 97 on three: the row is the mean of
+// consecutive visits.
 TEST(DriftDesignByHand, NeighboursOfManyPlacesShareARow) {
   for (const auto& [places, each] : {std::pair(48u, 1u), std::pair(49u, 2u), std::pair(97u, 3u)}) {
     const DriftDesign design(many_visits(places, 2));
@@ -191,7 +192,7 @@ TEST(DriftDesignByHand, NeighboursOfManyPlacesShareARow) {
     const DriftRows rows = design.rows(y);
     const std::size_t of_run = (places + each - 1) / each;
     EXPECT_EQ(rows.places, of_run);
-    // The turn at the last place is one row, where neighbours share one.
+    // At the reversal the last place has one row, if neighbours share one.
     ASSERT_EQ(rows.place.size(), 2 * of_run - (each > 1 ? 1 : 0));
     EXPECT_EQ(rows.place[1], 1u);
     EXPECT_EQ(rows.place.back(), 0u);
@@ -206,12 +207,13 @@ TEST(DriftDesignByHand, NeighboursOfManyPlacesShareARow) {
   }
 }
 
-// What only differs between places is none of the drift: an order needs 2 % of it between visits.
-TEST(DriftDesignByHand, FreedomIsWhatVisitsHaveBesidePlacesAndOrders) {
+// Differences between places are not drift: an order needs 2 % of its variance between visits of a
+// place.
+TEST(DriftDesignByHand, FreedomIsVisitsLessPlacesAndOrders) {
   const auto orders = [](std::size_t places, int runs) {
     return DriftDesign(many_visits(places, runs)).orders();
   };
-  // One place that is visited again and again: four are left by the orders.
+  // One place with repeated visits: the orders leave four degrees of freedom.
   EXPECT_EQ(orders(1, 5), 0);
   EXPECT_EQ(orders(1, 6), 1);
   EXPECT_EQ(orders(1, 7), 2);
@@ -219,7 +221,7 @@ TEST(DriftDesignByHand, FreedomIsWhatVisitsHaveBesidePlacesAndOrders) {
   EXPECT_EQ(orders(1, 20), 6);
   EXPECT_EQ(DriftDesign(many_visits(1, 11)).freedom(), 11 - 1 - 6);
   EXPECT_EQ(DriftDesign(many_visits(1, 6)).freedom(), 4);
-  EXPECT_EQ(DriftDesign(many_visits(1, 5)).freedom(), 0);  // no order, nothing to leave
+  EXPECT_EQ(DriftDesign(many_visits(1, 5)).freedom(), 0);  // no order
 }
 
 }  // namespace

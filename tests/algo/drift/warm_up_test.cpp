@@ -22,15 +22,15 @@ ParkedReadings readings(std::size_t steps, double step_s, double limit_nm_per_h,
   return r;
 }
 
-// Some noise and no drift.
+// Small noise without drift.
 double steady(double s) {
   return 0.01 * std::sin(1.3 * s);
 }
 
-// 2 µm in the end, with a time constant of 20 min: the rate is 6000 exp(-t / 20 min) nm/h, and
-// under 100 nm/h after 20 min · ln 60 = 81.9 min. Of windows of 5 min that from 80 min has the mean
-// rate 98 ± 1 nm/h, within two u of the limit, and that from 85 min 76 nm/h.
-TEST(WarmUp, AnExponentialIsReadyWhereItsRateFallsBelowTheLimit) {
+// 2 µm in total with a time constant of 20 min: the rate is 6000 exp(-t / 20 min) nm/h, and below
+// 100 nm/h after 20 min · ln 60 = 81.9 min. The window of 5 min from 80 min has the mean rate 98 ±
+// 1 nm/h, within two u of the limit; the window from 85 min has 76 nm/h.
+TEST(WarmUp, ExponentialIsReadyBelowTheLimit) {
   const auto r = readings(4 * 120, 30, 100, [](double s) { return -2000 * std::exp(-s / 1200); });
   const WarmUp w = warm_up(r);
   ASSERT_EQ(w.begin_s.size(), 48u);
@@ -42,7 +42,7 @@ TEST(WarmUp, AnExponentialIsReadyWhereItsRateFallsBelowTheLimit) {
   EXPECT_NEAR(w.windows[0][0].rate_per_s / kPerHour, 6000 * std::exp(-135.0 / 1200), 60);
 }
 
-TEST(WarmUp, LogsThatEndTooSoonAreNotReady) {
+TEST(WarmUp, ShortLogsAreNotReady) {
   EXPECT_FALSE(warm_up(readings(30 * 10, 30, 100, [](double s) {
                  return -2000 * std::exp(-s / 1200) + (s > 8000 ? 1 : 0) * (s - 8000);
                })).ready_after_s);
@@ -53,36 +53,36 @@ TEST(WarmUp, LogsThatEndTooSoonAreNotReady) {
   EXPECT_FALSE(warm_up(readings(60, 30, infinity, steady)).ready_after_s);
 }
 
-TEST(WarmUp, SecondsTellNothingOfMinutes) {
+TEST(WarmUp, LogsOfSecondsAreNotReady) {
   EXPECT_FALSE(warm_up(readings(40, 0.1, 1e6, steady)).ready_after_s);
   EXPECT_FALSE(warm_up(readings(59, 10, 1e4, steady)).ready_after_s);
   EXPECT_TRUE(warm_up(readings(60, 10, 1e4, steady)).ready_after_s);
 }
 
-// A dead probe drifts least of all.
-TEST(WarmUp, AReadingThatNeverChangesIsNotJudged) {
+// A dead probe has the smallest drift, but it is not ready.
+TEST(WarmUp, ConstantReadingIsUnknown) {
   const WarmUp w = warm_up(readings(60, 30, 100, [](double) { return 1.5; }));
   EXPECT_EQ(w.windows[0][0].verdict, DriftVerdict::unknown);
   EXPECT_FALSE(w.ready_after_s);
 }
 
-// By hand: 0 0 ... but the last of 10 is 1 nm: slope = 4.5 / 82.5 of a step, residuals' square
-// 0.9 - 4.5²/82.5 over 8, over 82.5.
-TEST(WarmUp, RateAndItsUncertaintyAreThoseOfTheLine) {
+// By hand: ten readings are 0 except the last, 1 nm: slope 4.5 / 82.5 per step, squared residuals
+// 0.9 - 4.5²/82.5, divided by 8 and by 82.5.
+TEST(WarmUp, RateAndItsUncertaintyByHand) {
   const auto r = readings(10, 1, 1e6, [](double s) { return s == 9 ? 1.0 : 0.0; });
   const DriftWindow w = warm_up(r).windows[0][0];
   EXPECT_NEAR(w.rate_per_s, 4.5 / 82.5 * 1e-9, 1e-18);
   EXPECT_NEAR(w.u_rate_per_s, std::sqrt((0.9 - 4.5 * 4.5 / 82.5) / 8 / 82.5) * 1e-9, 1e-18);
 }
 
-TEST(WarmUp, NoiseLeavesItUndecided) {
+TEST(WarmUp, NoiseGivesUndecided) {
   const auto r = readings(60, 1, 100, [](double s) { return std::fmod(s * 7, 10); });
   const WarmUp w = warm_up(r);
   EXPECT_FALSE(w.ready_after_s);
   EXPECT_EQ(w.windows[0][0].verdict, DriftVerdict::undecided);
 }
 
-TEST(WarmUp, ReadingsThatAreMissing) {
+TEST(WarmUp, TooFewReadingsInAWindowAreUnknown) {
   auto r = readings(40, 30, 100, steady);
   for (std::size_t i = 0; i < 4; ++i) r.series[0].value[i] = std::nan("");
   EXPECT_EQ(warm_up(r).windows[0][0].verdict, DriftVerdict::below);
@@ -94,7 +94,7 @@ TEST(WarmUp, ReadingsThatAreMissing) {
   EXPECT_DOUBLE_EQ(*w.ready_after_s, 300);
 }
 
-TEST(WarmUp, SlopeOverTemperature) {
+TEST(WarmUp, FindsTheSlopeOverTemperature) {
   auto r = readings(40, 30, 100, [](double s) { return -30 * std::sin(s / 200); });
   for (std::size_t i = 0; i < 40; ++i)
     r.temperature_C.push_back(20 + std::sin(static_cast<double>(i) * 30 / 200));
@@ -106,13 +106,13 @@ TEST(WarmUp, SlopeOverTemperature) {
   EXPECT_TRUE(std::isnan(w.with_temperature[0].correlation));
 }
 
-TEST(WarmUp, ATemperatureThatIsMissingTakesItsReadingWithIt) {
+TEST(WarmUp, MissingTemperatureExcludesItsReading) {
   auto r = readings(40, 30, 100, [](double s) { return -30 * std::sin(s / 200); });
   for (std::size_t i = 0; i < 40; ++i)
     r.temperature_C.push_back(20 + std::sin(static_cast<double>(i) * 30 / 200));
   for (const std::size_t i : {0U, 7U, 39U}) {
     r.temperature_C[i] = std::nan("");
-    r.series[0].value[i] += 1e-3;  // nobody knows at what temperature
+    r.series[0].value[i] += 1e-3;  // its temperature is unknown
   }
   const WarmUp w = warm_up(r);
   EXPECT_NEAR(w.with_temperature[0].slope_per_K, -30e-9, 1e-15);

@@ -1,4 +1,4 @@
-// Parts of a clamping, K, and the stress of bent plates.
+// Parts of the deformation by clamping, the factor K, and the stress of bent plates.
 #include "algo/form/clamping.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 namespace mdof::algo {
 namespace {
 
-// An independent program of the same parts: K by sums over all pixels.
-TEST(Clamping, PartsAndK) {
+// The parts are calculated independently: K by sums over all pixels.
+TEST(Clamping, SplitsPartsAndFindsK) {
   const SurfaceMap before = map_of(bumps);
   const auto elastic = [](double x, double y) {
     return 1e-6 * std::sin(x / 10e-3) * (1 + y / 40e-3);
@@ -45,7 +45,7 @@ TEST(Clamping, PartsAndK) {
 }
 
 // Closed forms: a plate bent to a cylinder, and to a saddle, which is pure shear at 45 degrees.
-TEST(PlateStress, ClosedForms) {
+TEST(PlateStress, MatchesClosedForms) {
   const Plate plate{2.5e-3, 70e9, 0.33};
   const double c = 1 / 50.0;  // 1/m
   const auto cylinder =
@@ -53,11 +53,11 @@ TEST(PlateStress, ClosedForms) {
   ASSERT_TRUE(cylinder);
   const double s = 70e9 * 2.5e-3 / 2 / (1 - 0.33 * 0.33) * c;
   EXPECT_NEAR(cylinder->max_Pa, s * std::sqrt(1 - 0.33 + 0.33 * 0.33), 1e-6 * s);
-  EXPECT_EQ(cylinder->pixels, 121u * 81u - 4 * 12u);  // corners have a third of a square
+  EXPECT_EQ(cylinder->pixels, 121u * 81u - 4 * 12u);  // at corners a third of the square
   const auto twist =
       plate_stress(map_of([&](double x, double y) { return c * x * y; }), plate, 5e-3);
   EXPECT_NEAR(twist->max_Pa, std::sqrt(3) * 70e9 * 2.5e-3 / 2 / 1.33 * c, 1e-6 * s);
-  // A paraboloid with a hole: the same at its edge.
+  // A paraboloid with a hole: the stress is the same at the edge of the hole.
   SurfaceMap dish = map_of([&](double x, double y) { return c * (x * x + y * y) / 2; });
   for (std::size_t j = 30; j < 50; ++j)
     for (std::size_t i = 20; i < 60; ++i) dish.z_m[j * dish.nx + i] = SurfaceMap::kMissing;
@@ -65,9 +65,9 @@ TEST(PlateStress, ClosedForms) {
   EXPECT_FALSE(plate_stress(dish, plate, 0.9e-3));
 }
 
-// A square of five pixels by three on nine pixels: about those of the middle row it has nine of its
-// fifteen, about the others six, which is less than half. Bent by a, b and twisted by c.
-TEST(PlateStress, OfNinePixels) {
+// A square of 5 x 3 pixels on nine pixels: about a pixel of the middle row nine of its fifteen
+// pixels exist, about the others six, which is less than half. Curvatures a and b, twist c.
+TEST(PlateStress, NeedsHalfOfTheSquare) {
   const Plate plate{2e-3, 200e9, 0.3};
   const double a = 0.02, b = -0.05, face = 200e9 * 2e-3 / 2;
   for (const double c : {0.0, 0.2}) {

@@ -1,4 +1,5 @@
-// Maps of a known surface that is shifted, turned and tilted: what is found, and what is left.
+// Maps of a known surface that is shifted, turned and tilted: the pose found and the remaining
+// difference.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +13,7 @@
 namespace mdof::algo {
 namespace {
 
-// The surface of A lies in B at R p + shift.
+// The surface of A is in B at R p + shift.
 SurfaceMap moved(double sx_m, double sy_m, double turn_deg, double x0_m, double d_m,
                  std::size_t nx) {
   const double c = std::cos(turn_deg * kDeg), s = std::sin(turn_deg * kDeg);
@@ -43,12 +44,12 @@ TEST(FormCompare, FindsShiftAndTurn) {
   }
 }
 
-TEST(FormCompare, PlaneAndNone) {
+TEST(FormCompare, PlaneAndNoneDoNotMoveTheMap) {
   const SurfaceMap a = map_of(bumps);
   const SurfaceMap b =
       map_of([](double x, double y) { return 2 * bumps(x, y) + 1e-6 + 1e-5 * x - 2e-5 * y; });
   const auto none = compare(a, b, Register::none);
-  // B - A is the bumps and the plane.
+  // B - A contains the bumps and the plane.
   EXPECT_NEAR(none->difference.at(7, 5),
               bumps(a.x_m(7), a.y_m(5)) + 1e-6 + 1e-5 * a.x_m(7) - 2e-5 * a.y_m(5), 1e-18);
   const auto plane = compare(a, b, Register::plane);
@@ -61,7 +62,7 @@ TEST(FormCompare, PlaneAndNone) {
   EXPECT_EQ(plane->pixels, a.z_m.size());
 }
 
-TEST(FormCompare, ShapesThatTellNoShift) {
+TEST(FormCompare, CountsUndeterminedMovements) {
   const auto ball = [](double x, double y) { return (x * x + y * y) / 2; };
   const SurfaceMap a = map_of(ball);
   const auto found =
@@ -70,7 +71,7 @@ TEST(FormCompare, ShapesThatTellNoShift) {
   EXPECT_EQ(found->undetermined, 3u);
   EXPECT_NEAR(found->pose.shift_x_m, 0, 1e-9);
   EXPECT_LT(found->rms_m, 1e-12);
-  // Waves along x alone: no shift along y, and the turn is known.
+  // Waves along x only: the shift along y is undetermined, the turn is determined.
   const auto waves = [](double x, double) { return 1e-6 * std::sin(x / 5e-3); };
   const auto along =
       compare(map_of(waves), map_of([&](double x, double y) { return waves(x - 0.4e-3, y); }),
@@ -79,13 +80,13 @@ TEST(FormCompare, ShapesThatTellNoShift) {
   EXPECT_NEAR(along->pose.shift_x_m, 0.4e-3, 1e-7);
 }
 
-TEST(FormCompare, HolesAndNoOverlap) {
+TEST(FormCompare, HandlesHolesAndRefusesNoOverlap) {
   SurfaceMap a = map_of(bumps), b = map_of(bumps, -30.2e-3, -20.1e-3);
   for (std::size_t j = 30; j < 50; ++j)
     for (std::size_t i = 20; i < 60; ++i) b.z_m[j * b.nx + i] = SurfaceMap::kMissing;
   const auto found = compare(a, b, Register::none);
   ASSERT_TRUE(found);
-  EXPECT_LT(found->pv_m, 2e-9);  // beside the hole too
+  EXPECT_LT(found->pv_m, 2e-9);  // also beside the hole
   EXPECT_LT(found->pixels, 9801u - 20u * 40u);
   const auto far = compare(a, map_of(bumps, 200e-3), Register::rigid);
   ASSERT_FALSE(far);
@@ -114,14 +115,14 @@ TEST(Surface, IsExactAtPixelsAndContinuous) {
   }
   EXPECT_LT(worst, 0.05e-9);
   EXPECT_LT(slope, 1e-7);
-  // Beyond the edge by three pixels, not more, and not as measured.
+  // Three pixels beyond the edge, not more, and not if 0 pixels are requested.
   EXPECT_FALSE(surface.at(-30.1e-3, 0, 0, p));
   EXPECT_TRUE(surface.at(-31.5e-3, 0, 3, p));
   EXPECT_NEAR(p.z_m, bumps(-31.5e-3, 0), 0.15e-6);
   EXPECT_FALSE(surface.at(-31.6e-3, 0, 3, p));
 }
 
-// Far from where it begins: 9 degrees either way, and 8 mm.
+// Far from the start of the search: about 9 degrees in either direction, and 8 mm.
 TEST(FormCompare, SearchesForLargeTurnsAndShifts) {
   const SurfaceMap a = map_of(bumps);
   for (const double turn_deg : {9.5, -9.0}) {
@@ -135,9 +136,9 @@ TEST(FormCompare, SearchesForLargeTurnsAndShifts) {
   }
 }
 
-// Waves tell no shift along them: it is 0 at the middle of what A has measured, about which B lies
-// turned.
-TEST(FormCompare, WhatIsNotToldIsNoneInTheMiddle) {
+// Waves do not determine the shift along their crests. This shift is 0 at the middle of the
+// measured part of A, about which B is turned.
+TEST(FormCompare, UndeterminedShiftIsZeroInTheMiddle) {
   const auto waves = [](double x, double) { return 1e-6 * std::sin(x / 5e-3) + 4e-5 * x; };
   SurfaceMap a = map_of(waves);
   for (std::size_t j = 0; j < a.ny; ++j)
@@ -156,7 +157,7 @@ TEST(FormCompare, WhatIsNotToldIsNoneInTheMiddle) {
   EXPECT_NEAR(found->pose.shift_y_m, y_mid_m - (s * x_mid_m + c * y_mid_m), 2e-5);
 }
 
-// The other way round in the machine, and any other way. Shifted, too.
+// The part is turned by 180 degrees or any other angle, and shifted.
 TEST(FormCompare, FindsAnyTurn) {
   const SurfaceMap a = map_of(bumps);
   for (const double turn_deg : {180.0, 90.0, -90.0, 133.0, -47.0, 178.0}) {
@@ -179,9 +180,10 @@ SurfaceMap with_noise(SurfaceMap map, unsigned seed, double sd_m) {
   return map;
 }
 
-// A plane and a sphere have no place, a cylinder (here along y) and a ridge have a turn alone;
-// their noise has none in common. A real shape under the same noise has all.
-TEST(FormCompare, NoiseTellsNoPlace) {
+// A plane and a sphere determine no movement, a cylinder (here along y) and a ridge determine the
+// turn only. The noise of both maps is independent. A real shape with the same noise determines all
+// movements.
+TEST(FormCompare, NoiseDeterminesNoMovement) {
   const auto plane = [](double, double) { return 0.0; };
   const auto ball = [](double x, double y) { return (x * x + y * y) / 2; };
   const auto cylinder = [](double x, double) { return x * x / 2; };
@@ -199,8 +201,9 @@ TEST(FormCompare, NoiseTellsNoPlace) {
   }
 }
 
-// Turned about the middle of A, and no shift: the turn alone says that it is not yet fitted.
-TEST(FormCompare, ATurnAlone) {
+// B is turned about the middle of A and not shifted: only the turn shows that the fit is not
+// finished.
+TEST(FormCompare, FindsATurnWithoutShift) {
   const SurfaceMap a = map_of(bumps);
   const auto found = compare(a, moved(0, 0, -3, -40e-3, 0.41e-3, 196), Register::rigid);
   ASSERT_TRUE(found) << found.error().message;

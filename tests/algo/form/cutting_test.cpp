@@ -1,4 +1,4 @@
-// Passes of a known repeatable and random share: what is found of them, the next path, the floors.
+// Passes with known repeatable and random shares: their estimates, the next path, the floors.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +21,7 @@ class Cutting : public ::testing::Test {
                                                         std::sqrt(2) * std::cos(0.2 * double(j))));
     return result;
   }
-  // The machine: what it cuts of a path.
+  // The surface that the machine cuts with a path.
   SurfaceMap cut(const SurfaceMap& path, double response = 1) {
     SurfaceMap result = path;
     const SurfaceMap repeats = map(0.3e-6, false), random = map(kSigma_m, true);
@@ -45,7 +45,7 @@ class Cutting : public ::testing::Test {
   std::mt19937 engine_{1};
 };
 
-TEST_F(Cutting, SharesOfRepeatedPasses) {
+TEST_F(Cutting, EstimatesSharesOfRepeatedPasses) {
   CuttingPasses p{map(0.9e-6, false), {}, true, CuttingGain::one};
   for (int k = 0; k < 3; ++k) p.cuts.push_back(cut(p.wanted));
   const auto found = next_cut(p);
@@ -55,7 +55,7 @@ TEST_F(Cutting, SharesOfRepeatedPasses) {
   EXPECT_NEAR(*found->floor_gain_one_m, 0.0679e-6, 0.0014e-6);
   EXPECT_NEAR(*found->floor_mean_m, 0.0554e-6, 0.0011e-6);
   EXPECT_TRUE(*found->converges);
-  // Gain 1: the last error; the mean: of all.
+  // Gain 1 corrects the last error, the mean gain the mean of all errors.
   EXPECT_NEAR(found->next.z_m[77], 2 * p.wanted.z_m[77] - p.cuts[2].z_m[77], 1e-18);
   p.gain = CuttingGain::mean;
   EXPECT_NEAR(
@@ -64,8 +64,8 @@ TEST_F(Cutting, SharesOfRepeatedPasses) {
       1e-18);
 }
 
-// With gain 1 a third pass does not help; the mean of the passes does.
-TEST_F(Cutting, FloorsOfPassesThatFollow) {
+// With gain 1 a third pass does not reduce the error; with the mean of the passes it does.
+TEST_F(Cutting, SuccessivePassesReachTheirFloors) {
   const CuttingResult one = passes(CuttingGain::one, 4), mean = passes(CuttingGain::mean, 4);
   EXPECT_NEAR(one.error[0].rms_m, 0.3e-6, 0.02e-6);
   for (std::size_t k = 1; k < 4; ++k) {
@@ -79,14 +79,14 @@ TEST_F(Cutting, FloorsOfPassesThatFollow) {
   }
 }
 
-TEST_F(Cutting, AMachineThatCutsTooMuchDiverges) {
+TEST_F(Cutting, ExcessiveResponseDiverges) {
   EXPECT_TRUE(*passes(CuttingGain::one, 4, 1.3).converges);
   EXPECT_FALSE(*passes(CuttingGain::one, 4, 2.5).converges);
 }
 
-// A cut that is measured with noise in each pixel, its wave long: gain 1 cuts the noise into the
-// next pass, a smoothed correction does not, at corners and around a hole either.
-TEST_F(Cutting, SmoothingKeepsNoiseOfPixelsOutOfThePart) {
+// A cut with a long wave, measured with noise in each pixel: gain 1 cuts the noise into the next
+// pass; a smoothed correction does not, also at corners and around a hole.
+TEST_F(Cutting, SmoothingKeepsPixelNoiseOutOfThePart) {
   const double noise_m = 3e-9;
   const auto wave = [](double i, double j) { return 0.3e-6 * std::sin(0.1 * i + 0.05 * j); };
   CuttingPasses p{map(0, false), {map(noise_m, true)}, false, CuttingGain::one};
@@ -104,7 +104,7 @@ TEST_F(Cutting, SmoothingKeepsNoiseOfPixelsOutOfThePart) {
   EXPECT_FALSE(nothing);
   p.smooth_m = 10e-3;
   const auto [smooth, left] = error_of_second();
-  // 11 x 11 pixels: near 1.9 / 11 in the middle, more at edges and corners.
+  // 11 x 11 pixels: about 1.9 / 11 of the noise in the middle, more at edges and corners.
   EXPECT_LE(smooth.rms_m, 0.33 * noise_m);
   EXPECT_LE(smooth.pv_m, 2.5 * noise_m);
   EXPECT_NEAR(*left, noise_m, 0.05 * noise_m);
@@ -112,21 +112,21 @@ TEST_F(Cutting, SmoothingKeepsNoiseOfPixelsOutOfThePart) {
   EXPECT_FALSE(next_cut(p));
 }
 
-// A square of the side a leaves of a wave of the length l 1 - (pi a / l)^4 / 280, to first order.
+// A square with the side a keeps 1 - (pi a / l)^4 / 280 of a wave of the length l, to first order.
 TEST_F(Cutting, SmoothingKeepsLongWaves) {
   CuttingPasses p{map(0, false), {map(0, false)}, false, CuttingGain::one, 20e-3};
   for (std::size_t k = 0; k < 2400; ++k)
     p.cuts[0].z_m[k] = 1e-6 * std::sin(2 * 3.14159265358979 / 50 * double(k % 60) + 1);
   const SurfaceMap next = next_cut(p)->next;
   const std::size_t middle = 20 * 60 + 29;
-  // 21 pixels stand for 21 mm.
+  // 21 pixels represent 21 mm.
   EXPECT_NEAR(next.z_m[middle] / p.cuts[0].z_m[middle], -(1 - std::pow(3.14159 * 21 / 50, 4) / 280),
               1.2e-3);
 }
 
-// Of errors of 0.08 um with a random share as large, the optimal gain leaves less than gain 1; a
-// pass that is all random is not corrected, its piston is.
-TEST_F(Cutting, TheOptimalGainLeavesTheLeast) {
+// With errors of 0.08 um and an equal random share, the optimal gain leaves less than gain 1. If
+// the random share is much larger, the factor is 0. The piston is always corrected.
+TEST_F(Cutting, OptimalGainLeavesTheSmallestError) {
   const SurfaceMap repeats = map(0.08e-6, false), first = map(0.08e-6, true);
   CuttingPasses p{map(0, false), {first}, false, CuttingGain::optimal, 0, 0.08e-6};
   for (std::size_t k = 0; k < 2400; ++k) p.cuts[0].z_m[k] += repeats.z_m[k] + 1e-6;
@@ -147,8 +147,8 @@ TEST_F(Cutting, TheOptimalGainLeavesTheLeast) {
   EXPECT_FALSE(next_cut(p));
 }
 
-// Repeated passes show their random share themselves.
-TEST_F(Cutting, TheOptimalGainOfRepeatedPasses) {
+// Repeated passes show the random share, so it need not be given.
+TEST_F(Cutting, FindsTheOptimalGainOfRepeatedPasses) {
   const SurfaceMap repeats = map(0.1e-6, false);
   CuttingPasses p{map(0, false), {}, true, CuttingGain::optimal};
   for (int k = 0; k < 3; ++k) p.cuts.push_back(map(0.1e-6, true));
@@ -159,8 +159,8 @@ TEST_F(Cutting, TheOptimalGainOfRepeatedPasses) {
   EXPECT_NEAR(*found->floor_optimal_m, 0.1e-6 * std::sqrt(1.25), 0.003e-6);
 }
 
-// The shares are found whatever smoothing the paths had.
-TEST_F(Cutting, SharesOfPassesWithSmoothing) {
+// The shares are also found if the paths were smoothed.
+TEST_F(Cutting, EstimatesSharesOfSmoothedPasses) {
   CuttingPasses p{map(0.9e-6, false), {}, false, CuttingGain::one, 6e-3};
   SurfaceMap path = p.wanted;
   CuttingResult result;
@@ -173,7 +173,7 @@ TEST_F(Cutting, SharesOfPassesWithSmoothing) {
   EXPECT_NEAR(*result.repeatable_rms_m, 0.3e-6, 0.02e-6);
 }
 
-// Nothing to correct, in whatever way the passes were made.
+// There is nothing to correct, for repeated and for successive passes.
 TEST_F(Cutting, PassesWithoutErrorConverge) {
   for (const bool repeated : {false, true})
     for (const CuttingGain gain : {CuttingGain::one, CuttingGain::mean}) {
@@ -184,7 +184,7 @@ TEST_F(Cutting, PassesWithoutErrorConverge) {
     }
 }
 
-TEST_F(Cutting, OnePassTellsNoShares) {
+TEST_F(Cutting, SinglePassGivesNoShares) {
   const CuttingResult found = passes(CuttingGain::mean, 1);
   EXPECT_FALSE(found.random_rms_m || found.converges || found.floor_mean_m);
   EXPECT_EQ(found.pixels, 2400u);

@@ -1,4 +1,5 @@
-// Figures of small maps worked by hand: planes, passes, parts of a clamping, stress, harmonics.
+// Results for small maps, calculated by hand: planes, passes, parts of a clamping, stress,
+// harmonics.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,12 +18,12 @@ namespace {
 
 constexpr double kHole = SurfaceMap::kMissing;
 
-// Columns 2 m apart from 10 m on, rows 3 m apart from -1 m on.
+// Columns every 2 m from 10 m on, rows every 3 m from -1 m on.
 SurfaceMap small_map(std::size_t nx, std::size_t ny, std::vector<double> z) {
   return {"small", 10, -1, 2, 3, nx, ny, std::move(z), {}};
 }
 
-TEST(MapFiguresByHand, OfFourPixels) {
+TEST(MapFiguresByHand, FourOneAndNoPixels) {
   const MapFigures found = algo::figures_of(small_map(3, 2, {1, kHole, 4, -3, kHole, 6}));
   EXPECT_EQ(found.pixels, 4u);
   EXPECT_EQ(found.pv_m, 9);
@@ -40,7 +41,8 @@ TEST(MapFiguresByHand, OfFourPixels) {
   EXPECT_EQ(none.mean_m, 0);
 }
 
-// Three pixels tell a plane: 5 at (10, -1), 1 a step of 2 m higher along x, 6 of 3 m along y.
+// Three pixels determine a plane: 5 at (10, -1), 1 more after a step of 2 m along x, 6 more after a
+// step of 3 m along y.
 TEST(PlaneByHand, ThroughThreePixels) {
   SurfaceMap map = small_map(2, 2, {5, 6, 11, kHole});
   const Plane plane = plane_of(map);
@@ -55,8 +57,8 @@ TEST(PlaneByHand, ThroughThreePixels) {
   EXPECT_TRUE(std::isnan(map.z_m[3]));
 }
 
-// Of four corners the least squares: what is left is alternating.
-TEST(PlaneByHand, OfFourPixelsByLeastSquares) {
+// Least squares for four corners: the residuals alternate.
+TEST(PlaneByHand, FourPixelsByLeastSquares) {
   SurfaceMap map = small_map(2, 2, {1, 0, 0, 3});
   const Plane plane = plane_of(map);
   EXPECT_NEAR(plane.piston_m, 1, 1e-12);
@@ -67,8 +69,8 @@ TEST(PlaneByHand, OfFourPixelsByLeastSquares) {
   EXPECT_NEAR(map.z_m[1], -1, 1e-12);
 }
 
-// What pixels do not tell is 0.
-TEST(PlaneByHand, OfARowAPixelAndNone) {
+// Tilts that the pixels do not determine are 0.
+TEST(PlaneByHand, UndeterminedTiltsAreZero) {
   const Plane row = plane_of(small_map(3, 1, {1, 2, 6}));
   EXPECT_NEAR(row.tilt_x, 5 / 4.0, 1e-12);
   EXPECT_NEAR(row.tilt_y, 0, 1e-12);
@@ -84,15 +86,15 @@ TEST(PlaneByHand, OfARowAPixelAndNone) {
   EXPECT_EQ(none.y_mean_m, 0);
 }
 
-// Measured from column 1 to 3 and row 1 to 2.
-TEST(ReachByHand, OfTheMeasuredPixels) {
+// Columns 1 to 3 and rows 1 to 2 are measured.
+TEST(ReachByHand, MiddleAndFarthestMeasuredPixel) {
   std::vector<double> z(4 * 5, kHole);
   z[1 * 4 + 3] = z[2 * 4 + 1] = 0;
   const SurfaceMap map = small_map(4, 5, z);
   const MapMiddle middle = algo::middle_of(map);
   EXPECT_EQ(middle.x_m, 10 + 2 * 2);
   EXPECT_EQ(middle.y_m, -1 + 1.5 * 3);
-  // (16, 2) and (12, 5): from (13, 1) they are 3, 1 and 1, 4 away.
+  // The pixels (16, 2) and (12, 5) are at the distances (3, 1) and (1, 4) from (13, 1).
   const FarthestPixel far = farthest_pixel(map, 13, 1);
   EXPECT_NEAR(far.radius_m, std::sqrt(17), 1e-12);
   EXPECT_EQ(far.x_m, 12);
@@ -106,8 +108,8 @@ TEST(ReachByHand, OfTheMeasuredPixels) {
   EXPECT_NEAR(farthest_pixel(whole, 10, -1).radius_m, 5, 1e-12);
 }
 
-// Arcs of 5 with 6 between them are 1 high; of 3 or less none is left.
-TEST(FeedRoughnessByHand, OfArcs) {
+// Arcs with radius 5 at a distance of 6 are 1 high; with radius 3 or less the height is the radius.
+TEST(FeedRoughnessByHand, HeightOfArcs) {
   EXPECT_NEAR(feed_roughness(5, 6).Rt_m, 1, 1e-12);
   EXPECT_NEAR(feed_roughness(5, 6).Ra_m, 4 / (9 * std::sqrt(3)), 1e-12);
   EXPECT_EQ(feed_roughness(3, 6).Rt_m, 3);
@@ -115,7 +117,7 @@ TEST(FeedRoughnessByHand, OfArcs) {
   EXPECT_EQ(feed_roughness(2, 6).Rt_m, 2);
 }
 
-// The sum as it is defined.
+// The Fourier sum by its definition.
 std::vector<std::complex<double>> transformed(const std::vector<std::complex<double>>& x,
                                               double sign) {
   std::vector<std::complex<double>> X(x.size());
@@ -126,7 +128,7 @@ std::vector<std::complex<double>> transformed(const std::vector<std::complex<dou
                                   static_cast<double>(x.size()));
   return X;
 }
-TEST(DftByDefinition, OfAllLengthsUpToSixty) {
+TEST(DftByDefinition, AllLengthsUpToSixty) {
   for (std::size_t n = 1; n <= 60; ++n) {
     std::vector<std::complex<double>> x;
     for (std::size_t k = 0; k < n; ++k)
@@ -150,7 +152,8 @@ CuttingPasses passes_by_hand(std::vector<std::vector<double>> cuts, bool repeate
   return passes;
 }
 
-// Means 3, -3, 0, 0: their square 18/4; four pixels vary by 2 each: variance 8/4 of one pass.
+// The means 3, -3, 0, 0 have the mean square 18/4. At each of four pixels the passes differ by 2:
+// the variance of one pass is 8/4.
 TEST(CuttingByHand, SharesOfTwoRepeatedPasses) {
   const auto found =
       next_cut(passes_by_hand({{2, -2, 1, -1}, {4, -4, -1, 1}}, true, CuttingGain::one));
@@ -161,10 +164,10 @@ TEST(CuttingByHand, SharesOfTwoRepeatedPasses) {
   EXPECT_NEAR(*found->repeatable_rms_m, std::sqrt(4.5 - 2 / 2.0), 1e-12);
   EXPECT_NEAR(*found->floor_gain_one_m, 2, 1e-12);
   EXPECT_NEAR(*found->floor_mean_m, std::sqrt(3), 1e-12);
-  EXPECT_TRUE(*found->converges);  // 2 against sqrt(5.5)
+  EXPECT_TRUE(*found->converges);  // floor 2, error sqrt(5.5)
   EXPECT_NEAR(found->next.z_m[0], -4, 1e-12);
   EXPECT_NEAR(found->next.z_m[2], 1, 1e-12);
-  // A piston is not of it.
+  // The piston does not count.
   const auto raised =
       next_cut(passes_by_hand({{7, 3, 6, 4}, {4, -4, -1, 1}}, true, CuttingGain::mean));
   EXPECT_NEAR(*raised->random_rms_m, std::sqrt(2), 1e-12);
@@ -172,15 +175,15 @@ TEST(CuttingByHand, SharesOfTwoRepeatedPasses) {
   EXPECT_NEAR(raised->error[0].mean_m, 5, 1e-12);
 }
 
-// 1, -1, 1, -1 and 4, -4, -1, 1: variance 13/4, errors' mean square 4.75. The floor of gain 1 is
-// sqrt(6.5), of the mean sqrt(4.875).
+// 1, -1, 1, -1 and 4, -4, -1, 1 have the variance 13/4; the mean square of the errors is 4.75. The
+// floor of gain 1 is sqrt(6.5), of the mean sqrt(4.875).
 TEST(CuttingByHand, PassesAtTheirFloorDoNotConverge) {
   for (const CuttingGain gain : {CuttingGain::one, CuttingGain::mean}) {
     const auto found = next_cut(passes_by_hand({{1, -1, 1, -1}, {4, -4, -1, 1}}, true, gain));
     EXPECT_NEAR(*found->floor_mean_m, std::sqrt(4.875), 1e-12);
     EXPECT_FALSE(*found->converges);
   }
-  // Of more that repeats the errors' mean square is 6.125, between both floors.
+  // With a larger repeatable share the mean square of the errors is 6.125, between both floors.
   const auto by = [](CuttingGain gain) {
     return *next_cut(passes_by_hand({{1.5, -1.5, 1, -1}, {4.5, -4.5, -1, 1}}, true, gain))
                 ->converges;
@@ -189,9 +192,9 @@ TEST(CuttingByHand, PassesAtTheirFloorDoNotConverge) {
   EXPECT_FALSE(by(CuttingGain::one));
 }
 
-// Each pass is cut with the path that the one before made: errors 4, 2 and 3 times 1, -1, 1, -1
-// leave 4, 6 and 9 against their paths with gain 1; with the mean 4, 6 and 8.
-TEST(CuttingByHand, PathsOfPassesThatFollow) {
+// Each pass is cut with the path that followed from the pass before: errors of 4, 2 and 3 times (1,
+// -1, 1, -1) leave 4, 6 and 9 against their paths with gain 1, and 4, 6 and 8 with the mean.
+TEST(CuttingByHand, PathsOfSuccessivePasses) {
   const std::vector<std::vector<double>> cuts = {{4, -4, 4, -4}, {2, -2, 2, -2}, {3, -3, 3, -3}};
   const auto one = next_cut(passes_by_hand(cuts, false, CuttingGain::one));
   EXPECT_NEAR(one->next.z_m[0], -9, 1e-12);
@@ -203,8 +206,9 @@ TEST(CuttingByHand, PathsOfPassesThatFollow) {
   EXPECT_NEAR(*mean->floor_mean_m, 2 * std::sqrt(4 / 3.0), 1e-12);
 }
 
-// Better than the first, and at most half again as much as the best after it.
-TEST(CuttingByHand, ConvergesWhileItStaysNearItsBest) {
+// The last error is smaller than the first, and at most 1.5 times the smallest error after the
+// first.
+TEST(CuttingByHand, ConvergesWhileErrorsStayNearTheBest) {
   const auto of = [](const std::vector<double>& sizes) {
     std::vector<std::vector<double>> cuts;
     for (const double s : sizes) cuts.push_back({s, -s, s, -s});
@@ -219,14 +223,15 @@ TEST(CuttingByHand, ConvergesWhileItStaysNearItsBest) {
   EXPECT_TRUE(of({8, 3, 2, 3}));
 }
 
-TEST(CuttingByHand, PixelsThatAnyMapLacksAreLeftOut) {
+TEST(CuttingByHand, PixelsMissingInAnyMapAreLeftOut) {
   const auto found =
       next_cut(passes_by_hand({{2, -2, kHole, 5}, {4, -4, 7, 5}}, true, CuttingGain::one));
   ASSERT_TRUE(found);
   EXPECT_EQ(found->pixels, 3u);
   EXPECT_EQ(found->error[1].pixels, 3u);
   EXPECT_TRUE(std::isnan(found->next.z_m[2]));
-  // Less their means 5/3: 1/3, -11/3, 10/3 and 7/3, -17/3, 10/3. Their halves differ by 1, 1 and 0.
+  // Without their means of 5/3 the cuts are 1/3, -11/3, 10/3 and 7/3, -17/3, 10/3. Half of their
+  // differences is 1, 1 and 0.
   EXPECT_NEAR(*found->random_rms_m, std::sqrt((2 + 2) / 3.0), 1e-12);
   EXPECT_FALSE(
       next_cut(passes_by_hand({{2, -2, kHole, kHole}, {kHole, 4, -4, 5}}, true, CuttingGain::one)));
@@ -234,9 +239,9 @@ TEST(CuttingByHand, PixelsThatAnyMapLacksAreLeftOut) {
       next_cut(passes_by_hand({{2, -2, 3, kHole}, {kHole, 4, -4, 5}}, true, CuttingGain::one)));
 }
 
-// Clamping and what stays of it over common pixels: a saddle s = 1, -1, -1, 1 at the corners has no
-// plane. After: 3 s and a plane, released: 1 s.
-TEST(ClampingByHand, OfASaddle) {
+// Deformation by clamping and its remaining part, over common pixels: a saddle s = 1, -1, -1, 1 at
+// the corners has no plane. After clamping: 3 s and a plane; released: 1 s.
+TEST(ClampingByHand, SaddleGivesPartsAndK) {
   const auto saddle = [](double size, double piston, double tilt) {
     std::vector<double> z;
     for (int j = 0; j < 4; ++j)
@@ -261,7 +266,7 @@ TEST(ClampingByHand, OfASaddle) {
   EXPECT_TRUE(clamping_by_K(before, after, -0.999));
   EXPECT_FALSE(clamping_by_K(before, after, INFINITY));
   EXPECT_FALSE(clamping_by_K(before, after, NAN));
-  // Each map lacks another pixel: all parts lack both.
+  // Each of two maps lacks a different pixel: all parts lack both.
   after.z_m[3] = released.z_m[12] = kHole;
   const auto holes = clamping_by_release(before, after, released);
   ASSERT_TRUE(holes) << holes.error().message;
@@ -279,8 +284,9 @@ TEST(ClampingByHand, OfASaddle) {
   EXPECT_TRUE(clamping_by_release(before, few, saddle(1, 4, -1)));
 }
 
-// A part of what stays that is no share of what springs back: a wave whose product with it is 0.
-TEST(ClampingByHand, WhatKDoesNotExplain) {
+// The remaining form contains a wave that is orthogonal to the elastic part, so K does not explain
+// it.
+TEST(ClampingByHand, ReportsThePartThatKDoesNotExplain) {
   std::vector<double> x_waves, y_waves;
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) {
@@ -300,8 +306,8 @@ TEST(ClampingByHand, WhatKDoesNotExplain) {
   EXPECT_NEAR(*found->K_unexplained_rms_m, 3, 1e-12);
 }
 
-// Pixels of 0.5 mm by 0.8 mm; any parabola has one curvature everywhere, at edges and at holes.
-TEST(PlateStressByHand, OfAParabolaOverOblongPixels) {
+// Pixels of 0.5 mm by 0.8 mm; a parabola has the same curvature everywhere, at edges and at holes.
+TEST(PlateStressByHand, ParabolaOnOblongPixels) {
   const double xx = 0.02, yy = -0.05, xy = 0.03;
   const Plate plate{2e-3, 200e9, 0.3};
   SurfaceMap form{"form", -4e-3, 7e-3, 0.5e-3, 0.8e-3, 17, 13, {}, {}};
@@ -322,13 +328,13 @@ TEST(PlateStressByHand, OfAParabolaOverOblongPixels) {
   form.z_m[6 * 17 + 8] = form.z_m[7 * 17 + 8] = form.z_m[0] = kHole;
   const auto holes = plate_stress(form, plate, 5e-3);
   EXPECT_NEAR(holes->max_Pa, mises, 1e-6 * mises);
-  // 1.6 mm are a row of 0.8 mm to each side; less is not enough.
+  // A side of 1.6 mm reaches one row of 0.8 mm on each side; a smaller one is refused.
   EXPECT_FALSE(plate_stress(form, plate, 1.59e-3));
   EXPECT_TRUE(plate_stress(form, plate, 1.61e-3));
 }
 
-// A cube's curvature grows along x: the largest stress is at the last column.
-TEST(PlateStressByHand, NamesThePlaceOfTheLargest) {
+// The curvature of x³ grows with x: the largest stress is at the last column.
+TEST(PlateStressByHand, LocatesTheLargestStress) {
   const auto growing = [](bool along_x, double sign) {
     SurfaceMap form{"form", 0, 0, 1e-3, 1e-3, 15, 15, {}, {}};
     for (std::size_t j = 0; j < 15; ++j)
@@ -343,7 +349,7 @@ TEST(PlateStressByHand, NamesThePlaceOfTheLargest) {
     EXPECT_DOUBLE_EQ(plate_stress(growing(true, sign), plate, 4e-3)->x_m, 14e-3);
     EXPECT_DOUBLE_EQ(plate_stress(growing(false, sign), plate, 4e-3)->y_m, 14e-3);
   }
-  // Nothing is bent.
+  // A flat plate.
   const auto flat = plate_stress(small_map(5, 5, std::vector<double>(25, 0.0)), plate, 7);
   ASSERT_TRUE(flat);
   EXPECT_EQ(flat->max_Pa, 0);
@@ -351,8 +357,8 @@ TEST(PlateStressByHand, NamesThePlaceOfTheLargest) {
   EXPECT_EQ(flat->y_m, 0);
 }
 
-// Of 3 x 3 pixels the one in the middle alone has a parabola about it: two rows do not tell one.
-TEST(PlateStressByHand, NeedsAParabolaBothWays) {
+// Of 3 x 3 pixels only the middle one has a parabola about it: two rows do not determine one.
+TEST(PlateStressByHand, NeedsThreeRowsAndColumns) {
   const Plate plate{2e-3, 200e9, 0.3};
   const auto of = [&](const std::vector<double>& z) {
     return plate_stress(small_map(3, 3, z), plate, 6);
@@ -364,7 +370,7 @@ TEST(PlateStressByHand, NeedsAParabolaBothWays) {
   EXPECT_EQ(whole->y_m, 2);
   EXPECT_FALSE(of({1, 0, 1, 0, -1, 0, kHole, kHole, kHole}));
   EXPECT_FALSE(of({1, 0, 1, 0, kHole, 0, 1, 0, 1}));
-  // Eight of nine, seven and six do: by least squares through what is there.
+  // Seven of nine pixels are enough: least squares through the available pixels.
   const auto seven = of({1, 0, kHole, 0, -1, 0, kHole, 0, 1});
   ASSERT_TRUE(seven);
   EXPECT_EQ(seven->pixels, 1u);

@@ -1,7 +1,8 @@
-// The paper's mirror, 295 x 95 mm in pixels of 0.66 mm, through clamping, passes and release, as
-// distributions over many mirrors. MDOF_MIRRORS: how many (3; the campaign takes 200, and has the
-// bars). The random share is taken for drift over the hours of a pass, so for waves as long as the
-// others: how much of the PV it makes depends on that (tests/CAMPAIGNS.md).
+// The mirror of the paper, 295 x 95 mm in pixels of 0.66 mm, through clamping, passes and release,
+// as distributions over many mirrors. MDOF_MIRRORS: number of mirrors (default 3; the campaign uses
+// 200 and checks the limits). The random share is assumed to be drift over the hours of a pass, so
+// it has waves as long as the other shares: its part of the PV depends on that
+// (tests/CAMPAIGNS.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,17 +22,18 @@
 namespace mdof::algo {
 namespace {
 
-// RMS in um by the paper's maps; papers without a number: what these imply (README.md).
+// RMS in um from the maps of the paper; numbers that the paper does not state are derived from the
+// maps (README.md).
 constexpr double kBefore = 0.467, kClamping = 0.934, kCutting = 0.296, kRelease = 0.074,
                  kRandom = 0.048, kNoise = 0.003, kBeforeWithClamping = -0.414,
                  kCuttingWithClamping = -0.131, kFig17 = 0.064;
-constexpr double kSmooth_m = 10e-3;  // of the correction: its waves are 50 mm and longer
+constexpr double kSmooth_m = 10e-3;  // of the correction, whose waves are 50 mm and longer
 
 class Mirror {
  public:
   explicit Mirror(unsigned seed) : engine_(seed) {}
 
-  // RMS 1 um without a plane: waves of the two lengths and between, in all directions.
+  // A map with RMS 1 um and without a plane: waves with lengths between the two, in all directions.
   SurfaceMap waves(double least_mm, double most_mm) {
     SurfaceMap map = blank();
     std::vector<double> cx(map.nx), sx(map.nx);
@@ -53,7 +55,7 @@ class Mirror {
     }
     return normed(map);
   }
-  // Of RMS 1 um with this correlation to `other`, which has RMS 1 um too.
+  // A map with RMS 1 um and this correlation to `other`, which also has RMS 1 um.
   SurfaceMap correlated(SurfaceMap map, const SurfaceMap& other, double correlation) {
     add(map, other, -product(map, other));
     map = normed(map);
@@ -69,7 +71,7 @@ class Mirror {
                             tilt * static_cast<double>(k % map.nx) / static_cast<double>(map.nx));
     return map;
   }
-  // Of a part that stays clamped: no tilt of its own between two measurements.
+  // A measurement of a part that remains clamped: no new tilt between two measurements.
   SurfaceMap measured_in_place(SurfaceMap map) {
     for (double& z : map.z_m) z += 1e-6 * kNoise * normal_(engine_);
     return map;
@@ -115,7 +117,7 @@ void note(Figures& figures, const std::string& name, const SurfaceMap& map) {
   figures[name + " PV"].push_back(figures_of(flat).pv_m * 1e6);
 }
 
-// Four passes: what each cut leaves against `wanted`; `second`: the cut of the second.
+// Four passes: the error of each cut against `wanted`; `second`: the cut of the second pass.
 std::vector<SurfaceMap> passes(Mirror& mirror, const SurfaceMap& wanted, const SurfaceMap& repeats,
                                const std::vector<SurfaceMap>& random, CuttingGain gain,
                                SurfaceMap& second, double smooth_m = 0) {
@@ -145,12 +147,12 @@ void through_the_paper(unsigned seed, Figures& figures) {
   for (int k = 0; k < 4; ++k) random.push_back(mirror.waves(80, 400));
   note(figures, "8 the same, passes drawn alone",
        Mirror::times(Mirror::sum(random[1], random[0], -1), kRandom));
-  // Passes have nothing in common but what repeats: sqrt(2) sigma in each mirror, not on average.
+  // Passes share only the repeatable part, in each mirror and not just on average: sqrt(2) sigma.
   for (std::size_t k = 1; k < 4; ++k)
     for (std::size_t j = 0; j < k; ++j) random[k] = mirror.correlated(random[k], random[j], 0);
   for (SurfaceMap& pass : random) pass = Mirror::times(pass, kRandom);
 
-  // Clamped, and the first path from what was measured.
+  // The clamped part, and the first path, from the measured maps.
   const SurfaceMap after = Mirror::sum(before, clamping);
   const SurfaceMap wanted =
       clamping_by_K(mirror.measured(before), mirror.measured(after), 0)->elastic;
@@ -175,7 +177,7 @@ void through_the_paper(unsigned seed, Figures& figures) {
   }
   for (int k = 0; k < 3; ++k)  // Table 2
     note(figures, "repeated cut", Mirror::sum(repeats, random[static_cast<std::size_t>(k)]));
-  // Released: the spring is the clamping, but for what the release adds.
+  // The released part springs back by the clamping, plus the effect of the release.
   const SurfaceMap spring = Mirror::sum(clamping, release);
   SurfaceMap released = Mirror::sum(second, spring, -1);
   remove_plane(released);
@@ -198,7 +200,7 @@ double average(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-TEST(Mirrors, ThroughThePaper) {
+TEST(Mirrors, ReproduceThePaper) {
   const char* const asked = std::getenv("MDOF_MIRRORS");
   const unsigned mirrors = asked ? static_cast<unsigned>(std::atoi(asked)) : 3;
   ASSERT_GT(mirrors, 0u);
@@ -208,7 +210,7 @@ TEST(Mirrors, ThroughThePaper) {
   for (const auto& [name, values] : figures)
     std::printf("%-44s %8.4f %8.4f %8.4f\n", name.c_str(), average(values), quantile(values, 0.05),
                 quantile(values, 0.95));
-  // The paper's RMS.
+  // RMS values of the paper.
   const bool is_campaign = mirrors >= 100;
   const double few = is_campaign ? 1 : 4;  // a few mirrors vary more
   EXPECT_NEAR(average(figures["2 after clamping RMS"]), 0.854, 0.002);
@@ -216,7 +218,7 @@ TEST(Mirrors, ThroughThePaper) {
   EXPECT_NEAR(average(figures["6 second machining RMS"]), 0.925, 0.014 * few);
   EXPECT_NEAR(average(figures["7 final RMS"]), 0.098, 0.004 * few);
   EXPECT_GE(quantile(figures["clamping taken out"], 0.05), 0.9);
-  // A third pass does not help with gain 1, the mean of three does.
+  // With gain 1 a third pass does not reduce the error; with the mean of three it does.
   EXPECT_NEAR(average(figures["gain 1, pass 3 RMS"]), 0.068, 0.002 * few);
   EXPECT_NEAR(average(figures["gain 1, pass 4 RMS"]), 0.068, 0.002 * few);
   EXPECT_NEAR(average(figures["mean, pass 4 RMS"]), 0.0554, 0.0006 * 2 * few);
@@ -235,10 +237,10 @@ TEST(Mirrors, ThroughThePaper) {
   const double at_fig_17 = within("8 the same, at the RMS of Fig. 17 PV");
   std::printf("at the RMS that the paper has left, 0.064 um, in %.1f %%\n", at_fig_17);
   if (!is_campaign) return;
-  // Gain 1 cuts the noise of each pixel into the part, 3 nm, which adds to the PV. The difference
-  // of two random shares is left by any method (tests/CAMPAIGNS.md).
+  // Gain 1 cuts the noise of each pixel, 3 nm, into the part, which adds to the PV. The difference
+  // of two random shares remains with any method (tests/CAMPAIGNS.md).
   EXPECT_GE(share, 80);
-  EXPECT_GE(smooth, 86);  // 90 is missed; one sigma of 200 mirrors is 2
+  EXPECT_GE(smooth, 86);  // 90 is not reached; one sigma of 200 mirrors is 2
   EXPECT_GE(smooth, share);
   EXPECT_GE(at_fig_17, 90);
   EXPECT_LE(average(figures["mean, pass 4 RMS"]), 0.056);

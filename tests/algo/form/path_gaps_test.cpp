@@ -1,5 +1,5 @@
-// How the path of a servo goes over gaps of more than a turn, at its beginning and at its end:
-// Hermite's cubic by its four terms, over the arcs of the spiral.
+// The path of a servo over gaps of more than a turn, at its beginning and at its end: Hermite
+// cubics by their four terms, over the arcs of the spiral.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -59,21 +59,22 @@ double arc_between(const std::vector<PathPoint>& p, std::size_t from, std::size_
       angle_of(static_cast<double>(to - from)) * (p[from].rho_m + p[to].rho_m) / 2;
   return std::hypot(across, around);
 }
-// At the part s of an arc L between two ends.
+// Hermite cubic at the arc s of the length L between two ends.
 double cubic(double s, double L, double z0, double slope0, double z1, double slope1) {
   const double t = s / L;
   return z0 * (2 * t * t * t - 3 * t * t + 1) + L * slope0 * (t * t * t - 2 * t * t + t) +
          z1 * (3 * t * t - 2 * t * t * t) + L * slope1 * (t * t * t - t * t);
 }
 
-// A ring from 4 to 9 mm is missing: ten turns, which go to the mean within half a turn.
-TEST(PathGaps, OfManyTurnsStayAtTheMeanOfTheirEnds) {
+// A ring from 4 to 9 mm is missing: ten turns. The path reaches the mean of the ends within half a
+// turn.
+TEST(PathGaps, OfManyTurnsUseTheMeanOfTheEnds) {
   const auto points = points_over(
       plane_with_gaps([](double r, double, double) { return r < 4e-3 || r > 9e-3; }), 14e-3);
   std::size_t begin = 0;
   while (points[begin].on_part != OnPart::bridged) ++begin;
   std::size_t end = points.size() - 1;
-  // The ring's edge is of pixels: of the gaps the longest.
+  // The edge of the ring consists of pixels and gives several gaps: the test takes the longest one.
   std::size_t longest = 0, from = 0;
   for (std::size_t k = begin, first = begin; k <= end; ++k) {
     if (points[k].on_part != OnPart::bridged) first = k + 1;
@@ -100,8 +101,8 @@ TEST(PathGaps, OfManyTurnsStayAtTheMeanOfTheirEnds) {
   }
 }
 
-// A sector is missing: each gap is a part of a turn.
-TEST(PathGaps, OfLessThanATurnAreOneCubic) {
+// A sector is missing: each gap is a fraction of a turn.
+TEST(PathGaps, OfLessThanATurnUseOneCubic) {
   const auto points = points_over(
       plane_with_gaps([](double r, double x, double y) { return !(r > 5e-3 && x > 0 && y > 0); }),
       14e-3);
@@ -122,8 +123,8 @@ TEST(PathGaps, OfLessThanATurnAreOneCubic) {
   EXPECT_GT(gaps, 10u);
 }
 
-// The middle is missing: the height before it stays.
-TEST(PathGaps, AtTheEndKeepTheHeightBefore) {
+// The middle is missing: the path keeps the last height.
+TEST(PathGaps, AtTheEndKeepTheLastHeight) {
   const auto points =
       points_over(plane_with_gaps([](double r, double, double) { return r > 5e-3; }), 12e-3);
   std::size_t last = points.size() - 1;
@@ -133,8 +134,8 @@ TEST(PathGaps, AtTheEndKeepTheHeightBefore) {
   EXPECT_GT(points.size() - last, 5 * kOfTurn);
 }
 
-// It begins beside the part for more than a turn: the first height that it finds.
-TEST(PathGaps, AtTheBeginningOfMoreThanATurnHaveTheFirstHeight) {
+// The path begins beside the part for more than a turn: it has the first height on the part.
+TEST(PathGaps, AtALongBeginningHaveTheFirstHeight) {
   const auto points =
       points_over(plane_with_gaps([](double r, double, double) { return r < 6e-3; }), 12e-3);
   std::size_t first = 0;
@@ -143,9 +144,9 @@ TEST(PathGaps, AtTheBeginningOfMoreThanATurnHaveTheFirstHeight) {
   for (std::size_t k = 0; k <= first; ++k) ASSERT_EQ(points[k].z_m, points[first].z_m);
 }
 
-// It begins beside the part, which the first turn meets: what comes before is as the end of that
-// turn.
-TEST(PathGaps, AtTheBeginningGoOnFromTheEndOfTheFirstTurn) {
+// The path begins beside the part and reaches it within the first turn: the beginning continues
+// from the end of this turn.
+TEST(PathGaps, AtAShortBeginningContinueTheFirstTurn) {
   const auto points = points_over(
       plane_with_gaps([](double r, double x, double) { return r < 3e-3 || x < 1e-3; }), 12e-3);
   std::size_t first = 0;
@@ -154,7 +155,7 @@ TEST(PathGaps, AtTheBeginningGoOnFromTheEndOfTheFirstTurn) {
   while (points[last].on_part == OnPart::bridged) --last;
   ASSERT_GT(first, 10u);
   ASSERT_LT(last, kOfTurn - 10);
-  // As if the turn before went on the outermost radius.
+  // As if a turn before had run at the outermost radius.
   const double outer = points[0].rho_m;
   const std::size_t back = kOfTurn - last;
   const auto arc_from_before = [&](std::size_t k) {
@@ -169,8 +170,8 @@ TEST(PathGaps, AtTheBeginningGoOnFromTheEndOfTheFirstTurn) {
         << k;
 }
 
-// Two pixels more are extended, and no third.
-TEST(PathGaps, EndAtWhatIsExtended) {
+// Two more pixels are extended, not three.
+TEST(PathGaps, EndAtTheExtendedPixels) {
   const auto map = plane_with_gaps([](double, double x, double) { return x < 5e-3; });
   const double edge = [&] {
     double most = -1;
@@ -197,7 +198,7 @@ TEST(PathGaps, EndAtWhatIsExtended) {
   for (const PathPoint& p : points_over(map, 12e-3, 0)) ASSERT_NE(p.on_part, OnPart::extended);
 }
 
-TEST(PathGaps, AnErrorOfTheTakerEndsIt) {
+TEST(PathGaps, CallbackErrorEndsThePath) {
   const auto map = plane_with_gaps([](double, double x, double) { return x < 5e-3; });
   const auto path = SpiralPath::over(map, {0, 0, 12e-3, kFeed_m, kOfTurn, 0, 0});
   for (const std::size_t most : {1u, 20u, 300u}) {
@@ -209,8 +210,8 @@ TEST(PathGaps, AnErrorOfTheTakerEndsIt) {
   }
 }
 
-// What a request does not say: 720 points a turn, a pointed tool, three pixels beyond the edge.
-TEST(PathGaps, OfARequestThatSaysNoMore) {
+// Defaults of a request: 720 points a turn, a pointed tool, three pixels beyond the edge.
+TEST(PathGaps, RequestHasDefaults) {
   const auto map = plane_with_gaps([](double, double x, double) { return x < 5e-3; });
   SpiralRequest request;
   request.outer_radius_m = 12e-3;
@@ -235,7 +236,7 @@ TEST(PathGaps, OfARequestThatSaysNoMore) {
   EXPECT_NEAR(farthest - edge, 3 * 0.2e-3, 0.1e-3);
 }
 
-// The highest harmonic of an even length stands for itself: its amplitude is not halved.
+// The highest harmonic of an even length has no counterpart: its amplitude is not halved.
 TEST(TurnSpectrumByHand, HighestHarmonicAndBand) {
   TurnSpectrum spectrum(8, 1);
   EXPECT_EQ(spectrum.turns(), 0u);
@@ -254,7 +255,8 @@ TEST(TurnSpectrumByHand, HighestHarmonicAndBand) {
   EXPECT_EQ(spectrum.undulations(1), 1u);
   EXPECT_NEAR(spectrum.left_out().pv, 1.2, 1e-12);
   EXPECT_NEAR(spectrum.left_out().rms, 0.6, 1e-12);
-  // A band up to the second harmonic has the first and not the fourth, too; one of 0 neither.
+  // A band from 1 to below 4 contains the first harmonic but not the fourth; a band below 1
+  // contains neither.
   for (const double band : {0.0, 0.9, 1.0, 3.9, 4.0}) {
     TurnSpectrum other(8, band);
     add_turn(other);
@@ -263,8 +265,8 @@ TEST(TurnSpectrumByHand, HighestHarmonicAndBand) {
   }
 }
 
-// Amplitudes far below 1 are told from each other as well.
-TEST(TurnSpectrumSmall, UndulationsAreSharesOfTheLargest) {
+// Amplitudes far below 1 are distinguished, too.
+TEST(TurnSpectrumSmall, UndulationsAreRelativeToTheLargest) {
   TurnSpectrum spectrum(36, -1);
   for (int k = 0; k < 36; ++k) {
     const double angle = 2 * std::numbers::pi * k / 36;
@@ -275,7 +277,7 @@ TEST(TurnSpectrumSmall, UndulationsAreSharesOfTheLargest) {
   EXPECT_EQ(spectrum.undulations(0.31), 2u);
 }
 
-TEST(PathGaps, AnEdgeIsMissingWhereNoneOfItsPixelsIsMeasured) {
+TEST(PathGaps, EdgeIsMissingWithoutMeasuredPixels) {
   SurfaceMap map = map_of([](double, double) { return 0.0; }, 0, 0, 1e-3, 4, 5);
   for (std::size_t k = 0; k < 20; ++k)
     if (k != 1 * 4 + 2 && k != 3 * 4 + 1) map.z_m[k] = SurfaceMap::kMissing;

@@ -45,7 +45,7 @@ XY place(const PathPoint& p, std::size_t per_turn) {
   return {p.rho_m * std::cos(angle), p.rho_m * std::sin(angle)};
 }
 
-TEST(SpiralPath, FromOutsideInAnglesGrowing) {
+TEST(SpiralPath, RunsInwardWithGrowingAngles) {
   const auto tilted = [](double x, double y) { return 1e-3 * x + 2e-3 * y; };
   const Walked walked = walk(map_of(tilted), {0, 0, 15e-3, 0.1e-3, 90, 0, 3});
   ASSERT_EQ(walked.points.size(), 150u * 90 + 1);
@@ -59,8 +59,8 @@ TEST(SpiralPath, FromOutsideInAnglesGrowing) {
   }
 }
 
-// A ball of radius R offset by the tool's radius is a ball of R + r.
-TEST(SpiralPath, RoundToolOnASphere) {
+// A sphere with radius R, offset by the tool radius r, is a sphere with radius R + r.
+TEST(SpiralPath, OffsetsASphereByTheRoundTool) {
   constexpr double kR = 60e-3, r = 0.5e-3;
   const auto ball = [](double x, double y) { return std::sqrt(kR * kR - x * x - y * y) - kR; };
   for (const double sign : {1.0, -1.0}) {
@@ -77,21 +77,21 @@ TEST(SpiralPath, RoundToolOnASphere) {
   }
 }
 
-TEST(SpiralPath, AToolThatDoesNotFitIsCounted) {
+TEST(SpiralPath, CountsPointsWhereTheToolDoesNotFit) {
   const Walked walked =
       walk(map_of([](double x, double) { return 20e-6 * std::cos(x / 0.3e-3); }, 0.05e-3),
            {0, 0, 4e-3, 0.2e-3, 60, 8e-3, 3});
   EXPECT_GT(walked.counts.too_sharp, 0u);
-  // It rests on the crests.
+  // The tool rests on the crests.
   for (const PathPoint& p : walked.points) {
     ASSERT_GT(p.z_m, -20e-6);
     ASSERT_LE(p.z_m, 20.1e-6);
   }
 }
 
-// Against the highest of very many places of the tool: at the bottom of a groove, too, where the
-// surface is level, and nowhere deeper than the tool can go.
-TEST(SpiralPath, AToolRounderThanAGrooveRestsOnItsWalls) {
+// Compared with the highest of very many tool positions: also at the bottom of a groove, where the
+// surface is level; the tool is nowhere deeper than it can go.
+TEST(SpiralPath, LargeToolRestsOnTheWallsOfAGroove) {
   constexpr double r = 5e-3, kWave = 2e-3;
   const auto groove = [](double x, double y) {
     return 50e-6 * std::cos(2 * std::numbers::pi * std::hypot(x, y) / kWave);
@@ -113,8 +113,8 @@ TEST(SpiralPath, AToolRounderThanAGrooveRestsOnItsWalls) {
   EXPECT_GT(walked.counts.too_sharp, walked.points.size() / 4);
 }
 
-// Of a map of one row, too: there the path is on the part twice a turn.
-TEST(SpiralPath, AToolRestsOnTheWallsOfOneRow) {
+// The same on a map with one row, where the path is on the part twice a turn.
+TEST(SpiralPath, LargeToolRestsOnTheWallsOfOneRow) {
   constexpr double r = 50e-3, kWave = 1e-3, kPixel = 0.02e-3;
   const auto groove = [](double x) { return 1e-6 * std::cos(2 * std::numbers::pi * x / kWave); };
   constexpr std::size_t n = 1501;
@@ -143,7 +143,8 @@ TEST(SpiralPath, AToolRestsOnTheWallsOfOneRow) {
   EXPECT_GT(sharp, 10u);
 }
 
-// A part half as wide as it is long: measured inside, three pixels more, and bridges between.
+// A part that is narrower than long: measured inside, extended by three pixels, and bridged
+// between.
 TEST(SpiralPath, EdgesAreExtendedAndBridged) {
   const double d = 0.2e-3, half = 8e-3;
   const auto wave = [](double x, double y) { return 1e-6 * std::sin(x / 5e-3) + 40e-6 * y; };
@@ -159,7 +160,7 @@ TEST(SpiralPath, EdgesAreExtendedAndBridged) {
     const PathPoint& p = walked.points[k];
     const XY at = place(p, per_turn);
     ++counted[static_cast<int>(p.on_part)];
-    const double little = 0.011 * d;  // a pixel counts up to 0.01 pixel beyond it
+    const double little = 0.011 * d;  // a pixel extends 0.01 pixel beyond its edge
     if (std::abs(at.x) < 19.9e-3 && std::abs(std::abs(at.y) - half) > little &&
         std::abs(std::abs(at.y) - half - 3 * d) > little) {
       const OnPart expected = std::abs(at.y) < half           ? OnPart::measured
@@ -182,7 +183,7 @@ TEST(SpiralPath, EdgesAreExtendedAndBridged) {
   EXPECT_GT(counted[0], 1000u);
   EXPECT_LT(step, 0.042e-6);      // no jump: 2 pi 20 mm / 720 at a slope of 0.24 um/mm
   EXPECT_LT(steepest, 0.003e-6);  // no kink
-  // It begins on no pixel, where the end of the first turn goes on.
+  // The path begins beside the part and continues the end of the first turn.
   const double shift_m = half + 6 * d;
   const Walked beside = walk(map, {0, -shift_m, 20e-3, 1e-5, per_turn, 0, 3});
   ASSERT_EQ(beside.points.front().on_part, OnPart::bridged);
@@ -191,8 +192,8 @@ TEST(SpiralPath, EdgesAreExtendedAndBridged) {
               beside.points[0].z_m - beside.points[per_turn - 1].z_m, 0.02e-6);
 }
 
-// Between two ends Eq. 9 by an own program; it rises and falls at most twice.
-TEST(SpiralPath, BridgeIsHermitesCubic) {
+// Between two ends the test calculates Eq. 9 independently; the path rises and falls at most twice.
+TEST(SpiralPath, BridgeIsAHermiteCubic) {
   SurfaceMap map =
       map_of([](double x, double y) { return 30e-6 * x - 10e-6 * y * (1 + x / 5e-3); });
   for (std::size_t j = 0; j < map.ny; ++j)
@@ -225,13 +226,13 @@ TEST(SpiralPath, BridgeIsHermitesCubic) {
   }
 }
 
-TEST(SpiralPath, HolesOverAllOfIt) {
+TEST(SpiralPath, RefusesAPathBesideThePart) {
   SurfaceMap map = map_of([](double, double) { return 0; });
   const auto far = SpiralPath::over(map, {1, 0, 5e-3, 1e-4, 90, 0, 3});
   ASSERT_FALSE(far);
   EXPECT_EQ(far.error().remedy, Remedy::change_spiral);
   EXPECT_FALSE(SpiralPath::over(map, {0, 0, 1, 1e-12, 720, 0, 3}));
-  // A ring about the centre: its middle is bridged, near the heights beside it.
+  // A ring about the centre: its middle is bridged, close to the heights beside it.
   map = map_of([](double x, double) { return 1e-3 * x; });
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i)
@@ -241,7 +242,7 @@ TEST(SpiralPath, HolesOverAllOfIt) {
   EXPECT_EQ(walked.points.back().on_part, OnPart::bridged);
 }
 
-TEST(TurnSpectrum, HarmonicsOfAnyLength) {
+TEST(TurnSpectrum, FindsHarmonicsForAnyLength) {
   for (const std::size_t n : {8u, 30u, 97u, 720u}) {
     TurnSpectrum spectrum(n, 10);
     const std::size_t highest = n / 2 > 15 ? 15 : 3;
@@ -252,14 +253,14 @@ TEST(TurnSpectrum, HarmonicsOfAnyLength) {
                      0.02 * (turn + 1) / 3 * std::sin(static_cast<double>(highest) * a));
       }
     spectrum.add(6);
-    spectrum.add(99);  // of a turn that does not end
+    spectrum.add(99);  // of an incomplete turn
     EXPECT_EQ(spectrum.turns(), 3u);
     EXPECT_EQ(spectrum.undulations(0.01), highest) << n;
     EXPECT_EQ(spectrum.undulations(0.1), 3u) << n;
     EXPECT_EQ(spectrum.undulations(0.9), 1u) << n;
     if (highest == 15) {
       EXPECT_NEAR(spectrum.left_out().pv, 0.04, 0.001) << n;
-      // RMS of three turns of 1, 2 and 3 thirds.
+      // RMS of three turns with 1, 2 and 3 thirds of the amplitude.
       EXPECT_NEAR(spectrum.left_out().rms, 0.02 * std::sqrt(14. / 27 / 2), 1e-9) << n;
     } else {
       EXPECT_NEAR(spectrum.left_out().pv, 0, 1e-14);
@@ -271,8 +272,8 @@ TEST(TurnSpectrum, HarmonicsOfAnyLength) {
   EXPECT_EQ(flat.undulations(0.01), 0u);
 }
 
-// A turn of a spiral over a ball ends higher than it begins: that is no undulation.
-TEST(TurnSpectrum, TheFeedIsNoUndulation) {
+// A turn of a spiral over a sphere ends higher than it begins: this is not an undulation.
+TEST(TurnSpectrum, FeedIsNoUndulation) {
   constexpr std::size_t n = 72;
   for (const double wave_m : {0.0, 1e-6}) {
     TurnSpectrum spectrum(n, 5);
@@ -286,7 +287,7 @@ TEST(TurnSpectrum, TheFeedIsNoUndulation) {
   }
 }
 
-TEST(FeedRoughness, OfThePaper) {
+TEST(FeedRoughness, MatchesThePaper) {
   const FeedRoughness rough = feed_roughness(0.2e-3, 4e-6);
   EXPECT_NEAR(rough.Ra_m, 2.6e-9, 0.05e-9);
   EXPECT_NEAR(rough.Rt_m, 10e-9, 0.01e-9);

@@ -1,7 +1,7 @@
-// Surfaces that determine none, one or all of the movements, against themselves with what a part
-// has: noise, a bow, a spike, a raised edge, the mark of a clamp. What was added is known here, so
-// that is what has to be left: a movement that hides it is a wrong result. A movement that was
-// planted has to be found where the shape determines it.
+// Surfaces that determine none, one or all of the movements, compared with themselves plus features
+// of real parts: noise, a bow, a spike, a raised edge, the mark of a clamp. The difference must be
+// the added feature; a movement that hides it is a wrong result. A known movement must be found
+// where the shape determines it.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -60,7 +60,7 @@ const std::vector<NamedShape>& shapes() {
   return all;
 }
 
-// Without the plane, by normal equations of its own.
+// Difference without its plane, by independent normal equations.
 struct Left {
   double pv_m = 0, rms_m = 0;
 };
@@ -101,11 +101,11 @@ Comparison expect_at_rest(const SurfaceMap& a, const SurfaceMap& b, const std::s
   return *found;
 }
 
-TEST(RegistrationMatrix, IdenticalMapsStayWhereTheyAre) {
+TEST(RegistrationMatrix, IdenticalMapsDoNotMove) {
   for (const auto& [name, z, undetermined] : shapes()) {
     const SurfaceMap a = map_here(z);
     EXPECT_EQ(expect_at_rest(a, a, name).undetermined, undetermined) << name;
-    // Piston and tilt, and the rounding of a file to six digits of um.
+    // Piston and tilt, and rounding to six digits of um as in a file.
     SurfaceMap b = a, rounded = a;
     for (std::size_t k = 0; k < b.z_m.size(); ++k) {
       rounded.z_m[k] = std::nearbyint(a.z_m[k] * 1e12) * 1e-12;
@@ -116,7 +116,7 @@ TEST(RegistrationMatrix, IdenticalMapsStayWhereTheyAre) {
   }
 }
 
-TEST(RegistrationMatrix, ASpikeAtTheBorderIsLeft) {
+TEST(RegistrationMatrix, SpikeAtTheBorderRemains) {
   for (const auto& [name, z, undetermined] : shapes())
     for (const double spike_m : {5e-6, -0.4e-6, 1e3})
       for (const std::size_t pixel : {std::size_t{20}, std::size_t{0}, 31 * kNx, kNx * kNy - 7}) {
@@ -149,8 +149,8 @@ TEST(RegistrationMatrix, NoiseMovesByNoMoreThanItsU) {
   for (const auto& [name, z, undetermined] : shapes())
     for (const double sd_m : {1e-9, 50e-9}) {
       const SurfaceMap a = with_noise(map_here(z), 1, sd_m), b = with_noise(map_here(z), 2, sd_m);
-      // Slopes of 1e-4 in 4000 pixels: u of a shift about sd sqrt(2) / (1e-4 sqrt(4000)), twice
-      // that because heights between pixels have less noise, which attracts the fit.
+      // With slopes of 1e-4 in 4000 pixels, u of a shift is about sd sqrt(2) / (1e-4 sqrt(4000));
+      // twice that, because interpolated heights have less noise, which attracts the fit.
       const bool is_held = undetermined == 3;
       const double shift_m = is_held ? 1e-12 : 12 * sd_m * 1.42 / (1e-4 * 63);
       const auto found = compare(a, b, Register::rigid);
@@ -162,7 +162,7 @@ TEST(RegistrationMatrix, NoiseMovesByNoMoreThanItsU) {
       EXPECT_NEAR(found->pose.turn_rad, 0, shift_m / 10e-3) << name << " " << sd_m;
       EXPECT_NEAR(found->rms_m, truth.rms_m, (is_held ? 1e-6 : 0.03) * truth.rms_m) << name;
       EXPECT_NEAR(found->pv_m, truth.pv_m, (is_held ? 1e-6 : 0.2) * truth.pv_m) << name;
-      // One side exact, as nominal heights are. The exact shape of a cylinder still has a turn.
+      // One map is exact, as nominal heights are. An exact cylinder still determines a turn.
       if (is_held) expect_at_rest(map_here(z), b, std::string(name) + " against noise");
       if (is_held) expect_at_rest(b, map_here(z), std::string(name) + " noise against exact");
     }
@@ -182,9 +182,9 @@ TEST(RegistrationMatrix, ABowIsLeftWhereTheShapeDeterminesNoMovement) {
   }
 }
 
-// All movements are determined, so that a part of the bow can be one: what least squares of the
-// movements, linear by analytic slopes, finds.
-TEST(RegistrationMatrix, ABowOfAFreeform) {
+// All movements are determined, so a movement can take a part of the bow: the part that linear
+// least squares with analytic slopes finds.
+TEST(RegistrationMatrix, BowMovesAFreeformAsLeastSquares) {
   const double share = 0.02;
   const auto b_of = [&](double x, double y) { return freeform(x, y) + share * bow(x, y); };
   const SurfaceMap a = map_here(freeform), b = map_here(b_of);
@@ -219,7 +219,7 @@ SurfaceMap moved(const Shape& z, double sx_m, double sy_m, double turn_deg) {
       kX0_m - 2e-3, kY0_m - 2e-3, kPixel_m, kNx + 6, kNy + 6);
 }
 
-TEST(RegistrationMatrix, APlantedMovementIsFoundWhereItIsDetermined) {
+TEST(RegistrationMatrix, FindsKnownMovementsThatAreDetermined) {
   const SurfaceMap a = map_here(freeform);
   const auto found = compare(a, moved(freeform, 0.41e-3, -0.77e-3, 1.3), Register::rigid);
   ASSERT_TRUE(found);
@@ -228,7 +228,7 @@ TEST(RegistrationMatrix, APlantedMovementIsFoundWhereItIsDetermined) {
   EXPECT_NEAR(found->pose.shift_y_m, -0.77e-3, 4e-9);
   EXPECT_NEAR(found->pose.turn_rad / kDeg, 1.3, 1e-4);
   EXPECT_LT(found->rms_m, 1e-9);
-  // A plane and a sphere are the same elsewhere: nothing is left, wherever B was.
+  // A plane and a sphere are the same everywhere: no difference remains for any position of B.
   for (const Shape& z : {Shape(flat), Shape(sphere), Shape(tilted)}) {
     const auto same =
         compare(a.z_m.empty() ? a : map_here(z), moved(z, 0.41e-3, -0.77e-3, 1.3), Register::rigid);
@@ -249,8 +249,8 @@ TEST(RegistrationMatrix, APlantedMovementIsFoundWhereItIsDetermined) {
   }
 }
 
-// A planted movement and a mark: the mark takes no part in it.
-TEST(RegistrationMatrix, AMarkDoesNotMoveAPlantedMovement) {
+// A known movement and a mark: the mark has no influence on the movement found.
+TEST(RegistrationMatrix, MarkDoesNotDisturbAKnownMovement) {
   const SurfaceMap a = map_here(freeform);
   SurfaceMap b = moved(freeform, 0.41e-3, -0.77e-3, 1.3);
   for (std::size_t j = 20; j < 30; ++j)
@@ -263,7 +263,7 @@ TEST(RegistrationMatrix, AMarkDoesNotMoveAPlantedMovement) {
   EXPECT_NEAR(found->pv_m, 3e-6, 0.7e-6);
 }
 
-TEST(RegistrationMatrix, ShapesThatHaveNothingInCommon) {
+TEST(RegistrationMatrix, UnrelatedShapesDoNotMove) {
   const auto h = [](double x, double y) {
     const double u = (x - 6e-3) * (x - 6e-3) + (y - 9e-3) * (y - 9e-3);
     return 1e-6 * (std::sin(x / 5e-3) + 0.7 * std::cos(y / 3e-3) + 0.02e6 * x * y / 3 +
@@ -280,12 +280,12 @@ TEST(RegistrationMatrix, ShapesThatHaveNothingInCommon) {
 }
 
 // A nominal cylinder and a part with an error along its axis.
-TEST(RegistrationMatrix, AnErrorAlongTheAxisOfACylinderIsLeft) {
+TEST(RegistrationMatrix, ErrorAlongTheAxisOfACylinderRemains) {
   const auto part = [](double x, double y) { return cylinder(x, y) + 0.3e-6 * std::sin(y / 5e-3); };
   expect_at_rest(map_here(cylinder), map_here(part), "cylinder", {1e-6, 1e-3, 1e-3});
 }
 
-TEST(RegistrationMatrix, Profiles) {
+TEST(RegistrationMatrix, ProfilesMoveAlongXOnly) {
   const auto z = [](double x, double) {
     return 1e-6 * (std::sin(x / 1e-3) + 0.3 * std::sin(3.1 * x / 1e-3 + 1));
   };

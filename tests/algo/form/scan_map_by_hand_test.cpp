@@ -1,5 +1,5 @@
-// The map of a scan against the same fit written plainly: every cell is looked at for every pixel,
-// and columns are made independent by Gram and Schmidt's method with pivoting.
+// The map of a scan compared with a simple version of the same fit: it checks every cell for every
+// pixel, and orthogonalises the columns by the Gram-Schmidt method with pivoting.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -18,7 +18,7 @@ struct MeanOfCell {
   double n = 0, x = 0, y = 0, z = 0;
 };
 
-// Points that share a quarter of a pixel.
+// Means of the points in each cell; a cell is a quarter of a pixel wide.
 std::vector<MeanOfCell> means_of_cells(const ScanPoints& points, double pixel_m) {
   std::map<std::pair<long, long>, MeanOfCell> cells;
   for (std::size_t i = 0; i < points.z_m.size(); ++i) {
@@ -43,7 +43,7 @@ double product_of_columns(const ColumnOfFit& a, const ColumnOfFit& b) {
   return sum;
 }
 
-// Columns in the order of what they add; `pivot`: the length of what each adds. `first`: the
+// Columns in the order of their independent parts; `pivot`: the length of each part. `first`: the
 // coefficient of columns[0] in the least-squares fit of b.
 struct Orthogonal {
   std::vector<double> pivot;
@@ -70,7 +70,7 @@ Orthogonal orthogonalised(std::vector<ColumnOfFit> columns, ColumnOfFit b) {
       for (std::size_t i = 0; i < q.size(); ++i) columns[k][i] -= part * q[i];
     }
   }
-  // What of columns[0] is across all others, against b (Frisch, Waugh).
+  // The part of columns[0] that is orthogonal to all others, with b (Frisch, Waugh).
   ColumnOfFit across = given[0];
   std::vector<ColumnOfFit> others(given.begin() + 1, given.end());
   for (std::size_t k = 0; k < others.size(); ++k) {
@@ -89,7 +89,7 @@ Orthogonal orthogonalised(std::vector<ColumnOfFit> columns, ColumnOfFit b) {
 
 struct Expected {
   double z_m = SurfaceMap::kMissing;
-  bool is_close = false;  // a decision by less than rounding
+  bool is_close = false;  // rounding may change a decision
 };
 
 Expected expected_at(const std::vector<MeanOfCell>& cells, double x_m, double y_m, double pixel_m) {
@@ -122,7 +122,7 @@ Expected expected_at(const std::vector<MeanOfCell>& cells, double x_m, double y_
   return expected;
 }
 
-// Dense at one side, thin at the other; a few points share a place but for a little.
+// Dense on one side, sparse on the other; some points are almost at the same place.
 ScanPoints scattered(unsigned seed, std::size_t n) {
   test::NoPattern random(seed);
   ScanPoints points;
@@ -139,7 +139,7 @@ ScanPoints scattered(unsigned seed, std::size_t n) {
   return points;
 }
 
-TEST(ScanMapByHand, IsTheFitThatIsWrittenPlainly) {
+TEST(ScanMapByHand, MatchesTheSimpleFit) {
   constexpr double kPixel_m = 1e-3;
   std::size_t heights = 0, missing = 0;
   for (const auto& [seed, n] : {std::pair(1u, 60u), std::pair(2u, 140u), std::pair(3u, 500u)}) {
@@ -164,8 +164,8 @@ TEST(ScanMapByHand, IsTheFitThatIsWrittenPlainly) {
   EXPECT_GT(missing, 50u);
 }
 
-// Pixels at whole multiples of their size. One that has the points on one side has no height,
-// and rows without any are left out.
+// Pixels are at whole multiples of their size. A pixel with points on one side only has no height,
+// and rows without heights are omitted.
 TEST(ScanMapByHand, EndsWhereItsHeightsEnd) {
   ScanPoints points;
   for (int j = 0; j <= 24; ++j)
@@ -186,8 +186,8 @@ TEST(ScanMapByHand, EndsWhereItsHeightsEnd) {
   for (const double z : map->z_m) EXPECT_NEAR(z, 3e-6, 1e-15);
 }
 
-// One point a quarter of a pixel, from (0, 0) on: of a paraboloid every height is exact.
-TEST(ScanMapByHand, AParaboloidIsExactUpToItsFirstPoints) {
+// One point every quarter of a pixel, from (0, 0) on: every height of a paraboloid is exact.
+TEST(ScanMapByHand, ParaboloidIsExact) {
   constexpr double kPixel_m = 1e-3;
   ScanPoints points;
   const auto height = [](double x, double y) { return 2e-6 + 0.5 * x * x - 0.3 * y * y + x * y; };

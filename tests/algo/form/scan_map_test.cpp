@@ -12,7 +12,8 @@ double part_m(double x, double y) {
   return 2e-6 + 3e-5 * x - 1e-5 * y + 4e-3 * x * x + 7e-3 * x * y - 5e-3 * y * y;
 }
 
-// Circles about (0, 0), a point every `step_rad`; of each `first` to `last` mm.
+// Circles about (0, 0) with radii r from `first_mm` to `last_mm` in steps of 1 mm, a point every
+// `step_rad` / r.
 ScanPoints rings(double first_mm, double last_mm, double step_rad) {
   ScanPoints points;
   for (double r = first_mm; r < last_mm + 0.5; r += 1)
@@ -24,13 +25,14 @@ ScanPoints rings(double first_mm, double last_mm, double step_rad) {
   return points;
 }
 
-// A parabola comes back, between circles as on them; nothing outside them, nor in their middle.
-TEST(ScanMap, IsTheParabolaThatWasScanned) {
+// The map reproduces a parabola on the circles and between them; outside them and in their middle
+// it has no heights.
+TEST(ScanMap, ReproducesAScannedParabola) {
   const auto found = scan_map(rings(6, 20, 0.5), 1e-3);
   ASSERT_TRUE(found) << found.error().message;
   const SurfaceMap* const map = &found->map;
   EXPECT_EQ(found->u.z_m.size(), map->z_m.size());
-  // Pixels of 20 mm have points on one side only: the map ends at 19 mm.
+  // Pixels at 20 mm have points on one side only: the map ends at 19 mm.
   EXPECT_EQ(map->nx, 39u);
   EXPECT_EQ(map->ny, 39u);
   EXPECT_NEAR(map->x0_m, -19e-3, 1e-15);
@@ -50,8 +52,8 @@ TEST(ScanMap, IsTheParabolaThatWasScanned) {
   EXPECT_GT(between, 700u);
 }
 
-// The more points, the less of their noise is left.
-TEST(ScanMap, TakesTheMeanOfNoise) {
+// More points reduce the effect of their noise.
+TEST(ScanMap, AveragesNoise) {
   ScanPoints points = rings(1, 20, 0.02);
   double sign = 1;
   for (double& z : points.z_m) z += (sign = -sign) * 1e-6;
@@ -66,9 +68,9 @@ TEST(ScanMap, TakesTheMeanOfNoise) {
   EXPECT_LT(std::sqrt(square / 700), 0.1e-6);
 }
 
-// Of 100 scans with known noise: the height of the part is within 2 u in 95.4 % of the pixels, and
-// their mean square is u's.
-TEST(ScanMap, UHoldsTheTruth) {
+// In 100 scans with known noise, the height of the part is within 2 u in 95.4 % of the pixels, and
+// the mean square of error / u is 1.
+TEST(ScanMap, UContainsTheTruth) {
   std::mt19937 engine(3);
   std::normal_distribution<double> normal(0, 0.2e-6);
   double within = 0, pixels = 0, square = 0, noise = 0;
@@ -93,7 +95,7 @@ TEST(ScanMap, UHoldsTheTruth) {
   EXPECT_NEAR(square / pixels, 1, 0.06);
 }
 
-TEST(ScanMap, RefusesWhatIsNoScan) {
+TEST(ScanMap, RefusesInvalidScans) {
   EXPECT_FALSE(scan_map({}, 1e-3));
   const auto one_line = scan_map({{0, 1e-3, 2e-3, 3e-3}, {0, 0, 0, 0}, {0, 0, 0, 0}}, 1e-3);
   ASSERT_FALSE(one_line);

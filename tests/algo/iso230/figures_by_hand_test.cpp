@@ -1,5 +1,5 @@
-// Lines, angles, tables and squareness of a few points, worked by hand. Found missing by
-// tests/mutate.
+// Lines, angles, tables and squareness of a few points, calculated by hand. tests/mutate showed
+// that these tests were missing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,8 @@ namespace {
 
 using Column = std::vector<double>;
 
-// Run j has y_of(j, target) as its first named error and EBX/EBY = b_of(target), both ways.
+// Run j has y_of(j, target) as its first named error and EBX/EBY = b_of(target), in both
+// directions.
 template <class Y, class B>
 mdof::Run run_by_hand(Axis axis, const Column& x_m, int runs, Y y_of, B b_of) {
   mdof::Run run;
@@ -49,8 +50,8 @@ TEST(LineByHand, ThroughTheEnds) {
   EXPECT_EQ(line.at(2), 3);
 }
 
-// Two readings leave nothing of which an uncertainty could be told.
-TEST(LineByHand, ThroughTwoReadings) {
+// Two readings leave no residual from which to estimate an uncertainty.
+TEST(LineByHand, TwoReadingsHaveNoUncertainty) {
   const Line line = least_squares_line(Column{1, 3}, Column{5, 1});
   EXPECT_NEAR(line.slope, -2, 1e-15);
   EXPECT_NEAR(line.intercept, 7, 1e-15);
@@ -60,11 +61,11 @@ TEST(LineByHand, ThroughTwoReadings) {
 }
 
 // x 0, 1, 5 and y 1, 0, 5: means 2 and 2, Sxx = 14, Sxy = 2 + 2 + 9 = 13.
-TEST(LineByHand, OfLeastSquares) {
+TEST(LineByHand, LeastSquaresWithUncertainty) {
   const Line line = least_squares_line(Column{0, 1, 5}, Column{1, 0, 5});
   EXPECT_NEAR(line.slope, 13 / 14.0, 1e-15);
   EXPECT_NEAR(line.intercept, 2 - 26 / 14.0, 1e-15);
-  // What is left: Syy - Sxy²/Sxx = 14 - 169/14 = 27/14, of one degree of freedom.
+  // Sum of squared residuals: Syy - Sxy²/Sxx = 14 - 169/14 = 27/14, with one degree of freedom.
   EXPECT_NEAR(line.residual_sd, std::sqrt(27 / 14.0), 1e-14);
   EXPECT_NEAR(line.u_slope, std::sqrt(27.0) / 14, 1e-14);
   EXPECT_NEAR(line.u_intercept, std::sqrt(27 / 14.0 * (1 / 3.0 + 4 / 14.0)), 1e-14);
@@ -83,8 +84,8 @@ TEST(LineByHand, Deviations) {
 const Column kUneven_m = {0, 1e-3, 5e-3, 7e-3, 20e-3};
 const Column kAngle_rad = {7e-6, 4e-6, 9e-6, 12e-6, 6e-6};
 
-// The angle begins at 7 urad: it goes from -3 to 5 urad about its start.
-TEST(AnglesByHand, AreReferredToAStartThatIsNotNought) {
+// The angle begins at 7 urad: relative to its start it goes from -3 to 5 urad.
+TEST(AnglesByHand, AreReferredToANonZeroStart) {
   const mdof::Run run = run_by_hand(
       Axis::x, kUneven_m, 1, [](int, std::size_t) { return 0.0; },
       [](std::size_t i) { return kAngle_rad[i]; });
@@ -111,7 +112,7 @@ TEST(AnglesByHand, NeedTwoTargets) {
   EXPECT_EQ(figures_of_targets(2), 9u);
 }
 
-TEST(TableByHand, AnglesBeginAtNoughtAndStraightnessHasNoSlope) {
+TEST(TableByHand, AnglesBeginAtZeroAndTheSlopeIsRemoved) {
   const mdof::Run run = run_by_hand(
       Axis::x, kUneven_m, 1, [](int, std::size_t i) { return 3e-6 + 50e-6 * kUneven_m[i]; },
       [](std::size_t i) { return kAngle_rad[i]; });
@@ -134,7 +135,7 @@ CompensationTable table_of(const Column& x_m, const Column& y) {
   return table;
 }
 
-TEST(TableByHand, OfOnePositionIsTheSameEverywhere) {
+TEST(TableByHand, OnePositionAppliesEverywhere) {
   const CompensationTable table = table_of({2e-3}, {5e-6});
   for (const double at_m : {0.0, 2e-3, 9e-3}) {
     const TableValue value = table_at(table, at_m, TableSide::mean);
@@ -143,8 +144,8 @@ TEST(TableByHand, OfOnePositionIsTheSameEverywhere) {
   }
 }
 
-// Without a value at 1 and 3: linear from 0 to 2, and held beyond 2.
-TEST(TableByHand, GoesStraightOverAHole) {
+// Without values at 1 and 3: linear from 0 to 2, constant beyond 2.
+TEST(TableByHand, IsLinearAcrossAMissingValue) {
   const CompensationTable table = table_of({0, 1, 2, 3}, {4, kNaN, 10, kNaN});
   const auto at = [&](double x) { return table_at(table, x, TableSide::forward); };
   EXPECT_EQ(at(0).error[0], 4);
@@ -159,8 +160,8 @@ TEST(TableByHand, GoesStraightOverAHole) {
   EXPECT_EQ(table_at(table_of({0, 1, 2}, {kNaN, 6, 8}), 0.5, TableSide::forward).error[0], 6);
 }
 
-// Targets of two runs are one within 2 % of the smallest step, 1 mm.
-TEST(TableByHand, TargetsOfTwoRunsAreOneWithinTwoHundredths) {
+// Targets of two runs are the same within 2 % of the smallest step, 1 mm.
+TEST(TableByHand, MergesTargetsWithinTwoPercent) {
   const auto nought = [](auto...) { return 0.0; };
   for (const double off_m : {19.9e-6, -19.9e-6, 20.1e-6, -20.1e-6}) {
     mdof::Run first = run_by_hand(Axis::x, kUneven_m, 1, nought, nought), second = first;
@@ -171,9 +172,9 @@ TEST(TableByHand, TargetsOfTwoRunsAreOneWithinTwoHundredths) {
   }
 }
 
-// Three runs turn by 10, 20 and 60 urad about the middle of targets that are not evenly apart:
-// s = √700 urad of the slopes, u = s/√3. Of the targets themselves it would be less.
-TEST(SquarenessByHand, TheScatterOfTheSlopesIsInIt) {
+// Three runs have slopes of 10, 20 and 60 urad about the middle of unevenly spaced targets: s =
+// √700 urad of the slopes, u = s/√3. The scatter at the targets would give a smaller u.
+TEST(SquarenessByHand, IncludesTheScatterOfTheSlopes) {
   const double middle_m = 33e-3 / 5;
   const Column slopes = {10e-6, 20e-6, 60e-6};
   const auto none = [](std::size_t) { return 0.0; };
@@ -191,8 +192,8 @@ TEST(SquarenessByHand, TheScatterOfTheSlopesIsInIt) {
   EXPECT_NEAR(s.u_error_rad, s.u_slope_a_rad, 1e-15);
 }
 
-// Two runs of slopes 10 and 30 urad: s = 20/√2, u = s/√2. The runs keep their numbers.
-TEST(SquarenessByHand, OfTwoRunsOfOneAxis) {
+// Two runs with slopes of 10 and 30 urad: s = 20/√2, u = s/√2. The runs keep their numbers.
+TEST(SquarenessByHand, UsesTwoRunsOfOneAxis) {
   const auto none = [](std::size_t) { return 0.0; };
   const mdof::Run x = run_by_hand(
       Axis::x, kUneven_m, 1, [](int, std::size_t) { return 0.0; }, none);
@@ -209,8 +210,8 @@ TEST(SquarenessByHand, OfTwoRunsOfOneAxis) {
   EXPECT_NE(s.run_a, s.run_b);
 }
 
-// The angle of the square in one rig alone, and that of both where they agree.
-TEST(ArtefactByHand, OneRigMayKnowIt) {
+// The angle of the square is declared by one rig, or equally by both.
+TEST(ArtefactByHand, OneRigMayDeclareIt) {
   const Rig x_without = test::rig_x(),
             y_without = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_Y.toml").value();
   Rig x_with = x_without, y_with = y_without;
@@ -228,8 +229,8 @@ TEST(ArtefactByHand, OneRigMayKnowIt) {
   EXPECT_EQ(artefact_of(x_without, y_without, {})->angle_error_rad, 0);
 }
 
-// 0, 3, -2, 2, 1 µm: a mean of 0.8 µm and a slope of 10 µrad.
-TEST(StraightnessByHand, NamesPeakValleyAndTheUncertaintyOfItsSlope) {
+// 0, 3, -2, 2, 1 µm have a mean of 0.8 µm and a slope of 10 µrad.
+TEST(StraightnessByHand, StatesPeakValleyAndUOfTheSlope) {
   const Column x = {0, 10e-3, 20e-3, 30e-3, 40e-3}, y = {0, 3e-6, -2e-6, 2e-6, 1e-6};
   const mdof::Run run = run_by_hand(
       Axis::x, x, 1, [&](int, std::size_t i) { return y[i]; }, [](std::size_t) { return 0.0; });
@@ -240,7 +241,7 @@ TEST(StraightnessByHand, NamesPeakValleyAndTheUncertaintyOfItsSlope) {
   EXPECT_EQ(figures[0].peak_position_m, 10e-3);
   EXPECT_EQ(figures[0].valley_position_m, 20e-3);
   EXPECT_NEAR(figures[0].straightness_least_squares_m, 5.1e-6, 1e-18);
-  // Residuals -0.6, 2.3, -2.8, 1.1, 0: 14.7 µm² of 3 degrees of freedom; Σ(x - x̄)² = 1000 mm².
+  // Residuals -0.6, 2.3, -2.8, 1.1, 0: 14.7 µm² with 3 degrees of freedom; Σ(x - x̄)² = 1000 mm².
   EXPECT_NEAR(figures[0].form_rad, 1e-6 * std::sqrt(14.7 / 3 / 1e-3), 1e-12);
   const Squareness s = squareness(run,
                                   run_by_hand(
@@ -251,8 +252,8 @@ TEST(StraightnessByHand, NamesPeakValleyAndTheUncertaintyOfItsSlope) {
   EXPECT_NEAR(s.form_rad, std::sqrt(5.0) * figures[0].form_rad, 1e-12);
 }
 
-// The third run has the lower half of the targets alone: of the mean that all have there its
-// slope is 30 - 20 urad off, of the others -10 and 0 over the whole; they do not sum to 0.
+// The third run has the lower half of the targets only. Relative to the mean of the available runs
+// at each target, the slopes of the three runs do not sum to 0.
 TEST(SquarenessByHand, SlopesScatterAboutTheirOwnMean) {
   const Column x = {-30e-3, -20e-3, -10e-3, 0, 10e-3, 20e-3, 30e-3};
   const Column slopes = {10e-6, 20e-6, 60e-6};
@@ -263,8 +264,8 @@ TEST(SquarenessByHand, SlopesScatterAboutTheirOwnMean) {
   std::erase_if(run.points, [](const MeasuredPoint& p) { return p.run == 3 && p.target > 4; });
   const mdof::Run y = run_by_hand(
       Axis::y, x, 1, [](int, std::size_t) { return 0.0; }, [](std::size_t) { return 0.0; });
-  // The levels of the runs, by least squares over visits that each pair has: run 3 lies off by what
-  // makes its four visits those of the others in the mean.
+  // The levels of the runs, by least squares over their common visits: the level of run 3 makes its
+  // four visits equal to those of the other runs on average.
   std::array<double, 3> level{};
   for (int turn = 0; turn < 1000; ++turn) {
     std::array<double, 7> place{};

@@ -1,4 +1,5 @@
-// Known answers from outside: a laser interferometer manual's worked squareness, NIST StRD Norris.
+// Published results: the squareness example in the manual of a laser interferometer, and NIST StRD
+// Norris.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +23,7 @@ const std::vector<double> kAxis1_um = {-0.3, 0.9, 1.5, 2.5, 2.9, 3.6, 4.2, 5.1, 
 const std::vector<double> kAxis2_m = {0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45};
 const std::vector<double> kAxis2_um = {-0.5, -1.2, -2.5, -3.8, -4.0, -4.8, -5.9, -6.2, -7.4, -8.8};
 
-TEST(LineFit, GivesTheManualsLines) {
+TEST(LineFit, MatchesTheLinesOfTheManual) {
   const Line one = least_squares_line(kAxis1_m, kAxis1_um);
   EXPECT_NEAR(one.slope, 7.654545, 1e-6);
   EXPECT_NEAR(one.intercept, -0.094545, 1e-6);
@@ -36,8 +37,8 @@ TEST(LineFit, GivesTheManualsLines) {
   EXPECT_NEAR(two.slope - one.slope, -25.0727, 1e-4);  // the manual's squareness, µrad
 }
 
-// Of readings equally far off, the first.
-TEST(LineFit, DeviationsNameTheFirstOfTheGreatest) {
+// Of several equal deviations, the first is named.
+TEST(LineFit, DeviationsNameTheFirstOfEqualOnes) {
   const std::vector<double> x = {0, 1, 2, 3, 4}, y = {0, 2, -1, 2, -1};
   const Deviations d = deviations_from(Line{}, x, y);
   EXPECT_EQ(d.peak, 1u);
@@ -62,7 +63,7 @@ TEST(LineFit, AgreesWithNistNorris) {
   EXPECT_NEAR(line.residual_sd, 0.884796396144373, 1e-12);
 }
 
-// A run whose first named error is the given series, both ways alike.
+// A run whose first named error is the given series, equal in both directions.
 mdof::Run run_of(Axis axis, const std::vector<double>& x_m, const std::vector<double>& y_um) {
   mdof::Run run;
   run.header.axis = axis;
@@ -84,14 +85,14 @@ mdof::Run run_of(Axis axis, const std::vector<double>& x_m, const std::vector<do
   return run;
 }
 
-TEST(Squareness, IsMinusBothSlopesAndTheArtefactByItsCorner) {
+TEST(Squareness, CombinesBothSlopesAndTheArtefact) {
   const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um),
                   y = run_of(Axis::y, kAxis2_m, kAxis2_um);
   for (const int corner : {-1, 1}) {
     const Squareness s = squareness(x, y, {2e-6, 0.5e-6, corner}).value();
     EXPECT_NEAR(s.error_rad * 1e6, 17.418182 - 7.654545 + 2 * corner, 1e-5);
     EXPECT_NEAR(s.slope_b_rad * 1e6, -17.418182, 1e-6);
-    // These points have no noise, and the axes do not repeat: the artefact alone is not known.
+    // These points have no noise, and each run visits a target once: u contains the artefact only.
     EXPECT_DOUBLE_EQ(s.u_error_rad, 0.5e-6);
     const double crooked_x = 1e-6 * least_squares_line(kAxis1_m, kAxis1_um).u_slope;
     const double crooked_y = 1e-6 * least_squares_line(kAxis2_m, kAxis2_um).u_slope;
@@ -99,7 +100,7 @@ TEST(Squareness, IsMinusBothSlopesAndTheArtefactByItsCorner) {
   }
 }
 
-// A run whose horizontal straightness has this slope, with noise of u_m in each point.
+// A run whose horizontal straightness has this slope, with noise of u_m at each point.
 mdof::Run noisy_run(Axis axis, double slope, double u_m, int repeat, std::mt19937_64& random) {
   std::normal_distribution<double> noise(0, u_m);
   mdof::Run run;
@@ -123,7 +124,7 @@ mdof::Run noisy_run(Axis axis, double slope, double u_m, int repeat, std::mt1993
   return run;
 }
 
-TEST(Squareness, ScattersAsItsUncertaintySays) {
+TEST(Squareness, UncertaintyMatchesTheScatter) {
   std::mt19937_64 random(5);
   for (const int repeats : {1, 3}) {
     double sum = 0, square = 0, stated2 = 0;
@@ -174,7 +175,7 @@ range_um = 200
               .value()};
 }
 
-TEST(Artefact, HasTheSignOfTheCornerThatItsFacesMake) {
+TEST(Artefact, SignFollowsTheCornerOfItsFaces) {
   for (const double x : {15.0, -15.0}) {
     for (const double y : {15.0, -15.0}) {
       const auto [rig_x, rig_y] = rigs_at(x, y, "artefact_angle_error_urad = 3");
@@ -185,7 +186,7 @@ TEST(Artefact, HasTheSignOfTheCornerThatItsFacesMake) {
   }
 }
 
-TEST(Artefact, IsRefusedWhereTheRigsDifferOrTellNoCorner) {
+TEST(Artefact, RefusesDifferentRigsOrAnUnknownCorner) {
   const std::string three = "artefact_angle_error_urad = 3\nu_artefact_angle_urad = 0.5";
   const std::string four = "artefact_angle_error_urad = 4\nu_artefact_angle_urad = 0.5";
   const auto [x, y] = rigs_at(15, -15, three, four);
@@ -224,8 +225,8 @@ TEST(Straightness, ReportsBothReferenceLinesForEachApproach) {
   EXPECT_NEAR(figures[0].straightness_end_point_m * 1e6, 0.866667, 1e-6);
 }
 
-// Whichever way the encoder counts; the slope of a body that goes against it has the other sign.
-TEST(Straightness, EachLineIsOverTheBodysOwnTravel) {
+// If the body moves against the encoder, its slopes have the opposite sign.
+TEST(Straightness, LinesAreOverTheTravelOfTheBody) {
   mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
   for (const bool against : {false, true}) {
     run.header.sides.against_encoder = against;
@@ -239,7 +240,7 @@ TEST(Straightness, EachLineIsOverTheBodysOwnTravel) {
   }
 }
 
-TEST(Squareness, ByEachLineTakesBothSlopesFromTheArtefact) {
+TEST(Squareness, EachLineCombinesBothSlopesAndTheArtefact) {
   const mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um),
                   y = run_of(Axis::y, kAxis2_m, kAxis2_um);
   const Squareness s = squareness(x, y, {2e-6, 0.5e-6, -1}).value();
@@ -247,7 +248,7 @@ TEST(Squareness, ByEachLineTakesBothSlopesFromTheArtefact) {
   EXPECT_EQ(lines.least_squares.error_rad, s.error_rad);
   EXPECT_NEAR(lines.end_point.error_rad * 1e6, 18.444444 - 8.333333 - 2, 1e-5);
   EXPECT_NEAR(lines.minimum_zone.error_rad * 1e6, 16.666667 - 7.833333 - 2, 1e-5);
-  // The manual states θ2 - θ1, in its own sense: -5.2" and -5.5".
+  // The manual states θ2 - θ1, with its own sign: -5.2" and -5.5".
   const double arcsec = 180 * 3600 / (4 * std::atan(1.0));
   const auto manual = [&](const SquarenessLine& line) {
     return (line.slope_b_rad - line.slope_a_rad) * arcsec;
@@ -256,8 +257,8 @@ TEST(Squareness, ByEachLineTakesBothSlopesFromTheArtefact) {
   EXPECT_NEAR(manual(lines.end_point), -5.52331, 1e-5);
 }
 
-// Yaw has a lever between the fixture and the carriage's origin.
-TEST(Squareness, ByEachLineIsStatedAtTheFixture) {
+// Yaw acts with a lever between the fixture and the origin of the carriage.
+TEST(Squareness, EachLineIsStatedAtTheFixture) {
   mdof::Run x = run_of(Axis::x, kAxis1_m, kAxis1_um);
   const mdof::Run y = run_of(Axis::y, kAxis2_m, kAxis2_um);
   for (MeasuredPoint& p : x.points) p.errors.local[kEz] = 3e-6 * p.point.position_m;
@@ -278,7 +279,7 @@ TEST(Angles, AreReferredToTheStart) {
   }
 }
 
-TEST(Compensation, KeepsTheApproachesApartAndHoldsTheEnds) {
+TEST(Compensation, SeparatesApproachesAndHoldsTheEnds) {
   mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
   for (auto& p : run.points) {
     if (p.point.direction < 0) p.errors.local[kDz] = 5e-6;
@@ -295,7 +296,7 @@ TEST(Compensation, KeepsTheApproachesApartAndHoldsTheEnds) {
   EXPECT_EQ(table_at(table, -1, TableSide::reverse).error[0], table.reverse[0].front());
 }
 
-TEST(Compensation, LeavesTheSlopeToSquareness) {
+TEST(Compensation, RemovesTheSlope) {
   const mdof::Run run = run_of(Axis::x, kAxis1_m, kAxis1_um);
   const CompensationTable table = build_table({run}, {}).value();
   EXPECT_NEAR(least_squares_line(table.position_m, table.forward[0]).slope, 0, 1e-18);
@@ -317,7 +318,7 @@ TEST(Compensation, RefusesRunsOfTwoAxesAndOfOtherTargets) {
   EXPECT_FALSE(build_table({}, {}));
 }
 
-TEST(RobustMean, SpikesDoNotMoveIt) {
+TEST(RobustMean, RejectsSpikes) {
   std::vector<double> readings, scratch;
   for (int i = 0; i < 200; ++i) readings.push_back(1e-6 + 1e-9 * ((i * 7) % 11 - 5));
   const RobustMean clean = robust_mean(readings, 1e-7, scratch);
@@ -340,8 +341,8 @@ TEST(RobustMean, SlowNoiseHasTheLargerUncertainty) {
   EXPECT_GT(s.u, 5 * f.u);
 }
 
-// Two points, and the line through the ends, leave no residual to tell an uncertainty.
-TEST(LineFit, OfTwoPointsOrThroughTheEndsHasNoUncertainty) {
+// Two points, and the line through the end points, leave no residual for an uncertainty.
+TEST(LineFit, TwoPointsOrEndPointsHaveNoUncertainty) {
   const std::vector<double> x = {1, 3}, y = {5, 1};
   for (const Line& line : {least_squares_line(x, y), end_point_line(x, y)}) {
     EXPECT_NEAR(line.slope, -2, 1e-15);
@@ -352,7 +353,7 @@ TEST(LineFit, OfTwoPointsOrThroughTheEndsHasNoUncertainty) {
   }
 }
 
-TEST(Artefact, NamesTheRigWhoseFaceIsNotClear) {
+TEST(Artefact, NamesTheRigWithTheUnclearFace) {
   const std::string three = "artefact_angle_error_urad = 3\nu_artefact_angle_urad = 0.5";
   const auto [x, at_0] = rigs_at(15, 0, three, three);
   const auto refused = artefact_of(x, at_0, {});

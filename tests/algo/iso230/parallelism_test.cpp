@@ -1,5 +1,4 @@
-// Parallelism of two motions and the readings of a run for ISO 230-2, of four targets worked by
-// hand.
+// Parallelism of two motions and the readings of a run for ISO 230-2, for four targets, by hand.
 #include "algo/iso230/parallelism.h"
 
 #include <gtest/gtest.h>
@@ -44,14 +43,14 @@ mdof::Run run_of_motion(const MotionByHand& motion) {
   return run;
 }
 
-// Of 0, 0, 3, 1 at equal steps: ends 1/3, least squares (0.5 * 3 + 1.5 * 1)/5 = 0.6, and the
-// narrowest strip lies along (1, 0) - (3, 1), 0.5 a step.
+// Slopes of 0, 0, 3, 1 at equal steps: end points 1/3, least squares (0.5 * 3 + 1.5 * 1)/5 = 0.6;
+// the minimum zone is along (1, 0) - (3, 1), 0.5 per step.
 const std::vector<double> kStepsOfA = {0, 0.01, 0.02, 0.03}, kStepsOfB = {0.01, 0.02, 0.03, 0.04};
 MotionByHand motion_a() {
   return {11, Axis::x, kStepsOfA, {0, 0, 3, 1}, {0, 0, -6, -2}};
 }
-// 0, 2, 0, 0: ends 0, least squares -0.2, strip 0. 0, 0, 0, 4: ends 4/3, least squares 1.2, strip
-// 4/3.
+// 0, 2, 0, 0: end points 0, least squares -0.2, minimum zone 0. 0, 0, 0, 4: end points 4/3, least
+// squares 1.2, minimum zone 4/3.
 MotionByHand motion_b() {
   return {12, Axis::x, kStepsOfB, {0, 2, 0, 0}, {0, 0, 0, 4}};
 }
@@ -62,7 +61,7 @@ void expect_line(const ParallelismLine& line, double a_urad, double b_urad) {
   EXPECT_NEAR(line.angle_rad * 1e6, b_urad - a_urad, 1e-6);
 }
 
-TEST(ParallelismByHand, IsTheSlopeOfBLessThatOfA) {
+TEST(ParallelismByHand, IsTheSlopeOfBMinusTheSlopeOfA) {
   const auto found = parallelism(run_of_motion(motion_a()), run_of_motion(motion_b()));
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(found->run_a, 11);
@@ -82,7 +81,8 @@ TEST(ParallelismByHand, IsTheSlopeOfBLessThatOfA) {
   expect_line(found->planes[1].minimum_zone, -100, 400 / 3.0);
 }
 
-// Against the encoder the axis goes the other way along M: all slopes change their sign.
+// The body moves against the encoder, in the opposite direction along M: all slopes change their
+// sign.
 TEST(ParallelismByHand, IsOverTheTravelOfTheMovingBody) {
   MotionByHand a = motion_a(), b = motion_b();
   a.axis = b.axis = Axis::y;
@@ -99,8 +99,8 @@ TEST(ParallelismByHand, IsOverTheTravelOfTheMovingBody) {
   expect_line(found->planes[1].least_squares, 120, -120);
 }
 
-// The errors are those at the fixture: a yaw of 10 urad at the carriage adds what its arm makes of
-// it.
+// Parallelism refers to the errors at the fixture: a yaw of 10 urad at the carriage acts with its
+// lever.
 TEST(ParallelismByHand, IsStatedAtTheFixture) {
   mdof::Run a = run_of_motion(motion_a());
   for (MeasuredPoint& p : a.points) p.errors.local[kEz] = 10e-6;
@@ -108,12 +108,12 @@ TEST(ParallelismByHand, IsStatedAtTheFixture) {
   a.header.provenance.model = "simplified";
   const auto found = parallelism(a, run_of_motion(motion_b()));
   ASSERT_TRUE(found) << found.error().message;
-  // At the origin of M, -d from that of C, the target is lower by the yaw times the travel.
+  // At the origin of M, -d from the origin of C, the target is lower by the yaw times the travel.
   expect_line(found->planes[0].least_squares, 50, -20);
 }
 
-// Steps of 1/128 m have no rounding: exactly half of the longer travel is enough.
-TEST(ParallelismByHand, TakesTravelsThatHaveHalfInCommon) {
+// Steps of 1/128 m have no rounding errors: exactly half of the longer travel is enough.
+TEST(ParallelismByHand, NeedsHalfOfTheTravelInCommon) {
   const auto over = [](std::int64_t id, int first) {
     MotionByHand motion;
     motion.id = id;
@@ -133,14 +133,14 @@ TEST(ParallelismByHand, TakesTravelsThatHaveHalfInCommon) {
       << less.error().message;
   EXPECT_FALSE(parallelism(over(1, 3), over(2, 0)));
   EXPECT_FALSE(parallelism(over(1, 0), over(2, 60)));
-  // A short travel within a long one: half of the long one is asked for.
+  // A short travel within a long one: it must cover half of the long one.
   MotionByHand few{3, Axis::x, {1 / 128.0, 2 / 128.0, 3 / 128.0}, {0, 1, 0}, {0, 1, 0}};
   EXPECT_TRUE(parallelism(over(1, 0), run_of_motion(few)));
   few.x_m = {1 / 128.0, 1.5 / 128, 2 / 128.0};
   EXPECT_FALSE(parallelism(over(1, 0), run_of_motion(few)));
 }
 
-TEST(ParallelismByHand, RefusesWhatIsNoPairOfMotions) {
+TEST(ParallelismByHand, RefusesIncompatibleMotions) {
   MotionByHand y = motion_b();
   y.axis = Axis::y;
   const auto two_axes = parallelism(run_of_motion(motion_a()), run_of_motion(y));
@@ -185,7 +185,7 @@ mdof::Run run_with_readings() {
   return run;
 }
 
-TEST(RunReadingsByHand, AreLeftOfTheLineThroughTheMeans) {
+TEST(RunReadingsByHand, AreDeviationsFromTheLineOfTheMeans) {
   const double off[] = {-0.5, -2, -0.5, 1.5, 0, 1.5};
   const mdof::Run run = run_with_readings();
   for (const std::size_t named : {0u, 1u}) {
@@ -201,7 +201,7 @@ TEST(RunReadingsByHand, AreLeftOfTheLineThroughTheMeans) {
   }
 }
 
-TEST(RunReadingsByHand, StayAsTheyAreWhereNoLineIsAskedFor) {
+TEST(RunReadingsByHand, RemainUnchangedWithoutALine) {
   const double value[] = {1, 2, 6, 3, 4, 8};
   mdof::Run run = run_with_readings();
   const RunReadings kept = readings_of_run(run, 0, true), angle = readings_of_run(run, 2, false);
@@ -209,7 +209,7 @@ TEST(RunReadingsByHand, StayAsTheyAreWhereNoLineIsAskedFor) {
     EXPECT_NEAR(kept.readings[j].deviation, value[j], 1e-12);
     EXPECT_NEAR(angle.readings[j].deviation, 20 * value[j], 1e-12);
   }
-  // One place has no line.
+  // A single position has no line.
   for (MeasuredPoint& p : run.points) p.point.position_m = 0.01;
   EXPECT_NEAR(readings_of_run(run, 0, false).readings[2].deviation, 6, 1e-12);
 }
@@ -223,7 +223,7 @@ TEST(RunReadingsByHand, PointsWithoutErrorsOrApproachAreLeftOut) {
   EXPECT_EQ(found.left_out, 3u);
   ASSERT_EQ(found.readings.size(), 3u);
   EXPECT_NEAR(found.readings[2].deviation, 8, 1e-12);
-  // What moves is the fixture: its errors are those of the target the other way round.
+  // If the fixture moves, its errors are the errors of the target with the opposite sign.
   run.header.sides.fixture_moves = true;
   EXPECT_NEAR(readings_of_run(run, 0, true).readings[2].deviation, -8, 1e-12);
 }

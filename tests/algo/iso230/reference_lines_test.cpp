@@ -1,5 +1,5 @@
-// The three reference lines: a laser interferometer manual's worked example, and the minimum zone
-// against brute force.
+// The three reference lines: the example in the manual of a laser interferometer, and the minimum
+// zone compared with brute force.
 #include "algo/iso230/reference_lines.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +37,7 @@ void expect_line(const ReferenceLine& line, double slope_urad, double zone_um) {
   EXPECT_NEAR(line.zone_m * 1e6, zone_um, 5.1e-7);
 }
 
-TEST(ReferenceLines, AreThoseOfTheManual) {
+TEST(ReferenceLines, MatchTheManual) {
   const ReferenceLines first = lines_of(kFirst_m, kFirst_um);
   expect_line(first.end_point, 8.333333, 0.866667);
   expect_line(first.least_squares, 7.654545, 0.703636);
@@ -53,7 +53,7 @@ TEST(ReferenceLines, AreThoseOfTheManual) {
   EXPECT_EQ(first.last_m, 0.9);
 }
 
-TEST(ReferenceLines, TheMinimumZoneLiesAboutItsLine) {
+TEST(ReferenceLines, MinimumZoneIsCentredOnItsLine) {
   const ReferenceLine line = lines_of(kFirst_m, kFirst_um).minimum_zone;
   double high = -1, low = 1;
   for (std::size_t i = 0; i < kFirst_m.size(); ++i) {
@@ -65,14 +65,16 @@ TEST(ReferenceLines, TheMinimumZoneLiesAboutItsLine) {
   EXPECT_NEAR(low, -line.zone_m / 2, 1e-18);
 }
 
-// Deviations 0, 3, 0, 3 at 0, 1, 2, 3: least squares 0.6 x + 0.6 leaves -0.6, 1.8, -1.8, 0.6.
-TEST(ReferenceLines, TheResidualIsTheRootMeanSquare) {
+// Deviations 0, 3, 0, 3 at 0, 1, 2, 3: least squares gives 0.6 x + 0.6 with the residuals -0.6,
+// 1.8, -1.8, 0.6.
+TEST(ReferenceLines, ResidualIsTheRootMeanSquare) {
   const ReferenceLine line = reference_lines(Values{0, 1, 2, 3}, Values{0, 3, 0, 3})->least_squares;
   EXPECT_DOUBLE_EQ(line.slope_rad, 0.6);
   EXPECT_NEAR(line.residual_m, std::sqrt((0.36 + 3.24 + 3.24 + 0.36) / 4), 1e-15);
 }
 
-// The narrowest zone touches two readings on one side: the slopes of all pairs are tried.
+// The narrowest zone touches two readings on one side, so this function tries the slopes of all
+// pairs.
 double zone_by_brute_force(const Values& x, const Values& y) {
   const auto zone = [&](double slope) {
     double high = -1e9, low = 1e9;
@@ -89,7 +91,7 @@ double zone_by_brute_force(const Values& x, const Values& y) {
   return least;
 }
 
-TEST(MinimumZone, IsThatOfBruteForceForTenThousandSeries) {
+TEST(MinimumZone, MatchesBruteForceForTenThousandSeries) {
   std::mt19937_64 random(230);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int trial = 0, compared = 0; compared < 10000; ++trial) {
@@ -113,8 +115,8 @@ TEST(MinimumZone, IsThatOfBruteForceForTenThousandSeries) {
   }
 }
 
-// 0 and 1 at the start: any slope within ±0.5 has the zone 1; the middle is as steep as neither.
-TEST(MinimumZone, OfSlopesThatDoAlikeTakesTheMiddle) {
+// With 0 and 1 at the start any slope within ±0.5 has the zone 1; the line takes the middle slope.
+TEST(MinimumZone, TakesTheMiddleOfEquivalentSlopes) {
   const Line line = minimum_zone_line(Values{0, 0, 1, 1}, Values{0, 1, 0.5, 0.5});
   EXPECT_DOUBLE_EQ(line.slope, 0);
   EXPECT_DOUBLE_EQ(line.intercept, 0.5);
@@ -140,7 +142,7 @@ TEST(ReferenceLines, DoNotDependOnTheOrderOfTheReadings) {
   EXPECT_DOUBLE_EQ(before.end_point.intercept_m, 1.5);
 }
 
-TEST(ReferenceLines, RefuseWhatHasNoLine) {
+TEST(ReferenceLines, RefuseReadingsWithoutALine) {
   const auto refused = [](const Values& x, const Values& y) {
     const auto lines = reference_lines(x, y);
     return lines ? std::string() : lines.error().message;
@@ -159,7 +161,7 @@ TEST(ReferenceLines, RefuseWhatHasNoLine) {
   EXPECT_NE(refused({0, 5e-324, 1e-323}, {0, 1e6, -1e6}).find("close together"), std::string::npos);
 }
 
-TEST(ReferenceLines, OfExactlyStraightReadingsHaveNoZone) {
+TEST(ReferenceLines, StraightReadingsHaveNoZone) {
   const ReferenceLines lines = reference_lines(Values{0, 1, 2, 4}, Values{1, 3, 5, 9}).value();
   for (const auto* line : {&lines.end_point, &lines.least_squares, &lines.minimum_zone}) {
     EXPECT_DOUBLE_EQ(line->slope_rad, 2);
@@ -168,8 +170,9 @@ TEST(ReferenceLines, OfExactlyStraightReadingsHaveNoZone) {
   }
 }
 
-// The bar is 20 ms (tools/bench/bench_iso230 measures); here only that it does not grow with n².
-TEST(ReferenceLines, AHundredThousandReadingsTakeNoTime) {
+// The limit is 20 ms (tools/bench/bench_iso230 measures it); this test only checks that the time
+// does not grow with n².
+TEST(ReferenceLines, HundredThousandReadingsAreFast) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> any(0, 1);
   Values x(100'000), y(100'000);

@@ -1,5 +1,5 @@
-// The linear map of the means against the means themselves, of runs that lack visits, targets that
-// were approached from one side only, and points without errors.
+// The linear map of the means compared with the means themselves, for runs that lack visits,
+// targets that were approached from one side only, and points without errors.
 #include "algo/iso230/target_changes.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ constexpr int kTargets = 7;
 
 struct Visits {
   int runs;
-  double missing, one_sided;  // shares
+  double missing, one_sided;  // fractions
 };
 
 std::vector<MeasuredPoint> random_points(const Visits& visits, std::mt19937& random) {
@@ -59,7 +59,7 @@ double largest_difference(const MovingAxis& moving, const std::vector<MeasuredPo
   return most;
 }
 
-TEST(TargetChanges, AreThoseOfTheMeans) {
+TEST(TargetChanges, MatchTheChangesOfTheMeans) {
   std::mt19937 random(7);
   const Visits cases[] = {
       {3, 0, 0},     {3, 0, 0.4},    {1, 0, 1},    {4, 0.3, 0},
@@ -74,7 +74,7 @@ TEST(TargetChanges, AreThoseOfTheMeans) {
       }
 }
 
-TEST(TargetChanges, OfNoPointsAreNone) {
+TEST(TargetChanges, AreEmptyWithoutPoints) {
   EXPECT_TRUE(TargetChanges({Axis::x, {}}, {}).of({}).empty());
 }
 

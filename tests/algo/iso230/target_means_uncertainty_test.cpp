@@ -1,4 +1,4 @@
-// The uncertainty of a target's mean against the scatter of many repetitions of the measurement.
+// The uncertainty of the mean at a target compared with the scatter of many repeated measurements.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,10 +10,10 @@ namespace mdof::algo {
 namespace {
 
 struct Scatter {
-  double noise, of_run, of_way;  // of each point, of a run both ways, of a run one way; nm
+  double noise, of_run, of_way;  // of a point, of a run, of one direction of a run; nm
 };
 
-// Root mean square of the stated u over that of the mean's true error (the truth is 0).
+// Root mean square of the stated u divided by that of the true error of the mean (the truth is 0).
 double stated_over_true(const Scatter& sd, int runs, Approach approach) {
   std::mt19937_64 engine(7);
   std::normal_distribution<> unit;
@@ -52,7 +52,7 @@ TEST(SeriesUncertainty, CoversWhatIsSlowBetweenRuns) {
   }
 }
 
-TEST(SeriesUncertainty, OneRunHasItsNoise) {
+TEST(SeriesUncertainty, SingleRunHasItsNoise) {
   EXPECT_NEAR(stated_over_true({1, 0, 0}, 1, Approach::both), 1, 0.05);
   EXPECT_NEAR(stated_over_true({1, 0, 0}, 1, Approach::forward), 1, 0.05);
 }

@@ -1,5 +1,5 @@
-// ISO 230-2 by hand: two targets whose figures can be followed; what the plan of a test lacks. The
-// readings of real machines are in tests/tools/iso230_test.
+// ISO 230-2 by hand: two targets with simple values; the notices about the plan of a test.
+// tests/tools/iso230_test checks readings of real machines.
 #include "algo/iso230/positioning/positioning.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 const double kRoot2 = std::sqrt(2.0);
 
-// Means 1 and 6 with s √2 and 2√2 at the first target, 10 and 8 with 0 and √2 at the second.
+// Means 1 and 6 with s = √2 and 2√2 at the first target, 10 and 8 with s = 0 and √2 at the second.
 std::vector<PositioningReading> two_targets() {
   return {{1, -1, 2, 9}, {0, 1, 1, 0},  {0, 1, 2, 2},  {0, -1, 1, 4},
           {1, 1, 1, 10}, {0, -1, 2, 8}, {1, 1, 2, 10}, {1, -1, 1, 7}};
@@ -29,7 +29,7 @@ std::vector<PositioningReading> of_direction(int direction) {
   return readings;
 }
 
-TEST(Positioning, IsAsByHand) {
+TEST(Positioning, MatchesTheCalculationByHand) {
   const Positioning p = positioning(two_targets()).value();
   EXPECT_DOUBLE_EQ(p.B, 5);
   EXPECT_DOUBLE_EQ(p.B_mean, -1.5);
@@ -58,7 +58,7 @@ TEST(Positioning, GivesEachTarget) {
   EXPECT_DOUBLE_EQ(second.R, 4 * kRoot2);  // of the reverse approach alone: more than 2√2 + 2
 }
 
-TEST(Positioning, FromOneSideHasTheFiguresOfThatSide) {
+TEST(Positioning, OneDirectionHasItsOwnResultsOnly) {
   const Positioning p = positioning(of_direction(-1)).value();
   EXPECT_DOUBLE_EQ(p.R_reverse, 8 * kRoot2);
   EXPECT_DOUBLE_EQ(p.E_reverse, 2);
@@ -68,8 +68,8 @@ TEST(Positioning, FromOneSideHasTheFiguresOfThatSide) {
     EXPECT_TRUE(std::isnan(unknown)) << unknown;
 }
 
-// B, E and M need no second run; R and A do.
-TEST(Positioning, OfASingleRunHasMeansOnly) {
+// B, E and M do not need a second run; R and A do.
+TEST(Positioning, SingleRunHasMeansOnly) {
   auto readings = two_targets();
   std::erase_if(readings, [](const auto& r) { return r.run == 2; });
   const Positioning p = positioning(readings).value();  // 0 and 4, then 10 and 7
@@ -89,7 +89,7 @@ std::string refused(const std::vector<PositioningReading>& readings) {
   return p ? "" : p.error().message;
 }
 
-TEST(Positioning, RefusesWhatHasNoFigures) {
+TEST(Positioning, RefusesInvalidReadings) {
   EXPECT_NE(refused({}).find("0 targets"), std::string::npos);
   EXPECT_NE(refused({{0, 1, 1, 1}, {0, 1, 2, 2}}).find("1 targets"), std::string::npos);
   auto readings = two_targets();
@@ -115,8 +115,8 @@ TEST(Positioning, NamesTheTargetThatLacksReadings) {
             std::string::npos);
 }
 
-// Limits of ±2√3 µm are 4 µm with k = 2; a drift of 5 µm is 3 µm.
-TEST(PositioningUncertainty, IsOfTheDeviceAndTheDrift) {
+// Limits of ±2√3 µm give U = 4 µm with k = 2; a drift of 5 µm gives 3 µm.
+TEST(PositioningUncertainty, CombinesDeviceAndDrift) {
   const PositioningUncertainty U = positioning_uncertainty({2e-6 * std::sqrt(3.0), 5e-6});
   EXPECT_DOUBLE_EQ(U.device, 4e-6);
   EXPECT_DOUBLE_EQ(U.drift, 3e-6);
@@ -124,7 +124,7 @@ TEST(PositioningUncertainty, IsOfTheDeviceAndTheDrift) {
   EXPECT_DOUBLE_EQ(U.B, 3e-6);
 }
 
-TEST(PositioningUncertainty, OfWhatIsNotDeclaredIsNotKnown) {
+TEST(PositioningUncertainty, IsUnknownWithoutADeclaration) {
   PositioningConditions drift_alone;
   drift_alone.drift_range_m = 5e-6;
   const PositioningUncertainty U = positioning_uncertainty(drift_alone);
@@ -133,7 +133,7 @@ TEST(PositioningUncertainty, OfWhatIsNotDeclaredIsNotKnown) {
   EXPECT_TRUE(std::isnan(U.E_M_A));
 }
 
-// `targets_m` with `runs` readings from each side.
+// `targets_m` with `runs` readings from each direction.
 Positioning planned(const std::vector<double>& targets_m, int runs = 5) {
   std::vector<PositioningReading> readings;
   for (const double target_m : targets_m)
@@ -149,7 +149,7 @@ std::string notices_of(const Positioning& p, double scale_period_m = 0) {
 
 const std::vector<double> kGood_m = {0, 0.011, 0.0202, 0.0297, 0.0404};
 
-TEST(Plan, OfFiveUnevenTargetsAndFiveRunsIsRight) {
+TEST(Plan, FiveUnevenTargetsAndRunsAreEnough) {
   EXPECT_EQ(notices_of(planned(kGood_m)), "");
   EXPECT_EQ(notices_of(planned(kGood_m), 1e-3), "");
 }
@@ -169,7 +169,7 @@ TEST(Plan, CountsTargetsAndRuns) {
             std::string::npos);
 }
 
-TEST(Plan, TellsUnevenRunsAndOneSide) {
+TEST(Plan, ReportsUnevenRunsAndOneDirection) {
   Positioning uneven = planned(kGood_m);
   uneven.targets[2].reverse.n = 3;
   EXPECT_NE(notices_of(uneven).find("few_runs runs=3 some_targets=1"), std::string::npos);
@@ -178,7 +178,7 @@ TEST(Plan, TellsUnevenRunsAndOneSide) {
   EXPECT_NE(notices_of(one_side).find("one_approach"), std::string::npos);
 }
 
-TEST(Plan, TellsEqualIntervalsAndWholePeriods) {
+TEST(Plan, ReportsEqualIntervalsAndWholePeriods) {
   const std::vector<double> equal = {0.015, 0.025, 0.035, 0.045, 0.055};
   EXPECT_NE(notices_of(planned(equal)).find("equal_intervals"), std::string::npos);
   EXPECT_NE(notices_of(planned(equal), 5e-3).find("scale_period_hidden period_um=5000"),

@@ -63,7 +63,7 @@ TEST(TargetChanges, MatchTheChangesOfTheMeans) {
   std::mt19937 random(7);
   const Visits cases[] = {
       {3, 0, 0},     {3, 0, 0.4},    {1, 0, 1},    {4, 0.3, 0},
-      {4, 0.3, 0.4}, {30, 0.2, 0.2}, {2, 0.8, 0.5}};  // 30 runs: more than visits
+      {4, 0.3, 0.4}, {30, 0.2, 0.2}, {2, 0.8, 0.5}};  // 30: more runs than visits
   for (const Visits& visits : cases)
     for (int repeat = 0; repeat < 20; ++repeat)
       for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {

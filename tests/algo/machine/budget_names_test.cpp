@@ -1,4 +1,4 @@
-// Which errors a budget names as without a cause.
+// The errors that a budget names because they have no cause.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 namespace mdof::algo {
 namespace {
 
-// A squareness is one error of two axes: it is named once, and not where either of them has a
-// cause.
-TEST(MachineBudget, ASquarenessWithoutACauseIsNamedOnce) {
+// A squareness is one error of two axes: the budget names it once, and only if neither axis has a
+// cause for it.
+TEST(MachineBudget, NamesASquarenessWithoutACauseOnce) {
   std::string text = "name = \"m\"\nmachine = {chain = \"w-X-b-Y-Z-t\"}\n";
   for (const char* id : {"X", "Y", "Z"})
     text +=

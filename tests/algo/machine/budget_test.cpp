@@ -13,7 +13,7 @@ const char* const kChains[] = {"XYZ", "XYZC", "XYZABC", "XYZmn", "XYZBmnopqrstuv
 constexpr SourceShape kShapes[] = {SourceShape::normal, SourceShape::rectangular,
                                    SourceShape::triangular, SourceShape::u_shaped};
 
-// Sources that act at up to four places each, lines of axes among them.
+// Adds sources that act on up to four errors each, location errors of axes among them.
 void add_sources(Machine& machine, test::RandomMachines& random, int count) {
   for (int i = 0; i < count; ++i) {
     ErrorSource source{
@@ -34,7 +34,7 @@ void add_sources(Machine& machine, test::RandomMachines& random, int count) {
   }
 }
 
-// The machine with each source at a value (in its unit) added to its errors.
+// The machine with the effect of each source, at a value in its unit, added to its errors.
 Machine with_sources_at(Machine machine, const Command& at, const std::vector<double>& value) {
   for (std::size_t s = 0; s < machine.sources.size(); ++s)
     for (const SourceEffect& e : machine.sources[s].acts_on) {
@@ -70,8 +70,9 @@ BudgetModel model_of(const Machine& machine, const Command& at,
   return budget_model(machine, at, MachineApproach::mean, stage).value();
 }
 
-// The matrices of random_machine.h in long double know nothing of the kernel. Bar: 1e-9 µm.
-TEST(MachineBudgetTrials, AreTheProductOfMatrices) {
+// random_machine.h calculates with long double matrices, independently of the kernel. Limit: 1e-9
+// µm.
+TEST(MachineBudgetTrials, MatchTheProductOfMatrices) {
   test::RandomMachines random(11);
   for (int i = 0; i < 60; ++i) {
     auto machine = without_errors(random.machine(kChains[i % 5], 0, 0, 0.3));
@@ -91,8 +92,8 @@ TEST(MachineBudgetTrials, AreTheProductOfMatrices) {
   }
 }
 
-// A source moves all of its places at once. Bar: 1e-9 of the sensitivity.
-TEST(MachineBudget, SensitivitiesAreThoseOfTheProduct) {
+// A source changes all its errors together. Limit: 1e-9 of the sensitivity.
+TEST(MachineBudget, SensitivitiesMatchTheProduct) {
   test::RandomMachines random(12);
   for (int i = 0; i < 40; ++i) {
     auto machine = without_errors(random.machine(kChains[i % 5], 0, 0, 0.3));
@@ -116,7 +117,7 @@ TEST(MachineBudget, SensitivitiesAreThoseOfTheProduct) {
   }
 }
 
-TEST(MachineBudgetTrials, TheSameBitsFromEveryInstructionSetAndAnyCut) {
+TEST(MachineBudgetTrials, SameBitsForAnyInstructionSetAndBlockSize) {
   test::RandomMachines random(13);
   auto machine = random.machine("XYZBmno", 0, 0, 0.3);
   machine = without_errors(machine);
@@ -138,7 +139,7 @@ TEST(MachineBudgetTrials, TheSameBitsFromEveryInstructionSetAndAnyCut) {
       EXPECT_EQ(all_of(set, cut), expected) << to_string(set) << " " << cut;
 }
 
-// u is the standard deviation of every shape, and scale multiplies it.
+// u is the standard deviation of every distribution, and `scale` multiplies it.
 TEST(MachineBudgetTrials, ShapesHaveTheDeclaredU) {
   for (const SourceShape shape : kShapes) {
     Machine machine;
@@ -176,14 +177,14 @@ double volume_p95_um(const Machine& machine) {
 }
 
 // Table 2 of the paper: three screws of ±0.5 µm, or four causes.
-TEST(MachineBudget, OneScrewIsOneCause) {
+TEST(MachineBudget, TreatsOneScrewAsOneCause) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   EXPECT_NEAR(volume_p95_um(machine), 0.645, 0.001);
   const auto model = model_of(machine, {});
   const Eigen::Vector3d most = budget_u_m(model) * std::sqrt(3.0) * 1e6;
   EXPECT_NEAR(most[0], 0.450, 5e-4);
   EXPECT_NEAR(most[1], 0.242, 5e-4);
-  // What a screw does across cancels by itself; as a cause of its own in each joint it does not.
+  // The effects of one screw partly cancel; independent causes in each joint do not.
   ErrorSource one = machine.sources[0];
   machine.sources.clear();
   for (const char* name : {"X", "Y", "Z", "joint-10"}) {
@@ -195,7 +196,7 @@ TEST(MachineBudget, OneScrewIsOneCause) {
   EXPECT_NEAR(volume_p95_um(machine), 0.890, 0.002);
 }
 
-TEST(MachineBudget, MeasuredErrorsReplaceWhatWasAssumed) {
+TEST(MachineBudget, MeasuredErrorsReplaceAssumedOnes) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   const std::size_t x = static_cast<std::size_t>(machine.find("X") - machine.frames.data());
   // 3 and 4 µm: a root mean square of 3.536, with u 0.1.
@@ -204,7 +205,8 @@ TEST(MachineBudget, MeasuredErrorsReplaceWhatWasAssumed) {
   const auto designed = model_of(machine, at);
   const auto measured = model_of(machine, at, BudgetStage::measured);
   EXPECT_EQ(measured.replaced, (std::vector<std::string>{"screw B on EXX", "tilt of X on EXX"}));
-  // Designed: 0.9 of the screw and 25.4 µm of the tilt over 60 mm; nothing of the measured value.
+  // Designed: 0.9 times the screw, and 25.4 µm by the tilt over 60 mm; the measured value is not
+  // used.
   EXPECT_NEAR(budget_u_m(designed)[0] * 1e6, std::hypot(0.9 * 0.288675, 25.357), 0.001);
   EXPECT_EQ(designed.values[x].error[0], 0);
   EXPECT_NEAR(budget_u_m(measured)[0] * 1e6, 0.1, 1e-9);
@@ -218,7 +220,7 @@ TEST(MachineBudget, MeasuredErrorsReplaceWhatWasAssumed) {
   EXPECT_NEAR(rows[0].measured_effect_m * 1e6, std::sqrt(12.5 + 0.01), 1e-9);
 }
 
-TEST(MachineBudget, ACauseBeyondTheModelIsRefused) {
+TEST(MachineBudget, RefusesACauseBeyondTheModel) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   machine.sources[1].u = 1e5;
   const auto model = budget_model(machine, {}, MachineApproach::mean, BudgetStage::designed);
@@ -226,8 +228,8 @@ TEST(MachineBudget, ACauseBeyondTheModelIsRefused) {
   EXPECT_NE(model.error().message.find("screw C"), std::string::npos);
 }
 
-// A source acts on an error of a body or on one of its line, which are two.
-TEST(MachineBudget, AnErrorOfTheLineIsNoneOfTheBody) {
+// A source acts on an error of a body or on an error of its line: these are different errors.
+TEST(MachineBudget, SeparatesErrorsOfLinesAndBodies) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   const auto x = static_cast<std::size_t>(machine.find("X") - machine.frames.data());
   const auto with_source = [&](bool of_line, double u) {
@@ -247,7 +249,7 @@ TEST(MachineBudget, AnErrorOfTheLineIsNoneOfTheBody) {
   if (!has_location(machine.frames[x], 5)) return;
   ASSERT_TRUE(with_source(true, 1));
   EXPECT_TRUE(names(*with_source(true, 1)));
-  // What is too large is named as what it is.
+  // The message names the error that is too large.
   const auto body = with_source(false, 1e6), line = with_source(true, 1e6);
   ASSERT_FALSE(body);
   ASSERT_FALSE(line);
@@ -260,8 +262,8 @@ TEST(MachineBudget, AnErrorOfTheLineIsNoneOfTheBody) {
       << line.error().message;
 }
 
-// The largest value of a shape of u = 1, times u, must stay below 10 mm with the error itself.
-TEST(MachineBudget, ACauseIsRefusedFromItsLargestValueOn) {
+// The largest value of the distribution (for u = 1, times u) plus the error must be below 10 mm.
+TEST(MachineBudget, RefusesACauseByItsLargestValue) {
   const auto is_refused = [](SourceShape shape, double u_um, double value_m) {
     Machine machine;
     machine.frames.resize(1);
@@ -280,8 +282,8 @@ TEST(MachineBudget, ACauseIsRefusedFromItsLargestValueOn) {
   }
 }
 
-// 10 mm for each of the three lengths, 0.1 rad for each of the three angles, and what is meant is
-// named.
+// The limits are 10 mm for the three lengths and 0.1 rad for the three angles; the message names
+// the error.
 TEST(MachineBudget, EachErrorOfABodyHasItsLimit) {
   const auto refusal = [](std::size_t k, double u) {
     Machine machine;
@@ -303,7 +305,8 @@ TEST(MachineBudget, EachErrorOfABodyHasItsLimit) {
   }
 }
 
-// Each of three causes moves one coordinate. Those marked are of a second, independent draw.
+// Each of three causes moves one coordinate. Marked causes take their values from a second,
+// independent draw.
 TEST(MachineBudgetTrials, MixedTrialsTakeTheMarkedCausesFromTheSecondDraw) {
   Machine machine;
   machine.frames.resize(1);
@@ -338,11 +341,11 @@ TEST(MachineBudgetTrials, MixedTrialsTakeTheMarkedCausesFromTheSecondDraw) {
     product += first[j] * other[j];
     square += first[j] * first[j];
   }
-  EXPECT_LT(std::abs(product), 0.15 * square);  // 900 independent numbers: 1/30 in the mean
+  EXPECT_LT(std::abs(product), 0.15 * square);  // 900 independent numbers: about 1/30
 }
 
-// EXX: 1 and 3 µm one way, 3 and 5 µm the other: means of 2 and 4 µm, u 0.5 µm; EC0Y 5 µrad.
-TEST(MachineBudget, DesignedAgainstMeasuredByHand) {
+// EXX is 1 and 3 µm forward, 3 and 5 µm reverse: means of 2 and 4 µm, u 0.5 µm. EYY is 6 µm.
+TEST(MachineBudget, ComparesDesignedAndMeasuredByHand) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   machine.sources.clear();
   const auto x = static_cast<std::size_t>(machine.find("X") - machine.frames.data());
@@ -355,7 +358,7 @@ TEST(MachineBudget, DesignedAgainstMeasuredByHand) {
     machine.sources.push_back(source);
   }
   const auto rows = designed_against_measured(machine, {});
-  ASSERT_EQ(rows.size(), 2u);  // of EYY nothing was assumed: it is the furthest above its design
+  ASSERT_EQ(rows.size(), 2u);  // EYY has no design value: it is first
   EXPECT_EQ(rows[0].name, "EYY");
   EXPECT_FALSE(rows[0].has_design);
   EXPECT_EQ(rows[0].k, 1u);
@@ -365,11 +368,11 @@ TEST(MachineBudget, DesignedAgainstMeasuredByHand) {
   EXPECT_TRUE(rows[1].has_design);
   EXPECT_NEAR(rows[1].designed_u, 5e-6, 1e-18);
   EXPECT_NEAR(rows[1].measured_u, 1e-6 * std::sqrt((4 + 16) / 2.0 + 0.25), 1e-18);
-  EXPECT_NEAR(rows[1].measured_effect_m, rows[1].measured_u, 1e-18);  // it moves the tool as it is
+  EXPECT_NEAR(rows[1].measured_effect_m, rows[1].measured_u, 1e-18);  // the derivative is 1
 }
 
-// EC0Y is known to be 5 urad, u 2: of an error of a line its square and that of its u.
-TEST(MachineBudget, ALineIsMeasuredWithItsUncertainty) {
+// EC0Y is 5 urad with u = 2 urad: the measured value is the root of the sum of both squares.
+TEST(MachineBudget, ErrorOfALineIncludesItsUncertainty) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   const auto y = static_cast<std::size_t>(machine.find("Y") - machine.frames.data());
   machine.frames[y].location[5] = {5e-6, 2e-6};

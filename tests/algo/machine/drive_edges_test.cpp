@@ -1,4 +1,4 @@
-// How far the arms of a tilt drive reach, and what circular readings of a table need and tell.
+// Reach of the arms of a tilt drive; requirements and results of circular readings of a table.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -13,7 +13,8 @@
 namespace mdof::algo {
 namespace {
 
-// Angles without a pattern: coefficients and u by the inverse of the normal equations.
+// Angles without a pattern: the test calculates coefficients and u by the inverse of the normal
+// equations.
 TEST(PerpendicularityEdges, UnevenAnglesHaveTheirOwnU) {
   test::NoPattern random(9);
   CircleReadings r;
@@ -45,7 +46,7 @@ TEST(PerpendicularityEdges, UnevenAnglesHaveTheirOwnU) {
   }
   EXPECT_NEAR(p->EA0C_rad, x[2] / 0.07, 1e-15);
   EXPECT_NEAR(p->EB0C_rad, -x[1] / 0.07, 1e-15);
-  // Either tilt alone does not make both known, and is taken out for what it is.
+  // tilt_known needs both tilts.
   r.tilt_a_rad.assign(25, 0.0);
   EXPECT_FALSE(perpendicularity(r, highest)->tilt_known);
   r.tilt_b_rad.assign(25, 0.0);
@@ -55,8 +56,8 @@ TEST(PerpendicularityEdges, UnevenAnglesHaveTheirOwnU) {
   EXPECT_FALSE(perpendicularity(r, highest)->axes_known);
 }
 
-// Twice seven places are fourteen readings, and tell no more than seven do.
-TEST(PerpendicularityEdges, SevenPlacesDoNotTellFiveHarmonics) {
+// Fourteen readings at seven angles determine no more harmonics than seven readings.
+TEST(PerpendicularityEdges, SevenAnglesDoNotShowFiveHarmonics) {
   CircleReadings r;
   r.radius_m = 99.5;
   for (int i = 0; i < 14; ++i) {
@@ -69,8 +70,8 @@ TEST(PerpendicularityEdges, SevenPlacesDoNotTellFiveHarmonics) {
   EXPECT_TRUE(perpendicularity(r, 3));
 }
 
-// The arms reach up to a quarter of a turn, and no further.
-TEST(TiltDriveEdges, TheArmsReachAQuarterOfATurn) {
+// The arms reach a quarter of a turn, but not more.
+TEST(TiltDriveEdges, ArmsReachAQuarterOfATurn) {
   const CoPlanarDrive drive{0.45, 17e-3};
   PlatformMotion platform{};
   platform[kPlatformB].position = std::numbers::pi / 2 - 1e-6;
@@ -91,8 +92,8 @@ TEST(TiltDriveEdges, TheArmsReachAQuarterOfATurn) {
   EXPECT_FALSE(rotation_step(drive, std::numbers::pi / 6, step_m * (1 + 1e-9)));
 }
 
-// A platform that stands needs screws that stand, and the other way round.
-TEST(TiltDriveEdges, StandsWhileItStands) {
+// A platform at rest needs screws at rest, and vice versa.
+TEST(TiltDriveEdges, PlatformAndScrewsRestTogether) {
   const CoPlanarDrive drive{0.45, 17e-3};
   PlatformMotion platform{};
   platform[kPlatformX].position = 3e-3;
@@ -107,7 +108,7 @@ TEST(TiltDriveEdges, StandsWhileItStands) {
     }
 }
 
-TEST(PerpendicularityEdges, ACircleHasARadius) {
+TEST(PerpendicularityEdges, NeedsARadius) {
   CircleReadings r;
   for (int i = 0; i < 14; ++i) {
     r.angle_rad.push_back(2 * std::numbers::pi * i / 14);

@@ -1,4 +1,4 @@
-// Limits, wrapped angles and names of the machine's figures, where a number more or less decides.
+// Limits, wrapped angles and names in the results for machines, just below and above each limit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,20 +25,20 @@ CircularPath path_from(double from_rad, double step_rad, std::size_t n) {
   return path;
 }
 
-TEST(CircularEdges, EightAnglesAndNoGapOfMoreThanAQuarterAreNeeded) {
+TEST(CircularEdges, NeedEightAnglesAndNoGapAboveAQuarter) {
   const double of_seven = 2 * std::numbers::pi / 7;
   EXPECT_FALSE(circular_figures(path_from(0, of_seven, 7)));
-  EXPECT_TRUE(circular_figures(path_from(0, of_seven, 8)));  // the eighth is the first again
-  // Ten angles leave a gap of a quarter, or of 2 mrad more; it may lie anywhere, in any turn.
+  EXPECT_TRUE(circular_figures(path_from(0, of_seven, 8)));  // the eighth equals the first
+  // Ten angles leave a gap of a quarter turn, or of 2 mrad more, anywhere and in any turn.
   for (const double from : {0.0, 1.0, 4.0, -3.0, 60.0, -60.0}) {
     EXPECT_TRUE(circular_figures(path_from(from, 3 * kRightAngle / 9, 10))) << from;
     EXPECT_FALSE(circular_figures(path_from(from, (3 * kRightAngle - 2e-3) / 9, 10))) << from;
   }
-  // Half of them a turn further on: the same circle.
+  // Half of the angles are one turn further: the circle is the same.
   CircularPath turned = path_from(0, 2 * std::numbers::pi / 12, 12);
   for (std::size_t i = 0; i < 12; i += 2) turned.angle_rad[i] += 2 * std::numbers::pi;
   EXPECT_TRUE(circular_figures(turned));
-  // The widest gap lies between two others.
+  // The widest gap is between two others.
   CircularPath gap = path_from(0, 0.1, 63);
   for (std::size_t i = 45; i-- > 25;) {
     gap.angle_rad.erase(gap.angle_rad.begin() + static_cast<std::ptrdiff_t>(i));
@@ -47,7 +47,7 @@ TEST(CircularEdges, EightAnglesAndNoGapOfMoreThanAQuarterAreNeeded) {
   EXPECT_FALSE(circular_figures(gap));
 }
 
-TEST(CircularEdges, EveryNumberIsFiniteAndEveryDeviationHasItsAngle) {
+TEST(CircularEdges, RefuseNonFiniteOrMissingNumbers) {
   const auto whole = [] {
     CircularPath path = path_from(0, 0.7, 9);
     path.cw_m = path.ccw_m;
@@ -69,7 +69,7 @@ TEST(CircularEdges, EveryNumberIsFiniteAndEveryDeviationHasItsAngle) {
   EXPECT_TRUE(circular_figures(clockwise));
 }
 
-TEST(CircularEdges, TheCentreIsTakenOutOfBothPaths) {
+TEST(CircularEdges, CentreIsRemovedFromBothPaths) {
   CircularPath path = path_from(0.3, 0.7, 9);
   path.cw_m = path.ccw_m;
   CircularFigures figures;
@@ -100,11 +100,11 @@ Machine plane_machine() {
   return m;
 }
 
-// Backlash of Y counts by the way that Y comes, which turns at 90 and 270 degrees; an axis that
-// stands has the mean of both.
-TEST(CircularEdges, EachAxisHasTheErrorsOfItsWay) {
+// The backlash of Y depends on its direction, which reverses at 90 and 270 degrees; an axis at rest
+// has the mean of both directions.
+TEST(CircularEdges, EachAxisHasTheErrorsOfItsDirection) {
   Machine m = plane_machine();
-  m.frames[1].error[1] = {{}, {0}, {4e-6}, {}, {}};  // EYY, 4 µm as Y falls; in the mean 2 µm
+  m.frames[1].error[1] = {{}, {0}, {4e-6}, {}, {}};  // EYY: 4 µm when Y decreases, mean 2 µm
   CircleRequest request;
   request.centre = {0.1, 0.1};
   request.radius_m = 0.02;
@@ -113,13 +113,13 @@ TEST(CircularEdges, EachAxisHasTheErrorsOfItsWay) {
   ASSERT_TRUE(circle) << circle.error().message;
   for (std::size_t i = 0; i < 12; ++i) {
     const double sine = std::sin(circle->path.angle_rad[i]);
-    // Counter-clockwise Y falls behind 90 degrees up to 270 degrees.
+    // Counter-clockwise, Y decreases after 90 degrees and up to 270 degrees.
     const double ccw = i > 3 && i <= 9 ? 2e-6 : -2e-6;
     const double cw = i >= 3 && i < 9 ? -2e-6 : 2e-6;
     EXPECT_NEAR(circle->path.ccw_m[i], ccw * sine, 2e-10) << i;
     EXPECT_NEAR(circle->path.cw_m[i], cw * sine, 2e-10) << i;
   }
-  // A turning axis about X is not the axis X.
+  // A rotary axis about X is not the axis X.
   m.frames.insert(m.frames.begin(), frame_of("A", 0, FrameKind::rotary));
   m.frames[0].error[0] = {{}, {0}, {6e-6}, {}, {}};
   m.frames[2].error[1] = {};
@@ -128,7 +128,7 @@ TEST(CircularEdges, EachAxisHasTheErrorsOfItsWay) {
   for (const double off : with_table->path.ccw_m) EXPECT_NEAR(off, 0, 1e-12);
 }
 
-TEST(CircularEdges, NamesWhatIsMissingInThePlaneAndWhatEndsBefore) {
+TEST(CircularEdges, NamesMissingErrorsAndShortTables) {
   Machine m = plane_machine();
   m.frames[0].error[0] = {{0, 0.11}, {0, 1e-6}, {}, {}, {}};  // EXX, up to 110 mm
   CircleRequest request;
@@ -145,7 +145,7 @@ TEST(CircularEdges, NamesWhatIsMissingInThePlaneAndWhatEndsBefore) {
   for (const char* name : {"EXX", "EZX", "EZY"}) EXPECT_EQ(has(name), 0) << name;
 }
 
-TEST(CircularEdges, ARadiusIsAtMostTenMetres) {
+TEST(CircularEdges, RadiusIsAtMostTenMetres) {
   CircleRequest request;
   EXPECT_EQ(request.first, 0u);
   EXPECT_EQ(request.second, 1u);
@@ -169,7 +169,7 @@ DiagonalLines lines_at(double error, bool two) {
   return lines;
 }
 
-TEST(DiagonalEdges, AxesEncloseBetweenAlmostSixDegreesLessAndMore) {
+TEST(DiagonalEdges, AxesAreWithinSixDegreesOfSquare) {
   for (const bool two : {false, true})
     for (const double sign : {-1.0, 1.0}) {
       EXPECT_TRUE(squareness_of_diagonals(lines_at(sign * std::asin(0.0999), two)));
@@ -177,7 +177,8 @@ TEST(DiagonalEdges, AxesEncloseBetweenAlmostSixDegreesLessAndMore) {
     }
 }
 
-// Far from a right angle the slopes differ from those at one: by differences, both ways.
+// Far from a right angle the sensitivities differ from those at a right angle; the test uses
+// central differences.
 TEST(DiagonalEdges, SensitivitiesFarFromARightAngle) {
   for (const bool two : {false, true}) {
     DiagonalLines lines = lines_at(0.08, two);
@@ -200,7 +201,7 @@ TEST(DiagonalEdges, SensitivitiesFarFromARightAngle) {
   }
 }
 
-TEST(DiagonalEdges, EveryLengthIsAboveZeroAndThreeLinesAreNeeded) {
+TEST(DiagonalEdges, NeedThreeLinesWithPositiveLengths) {
   const DiagonalLines whole = lines_at(0, true);
   for (const auto line : {&DiagonalLines::first, &DiagonalLines::second, &DiagonalLines::diagonal,
                           &DiagonalLines::other}) {
@@ -217,7 +218,7 @@ TEST(DiagonalEdges, EveryLengthIsAboveZeroAndThreeLinesAreNeeded) {
   }
 }
 
-TEST(PlaneMapEdges, ARangeIsGivenOrWhatTablesHaveInCommon) {
+TEST(PlaneMapEdges, RangeIsGivenOrCommonToTheTables) {
   MachineFrame x = frame_of("X", 0);
   EXPECT_FALSE(range_of(x));
   x.error[1] = {{0, 0.1}, {0, 1e-6}, {}, {}, {}};
@@ -226,7 +227,7 @@ TEST(PlaneMapEdges, ARangeIsGivenOrWhatTablesHaveInCommon) {
   EXPECT_EQ(*range_of(x), (std::array<double, 2>{0.02, 0.1}));
   x.error[5] = {{-0.1, 0.08}, {0, 1e-6}, {}, {}, {}};
   EXPECT_EQ(*range_of(x), (std::array<double, 2>{0.02, 0.08}));
-  x.error[0] = {{0.08, 0.3}, {0, 1e-6}, {}, {}, {}};  // no more than a place is common
+  x.error[0] = {{0.08, 0.3}, {0, 1e-6}, {}, {}, {}};  // only one position is common
   EXPECT_FALSE(range_of(x));
   x.range = {-1, 2};
   EXPECT_EQ(*range_of(x), (std::array<double, 2>{-1, 2}));
@@ -240,11 +241,11 @@ TEST(PlaneMapEdges, StepsAreEqualAndAtLeastOne) {
   EXPECT_EQ(at, (std::vector<double>{2, 4, 6, 8}));
 }
 
-TEST(PlaneMapEdges, OthersApproachAndAnglesAreAsAskedFor) {
+TEST(PlaneMapEdges, FollowsTheOptionsOfTheRequest) {
   Machine m = plane_machine();
   m.frames.push_back(frame_of("Z", 2));
   m.frames[2].error[0] = {{0, 0.1}, {0, 10e-6}, {}, {}, {}};  // EXZ
-  m.frames[0].error[1] = {{}, {2e-6}, {4e-6}, {}, {}};        // EYX, by the way
+  m.frames[0].error[1] = {{}, {2e-6}, {4e-6}, {}, {}};        // EYX, by direction
   m.frames[0].error[5] = {{}, {1e-5}, {}, {}, {}};            // ECX
   m.tool_m = {0, 0.1, 0};
   PlaneMapRequest request;
@@ -268,7 +269,7 @@ TEST(PlaneMapEdges, OthersApproachAndAnglesAreAsAskedFor) {
   EXPECT_NEAR(plane_map(m, request)->points[0].error[0], 5e-6, 1e-12);
   request.others[2] = 0.15;
   EXPECT_EQ(plane_map(m, request)->beyond, std::vector<std::string>{"EXZ"});
-  // What has no u, and what is not measured, in the three components of the place.
+  // Errors without u and unmeasured errors, for the three components of the position.
   const auto has = [](const std::vector<std::string>& names, const char* name) {
     return std::count(names.begin(), names.end(), name) == 1;
   };
@@ -277,7 +278,7 @@ TEST(PlaneMapEdges, OthersApproachAndAnglesAreAsAskedFor) {
   EXPECT_FALSE(has(mean->not_measured, "EYX"));
 }
 
-TEST(PlaneMapEdges, TheExtremeIsTheLargestBySize) {
+TEST(PlaneMapEdges, ExtremeHasTheLargestSize) {
   MapExtremes extremes;
   for (const double e : {1.0, -5.0, 4.0, 5.0, -2.0}) {
     PlanePoint point;
@@ -287,7 +288,7 @@ TEST(PlaneMapEdges, TheExtremeIsTheLargestBySize) {
     extremes.add(point);
   }
   const MapExtreme first = extremes.found()[0];
-  EXPECT_EQ(first.point, 1u);  // the first of those of the same size
+  EXPECT_EQ(first.point, 1u);  // the first of equal size
   EXPECT_EQ(first.value, -5);
   EXPECT_EQ(first.range, 10);
   EXPECT_EQ(first.u, 5);
@@ -298,8 +299,8 @@ TEST(PlaneMapEdges, TheExtremeIsTheLargestBySize) {
   EXPECT_EQ(one.found()[0].range, 0);
 }
 
-// Without errors the first step finds that nothing is left.
-TEST(CompensatingEdges, APerfectMachineTakesOneStep) {
+// Without errors the first step finds no residual.
+TEST(CompensatingEdges, PerfectMachineNeedsOneStep) {
   const Machine m = plane_machine();
   const auto found = compensating_command(m, {0.1, 0.2}, MachineApproach::mean);
   ASSERT_TRUE(found);
@@ -308,8 +309,9 @@ TEST(CompensatingEdges, APerfectMachineTakesOneStep) {
   EXPECT_EQ(found->command, (Command{0.1, 0.2}));
 }
 
-// Known at one place only: the same all along, and said to be beyond it elsewhere.
-TEST(MachineEdges, AnErrorOfOnePlaceHoldsThere) {
+// An error that is known at one position applies everywhere, and is named as beyond its table
+// elsewhere.
+TEST(MachineEdges, ErrorAtOnePositionIsBeyondElsewhere) {
   auto machine = parse_machine(co_planar_machine(), "co-planar").value();
   MachineFrame& x =
       machine.frames[static_cast<std::size_t>(machine.find("X") - machine.frames.data())];
@@ -323,7 +325,7 @@ TEST(MachineEdges, AnErrorOfOnePlaceHoldsThere) {
 }
 
 // -0.04 + 0.09 · 6/6 is one step of rounding above 0.05, which would be beyond its table.
-TEST(PlaneMap, TheLastStepIsTheEndOfTheRange) {
+TEST(PlaneMap, LastStepIsTheEndOfTheRange) {
   const auto at = steps_over({-0.04, 0.05}, 0.015);
   ASSERT_EQ(at.size(), 7u);
   EXPECT_EQ(at.front(), -0.04);

@@ -1,6 +1,6 @@
-// MACHINE.toml: read or refused with a reason; the tool's error of a machine that was read is
-// finite wherever its axes are, and so is each trial of its budget or it is refused. Files that it
-// names are not read.
+// MACHINE.toml: the parser reads it or refuses it with a reason. For a machine that was read, the
+// tool error is finite at any position of its axes; each trial of its budget is finite, or the
+// budget is refused. Files that the text names are not read.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

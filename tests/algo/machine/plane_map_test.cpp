@@ -1,4 +1,4 @@
-// The map of a plane against each of its points alone.
+// The map of a plane compared with the calculation of its single points.
 #include "algo/machine/plane_map.h"
 
 #include <gtest/gtest.h>
@@ -8,10 +8,10 @@
 namespace mdof::algo {
 namespace {
 
-// Both bars: 1e-14 m is that of a point alone against long double; u to 1e-9.
+// Limits: 1e-14 m, as for a single point against long double; 1e-9 for u.
 constexpr double kSameError_m = 1e-14, kSameU = 1e-9;
 
-// u of tables and lines, some correlated, some not declared.
+// Declares u of tables and lines, some correlated, some not declared.
 void declare_u(Machine& machine, test::RandomMachines& random) {
   for (MachineFrame& frame : machine.frames) {
     for (std::size_t k = 0; k < kBodyErrors; ++k) {
@@ -23,7 +23,7 @@ void declare_u(Machine& machine, test::RandomMachines& random) {
     if (frame.kind != FrameKind::linear) continue;
     ErrorCovariance& all = frame.covariance;
     all.position = {0, 0.3};
-    for (std::size_t p = 0; p < 3; ++p) {  // what the axes share: a probe's scale
+    for (std::size_t p = 0; p < 3; ++p) {  // common to the axes: the scale of a probe
       SharedPart& part = all.shared.emplace_back();
       part.at.resize(2);
       for (auto& at : part.at)
@@ -70,7 +70,7 @@ void compare_with_points(const Machine& machine, const PlaneMapRequest& request,
     }
 }
 
-TEST(PlaneMap, IsItsPointsAlone) {
+TEST(PlaneMap, MatchesItsSinglePoints) {
   test::RandomMachines random(11);
   WorstOfMap worst;
   for (int i = 0; i < 300; ++i) {
@@ -90,8 +90,8 @@ TEST(PlaneMap, IsItsPointsAlone) {
   EXPECT_LT(worst.u, kSameU);
 }
 
-// An arm that is 0 at the first corner alone: u of its turn is unknown all the same.
-TEST(PlaneMap, NamesWhatCountsAtAnyCorner) {
+// The lever is 0 at the first corner only: u of the rotation is unknown all the same.
+TEST(PlaneMap, NamesErrorsThatCountAtAnyCorner) {
   Machine m;
   m.frames.resize(2);
   m.frames[0].id = "X";

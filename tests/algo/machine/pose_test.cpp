@@ -1,5 +1,5 @@
-// Rotations against the turns of a vector about one axis after the other, by sine and cosine of the
-// standard library.
+// Rotations compared with rotations of a vector about one axis after the other, by sine and cosine
+// of the standard library.
 #include "algo/machine/pose.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ Eigen::Vector3d turned(Eigen::Vector3d v, int k, double angle_rad) {
 constexpr double kAngles[][3] = {{0.08, -0.06, 0.09}, {-0.1, 0.1, 0.05}, {0.03, 0.1, -0.1},
                                  {1e-6, 0, 0},        {0, 2e-6, 0},      {0, 0, -3e-6}};
 
-TEST(Pose, ATinyRotationTurnsAboutXThenYThenZ) {
+TEST(Pose, TinyRotationIsAboutXThenYThenZ) {
   for (const auto& [a, b, c] : kAngles)
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d v = Eigen::Vector3d::Unit(k);
@@ -32,7 +32,7 @@ TEST(Pose, ATinyRotationTurnsAboutXThenYThenZ) {
     }
 }
 
-TEST(Pose, ATurnOfAnySizeIsCounterClockwise) {
+TEST(Pose, RotationOfAnySizeIsCounterClockwise) {
   for (int direction = 0; direction < 3; ++direction)
     for (const double angle : {-3.0, -1.0, 1e-3, 0.7, 2.0, 5.5})
       for (int k = 0; k < 3; ++k) {
@@ -42,14 +42,14 @@ TEST(Pose, ATurnOfAnySizeIsCounterClockwise) {
       }
 }
 
-TEST(Pose, ItsSmallAnglesAreFoundAgain) {
+TEST(Pose, RecoversSmallAngles) {
   for (const auto& [a, b, c] : kAngles) {
     const Eigen::Vector3d found = small_angles_of(tiny_rotation(a, b, c));
     EXPECT_LT((found - Eigen::Vector3d(a, b, c)).norm(), 1e-15) << a;
   }
 }
 
-TEST(Pose, ProductAndInverseAreOfPlaces) {
+TEST(Pose, ProductAndInverseTransformPoints) {
   const Pose outer{turn_about(2, 0.7), {1, 2, 3}}, inner{turn_about(0, -1.2), {-4, 5, 6}};
   const Eigen::Vector3d x(0.5, -0.25, 2);
   const Eigen::Vector3d there = turned(turned(x, 0, -1.2) + inner.p, 2, 0.7) + outer.p;

@@ -1,5 +1,5 @@
-// Machines of random chains and errors, and their tool by 4x4 matrices in long double, written from
-// the definitions in algo/machine/README.md with nothing of algo/ or Eigen.
+// Machines with random chains and errors, and their tool position by 4x4 matrices in long double,
+// written from the definitions in algo/machine/README.md without code of algo/ or Eigen.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,8 @@ class RandomMachines {
     return low + (high - low) * static_cast<double>(source_()) / 4294967296.0;
   }
 
-  // Axes of `letters` in any order on either side; errors up to shift and turn, places up to size.
+  // Axes of `letters` in random order on either side; errors up to shift_m and turn_rad, positions
+  // up to size_m.
   Machine machine(std::string letters, double shift_m, double turn_rad, double size_m,
                   bool line_errors = true) {
     for (std::size_t i = letters.size(); i > 1; --i)
@@ -45,7 +46,7 @@ class RandomMachines {
     return {between(-size_m, size_m), between(-size_m, size_m), between(-size_m, size_m)};
   }
 
-  // A rod that goes with a linear axis, along any direction.
+  // A rod that moves with a linear axis, along any direction.
   void follow(MachineFrame& f, const std::string& letters) {
     const std::size_t axis = letters.find_first_of("XYZ");
     f.moves_with = letters[axis];
@@ -109,7 +110,7 @@ inline Matrix4 shifted(const Vec3& by, Real sign = 1) {
   return shifted(std::array<Real, 3>{sign * by[0], sign * by[1], sign * by[2]});
 }
 
-// About X as a textbook prints it, and the two others.
+// Rotation about X, Y or Z, as in a textbook.
 inline Matrix4 turned(std::size_t about, Real angle) {
   const Real c = std::cos(angle), s = std::sin(angle);
   if (about == 0) return {{{1, 0, 0, 0}, {0, c, -s, 0}, {0, s, c, 0}, {0, 0, 0, 1}}};
@@ -121,7 +122,7 @@ inline Matrix4 turned_xyz(Real a, Real b, Real c) {
   return times(turned(2, c), times(turned(1, b), turned(0, a)));
 }
 
-// Gauss-Jordan with pivots: nothing is taken from its being rigid.
+// Gauss-Jordan elimination with pivots; it does not use that the matrix is rigid.
 inline Matrix4 inverse(Matrix4 m) {
   Matrix4 r = same();
   for (std::size_t i = 0; i < 4; ++i) {
@@ -174,7 +175,7 @@ inline Matrix4 frame_matrix(const MachineFrame& f, Real command, bool with_error
   return times(times(shifted(to), times(turned_xyz(e[3], e[4], e[5]), shifted(away))), motion);
 }
 
-// The tool in the work.
+// Pose of the tool in the coordinates of the work.
 inline Matrix4 tool_matrix(const Machine& machine, const algo::Command& command, bool with_errors) {
   Matrix4 work = same(), tool = same();
   for (const MachineFrame& f : machine.frames) {

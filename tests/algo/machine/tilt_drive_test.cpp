@@ -10,8 +10,8 @@ namespace {
 constexpr double kDeg = 3.14159265358979323846 / 180;
 constexpr CoPlanarDrive kDrive{25.84 * kDeg, 17e-3};
 
-// The numbers of the paper, section 3.2 to 3.4, and those worked out from its Eq. 5 and 6.
-TEST(TiltDrive, HasThePapersRatiosAndResolutions) {
+// The numbers of the paper, sections 3.2 to 3.4, and results of its Eq. 5 and 6.
+TEST(TiltDrive, HasTheRatiosAndResolutionsOfThePaper) {
   EXPECT_NEAR(1000 * platform_ratio(kDrive), 900, 0.05);
   EXPECT_NEAR(1000 * platform_ratio({26.34 * kDeg, 17e-3}), 896.2, 0.05);
   EXPECT_NEAR(1000 * platform_ratio({25.34 * kDeg, 17e-3}), 903.8, 0.05);
@@ -23,10 +23,10 @@ TEST(TiltDrive, HasThePapersRatiosAndResolutions) {
     EXPECT_NEAR(*rotation_step(kDrive, from * kDeg, 1e-6) / kDeg, step, 5e-6) << from;
 }
 
-TEST(TiltDrive, ATiltErrorMovesThePlatformByTheTravel) {
+TEST(TiltDrive, TiltErrorMovesThePlatformWithTheTravel) {
   EXPECT_NEAR(platform_tilt_effect(kDrive, 60e-3, 0.05 * kDeg), -25.4e-6, 0.05e-6);
   EXPECT_NEAR(spindle_tilt_effect(kDrive, 40e-3, 0.05 * kDeg), 89e-6, 0.5e-6);
-  // The screw stands still while the angle changes: by differences of the kinematics.
+  // The screw does not move while the tilt angle changes: by differences of the kinematics.
   const CoPlanarDrive other{kDrive.tilt_rad + 1e-6, kDrive.arm_m};
   PlatformMotion at{};
   at[kPlatformX].position = 60e-3;
@@ -59,7 +59,7 @@ PlatformMotion motion_at(double t) {  // X, Y, Z, B as polynomials of time
   return m;
 }
 
-TEST(TiltDrive, VelocityAndAccelerationAreTheDerivativesBothWays) {
+TEST(TiltDrive, VelocityAndAccelerationAreDerivatives) {
   const double h = 1e-4;
   const auto before = *screws_for(kDrive, motion_at(-h)), now = *screws_for(kDrive, motion_at(0)),
              after = *screws_for(kDrive, motion_at(h));
@@ -73,7 +73,7 @@ TEST(TiltDrive, VelocityAndAccelerationAreTheDerivativesBothWays) {
   }
 }
 
-TEST(TiltDrive, RefusesWhatTheArmsCannotDo) {
+TEST(TiltDrive, RefusesMotionsBeyondTheArms) {
   PlatformMotion at{};
   at[kPlatformB].position = 90 * kDeg;
   EXPECT_FALSE(screws_for(kDrive, at));

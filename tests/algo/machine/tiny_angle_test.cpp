@@ -7,8 +7,8 @@
 namespace mdof::algo {
 namespace {
 
-// Within 1 ulp, as is promised, to 0.1 rad.
-TEST(TinyAngle, IsThatOfTheLibrary) {
+// Within 1 ulp up to 0.1 rad, as documented.
+TEST(TinyAngle, MatchesTheStandardLibrary) {
   for (int k = -1000; k <= 1000; ++k) {
     const double x = 1e-4 * k, sine = std::sin(x), cosine = std::cos(x);
     EXPECT_LE(std::abs(tiny_sin(x) - sine), std::nextafter(std::abs(sine), 1) - std::abs(sine));

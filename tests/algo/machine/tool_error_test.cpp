@@ -10,8 +10,8 @@ namespace {
 
 const char* const kChains[] = {"XYZ", "XYZC", "XYZAC", "XYZABC", "XYZmn", "XY", "XYZCmnopqrstuv"};
 
-// Bar: 1e-12 m over 10,000 random machines.
-TEST(MachineModel, IsTheProductOfMatrices) {
+// Limit: 1e-14 m and 1e-14 rad over 10,000 random machines.
+TEST(MachineModel, MatchesTheProductOfMatrices) {
   test::RandomMachines random(1);
   double worst_place = 0, worst_angle = 0;
   for (int i = 0; i < 10000; ++i) {
@@ -47,11 +47,11 @@ TEST(MachineModel, LinearIsWithinItsBound) {
     EXPECT_LE(angle, e.bound.angle_rad);
     closest = std::max(closest, place / e.bound.place_m);
   }
-  EXPECT_GT(closest, 0.02);  // the bound says something
+  EXPECT_GT(closest, 0.02);  // the bound is not too wide
 }
 
-// u is 0 where all that counts is declared as 0, and unknown where something is not declared.
-TEST(MachineModel, ADeclaredZeroIsAKnownU) {
+// u is 0 if all errors that count have the declared u 0, and unknown if one has no declared u.
+TEST(MachineModel, DeclaredZeroIsAKnownU) {
   Machine machine = test::RandomMachines(9).machine("XYZ", 0, 0, 0.3);
   for (MachineFrame& frame : machine.frames) {
     for (ErrorFunction& error : frame.error) error = {{}, {0}, {}, {0}, {}};
@@ -65,9 +65,10 @@ TEST(MachineModel, ADeclaredZeroIsAKnownU) {
   EXPECT_TRUE(std::isnan(tool_error(machine, command, MachineApproach::mean).u[0]));
 }
 
-// One error at a time: the slope of the full product, by differences of fourth order at several
-// distances (their error is h^4/30 by rounding/h), is the derivative. Bar: 1e-9 of its size.
-TEST(MachineModel, DerivativesAreThoseOfTheProduct) {
+// For one error at a time: the derivative equals the slope of the full product, by differences of
+// fourth order at several distances (their errors are h^4/30 and rounding/h). Limit: 1e-9 of its
+// size.
+TEST(MachineModel, DerivativesMatchTheProduct) {
   test::RandomMachines random(3);
   double worst = 0;
   for (int i = 0; i < 70; ++i) {
@@ -96,7 +97,7 @@ TEST(MachineModel, DerivativesAreThoseOfTheProduct) {
   EXPECT_LT(worst, 1e-9);
 }
 
-// w-X-b-Y-Z-t with a tool 100 mm above: signs and arms by hand.
+// X, which carries the work or the tool, and Z, with the tool at 100 mm: signs and levers by hand.
 Machine by_hand(bool x_carries_work) {
   Machine m;
   m.frames.resize(2);
@@ -110,7 +111,7 @@ Machine by_hand(bool x_carries_work) {
   return m;
 }
 
-TEST(MachineModel, SignsAndArmsByHand) {
+TEST(MachineModel, SignsAndLeversByHand) {
   for (const bool work : {true, false}) {
     const double side = work ? -1 : 1;
     auto m = by_hand(work);
@@ -122,17 +123,17 @@ TEST(MachineModel, SignsAndArmsByHand) {
       return tool_error(one, at, MachineApproach::mean).linear;
     };
     EXPECT_NEAR(error_of(1, 1e-6, false)[1], side * 1e-6, 1e-15);  // EYX
-    // EBX about the machine's origin: the tool is 120 mm above.
+    // EBX about the origin of the machine: the tool is 120 mm above.
     EXPECT_NEAR(error_of(4, 1e-6, false)[0], side * 0.12e-6, 1e-15);
-    // Of a tool axis the tool has gone 50 mm along; over a table it is where it was.
+    // With a tool axis the tool has moved 50 mm along X; over a table it has not moved.
     EXPECT_NEAR(error_of(4, 1e-6, false)[2], work ? 0 : -0.05e-6, 1e-15);
     EXPECT_NEAR(error_of(4, 1e-6, true)[2], work ? -0.05e-6 : 0, 1e-15);
     EXPECT_NEAR(error_of(4, 1e-6, true)[4], side * 1e-6, 1e-15);
   }
 }
 
-// The angle from +X to +Y is 90° + EC0Y: Y's line leans to -X.
-TEST(MachineModel, SquarenessLeansAsItsNameSays) {
+// The angle from +X to +Y is 90° + EC0Y: the line of Y is tilted towards -X.
+TEST(MachineModel, SquarenessHasTheSignOfItsName) {
   auto m = by_hand(false);
   m.frames[1].id = "Y";
   m.frames[1].direction = 1;
@@ -141,11 +142,11 @@ TEST(MachineModel, SquarenessLeansAsItsNameSays) {
   const auto e = tool_error(m, at, MachineApproach::mean);
   EXPECT_NEAR(e.exact[0], -1e-6, 1e-14);
   EXPECT_NEAR(e.linear[0], -1e-6, 1e-18);
-  EXPECT_EQ(e.exact[5], 0);  // a line that leans turns no body
+  EXPECT_EQ(e.exact[5], 0);  // the tilt of a line rotates no body
   EXPECT_EQ(e.no_u[0], std::vector<std::string>{"EC0Y"});
 }
 
-TEST(MachineModel, NamesWhatWasNotMeasured) {
+TEST(MachineModel, NamesUnmeasuredErrors) {
   auto m = by_hand(true);
   m.frames[0].error[0].forward = {1e-6};
   const auto e = tool_error(m, {0.05, 0, 0.02, 0, 0, 0}, MachineApproach::mean);
@@ -156,7 +157,7 @@ TEST(MachineModel, NamesWhatWasNotMeasured) {
   EXPECT_EQ(e.no_u[0], std::vector<std::string>{"EXX"});
 }
 
-TEST(MachineModel, HoldsTheEndOfATableAndSaysSo) {
+TEST(MachineModel, HoldsAndReportsTheEndOfATable) {
   auto m = by_hand(false);
   m.frames[0].error[0] = {{0, 0.04}, {0, 4e-6}, {0, 6e-6}, {}, {}};
   const auto at = [&](double x_m, MachineApproach approach) {
@@ -171,8 +172,9 @@ TEST(MachineModel, HoldsTheEndOfATableAndSaysSo) {
   EXPECT_EQ(beyond.beyond, std::vector<std::string>{"EXX"});
 }
 
-// A stop is never exactly at its target: within 2 % of an interval, as of a compensation table.
-TEST(MachineModel, AnEndThatIsMissedByAStopIsNotBeyond) {
+// A stop is never exactly at its target: up to 2 % of an interval beyond the end is accepted, as
+// for a compensation table.
+TEST(MachineModel, StopNearTheEndIsNotBeyond) {
   const std::vector<double> position{-0.01, 0, 0.04};
   for (const auto& [at_m, beyond] : {std::pair(-0.01 - 0.19e-3, false),
                                      {-0.01 - 0.21e-3, true},
@@ -184,7 +186,7 @@ TEST(MachineModel, AnEndThatIsMissedByAStopIsNotBeyond) {
   }
 }
 
-// An angle is 0, and so is its u, where it is zeroed; its correlation with the place stays.
+// Where an angle is zeroed, the angle and its u are 0.
 TEST(MachineModel, UIsLinearBetweenPositions) {
   auto m = by_hand(false);
   MachineFrame& x = m.frames[0];
@@ -212,9 +214,9 @@ TEST(MachineModel, UIsLinearBetweenPositions) {
   }
 }
 
-// 2 turns · shifts to second order: the line of a rotary axis that is shifted counts twice, as the
-// body goes there and back; that of a linear axis once.
-TEST(MachineModel, TheBoundCountsAShiftedRotaryLineTwice) {
+// The bound has 2 · rotations · shifts to second order: a shifted line of a rotary axis counts
+// twice, because the frame goes to the line and back; a shifted line of a linear axis counts once.
+TEST(MachineModel, BoundCountsAShiftedRotaryLineTwice) {
   test::RandomMachines random(6);
   const auto machine = random.machine("XYZC", 0, 0, 0.3);
   const auto command = random.command(0.3);
@@ -233,30 +235,30 @@ TEST(MachineModel, TheBoundCountsAShiftedRotaryLineTwice) {
                 2 * kTurn * times * kShift_m * (1 + 4 * kTurn), 1e-15);
 }
 
-TEST(MachineModel, UncertaintyIsTheRootOfSquares) {
+TEST(MachineModel, UncertaintyIsTheRootSumOfSquares) {
   auto m = by_hand(true);
   m.frames[0].error[0] = {{}, {1e-6}, {}, {0.3e-6}, {}};
-  m.frames[0].error[4] = {{}, {0}, {}, {2e-6}, {}};  // arm of 120 mm
+  m.frames[0].error[4] = {{}, {0}, {}, {2e-6}, {}};  // lever of 120 mm
   m.frames[1].location[4] = {0, 5e-6};               // over 20 mm
   const auto e = tool_error(m, {0.05, 0, 0.02, 0, 0, 0}, MachineApproach::mean);
   EXPECT_NEAR(e.u[0], std::hypot(0.3e-6, 0.24e-6, 0.1e-6), 1e-15);
   EXPECT_NEAR(e.u[4], 2e-6, 1e-15);
 }
 
-// Bar: 1 nm for errors of 50 µm and 200 µrad in a cube of 100 mm.
-TEST(Compensating, LeavesNothingOfThePlace) {
+// Limit: 1 pm for errors of 50 µm and 200 µrad in a cube of 100 mm.
+TEST(Compensating, CorrectsThePositionCompletely) {
   test::RandomMachines random(4);
   double worst = 0;
   for (int i = 0; i < 2000; ++i) {
     const auto machine = random.machine(i % 2 == 0 ? "XYZ" : "XYZC", 50e-6, 200e-6, 0.1);
     auto wanted = random.command(0.098);
-    for (std::size_t k = 0; k < 3; ++k) wanted[k] += 0.001;  // the ends of tables are held
+    for (std::size_t k = 0; k < 3; ++k) wanted[k] += 0.001;  // tables end at the ends
     wanted[5] /= 10;  // at a quarter of a turn an axis beyond C may lie along another
     const auto c = compensating_command(machine, wanted, MachineApproach::mean);
     ASSERT_TRUE(c);
     EXPECT_TRUE(c->converged);
     EXPECT_LE(c->steps, 8);
-    // By the matrices that know nothing of it.
+    // Checked by the independent matrices.
     const auto reached = test::tool_matrix(machine, c->command, true);
     const auto nominal = test::tool_matrix(machine, wanted, false);
     for (std::size_t k = 0; k < 3; ++k)
@@ -265,8 +267,8 @@ TEST(Compensating, LeavesNothingOfThePlace) {
   EXPECT_LT(worst, 1e-12);
 }
 
-// The command that is corrected lies beyond the end of the table of EXX.
-TEST(Compensating, NamesTheTablesThatEndBefore) {
+// The corrected command is beyond the end of the table of EXX.
+TEST(Compensating, NamesTablesThatEndBefore) {
   auto m = by_hand(true);
   m.frames[0].error[0] = {{0, 0.04}, {0, 4e-6}, {}, {}, {}};
   const auto at = [&](double x_m) {
@@ -276,7 +278,7 @@ TEST(Compensating, NamesTheTablesThatEndBefore) {
   EXPECT_EQ(at(0.05), std::vector<std::string>{"EXX"});
 }
 
-TEST(Compensating, SaysWhatTwoAxesCannotReach) {
+TEST(Compensating, ReportsTheResidualOfTwoAxes) {
   auto m = by_hand(true);
   m.frames[0].error[1].forward = {3e-6};  // EYX, and no Y
   m.frames[0].error[0].forward = {2e-6};
@@ -284,13 +286,13 @@ TEST(Compensating, SaysWhatTwoAxesCannotReach) {
   ASSERT_TRUE(c);
   EXPECT_NEAR(c->residual_m[0], 0, 1e-15);
   EXPECT_NEAR(c->residual_m[1], -3e-6, 1e-15);
-  EXPECT_NEAR(c->command[0] - 0.05, -2e-6, 1e-12);  // the table has gone 2 µm too far
+  EXPECT_NEAR(c->command[0] - 0.05, -2e-6, 1e-12);  // the table moved 2 µm too far
   m.frames.clear();
   EXPECT_FALSE(compensating_command(m, {}, MachineApproach::mean));
 }
 
-// Shifts and turns count alike along and about each axis.
-TEST(MachineModel, TheBoundTakesAllThreeAlike) {
+// Shifts and rotations count equally for all three axes.
+TEST(MachineModel, BoundTreatsAllAxesEqually) {
   const auto bound = [](std::size_t shift, std::size_t turn) {
     auto m = by_hand(true);
     m.frames[0].error[shift].forward = {3e-6};

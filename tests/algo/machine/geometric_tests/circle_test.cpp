@@ -1,4 +1,4 @@
-// The circular test against what follows by hand from one error of the machine at a time.
+// The circular test compared with results by hand for one error of the machine at a time.
 #include "algo/machine/geometric_tests/circle.h"
 
 #include <gtest/gtest.h>
@@ -40,13 +40,13 @@ CircularFigures figures(const Machine& machine) {
   return *found;
 }
 
-TEST(CircularTest, APerfectMachineGoesOnACircle) {
+TEST(CircularTest, PerfectMachineHasNoDeviations) {
   const CircularFigures f = figures(flat_machine("", ""));
   for (const double figure : {f.G_ccw_m, f.G_cw_m, f.Gb_m, f.H_m, f.D_m, f.F_ccw_m[0], f.F_cw_m[1]})
     EXPECT_NEAR(figure, 0, 1e-12);
 }
 
-TEST(CircularTest, SquarenessIsAnEllipseAt45Degrees) {
+TEST(CircularTest, SquarenessGivesAnEllipseAt45Degrees) {
   // EC0Y = a: the tool is at x - a y; its radius R - a R sin cos: ± a R / 2, smallest at 45°.
   const Machine m = flat_machine("", "EC0Y_urad = 100");
   const CircularFigures f = figures(m);
@@ -61,7 +61,7 @@ TEST(CircularTest, SquarenessIsAnEllipseAt45Degrees) {
   EXPECT_NEAR(path.ccw_m[3], +50e-6 * kCircle_m, 1e-9);
 }
 
-TEST(CircularTest, AScaleOfOneAxisIsAnEllipseAlongItAndALargerRadius) {
+TEST(CircularTest, ScaleErrorGivesAnEllipseAlongItsAxis) {
   // EXX = s x: r = R + s R cos²: mean s R / 2, range s R.
   const CircularFigures f = figures(flat_machine("EXX_um = [[0, 0], [100, 30]]", ""));
   EXPECT_NEAR(f.G_ccw_m, 300e-6 * kCircle_m, 2e-9);
@@ -70,15 +70,15 @@ TEST(CircularTest, AScaleOfOneAxisIsAnEllipseAlongItAndALargerRadius) {
   EXPECT_NEAR(f.F_ccw_m[1], 0, 2e-9);
 }
 
-TEST(CircularTest, BacklashIsAStepWhereTheAxisTurnsAndHysteresisBetweenTheWays) {
-  // X is 4 µm further as it falls. Counter-clockwise it falls from 0° to 180°: there r is larger by
-  // 4 µm cos, in the other half by nothing; clockwise the halves are the other ones.
+TEST(CircularTest, BacklashGivesStepsAndHysteresis) {
+  // X is 4 µm further when it decreases. Counter-clockwise it decreases from 0° to 180°: there r is
+  // larger by 4 µm cos, in the other half r is unchanged. Clockwise the halves are exchanged.
   const auto path = predicted(flat_machine("EXX_um = [[0, 0, 4], [100, 0, 4]]", "")).path;
-  // The ball stands where the mean of both ways was: 2 µm at +X.
+  // The ball is at the mean of both directions: 2 µm at +X.
   EXPECT_NEAR(path.ccw_m[30], +2e-6 * std::cos(30 * std::numbers::pi / 180), 1e-9);
   EXPECT_NEAR(path.cw_m[30], -2e-6 * std::cos(30 * std::numbers::pi / 180), 1e-9);
   EXPECT_NEAR(path.ccw_m[210], -2e-6 * std::cos(210 * std::numbers::pi / 180), 1e-9);
-  EXPECT_NEAR(path.ccw_m[0], -2e-6, 1e-9);  // it turns here: still as it came, growing
+  EXPECT_NEAR(path.ccw_m[0], -2e-6, 1e-9);  // X reverses here: still the error of increasing X
   EXPECT_NEAR(path.cw_m[0], -2e-6, 1e-9);
   const auto f = circular_figures(path);
   ASSERT_TRUE(f);
@@ -87,7 +87,7 @@ TEST(CircularTest, BacklashIsAStepWhereTheAxisTurnsAndHysteresisBetweenTheWays) 
   EXPECT_GT(f->Gb_m, 3.9e-6);
 }
 
-TEST(CircularTest, WhereTheWorkIsCarriedTheRadiusIsTheSame) {
+TEST(CircularTest, WorkAxisGivesTheSameRadius) {
   const CircularFigures tool = figures(flat_machine("EYX_um = [[0, 0], [100, 9]]", "")),
                         work =
                             figures(flat_machine("EYX_um = [[0, 0], [100, 9]]", "", "w-X-b-Y-t"));
@@ -95,8 +95,8 @@ TEST(CircularTest, WhereTheWorkIsCarriedTheRadiusIsTheSame) {
   EXPECT_NEAR(work.G_ccw_m, tool.G_ccw_m, 1e-9);
 }
 
-TEST(CircularTest, FiguresOfAPathByHand) {
-  // 16 angles: an offset of the centre, a radius of +3 µm, one spike; clockwise 1 µm less.
+TEST(CircularTest, EvaluatesAPathByHand) {
+  // 16 angles: an offset of the centre and a radius of +3 µm; clockwise 1 µm less.
   CircularPath path;
   for (int i = 0; i < 16; ++i) {
     const double a = 2 * std::numbers::pi * i / 16;
@@ -123,7 +123,7 @@ TEST(CircularTest, FiguresOfAPathByHand) {
   EXPECT_NEAR(f->F_ccw_m[1], 3e-6, 1e-15);
 }
 
-TEST(CircularTest, WhatIsNoCircleIsRefused) {
+TEST(CircularTest, RefusesPathsThatAreNoCircle) {
   CircularPath path = predicted(flat_machine("", ""), 8).path;
   EXPECT_TRUE(circular_figures(path));
   path.cw_m.pop_back();
@@ -134,7 +134,7 @@ TEST(CircularTest, WhatIsNoCircleIsRefused) {
   EXPECT_FALSE(circular_figures({}));
   CircularPath arc;
   for (int i = 0; i < 100; ++i) arc.angle_rad.push_back(0.04 * i), arc.ccw_m.push_back(0);
-  EXPECT_FALSE(circular_figures(arc));  // 3.96 of 6.28
+  EXPECT_FALSE(circular_figures(arc));  // 3.96 rad of 6.28 rad
   CircleRequest request;
   request.radius_m = 0.01;
   request.second = 2;
@@ -150,9 +150,9 @@ TEST(CircularTest, WhatIsNoCircleIsRefused) {
   EXPECT_FALSE(predicted_circle(flat_machine("", ""), request));
 }
 
-// Harmonics over equal angles: the radius and the centre take those of order 0 and 1; what is left
-// of each way is its own.
-TEST(CircularTest, FiguresOfHarmonicsByHand) {
+// Harmonics at equal angles: the radius and the centre contain the orders 0 and 1; each direction
+// keeps its own higher harmonics.
+TEST(CircularTest, EvaluatesHarmonicsByHand) {
   CircularPath path;
   for (int i = 0; i < 72; ++i) {
     const double a = 2 * std::numbers::pi * i / 72;

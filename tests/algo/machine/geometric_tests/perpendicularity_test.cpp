@@ -12,15 +12,15 @@ namespace {
 
 constexpr int kCircles = 2000;
 
-// Sum of twelve uniform numbers: near enough to a normal one.
+// Sum of twelve uniform numbers, which is nearly normal.
 double standard_normal(std::mt19937& source) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += static_cast<double>(source()) / 4294967296.0;
   return sum;
 }
 
-// A disc that leans by turns a and b about X and Y, as points of a plane; a wobble of the table and
-// a saddle of the linear axes upon it.
+// A disc, tilted by rotations a and b about X and Y, as points of a plane, plus a wobble of the
+// table and form errors of the linear axes.
 CircleReadings circle(double a, double b, double noise_m, std::mt19937& source, bool known) {
   CircleReadings r;
   r.radius_m = 0.1;
@@ -41,7 +41,7 @@ CircleReadings circle(double a, double b, double noise_m, std::mt19937& source, 
   return r;
 }
 
-TEST(PerpendicularityTest, IsToldApartFromTiltAndAxes) {
+TEST(PerpendicularityTest, IsSeparatedFromTiltAndAxes) {
   std::mt19937 source(5);
   const auto p = perpendicularity(circle(20e-6, -7e-6, 0, source, true), 5);
   ASSERT_TRUE(p);
@@ -51,7 +51,7 @@ TEST(PerpendicularityTest, IsToldApartFromTiltAndAxes) {
   EXPECT_TRUE(p->tilt_known && p->axes_known);
   for (std::size_t k = 1; k < 5; ++k)
     EXPECT_NEAR(std::hypot(p->harmonics[k].cosine_m, p->harmonics[k].sine_m), 0, 1e-15);
-  // Not told, the wobble of the table at twice the angle counts as a lean.
+  // If it is not given, the wobble of the table at twice the angle appears as perpendicularity.
   const auto blind = perpendicularity(circle(20e-6, -7e-6, 0, source, false), 5);
   EXPECT_GT(std::abs(blind->EA0C_rad - 20e-6), 1e-6);
   EXPECT_FALSE(blind->tilt_known || blind->axes_known);
@@ -93,7 +93,7 @@ CircleReadings turning_circle(double a, double b, double noise_m, std::mt19937& 
   return all;
 }
 
-TEST(PerpendicularityTest, ADriftBetweenTurnsIsTakenAway) {
+TEST(PerpendicularityTest, RemovesADriftBetweenTurns) {
   std::mt19937 source(8);
   auto readings = turning_circle(20e-6, -7e-6, 0, source, 2, 3e-6);
   const auto p = perpendicularity(readings, 5);
@@ -103,7 +103,7 @@ TEST(PerpendicularityTest, ADriftBetweenTurnsIsTakenAway) {
   EXPECT_NEAR(p->drift_m, 3e-6, 1e-16);
   EXPECT_NEAR(p->EA0C_rad, 20e-6, 1e-15);
   EXPECT_NEAR(p->EB0C_rad, -7e-6, 1e-15);
-  // A pause, then the other way round: the times say how far it has drifted.
+  // A pause, then the opposite direction: the times show how far the height drifted.
   auto paused = turning_circle(20e-6, -7e-6, 0, source, 2, 0);
   for (auto* of : {&paused.angle_rad, &paused.height_m, &paused.tilt_a_rad, &paused.tilt_b_rad,
                    &paused.axes_m})
@@ -119,7 +119,7 @@ TEST(PerpendicularityTest, ADriftBetweenTurnsIsTakenAway) {
   paused.time_s[5] = paused.time_s[4];
   ASSERT_FALSE(perpendicularity(paused, 5));
   EXPECT_NE(perpendicularity(paused, 5).error().message.find("reading 6"), std::string::npos);
-  // One turn, to the reading before its first place: nothing shows the drift.
+  // One turn, up to the reading before its first angle: the drift cannot be determined.
   const auto one = perpendicularity(turning_circle(20e-6, -7e-6, 0, source, 1, 3e-6), 5);
   ASSERT_TRUE(one);
   EXPECT_FALSE(one->drift_fitted);
@@ -127,7 +127,7 @@ TEST(PerpendicularityTest, ADriftBetweenTurnsIsTakenAway) {
   EXPECT_GT(std::abs(one->EA0C_rad - 20e-6), 5e-6);  // of the sawtooth 3e-6/π over the radius
 }
 
-// Bar: 93 ... 97.5 % of 2,000 simulations, each with a drift of its own.
+// Required: 93 to 97.5 % of 2,000 simulations, each with its own drift.
 TEST(PerpendicularityTest, CoversTheTruthUnderDrift) {
   std::mt19937 source(9);
   for (const int turns : {2, 3}) {
@@ -148,7 +148,7 @@ TEST(PerpendicularityTest, CoversTheTruthUnderDrift) {
   }
 }
 
-TEST(PerpendicularityTest, APartOfATurnIsRefused) {
+TEST(PerpendicularityTest, RefusesAPartOfATurn) {
   std::mt19937 source(7);
   auto r = circle(0, 0, 1e-7, source, false);
   EXPECT_FALSE(perpendicularity(r, 40));
@@ -159,8 +159,8 @@ TEST(PerpendicularityTest, APartOfATurnIsRefused) {
   EXPECT_NE(p.error().message.find("whole turn"), std::string::npos);
 }
 
-// What the harmonics leave of equal steps: u of a coefficient is s √(2/n).
-TEST(PerpendicularityTest, UncertaintyIsOfWhatTheHarmonicsLeave) {
+// For equal steps u of a coefficient is s √(2/n), with s of the residuals.
+TEST(PerpendicularityTest, UncertaintyComesFromTheResiduals) {
   std::mt19937 source(8);
   CircleReadings r = circle(3e-6, 4e-6, 0, source, true);
   for (std::size_t i = 0; i < 72; ++i) r.height_m[i] += 1e-7 * std::cos(7 * r.angle_rad[i]);
@@ -171,14 +171,14 @@ TEST(PerpendicularityTest, UncertaintyIsOfWhatTheHarmonicsLeave) {
   EXPECT_NEAR(p->harmonics[0].u_m, p->residual_sd_m * std::sqrt(2.0 / 72), 1e-15);
   EXPECT_NEAR(p->u_rad, p->harmonics[0].u_m / 0.1, 1e-15);
   EXPECT_NEAR(p->size_rad, 5e-6, 1e-13);
-  EXPECT_NEAR(p->k, 1.99962, 1e-4);  // of 61
+  EXPECT_NEAR(p->k, 1.99962, 1e-4);  // for 61 degrees of freedom
   EXPECT_NEAR(p->U_rad, p->k * p->u_rad, 1e-18);
   EXPECT_EQ(p->harmonics[4].order, 5);
   r.tilt_b_rad.clear();
   EXPECT_FALSE(perpendicularity(r, 5)->tilt_known);
 }
 
-TEST(PerpendicularityTest, NeedsTwoReadingsMoreThanUnknownsAndSixtyDegrees) {
+TEST(PerpendicularityTest, RefusesFewReadingsAndGapsAbove60Degrees) {
   const auto readings = [](int n, double step_deg) {
     CircleReadings r;
     r.radius_m = 0.1;
@@ -190,10 +190,10 @@ TEST(PerpendicularityTest, NeedsTwoReadingsMoreThanUnknownsAndSixtyDegrees) {
   };
   EXPECT_TRUE(perpendicularity(readings(13, 360.0 / 13), 5));
   EXPECT_FALSE(perpendicularity(readings(12, 30), 5));
-  EXPECT_TRUE(perpendicularity(readings(11, 30.1), 2));   // 59° are left out
-  EXPECT_FALSE(perpendicularity(readings(11, 29.9), 2));  // 61°
+  EXPECT_TRUE(perpendicularity(readings(11, 30.1), 2));   // a gap of 59°
+  EXPECT_FALSE(perpendicularity(readings(11, 29.9), 2));  // a gap of 61°
   CircleReadings shifted = readings(11, 29.9);
-  for (double& a : shifted.angle_rad) a -= 10;  // the gap lies within the turn
+  for (double& a : shifted.angle_rad) a -= 10;  // the gap is within the turn
   EXPECT_FALSE(perpendicularity(shifted, 2));
   CircleReadings r = readings(13, 360.0 / 13);
   for (const double radius_m : {0.0, -0.1, 100.0}) {

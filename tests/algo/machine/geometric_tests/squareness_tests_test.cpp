@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kSimulations = 2000;
 
-// Sum of twelve uniform numbers: near enough to a normal one.
+// Sum of twelve uniform numbers, which is nearly normal.
 double noise(std::mt19937& source) {
   double sum = -6;
   for (int i = 0; i < 12; ++i) sum += static_cast<double>(source()) / 4294967296.0;
@@ -32,7 +32,7 @@ DiagonalLines measured_lines(double error, std::mt19937& source, std::size_t n, 
   return lines;
 }
 
-TEST(Diagonals, TheAngleBetweenTheAxes) {
+TEST(Diagonals, GiveTheAngleBetweenTheAxes) {
   std::mt19937 source(1);
   for (const bool two : {false, true})
     for (const double error : {-1e-3, 25e-6, 2e-3}) {
@@ -45,8 +45,8 @@ TEST(Diagonals, TheAngleBetweenTheAxes) {
     }
 }
 
-// The sensitivity to each line is that of the formula, by differences.
-TEST(Diagonals, UncertaintyIsThatOfTheLines) {
+// The sensitivity to each line equals that of the formula, by differences.
+TEST(Diagonals, UncertaintyFollowsFromTheLines) {
   std::mt19937 source(2);
   for (const bool two : {false, true}) {
     auto lines = measured_lines(1e-3, source, 1, two, 0);
@@ -63,7 +63,7 @@ TEST(Diagonals, UncertaintyIsThatOfTheLines) {
   }
 }
 
-// Bar: 94 ... 96.5 % of 2,000 simulations.
+// Required: 94 to 96.5 % of 2,000 simulations.
 TEST(Diagonals, CoverTheTruth) {
   for (const bool two : {false, true}) {
     std::mt19937 source(3);
@@ -78,8 +78,8 @@ TEST(Diagonals, CoverTheTruth) {
   }
 }
 
-// Lines that were read once have the noise of those that were read more often; where all were read
-// once, that of the declared u. Bar as above.
+// Lines that were read once have the noise of the lines that were read more often; if all were read
+// once, the declared u applies. Required: as above.
 TEST(Diagonals, CoverTheTruthOfLinesReadOnce) {
   const std::vector<std::array<std::size_t, 4>> counts = {{1, 1, 6, 0}, {6, 1, 1, 0}, {2, 1, 3, 0},
                                                           {1, 1, 1, 5}, {1, 1, 2, 2}, {1, 1, 1, 1}};
@@ -103,7 +103,7 @@ TEST(Diagonals, CoverTheTruthOfLinesReadOnce) {
   }
 }
 
-TEST(Diagonals, WhatIsNoTriangleIsRefused) {
+TEST(Diagonals, RefuseLinesWithoutATriangle) {
   std::mt19937 source(4);
   auto lines = measured_lines(0, source, 2, false, 1e-7);
   EXPECT_TRUE(squareness_of_diagonals(lines));
@@ -116,8 +116,8 @@ TEST(Diagonals, WhatIsNoTriangleIsRefused) {
   EXPECT_FALSE(squareness_of_diagonals(measured_lines(0, source, 1, false, 0)));
 }
 
-// A machine whose Y leans: its diagonals differ by what the law of cosines says.
-TEST(Diagonals, PredictionLeansTheSameWay) {
+// A machine whose Y is not square to X: its diagonals differ according to the law of cosines.
+TEST(Diagonals, PredictionHasTheSameSign) {
   Machine m;
   m.frames.resize(2);
   m.frames[0].id = "X";
@@ -142,7 +142,7 @@ TEST(Diagonals, PredictionLeansTheSameWay) {
   EXPECT_NEAR((*d)[1].range_m, (*d)[1].deviation_m.back(), 1e-15);
 }
 
-// From a corner that is not the zero of its axes: both diagonals begin and end at the corners.
+// The corner is not the zero of the axes: both diagonals begin and end at the corners.
 TEST(Diagonals, GoFromCornerToCorner) {
   Machine m;
   m.frames.resize(2);
@@ -152,7 +152,7 @@ TEST(Diagonals, GoFromCornerToCorner) {
   for (auto& f : m.frames) f.kind = FrameKind::linear;
   m.frames[0].range = {-0.1, 0.2};
   m.frames[1].range = {0.05, 0.45};
-  // EYY grows with Y: at Y = 0.05 m 5 µm, at 0.45 m 45 µm; along a diagonal of 0.5 m 4/5 of it.
+  // EYY grows with Y: 5 µm at Y = 0.05 m, 45 µm at 0.45 m; along a diagonal of 0.5 m 4/5 of it.
   m.frames[1].error[1] = {{0.05, 0.45}, {5e-6, 45e-6}, {}, {}, {}};
   const auto d = plane_diagonals(m, 0, 1, 4, MachineApproach::forward);
   ASSERT_TRUE(d) << d.error().message;
@@ -170,7 +170,7 @@ TEST(Diagonals, GoFromCornerToCorner) {
   EXPECT_NE(none.error().message.find("no axis Z"), std::string::npos);
 }
 
-TEST(PlaneMap, HasAllPointsOfTheRangeUpToAMillion) {
+TEST(PlaneMap, CoversTheRangeUpToAMillionPoints) {
   Machine m;
   m.frames.resize(2);
   m.frames[0].id = "X";
@@ -200,9 +200,9 @@ TEST(PlaneMap, HasAllPointsOfTheRangeUpToAMillion) {
   EXPECT_EQ(without_points->extremes[1].point, extreme.point);
   request.extremes_only = false;
   EXPECT_NEAR(extreme.value, 6e-6, 1e-15);
-  EXPECT_EQ(extreme.point % 4, 3U);  // of any row
+  EXPECT_EQ(extreme.point % 4, 3U);  // in any row
   EXPECT_NEAR(extreme.range, 9e-6, 1e-15);
-  // 998 steps and two more a side are a million; a step more a side is refused, before its time.
+  // 999 steps a side have a million points: plane_map() refuses them before it calculates.
   m.frames[0].range = m.frames[1].range = {-0.25, 0.75};
   request.step_m = 1 / 998.5;
   const auto refused = plane_map(m, request);
@@ -212,8 +212,8 @@ TEST(PlaneMap, HasAllPointsOfTheRangeUpToAMillion) {
   EXPECT_EQ(plane_map(m, request)->points.size(), 36U);
 }
 
-// A bow of EXX along X alone: below its ends at one quarter, above them at three quarters.
-TEST(Diagonals, TheRangeIsFromTheLowestToTheHighest) {
+// EXX bends along X: below its ends at one quarter, above them at three quarters.
+TEST(Diagonals, RangeIsHighestMinusLowest) {
   Machine m;
   m.frames.resize(2);
   m.frames[0].id = "X";
@@ -230,8 +230,8 @@ TEST(Diagonals, TheRangeIsFromTheLowestToTheHighest) {
   EXPECT_NEAR((*d)[0].range_m, 9e-6, 1e-15);
 }
 
-// Repeated readings and a declared u are told apart; each kind of line has its degrees of freedom.
-TEST(Diagonals, UncertaintyOfRepeatedAndDeclaredLines) {
+// Repeatability and declared u are separate; each kind of line has its degrees of freedom.
+TEST(Diagonals, CombineRepeatedAndDeclaredUncertainty) {
   DiagonalLines lines{{{0.4 - 1e-6, 0.4 + 1e-6}},
                       {{0.3 - 3e-6, 0.3 + 3e-6}},
                       {{0.5 - 2e-6, 0.5, 0.5 + 2e-6}},
@@ -246,7 +246,8 @@ TEST(Diagonals, UncertaintyOfRepeatedAndDeclaredLines) {
   EXPECT_NEAR(by_repeats->u_rad, by_repeats->u_repeat_rad, 1e-15);
   const double fourths = std::pow(of_x, 4) + std::pow(of_y, 4) + std::pow(of_d, 4) / 2;
   EXPECT_NEAR(by_repeats->freedom, std::pow(u, 4) / fourths, 1e-4);
-  // Y read once: s² of all, (2 + 8) 1e-12 / 3, of x twice, of y once, of d three times.
+  // Y was read once: s² of all lines is (2 + 8) 1e-12 / 3, for the means of two (x), one (y) and
+  // three (d) readings.
   DiagonalLines once = lines;
   once.second.length_m = {0.3};
   const auto pooled = squareness_of_diagonals(once);

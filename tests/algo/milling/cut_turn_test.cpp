@@ -1,4 +1,4 @@
-// A turn of a bent tool of three teeth: how fast its equilibrium is found, its window and its
+// One turn of a bent tool with three teeth: convergence to its equilibrium, its window and its
 // power.
 #include "algo/milling/cut_turn.h"
 
@@ -28,8 +28,8 @@ MillingPlan bent_cut(ChipModel chip, DeflectionModel deflection, bool up) {
   return plan;
 }
 
-// Newton's method squares the distance from the root in each step, from some µm to 1e-13 m in
-// four; with a derivative that is wrong it would take tens of steps.
+// Newton's method squares the distance from the root in each step: from some µm to 1e-13 m in four
+// steps. With a wrong derivative it would need tens of steps.
 TEST(CutTurn, EquilibriumIsFoundInFourSteps) {
   for (const ChipModel chip : kChips)
     for (const DeflectionModel deflection : kBent)
@@ -42,8 +42,8 @@ TEST(CutTurn, EquilibriumIsFoundInFourSteps) {
       }
 }
 
-// With the edge's force Eq. 8 has derivatives of its own where the chip is thick.
-TEST(CutTurn, EquilibriumWithTheForceOfTheEdgeIsFoundAsFast) {
+// With the edge force Eq. 8 has separate derivatives where the chip is thick.
+TEST(CutTurn, EquilibriumWithEdgeForceNeedsFourSteps) {
   for (const bool up : {true, false}) {
     MillingPlan plan = bent_cut(ChipModel::eq8, DeflectionModel::paper, up);
     plan.Kte = 2e3;
@@ -52,7 +52,7 @@ TEST(CutTurn, EquilibriumWithTheForceOfTheEdgeIsFoundAsFast) {
   }
 }
 
-// The free edge is where the tip, deflected as it is there, leaves or meets the uncut side.
+// At the free edge the tip, with its deflection there, leaves or meets the uncut side.
 TEST(CutTurn, WindowEndsAtTheFreeEdgeOfTheBentTool) {
   for (const DeflectionModel deflection : kBent)
     for (const bool up : {true, false}) {
@@ -68,7 +68,8 @@ TEST(CutTurn, WindowEndsAtTheFreeEdgeOfTheBentTool) {
     }
 }
 
-// Work by the tangential force of the one tooth that is in: the force on the tool along its way.
+// The power of the tangential force of the only tooth in the work: the force on the tool along the
+// path of the tooth.
 TEST(CutTurn, PowerIsTangentialForceTimesSpeed) {
   for (const ChipModel chip : kChips)
     for (const bool up : {true, false}) {
@@ -101,7 +102,7 @@ TEST(CutTurn, PowerIsTangentialForceTimesSpeed) {
     }
 }
 
-TEST(Milling, FiguresAreThoseOfItsTurns) {
+TEST(Milling, ResultsMatchItsTurns) {
   const MillingPlan plan = bent_cut(ChipModel::sine, DeflectionModel::steady, true);
   MillingPlan rigid = plan;
   rigid.deflection = DeflectionModel::rigid;
@@ -138,7 +139,7 @@ TEST(Milling, FiguresAreThoseOfItsTurns) {
   EXPECT_EQ(found->iterations, turn.iterations);
 }
 
-TEST(Milling, ADeflectionOfHalfTheRadiusIsRefused) {
+TEST(Milling, RefusesADeflectionOfHalfTheRadius) {
   MillingPlan plan = bent_cut(ChipModel::sine, DeflectionModel::rigid, true);
   const double bent_m = milling(plan)->deflection_m, E = plan.youngs_modulus_Pa;
   for (const double part : {0.99, 1.01}) {

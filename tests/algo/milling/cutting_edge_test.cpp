@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kThird_rad = kWholeTurn_rad / 3;
 
-// Three teeth, helix, run-out with tilt: nothing is 0 or alike.
+// Three teeth, helix, run-out with tilt: no quantity is 0 and no two are equal.
 MillingPlan three_teeth(ChipModel chip, DeflectionModel deflection) {
   MillingPlan plan = parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
   plan.teeth = 3;
@@ -27,9 +27,10 @@ MillingPlan three_teeth(ChipModel chip, DeflectionModel deflection) {
   return plan;
 }
 
-// The axis of the tool is off that of the spindle by one vector, the same for all teeth at a height
-// and turning with the tool; a tooth is behind tooth 0 by its pitch and the helix.
-TEST(CuttingEdge, ToothStandsOnTheToolThatRunsOut) {
+// The axis of the tool is offset from the axis of the spindle by one vector, which is the same for
+// all teeth at a height and rotates with the tool. A tooth is behind tooth 0 by its pitch and the
+// helix.
+TEST(CuttingEdge, ToothFollowsTheRunout) {
   const MillingPlan plan = three_teeth(ChipModel::sine, DeflectionModel::rigid);
   const double r = plan.diameter_m / 2, z = 0.2e-3;
   for (const int tooth : {0, 1, 2})
@@ -52,9 +53,9 @@ TEST(CuttingEdge, ToothStandsOnTheToolThatRunsOut) {
   EXPECT_NEAR(wrapped_angle(3 * kWholeTurn_rad + 0.25), 0.25, 1e-14);
 }
 
-// Eq. 8 is the trochoid's chip to the second order of the feed: half the feed, an eighth of the
-// difference.
-TEST(CuttingEdge, Eq8IsTheTrochoidToSecondOrder) {
+// Eq. 8 equals the trochoid chip to the second order of the feed: half the feed gives an eighth of
+// the difference.
+TEST(CuttingEdge, Eq8MatchesTheTrochoidToSecondOrder) {
   for (const double angle : {0.4, 0.9, 1.3, 1.8, 2.4}) {
     const auto difference = [&](double feed_m) {
       MillingPlan plan = three_teeth(ChipModel::eq8, DeflectionModel::rigid);
@@ -70,8 +71,9 @@ TEST(CuttingEdge, Eq8IsTheTrochoidToSecondOrder) {
   }
 }
 
-// The run-out makes a chip thicker by what this tooth reaches further than the one before it.
-TEST(CuttingEdge, SineChipHasTheStepBetweenTwoTeeth) {
+// The run-out makes a chip thicker by the distance that this tooth reaches beyond the tooth before
+// it.
+TEST(CuttingEdge, SineChipContainsTheRunoutStep) {
   const MillingPlan plan = three_teeth(ChipModel::sine, DeflectionModel::rigid);
   const double z = 0.1e-3, off = 1e-6 + 2e-3 * z, lag = z * std::tan(0.5) / plan.radius_m();
   for (const int tooth : {0, 1, 2}) {
@@ -83,9 +85,10 @@ TEST(CuttingEdge, SineChipHasTheStepBetweenTwoTeeth) {
   }
 }
 
-// A tool drawn back along the feed cuts less at 90 degrees, one drawn into the wall more at 0; the
-// tooth before leaves what it did not cut.
-TEST(CuttingEdge, SteadyChipIsThatOfBothPlaces) {
+// A tool that is bent against the feed cuts less at 90 degrees, a tool that is bent into the wall
+// cuts more at 0 degrees. The tooth before leaves the material that its deflection kept it from
+// cutting.
+TEST(CuttingEdge, SteadyChipUsesBothDeflections) {
   for (const ChipModel model : {ChipModel::sine, ChipModel::eq8, ChipModel::trochoid}) {
     const MillingPlan plan = three_teeth(model, DeflectionModel::steady);
     const CuttingEdge edge(plan, 1, 0);
@@ -100,8 +103,8 @@ TEST(CuttingEdge, SteadyChipIsThatOfBothPlaces) {
   }
 }
 
-// Eq. 9: as with a smaller feed.
-TEST(CuttingEdge, PaperChipIsThatOfTheFeedLessTheDeflection) {
+// Eq. 9: the deflection reduces the feed.
+TEST(CuttingEdge, PaperChipUsesTheFeedLessTheDeflection) {
   for (const ChipModel model : {ChipModel::sine, ChipModel::eq8}) {
     const MillingPlan plan = three_teeth(model, DeflectionModel::paper);
     MillingPlan less = plan;
@@ -114,7 +117,7 @@ TEST(CuttingEdge, PaperChipIsThatOfTheFeedLessTheDeflection) {
   }
 }
 
-TEST(CuttingEdge, DerivativesOfTheChipAreThoseOfDifferences) {
+TEST(CuttingEdge, ChipDerivativesMatchDifferences) {
   for (const ChipModel model : {ChipModel::sine, ChipModel::eq8, ChipModel::trochoid})
     for (const DeflectionModel deflection :
          {DeflectionModel::rigid, DeflectionModel::paper, DeflectionModel::steady}) {
@@ -136,8 +139,7 @@ TEST(CuttingEdge, DerivativesOfTheChipAreThoseOfDifferences) {
     }
 }
 
-// At the free edge the tooth itself, with run-out and deflection, stands on the line of the work's
-// side.
+// At the free edge the tooth, with run-out and deflection, is on the line of the side of the work.
 TEST(CuttingEdge, TrochoidLeavesTheWorkAtItsSide) {
   for (const bool up : {true, false})
     for (const int tooth : {0, 1, 2}) {
@@ -155,8 +157,8 @@ TEST(CuttingEdge, TrochoidLeavesTheWorkAtItsSide) {
   EXPECT_EQ(CuttingEdge(slot, 0, 0).wall_edge(), 0);
 }
 
-// By a plain sum of the moments of both forces over the bending stiffness.
-TEST(Beam, SteppedToolIsThatOfASum) {
+// The test sums the moments of both forces over the bending stiffness.
+TEST(Beam, SteppedToolMatchesASum) {
   const std::vector<ToolSection> tool = {{3e-3, 3e-3}, {1e-3, 1.5e-3}, {2e-3, 0.4e-3}};
   const double E = 600e9;
   const auto sum = [&](double at_m, double of_m) {
@@ -181,18 +183,18 @@ TEST(Beam, SteppedToolIsThatOfASum) {
                   1, 1e-6);
 }
 
-// Cowper: κ = 6 (1 + ν) / (7 + 6 ν) of a circle; at ν = 0.22 it is 0.879808. Bending of l over
-// shear: κ A l² / (3 · 2 (1 + ν) I) with A / I = 16 / d².
-TEST(Beam, ShearIsThatOfCowper) {
+// Cowper: κ = 6 (1 + ν) / (7 + 6 ν) for a circle, 0.879808 at ν = 0.22. Bending of l over shear: κ
+// A l² / (3 · 2 (1 + ν) I) with A / I = 16 / d².
+TEST(Beam, ShearMatchesCowper) {
   const double l = 2e-3, d = 0.4e-3;
   EXPECT_NEAR(shear_share({{l, d}}), 3 * 2.44 * d * d / (0.879808 * 16 * l * l), 1e-7);
-  // Two halves of one cylinder are one.
+  // Two halves of a cylinder equal the whole cylinder.
   EXPECT_NEAR(shear_share({{l / 2, d}, {l / 2, d}}), shear_share({{l, d}}), 1e-15);
 }
 
-// The force on each element from its chip, with the deflection that these forces make now and made
-// a tooth's pitch before.
-TEST(CutTurn, SteadyForcesAreThoseOfTheirOwnDeflection) {
+// The force on each element follows from its chip, with the deflection by these forces now and one
+// tooth pitch before.
+TEST(CutTurn, SteadyForcesMatchTheirDeflection) {
   MillingPlan plan = three_teeth(ChipModel::sine, DeflectionModel::steady);
   plan.Kte = 2e3;
   plan.Kre = 3e3;
@@ -234,7 +236,7 @@ TEST(CutTurn, SteadyForcesAreThoseOfTheirOwnDeflection) {
   EXPECT_GT(compared, 600);
 }
 
-// The outermost place of all teeth of some turns at each x, by bisection on their exact paths.
+// The outermost position of all teeth over some turns at each x, by bisection on their exact paths.
 TEST(Wall, IsTheEnvelopeOfAllTeeth) {
   for (const bool up : {true, false}) {
     MillingPlan plan = three_teeth(ChipModel::trochoid, DeflectionModel::rigid);
@@ -274,9 +276,9 @@ TEST(Wall, IsTheEnvelopeOfAllTeeth) {
   }
 }
 
-// A tool that is drawn away from the side of the work by more than the depth does not leave it, or
-// meet it, anywhere else than at the wall.
-TEST(CuttingEdge, DrawnOffByMoreThanTheDepthItCutsNothing) {
+// A tool that is bent away from the side of the work by more than the depth leaves or meets the
+// work at the wall only.
+TEST(CuttingEdge, BentAwayBeyondTheDepthCutsNothing) {
   MillingPlan plan = three_teeth(ChipModel::sine, DeflectionModel::rigid);
   plan.radial_depth_m = 1e-6;
   EXPECT_EQ(CuttingEdge(plan, 0, 0).free_edge({0, -5e-6}), 0);

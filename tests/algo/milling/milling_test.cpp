@@ -15,7 +15,7 @@ MillingPlan preset() {
   return parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
 }
 
-// One element without helix and run-out: the closed forms hold.
+// One element without helix and run-out: closed forms apply.
 MillingPlan plain(ChipModel chip, DeflectionModel deflection) {
   MillingPlan plan = preset();
   plan.elements = 1;
@@ -31,15 +31,15 @@ double mean_power_W(const CutTurn& turn) {
   return sum / static_cast<double>(turn.power_W.size());
 }
 
-TEST(Beam, IsThatOfTheBooks) {
+TEST(Beam, MatchesTextbooks) {
   const double E = 600e9, d = 0.4e-3, l = 2e-3, I = kPi * std::pow(d, 4) / 64;
   const auto C = beam_compliance({{l, d}}, E, {0, 0.5e-3}, {0, 0.5e-3});
   EXPECT_NEAR(C(0, 0) / (l * l * l / (3 * E * I)), 1, 1e-12);
-  // Eq. 2 of the paper with its letters put right: v² (3 l - v) / 6EI, from both sides.
+  // Eq. 2 of the paper with corrected symbols: v² (3 l - v) / 6EI, from both sides.
   const double v = 1.5e-3;
   EXPECT_NEAR(C(0, 1) / (v * v * (3 * l - v) / (6 * E * I)), 1, 1e-12);
   EXPECT_EQ(C(0, 1), C(1, 0));
-  // Two cylinders of one diameter are one; a thick shank adds little.
+  // Two cylinders of one diameter equal one cylinder; a thick shank adds little.
   const auto halves = beam_compliance({{0.7e-3, d}, {1.3e-3, d}}, E, {0}, {0});
   EXPECT_NEAR(halves(0, 0) / C(0, 0), 1, 1e-12);
   const double L = 3e-3, D = 3e-3, shank = kPi * std::pow(D, 4) / 64;
@@ -54,22 +54,23 @@ TEST(Beam, ShearAddsTwoPercentAtFiveDiameters) {
   EXPECT_NEAR(shear_share({{20 * 0.4e-3, 0.4e-3}}), 0.0013, 0.0001);
 }
 
-TEST(CuttingEdge, RigidWindowIsThatOfTheCircle) {
+TEST(CuttingEdge, RigidWindowMatchesTheCircle) {
   const MillingPlan plan = plain(ChipModel::sine, DeflectionModel::rigid);
   const double exit = std::acos((0.25 - 0.3) / 0.25);
   EXPECT_NEAR(CuttingEdge(plan, 0, 0).free_edge({}), exit, 1e-15);
   MillingPlan down = plan;
   down.is_up = false;
   EXPECT_NEAR(CuttingEdge(down, 0, 0).free_edge({}), kPi - exit, 1e-15);
-  // Drawn into the wall by 3 µm an up cut leaves later, and a down cut enters later.
+  // If the tool is bent into the wall by 3 µm, an up cut leaves later and a down cut enters later.
   EXPECT_NEAR(CuttingEdge(plan, 0, 0).free_edge({0, 3e-6}), std::acos((-50e-6 - 3e-6) / 250e-6),
               1e-15);
   EXPECT_NEAR(CuttingEdge(down, 0, 0).free_edge({0, 3e-6}), std::acos((50e-6 - 3e-6) / 250e-6),
               1e-15);
 }
 
-// Eq. 8 against the exact trochoid: Bao and Tansel's error is below 0.02 µm without run-out.
-TEST(CuttingEdge, Eq8IsNearTheTrochoid) {
+// Eq. 8 compared with the exact trochoid: the error of Bao and Tansel is below 0.02 µm without
+// run-out.
+TEST(CuttingEdge, Eq8IsCloseToTheTrochoid) {
   for (const int teeth : {2, 4}) {
     MillingPlan eq8 = plain(ChipModel::eq8, DeflectionModel::rigid);
     eq8.teeth = teeth;
@@ -79,7 +80,7 @@ TEST(CuttingEdge, Eq8IsNearTheTrochoid) {
       EXPECT_NEAR(CuttingEdge(eq8, 1, 0).rigid_chip(angle).thickness,
                   CuttingEdge(exact, 1, 0).rigid_chip(angle).thickness, 0.02e-6 * teeth / 2)
           << teeth << " " << angle;
-    // A microscopic run-out moves both alike, with the sign of each tooth.
+    // A very small run-out changes both equally, with the sign of each tooth.
     for (const int tooth : {0, 1}) {
       const auto moved = [&](MillingPlan plan) {
         const double before = CuttingEdge(plan, tooth, 0).rigid_chip(1.2).thickness;
@@ -93,9 +94,9 @@ TEST(CuttingEdge, Eq8IsNearTheTrochoid) {
   }
 }
 
-// With a run-out larger than the feed a tooth does not reach the work: the chip of the next one is
-// that of the tooth before it.
-TEST(CuttingEdge, TrochoidLooksAtAllEarlierTeeth) {
+// With a run-out larger than the feed a tooth does not reach the work: the chip of the next tooth
+// begins at the surface of the tooth before.
+TEST(CuttingEdge, TrochoidChecksAllEarlierTeeth) {
   MillingPlan plan = plain(ChipModel::trochoid, DeflectionModel::rigid);
   plan.runout_m = 20e-6;
   plan.runout_angle_rad = 0;
@@ -105,7 +106,7 @@ TEST(CuttingEdge, TrochoidLooksAtAllEarlierTeeth) {
   EXPECT_NEAR(chip.thickness, 30e-6, 0.5e-6);  // two feeds
 }
 
-TEST(Milling, ForcesOfOneElement) {
+TEST(Milling, OneElementHasTheKnownForces) {
   const auto rigid = *milling(plain(ChipModel::sine, DeflectionModel::rigid));
   EXPECT_NEAR(rigid.x_max_N, 0.872, 5e-4);
   EXPECT_NEAR(rigid.y_max_N, 1.066, 5e-4);
@@ -118,8 +119,8 @@ TEST(Milling, ForcesOfOneElement) {
   EXPECT_NEAR(steady.y_max_N, 1.068, 1e-3);
 }
 
-// F = Kt h db, its speed r ω: the mean is exactly Kt times what is removed.
-TEST(Milling, PowerIsThatOfTheRemovedVolume) {
+// F = Kt h db at the speed r ω: the mean power is exactly Kt times the removed volume per time.
+TEST(Milling, PowerMatchesTheRemovedVolume) {
   for (const bool up : {true, false}) {
     MillingPlan plan = plain(ChipModel::sine, DeflectionModel::rigid);
     plan.is_up = up;
@@ -138,19 +139,20 @@ TEST(Milling, WindowOfTheTrochoidBeginsBeforeTheWall) {
   EXPECT_NEAR(turn.exit_rad * 180 / kPi, 101.54, 0.01);
 }
 
-TEST(Wall, CuspIsThatOfTheTrochoid) {
+TEST(Wall, CuspMatchesTheTrochoid) {
   for (const bool up : {true, false}) {
     MillingPlan plan = plain(ChipModel::trochoid, DeflectionModel::rigid);
     plan.is_up = up;
     const auto result = *milling(plan);
     EXPECT_NEAR(result.wall.waviness_tip_m, up ? 0.10835e-6 : 0.11695e-6, 0.15e-9);
     EXPECT_NEAR(result.wall.form_m, 0, 1e-15);
-    // The mean of a parabola of that height lies a third below its top.
+    // The mean of a parabola with this height is a third of the height below its top.
     EXPECT_NEAR(result.wall.offset_tip_m, -result.wall.waviness_tip_m / 3, 0.3e-9);
   }
 }
 
-// Run-out without deflection: the longer tooth makes the wall, outward by the run-out's component.
+// Run-out without deflection: the tooth that reaches further makes the wall, outward by the
+// component of the run-out.
 TEST(Wall, RunoutCutsOutward) {
   MillingPlan plan = plain(ChipModel::trochoid, DeflectionModel::rigid);
   plan.runout_m = 20e-6;  // tooth 1 does not cut: cusps of two feeds
@@ -160,8 +162,8 @@ TEST(Wall, RunoutCutsOutward) {
   EXPECT_NEAR(result.wall.offset_tip_m, 20e-6 - result.wall.waviness_tip_m / 3, 0.01e-6);
 }
 
-// In equilibrium the deflection is that of the beam under the force of the chip with it.
-TEST(Milling, IsInEquilibriumWhereThePlainIterationDiverges) {
+// In equilibrium the beam has its deflection under the force of the chip with this deflection.
+TEST(Milling, FindsEquilibriumWhereIterationDiverges) {
   for (const bool up : {true, false})
     for (const DeflectionModel model : {DeflectionModel::paper, DeflectionModel::steady}) {
       MillingPlan plan = preset();
@@ -188,8 +190,9 @@ TEST(Milling, IsInEquilibriumWhereThePlainIterationDiverges) {
   }
 }
 
-// Where the tooth leaves, a weak tool has more than one equilibrium, one of them unstable. Chips
-// that differ by 0.02 µm of 15 then bend it by 2.5 % more or less, unless both take the stable one.
+// Where the tooth leaves the work, a weak tool has several equilibria, one of them unstable. Chip
+// models that differ by 0.02 µm in 15 µm would then give deflections that differ by 2.5 %, unless
+// both take the stable equilibrium.
 TEST(Milling, StaysInTheStableEquilibrium) {
   const auto bent_m = [](ChipModel chip) {
     MillingPlan plan = preset();
@@ -204,8 +207,8 @@ TEST(Milling, StaysInTheStableEquilibrium) {
 }
 
 // Eq. 9 in the middle of a down cut without Kr: u = k (f - u), k = -C b Kt / 2 at 135 degrees,
-// where the chip grows with the deflection that it makes.
-TEST(Milling, AChipThatGrowsWithItsDeflectionIsThatOfTheClosedForm) {
+// where the chip grows with its own deflection.
+TEST(Milling, GrowingChipMatchesTheClosedForm) {
   MillingPlan plan = plain(ChipModel::sine, DeflectionModel::paper);
   plan.is_up = false;
   plan.Kr = 0;
@@ -220,7 +223,7 @@ TEST(Milling, AChipThatGrowsWithItsDeflectionIsThatOfTheClosedForm) {
   EXPECT_NEAR(u(1350, 0), plan.feed_per_tooth_m * k / (1 + k), 1e-9);
 }
 
-TEST(Milling, EdgeForceIsThatOfTheEdgeInTheWork) {
+TEST(Milling, EdgeForceActsOnTheEdgeInTheWork) {
   MillingPlan plan = plain(ChipModel::sine, DeflectionModel::rigid);
   const auto without = *cut_turn(plan);
   plan.Kte = 2e3;
@@ -233,17 +236,17 @@ TEST(Milling, EdgeForceIsThatOfTheEdgeInTheWork) {
               1e-9);
 }
 
-// Longer by the offset, the tool leaves a wall whose mean is where it should be.
-TEST(WearOffset, TakesTheMeanOfTheWallOut) {
+// With the offset added to the radius of the tool, the mean of the wall is at its nominal position.
+TEST(WearOffset, CompensatesTheMeanOfTheWall) {
   DeclaredMillingPlan declared{preset(), {}};
   const auto offset = *wear_offset(declared);
   const auto result = *milling(declared.plan);
   EXPECT_EQ(offset.offset_m, result.wall.offset_mean_m);
-  EXPECT_GT(offset.offset_m, 0);  // the tool is drawn into the wall: it cuts too much
+  EXPECT_GT(offset.offset_m, 0);  // the tool is bent into the wall and cuts too much
   EXPECT_TRUE(std::isnan(offset.u_m));
 }
 
-TEST(WearOffset, UncertaintyIsThatOfItsInputs) {
+TEST(WearOffset, UncertaintyComesFromItsInputs) {
   DeclaredMillingPlan declared{preset(), {}};
   declared.plan.steps_per_turn = 720;
   for (const MillingInput& input : milling_inputs())
@@ -258,8 +261,8 @@ TEST(WearOffset, UncertaintyIsThatOfItsInputs) {
   EXPECT_GT(offset.u_m, 0.01e-6);
 }
 
-// A run-out that its u could make negative stays at 0 there; the largest part stands first.
-TEST(WearOffset, PartsStayWhereTheyCanAndAreInOrder) {
+// A run-out that its u would make negative is limited to 0; the largest part is first.
+TEST(WearOffset, PartsAreWithinLimitsAndInOrder) {
   DeclaredMillingPlan declared{preset(), {}};
   declared.plan.steps_per_turn = 720;
   declared.plan.runout_m = 0.05e-6;
@@ -282,7 +285,7 @@ TEST(WearOffset, PartsStayWhereTheyCanAndAreInOrder) {
               std::hypot(offset.parts[0].contribution_m, offset.parts[1].contribution_m), 1e-15);
 }
 
-TEST(WearOffset, AnAngleIsThatOfAWholeTurnLess) {
+TEST(WearOffset, AnglesAreEqualModuloAWholeTurn) {
   const auto u_of = [](double angle_deg) {
     DeclaredMillingPlan declared{preset(), {}};
     declared.plan.steps_per_turn = 720;

@@ -1,5 +1,5 @@
-// How a cut changes with its inputs, where closed forms hold: the force of a rigid tool of one
-// element is in proportion to the depth, whatever is drawn.
+// How a cut changes with its inputs, where closed forms apply: the force on a rigid tool with one
+// element is proportional to the depth, for all drawn inputs.
 #include "algo/milling/milling_trials.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// Without helix and run-out, on few steps.
+// A rigid cut without helix and run-out, with few steps.
 MillingPlan rigid_cut() {
   MillingPlan plan = parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
   plan.elements = 1;
@@ -41,7 +41,7 @@ std::vector<std::vector<double>> outputs_of(const CausalExperiment& trials, std:
   return out;
 }
 
-TEST(MillingInputs, VaryByWhatIsDeclaredOrByOnePercent) {
+TEST(MillingInputs, VaryByDeclaredUOrOnePercent) {
   DeclaredMillingPlan declared{parse_milling_plan(micro_end_mill_preset(), "preset")->plan, {}};
   declared.plan.runout_m = 0;
   const MillingInput& feed = input_of(&MillingPlan::feed_per_tooth_m);
@@ -61,7 +61,7 @@ TEST(MillingInputs, VaryByWhatIsDeclaredOrByOnePercent) {
   EXPECT_EQ(next, inputs.size());
 }
 
-TEST(MillingOutputs, AreInTheUnitsOfTheirNames) {
+TEST(MillingOutputs, HaveTheUnitsOfTheirNames) {
   MillingResult r;
   r.x_max_N = 1;
   r.y_max_N = 2;
@@ -75,8 +75,8 @@ TEST(MillingOutputs, AreInTheUnitsOfTheirNames) {
   EXPECT_EQ(milling_outputs()[2], "deflection_um");
 }
 
-// Forces are in proportion to the depth, and to both coefficients together.
-TEST(MillingEffects, OfTheDepthAreAShareOfTheForce) {
+// Forces are proportional to the depth.
+TEST(MillingEffects, AreProportionalToTheDepth) {
   const MillingPlan plan = rigid_cut();
   const auto nominal = milling_output_values(*milling(plan));
   const double depth = plan.axial_depth_m;
@@ -86,13 +86,13 @@ TEST(MillingEffects, OfTheDepthAreAShareOfTheForce) {
   ASSERT_EQ(effects->size(), 2u);
   for (const std::size_t k : {0u, 1u}) {
     EXPECT_NEAR((*effects)[0][k], 0.05 * nominal[k], 1e-9);
-    // More than the depth itself: below there is none, and above the same slope holds.
+    // u exceeds the depth: a negative depth is impossible; above the depth the slope is the same.
     EXPECT_NEAR((*effects)[1][k], 1.5 * nominal[k], 1e-9);
   }
   EXPECT_EQ((*effects)[0].size(), 6u);
 }
 
-TEST(MillingTrials, OfInputsThatDoNotVaryAreTheCutIn720Steps) {
+TEST(MillingTrials, ConstantInputsGiveTheCutIn720Steps) {
   MillingPlan plan = rigid_cut();
   plan.steps_per_turn = 3600;
   const auto trials = milling_trials(plan, {{&depth_input(), 0}}, 1);
@@ -105,7 +105,7 @@ TEST(MillingTrials, OfInputsThatDoNotVaryAreTheCutIn720Steps) {
             std::vector<std::string>{std::string(depth_input().table) + "." + depth_input().key});
 }
 
-TEST(MillingTrials, DrawEachInputNormally) {
+TEST(MillingTrials, DrawInputsFromANormalDistribution) {
   const MillingPlan plan = rigid_cut();
   const double nominal = milling(plan)->x_max_N;
   const auto trials = milling_trials(plan, {{&depth_input(), 0.02 * plan.axial_depth_m}}, 7);
@@ -122,7 +122,7 @@ TEST(MillingTrials, DrawEachInputNormally) {
   EXPECT_NEAR(mean, 0, 0.2);  // four standard deviations
   EXPECT_NEAR(square, 1, 0.29);
   EXPECT_NEAR(within, 0.683, 0.1);
-  // Any trials alone are those among others; the second stream has other numbers.
+  // A trial does not depend on the other trials of a call; the second stream has other numbers.
   const auto some = outputs_of(*trials, 3, 4, 5), second = outputs_of(*trials, 0, 1, 8, {1});
   for (std::size_t j = 0; j < 5; ++j) EXPECT_EQ(some[0][j], out[0][3 + 4 * j]);
   for (std::size_t j = 0; j < 8; ++j) EXPECT_NE(second[0][j], out[0][j]);
@@ -134,7 +134,8 @@ TEST(MillingTrials, DrawEachInputNormally) {
   EXPECT_NE(outputs_of(*milling_trials(plan, {{&depth_input(), 1e-6}}, 8), 9, 1, 1)[0][0], run[0]);
 }
 
-// Each input has numbers of its own: of two, the second alone in the second stream.
+// Each input has its own random numbers: the test takes each of two inputs alone from the second
+// stream.
 TEST(MillingTrials, InputsAreIndependent) {
   const MillingPlan plan = rigid_cut();
   const MillingInput &kt = input_of(&MillingPlan::Kt), &kr = input_of(&MillingPlan::Kr);
@@ -146,7 +147,7 @@ TEST(MillingTrials, InputsAreIndependent) {
              both = outputs_of(*trials, 0, 1, 4, {1, 1});
   const auto alone = outputs_of(*depth, 0, 1, 4), alone_second = outputs_of(*depth, 0, 1, 4, {1});
   for (std::size_t j = 0; j < 4; ++j) {
-    // The depth is a factor of the force beside what Kt does.
+    // The depth multiplies the force, independently of Kt.
     EXPECT_NEAR(first[0][j] / none[0][j], alone_second[0][j] / alone[0][j], 1e-12);
     EXPECT_NEAR(both[0][j] / last[0][j], alone_second[0][j] / alone[0][j], 1e-12);
     EXPECT_NE(last[0][j], none[0][j]);
@@ -154,8 +155,8 @@ TEST(MillingTrials, InputsAreIndependent) {
   EXPECT_EQ(milling_trials(plan, {{&kr, 1}, {&kt, 1}}, 1)->causes().size(), 2u);
 }
 
-// What is drawn may be no cut at all.
-TEST(MillingTrials, WhatIsNoCutIsNotSolved) {
+// Drawn inputs may describe an impossible cut.
+TEST(MillingTrials, ImpossibleCutsAreNotSolved) {
   const auto is_solved = [](const MillingPlan& plan) {
     const auto trials = milling_trials(plan, {{&depth_input(), 0}}, 1);
     const auto out = outputs_of(*trials, 0, 1, 1);
@@ -196,7 +197,7 @@ TEST(MillingTrials, WhatIsNoCutIsNotSolved) {
   }
 }
 
-// Elements have their heights in the middle, steps are a multiple of the teeth.
+// The height of an element is that of its middle; the number of steps is a multiple of the teeth.
 TEST(CutTurn, HasItsElementsAndSteps) {
   MillingPlan plan = rigid_cut();
   plan.elements = 4;
@@ -217,11 +218,11 @@ TEST(CutTurn, HasItsElementsAndSteps) {
   EXPECT_NEAR(force(30, 1), turn.fy_N.row(30).sum(), 1e-15);
 }
 
-// A tooth on its trochoid is faster by the feed where it cuts along it. With h = f sin φ, to first
-// order: a chip along the radius sweeps h (r - h / 2) and the force counts h r, more by the
-// integral of h^2 / 2; and where the tip is at the free side, a triangle of h by h cos φ is not cut
-// yet.
-TEST(CutTurn, PowerOfTheTrochoidIsThatOfTheVolumeSwept) {
+// A tooth on its trochoid is faster by the feed where it cuts along the feed. With h = f sin φ, to
+// first order: a chip along the radius sweeps h (r - h / 2) and the force counts h r, which is more
+// by the integral of h^2 / 2; where the tip is at the free side, a triangle of h by h cos φ is not
+// cut yet.
+TEST(CutTurn, TrochoidPowerMatchesTheSweptVolume) {
   for (const bool up : {true, false}) {
     MillingPlan plan = rigid_cut();
     plan.chip = ChipModel::trochoid;
@@ -240,8 +241,8 @@ TEST(CutTurn, PowerOfTheTrochoidIsThatOfTheVolumeSwept) {
   }
 }
 
-// The force on a tooth along its way, with that of its edge, times its speed, element by element:
-// the radial force does no work.
+// The force on a tooth along its path, including the edge force, times its speed, element by
+// element: the radial force does no work.
 TEST(CutTurn, PowerIsForceTimesSpeedOfEachElement) {
   for (const bool up : {true, false}) {
     MillingPlan plan = rigid_cut();
@@ -271,7 +272,7 @@ TEST(CutTurn, PowerIsForceTimesSpeedOfEachElement) {
   }
 }
 
-TEST(Milling, HasTheMeansAndTheWindowOfItsTurn) {
+TEST(Milling, HasTheMeansAndWindowOfItsTurn) {
   MillingPlan plan = rigid_cut();
   EXPECT_EQ(milling(plan)->iterations, 1);
   plan.deflection = DeflectionModel::steady;
@@ -290,8 +291,8 @@ TEST(Milling, HasTheMeansAndTheWindowOfItsTurn) {
   EXPECT_LT(found.iterations, 15);
 }
 
-// A deflection is in proportion to 1 / E; half the tool's radius is the most.
-TEST(Milling, ADeflectionBeyondHalfTheRadiusIsRefused) {
+// A deflection is proportional to 1 / E; the limit is half of the tool radius.
+TEST(Milling, RefusesADeflectionBeyondHalfTheRadius) {
   MillingPlan plan = rigid_cut();
   plan.youngs_modulus_Pa *= milling(plan)->deflection_m / (plan.radius_m() / 2);
   plan.youngs_modulus_Pa *= 1.01;
@@ -300,15 +301,15 @@ TEST(Milling, ADeflectionBeyondHalfTheRadiusIsRefused) {
   EXPECT_FALSE(milling(plan));
 }
 
-TEST(WallByHand, OfThreeHeights) {
+TEST(WallByHand, ThreeHeights) {
   const WallLine line{0, {1, 2, 6}};
   EXPECT_NEAR(line.mean_m(), 3, 1e-15);
   EXPECT_NEAR(line.waviness_m(), 5, 1e-15);
   EXPECT_NEAR(line.Ra_m(), (2 + 1 + 3) / 3.0, 1e-15);
 }
 
-// The mean over the depth is of the elements; tip and root are figures of their own.
-TEST(WallByHand, FiguresAreThoseOfItsLines) {
+// The mean over the depth uses the elements; tip and root have separate results.
+TEST(WallByHand, ResultsMatchItsLines) {
   MillingPlan plan = parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
   plan.elements = 3;
   plan.steps_per_turn = 360;
@@ -336,8 +337,9 @@ TEST(WallByHand, FiguresAreThoseOfItsLines) {
   EXPECT_EQ(wall.Ra_root_m, lines[4].Ra_m());
 }
 
-// What is drawn is solved up to a tenth of the radius of runout, either way; beyond it is no cut.
-TEST(MillingTrials, RunoutIsUpToATenthOfTheRadius) {
+// Drawn inputs with a run-out of up to a tenth of the radius, of either sign, are solved; others
+// are not.
+TEST(MillingTrials, RunoutIsLimitedToATenthOfTheRadius) {
   for (const double share : {-0.101, -0.099, 0.099, 0.101}) {
     MillingPlan plan = rigid_cut();
     plan.runout_m = share * plan.radius_m();

@@ -5,7 +5,7 @@
 namespace mdof::algo {
 namespace {
 
-// The default fixture of X: A, B, C look along Z at the top, D, E along Y at the side.
+// The default fixture of X: A, B, C measure along Z at the top, D, E along Y at the side.
 std::string probe(const std::string& id, const std::string& position, const std::string& measures,
                   const std::string& more = "") {
   return "[[probe]]\nid = \"" + id + "\"\nposition_mm = " + position + "\n" + measures +
@@ -28,14 +28,14 @@ std::string ids(const MotionClearance& motion) {
   return all;
 }
 
-TEST(Clearance, TheSideProbesAreInTheWayOfYAndTheTopOnesOfZ) {
+TEST(Clearance, SideProbesLimitYAndTopProbesLimitZ) {
   const auto motions = motion_clearances(rig_of("+Y")).value();
   EXPECT_EQ(ids(motions[0]), "");
   EXPECT_EQ(ids(motions[1]), "DE");
   EXPECT_EQ(ids(motions[2]), "ABC");
   for (const auto& probe : motions[1].probes) {
     EXPECT_NEAR(probe.range_m, 100e-6, 1e-12);
-    EXPECT_EQ(probe.towards, 0);  // of a displacement nobody knows from which side
+    EXPECT_EQ(probe.towards, 0);  // the side is unknown for a displacement
     EXPECT_FALSE(probe.contact_m);
   }
   const std::string y = clearance_text(motions[1]);
@@ -47,7 +47,7 @@ TEST(Clearance, TheSideProbesAreInTheWayOfYAndTheTopOnesOfZ) {
   EXPECT_EQ(clearance_text(motions[0]).find("HAZARD"), std::string::npos);
 }
 
-TEST(Clearance, AGapAndAStandoffTellTheSenseAndTheContact) {
+TEST(Clearance, GapAndStandoffShowDirectionAndContact) {
   auto motions =
       motion_clearances(rig_of("-Y", "X", "sensing_radius_mm = 2\nstandoff_um = 250\n")).value();
   ASSERT_EQ(ids(motions[1]), "DE");
@@ -60,8 +60,8 @@ TEST(Clearance, AGapAndAStandoffTellTheSenseAndTheContact) {
   EXPECT_NEAR(motions[1].probes[0].contact_m.value(), 100e-6, 1e-12);
 }
 
-// A rig of Y is turned into its local frame and back.
-TEST(Clearance, IsOfTheMachinesAxesWhicheverAxisMoves) {
+// The code transforms a rig of Y into its local frame and back.
+TEST(Clearance, RefersToTheMachineAxesForAnyAxis) {
   std::string text = "name = \"r\"\naxis = \"Y\"\n";
   text += probe("A", "[0, 10, 0]", "measures = \"+Z\"") +
           probe("B", "[-10, 0, 0]", "measures = \"+Z\"") +

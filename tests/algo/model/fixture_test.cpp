@@ -1,4 +1,5 @@
-// Rigs that contradict themselves are refused by name; those that leave a doubt ask for a key.
+// Rigs that contradict themselves are refused with the names of their parts; ambiguous rigs ask for
+// a key.
 #include "algo/model/fixture.h"
 
 #include <gtest/gtest.h>
@@ -41,14 +42,14 @@ testing::AssertionResult says(const std::string& message,
   return testing::AssertionSuccess();
 }
 
-TEST(Fixture, TakesTheDefaultWithAndWithoutItsPlanes) {
+TEST(Fixture, AcceptsTheDefaultWithAndWithoutPlanes) {
   EXPECT_EQ(refusal(test::rig_x_toml()), "");
   EXPECT_EQ(refusal(test::rig_x_toml() + kPlanes), "");
 }
 
-// A calibration found the directions 0.2 mrad off: the target is not turned by it, and the axis
-// moves along its faces.
-TEST(Fixture, AFoundDirectionDoesNotTurnTheTarget) {
+// A calibration found directions that differ by 0.2 mrad: the target is not turned by them, and the
+// axis moves along its faces.
+TEST(Fixture, CalibratedDirectionDoesNotTurnTheTarget) {
   Rig rig = *parse_rig(test::mounting_rig_toml(""), "rig.toml");
   ASSERT_TRUE(rig.planes.empty());
   for (Probe& probe : rig.probes) {
@@ -71,13 +72,13 @@ TEST(Fixture, RefusesAProbeOffItsPlane) {
 }
 
 TEST(Fixture, RefusesOnePlaneAtTwoPlaces) {
-  // Only E at y = 14: D and E look the same way, at one face.
+  // Only E is at y = 14: D and E measure in the same direction, towards one face.
   const std::string moved =
       replaced(test::rig_x_toml(), "[10.000000, 15.000000, 20.000000]", "[10, 14, 20]");
   EXPECT_TRUE(says(refusal(moved), {"\"D\" and \"E\"", "15 mm", "14 mm", "[[plane]]"}));
 }
 
-TEST(Fixture, TakesAStepOfTheTargetThatIsDeclared) {
+TEST(Fixture, AcceptsADeclaredStepOfTheTarget) {
   std::string stepped = replaced(test::rig_x_toml(), "[10.000000, 15.000000, 20.000000]\n",
                                  "[10, 14, 20]\nplane = \"low\"\n");
   stepped =
@@ -87,7 +88,7 @@ TEST(Fixture, TakesAStepOfTheTargetThatIsDeclared) {
       "");
 }
 
-TEST(Fixture, AsksForThePlaneWhereTheDirectionLeavesADoubt) {
+TEST(Fixture, AsksForThePlaneOfAnAmbiguousDirection) {
   const std::string tilted =
       replaced(test::rig_x_toml() + kPlanes, "measures = \"+Y\"", "direction = [0, 1, 1]");
   EXPECT_TRUE(
@@ -97,16 +98,16 @@ TEST(Fixture, AsksForThePlaneWhereTheDirectionLeavesADoubt) {
   EXPECT_EQ(refusal(named), "");
 }
 
-TEST(Fixture, NamesThePlanesThereAre) {
+TEST(Fixture, NamesTheExistingPlanes) {
   const std::string unknown = replaced(test::rig_x_toml() + kPlanes, "measures = \"+Y\"",
                                        "measures = \"+Y\"\nplane = \"sied\"");
   EXPECT_TRUE(says(refusal(unknown), {"\"D\"", "\"sied\"", "\"top\"", "\"side\""}));
 }
 
-// Each probe of a plane in turn is 0.1 mm off it: whichever it is, it is found, and a micrometre is
-// none.
-TEST(Fixture, NamesAnyProbeThatIsOffThePlaneOfTheOthers) {
-  const std::size_t across[] = {2, 2, 2, 1, 1};  // the coordinate along which it looks
+// Each probe of a plane in turn is 0.1 mm away from it: the message names this probe. Up to 1 µm is
+// accepted.
+TEST(Fixture, NamesTheProbeThatIsOffThePlane) {
+  const std::size_t across[] = {2, 2, 2, 1, 1};  // coordinate along which the probe measures
   for (std::size_t k = 0; k < 5; ++k)
     for (const double off_m : {-0.1e-3, 0.1e-3, 0.9e-6, 1.1e-6}) {
       Rig rig = test::rig_x();
@@ -119,8 +120,9 @@ TEST(Fixture, NamesAnyProbeThatIsOffThePlaneOfTheOthers) {
     }
 }
 
-// Linear along both ways between nodes, held outside; one row or one column is the same across.
-TEST(HeightAt, IsBilinearAndHeldOutside) {
+// Linear in both directions between nodes, constant outside; one row or one column is constant
+// across.
+TEST(HeightAt, IsBilinearAndConstantOutside) {
   const HeightMap map{{0, 2}, {10, 11, 13}, {1, 2, 6, 3, 5, 1}};
   EXPECT_NEAR(height_at(map, 0, 10), 1, 1e-15);
   EXPECT_NEAR(height_at(map, 2, 13), 1, 1e-15);

@@ -32,12 +32,13 @@ SmallAngleFixture small(const Rig& rig) {
   return make_small_angle_fixture(make_fixture(rig).value()).value();
 }
 
-// The paper's own definition: P0 = T⁻¹ P1, the probe's line meets the target where P0 lies on it.
+// The definition in the paper: P0 = T⁻¹ P1; the line of the probe meets the target where P0 is on
+// it.
 double output_by_inverse(const Errors5& e, double d, double x, double y_or_z, bool top, double h) {
   Eigen::Matrix4d T;
   T << 1, -e[kEz], e[kEy], d, e[kEz], 1, -e[kEx], e[kDy], -e[kEy], e[kEx], 1, e[kDz], 0, 0, 0, 1;
   const Eigen::Matrix4d inverse = T.inverse();
-  // P1 = base + s * along; the coordinate of P0 that must reach its nominal is linear in s.
+  // P1 = base + s * along; the coordinate of P0 that must reach its nominal value is linear in s.
   const Eigen::Vector4d base =
       top ? Eigen::Vector4d(x, y_or_z, 0, 1) : Eigen::Vector4d(x, 0, y_or_z, 1);
   const Eigen::Vector4d along = top ? Eigen::Vector4d(0, 0, 1, 0) : Eigen::Vector4d(0, 1, 0, 0);
@@ -47,7 +48,7 @@ double output_by_inverse(const Errors5& e, double d, double x, double y_or_z, bo
   return top ? s : s - h;
 }
 
-TEST(ExactModel, OutputsAreThoseOfTheInverseTransform) {
+TEST(ExactModel, OutputsMatchTheInverseTransform) {
   const auto f = small(test::rig_x());
   Draw draw(1);
   for (int i = 0; i < 1000; ++i) {
@@ -73,7 +74,7 @@ TEST(ExactModel, RecoversRandomTruthToRounding) {
   }
 }
 
-TEST(ExactModel, HoldsFarBeyondTheUsualAngles) {
+TEST(ExactModel, HoldsForLargeAngles) {
   const auto f = small(test::rig_x());
   Draw draw(3, 0.05);
   for (int i = 0; i < 20000; ++i) {
@@ -86,7 +87,7 @@ TEST(ExactModel, HoldsFarBeyondTheUsualAngles) {
 
 // algo/README.md: ε̂x = εx - p εz, ε̂y = εy + q εz, and ε̂z = (εz - εx εy)/(1 + εy²); δ̂ follow term by
 // term.
-TEST(SimplifiedModel, DiffersFromTruthByTheTermsItLeavesOut) {
+TEST(SimplifiedModel, DiffersFromTruthByTheOmittedTerms) {
   const auto f = small(test::rig_x());
   Draw draw(4);
   double worst_angle = 0, worst_length = 0;
@@ -109,10 +110,10 @@ TEST(SimplifiedModel, DiffersFromTruthByTheTermsItLeavesOut) {
   }
   EXPECT_LT(worst_angle, 1.01e-6);
   EXPECT_LT(worst_length, 0.11e-6);
-  EXPECT_GT(worst_angle, 0.9e-6);  // the model does leave something out
+  EXPECT_GT(worst_angle, 0.9e-6);  // the omitted terms are not 0
 }
 
-TEST(SmallAngle, BatchGivesTheBitsOfOneByOne) {
+TEST(SmallAngle, BatchGivesTheBitsOfSingleSolutions) {
   const auto f = small(test::rig_x());
   Draw draw(5);
   for (const std::size_t n : {1u, 7u, 8u, 9u, 63u, 1000u}) {
@@ -156,7 +157,7 @@ TEST(SmallAngle, ProbeOrderAndDirectionComeFromTheRig) {
   const auto m = exact_outputs(*solver.small_angle(), 0.03, e);
   std::vector<double> readings(5);
   for (std::size_t k = 0; k < 5; ++k) readings[solver.small_angle()->probe[k]] = m[k];
-  EXPECT_LT(m[0] * exact_outputs(small(test::rig_x()), 0.03, e)[0], 0);  // the sign did turn
+  EXPECT_LT(m[0] * exact_outputs(small(test::rig_x()), 0.03, e)[0], 0);  // the sign is reversed
   const AxisErrors got = solver.solve(0.03, readings, {});
   ASSERT_TRUE(got.valid);
   for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(got.local[k], e[k], 1e-14);
@@ -170,7 +171,7 @@ TEST(SmallRotation, SineAndCosineAreWithinOneUlp) {
   }
 }
 
-TEST(RigidModel, JacobianIsTheDifferenceQuotient) {
+TEST(RigidModel, JacobianMatchesDifferences) {
   for (const Rig& rig : {test::rig_x(), test::rig_oblique()}) {
     const Fixture fixture = make_fixture(rig).value();
     const Errors5 e{2e-5, -3e-5, 0.02, -0.01, 0.03};
@@ -205,7 +206,7 @@ TEST(RigidModel, RecoversRandomTruthOnAnyFixture) {
   }
 }
 
-TEST(RigidModel, TakesKnownFlatnessOutOfTheReadings) {
+TEST(RigidModel, CorrectsReadingsForKnownFlatness) {
   Rig rig = test::rig_x();
   TargetPlane top;
   top.normal = {0, 0, 1};
@@ -222,15 +223,15 @@ TEST(RigidModel, TakesKnownFlatnessOutOfTheReadings) {
   EXPECT_GT(std::abs(flat.solve(0.03, {m.data(), m.data() + 5}, {}).local[kDz] - e[kDz]), 1e-7);
 }
 
-// A height map in the wrong unit is steeper than any surface: what the steps do not settle at is no
-// result.
-TEST(RigidModel, ReadingsThatNoErrorsFitAreNotSolved) {
+// A height map in the wrong unit is steeper than any surface: if the iteration does not converge,
+// there is no result.
+TEST(RigidModel, ReadingsWithoutASolutionAreNotSolved) {
   Rig rig = test::rig_x();
   TargetPlane top;
   top.normal = {0, 0, 1};
   TargetPlane side;
   side.normal = {0, 1, 0};
-  // Teeth of 0.9 mm, 1.4 mm apart; D and E see them turn with the yaw.
+  // Teeth of 0.9 mm, 1.4 mm apart; the yaw moves them relative to D and E.
   for (int i = -80; i <= 80; ++i) {
     side.flatness.first_m.push_back(0.7e-3 * i);
     const double height_m = i % 2 == 0 ? 0 : 0.9e-3;
@@ -261,15 +262,14 @@ TEST(RigidModel, ReportsTheResidualOfRedundantProbes) {
   EXPECT_GT(solver.solve(0.01, {m.data(), m.data() + m.size()}, {}).residual_m, 1e-7);
 }
 
-TEST(RigidModel, RefusesAnglesThatCannotBe) {
+TEST(RigidModel, RefusesImpossibleAngles) {
   const Solver solver = Solver::create(test::rig_x(), Model::rigid).value();
   const AxisErrors got = solver.solve(0, {0.02, 0.05, -0.05, 0, 0}, {});
   EXPECT_FALSE(got.valid);
   EXPECT_NE(got.reason.find("rad"), std::string::npos);
 }
 
-// sd of 20,000 solutions of noisy readings against the covariance that is reported.
-TEST(RigidModel, RefusesEachAngleBeyondAQuarter) {
+TEST(RigidModel, RefusesEachAngleAboveQuarterRadian) {
   const Solver solver = Solver::create(test::rig_x(), Model::rigid).value();
   for (const std::size_t k : {kEx, kEy, kEz}) {
     for (const double angle : {-0.26, -0.24, 0.24, 0.26}) {
@@ -283,7 +283,8 @@ TEST(RigidModel, RefusesEachAngleBeyondAQuarter) {
   }
 }
 
-TEST(Covariance, IsTheScatterOfNoisySolutions) {
+// Standard deviation of 20,000 solutions of noisy readings compared with the stated covariance.
+TEST(Covariance, MatchesTheScatterOfNoisySolutions) {
   for (const Rig& rig : {test::rig_x(), test::rig_oblique()}) {
     const Solver solver = Solver::create(rig, Model::rigid).value();
     const std::size_t n = rig.probes.size();
@@ -310,13 +311,13 @@ TEST(Covariance, IsTheScatterOfNoisySolutions) {
       EXPECT_NEAR(std::sqrt(sum2[k] / trials) / std::sqrt(stated[6 * k]), 1, 0.025) << k;
     }
     const double expected = stated[5 * kDz + kEy];
-    EXPECT_NEAR(cross / trials / expected, 1, 0.05);  // far along the travel they go together
+    EXPECT_NEAR(cross / trials / expected, 1, 0.05);  // at a large travel they are correlated
   }
 }
 
 TEST(Solver, NamesTheErrorsThatFourProbesCannotSee) {
   Rig rig = test::rig_x();
-  rig.probes.pop_back();  // E: yaw and horizontal straightness cannot be told apart
+  rig.probes.pop_back();  // without E, yaw and horizontal straightness are inseparable
   const auto refused = Solver::create(rig, Model::rigid);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::bad_input);
@@ -342,20 +343,20 @@ TEST(Solver, NamesTheErrorsThatOnePlaneCannotSee) {
   }
 }
 
-TEST(Solver, SmallAngleModelsRefuseOtherFixturesAndNameTheWayOut) {
+TEST(Solver, SmallAngleModelsNameTheModelForOtherRigs) {
   const auto refused = Solver::create(test::rig_oblique(), Model::exact);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("use the model \"rigid\""), std::string::npos);
 }
 
-TEST(Solver, LeavesAPointWithALostProbeUnsolvedWithTheReason) {
+TEST(Solver, LostProbeLeavesThePointUnsolvedWithReason) {
   const Solver solver = Solver::create(test::rig_x(), Model::exact).value();
   const AxisErrors got = solver.solve(0, {0, 0, 0, std::nan(""), 0}, {});
   EXPECT_FALSE(got.valid);
   EXPECT_NE(got.reason.find("EYX"), std::string::npos) << got.reason;
 }
 
-TEST(Solver, SevenProbesStandTheLossOfOne) {
+TEST(Solver, SevenProbesTolerateTheLossOfOne) {
   const Solver solver = Solver::create(test::rig_oblique(), Model::rigid).value();
   const Errors5 e{3e-6, 4e-6, 2e-4, 1e-4, -2e-4};
   const Eigen::VectorXd m = rigid_readings(solver.fixture(), 0.02, e);
@@ -375,8 +376,8 @@ TEST(Axis, NamedAndLocalErrorsAreInverse) {
   EXPECT_EQ(y, (Errors5{-1, 2, -4, 3, 5}));
 }
 
-// A roll of the machine about its own axis has the same sign whichever way the fixture is turned.
-TEST(Axis, LocalFramesAreRightHandedTurnsOfTheMachine) {
+// A roll of the machine about its own axis has the same sign for any orientation of the fixture.
+TEST(Axis, LocalFramesAreRightHanded) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {
     const auto a = local_axes(axis);
     Eigen::Matrix3d R;

@@ -1,4 +1,4 @@
-// Errors at another point, against a pose made of Eigen's own rotations.
+// Errors at another point, compared with a pose from Eigen's rotations.
 #include "algo/model/restate.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ Eigen::Matrix3d local_frame(Axis axis) {
   return L;
 }
 
-// e(P) of a rigid carriage, local frame: Rz(C) Ry(B) Rx(A) about the machine's axes.
+// e(P) of a rigid carriage, local frame: Rz(C) Ry(B) Rx(A) about the axes of the machine.
 Eigen::Vector3d error_at(const Case& c, const Eigen::Vector3d& P_machine) {
   const Eigen::Matrix3d L = local_frame(c.axis);
   const Eigen::Vector3d angles = L * Eigen::Vector3d(c.local[kEx], c.local[kEy], c.local[kEz]);
@@ -52,7 +52,7 @@ AxisErrors solved(const Case& c) {
   return errors;
 }
 
-TEST(Restate, IsTheErrorOfTheMaterialAtThatPoint) {
+TEST(Restate, IsTheErrorOfTheBodyAtThePoint) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < 500; ++i) {
@@ -69,7 +69,7 @@ TEST(Restate, IsTheErrorOfTheMaterialAtThatPoint) {
   }
 }
 
-TEST(Restate, OfSmallAnglesIsLinearAtTheFixture) {
+TEST(Restate, SmallAngleModelsAreLinearAtTheFixture) {
   const Case c{Axis::x, 0.06, {1e-6, 2e-6, 3e-4, 4e-4, 5e-4}};
   for (const Model model : {Model::simplified, Model::exact}) {
     const AxisErrors at = restate(solved(c), model, c.axis, c.travel_m, kAtCarriage, kAtFixture);
@@ -78,7 +78,7 @@ TEST(Restate, OfSmallAnglesIsLinearAtTheFixture) {
   }
 }
 
-TEST(Restate, ThereAndBackIsTheSame) {
+TEST(Restate, ThereAndBackGivesTheSameErrors) {
   std::mt19937_64 random(2);
   for (int i = 0; i < 100; ++i) {
     const Case c = random_case(random);
@@ -90,7 +90,7 @@ TEST(Restate, ThereAndBackIsTheSame) {
   }
 }
 
-TEST(Restate, CarriesTheCovarianceAsRepeatedDrawsScatter) {
+TEST(Restate, CovarianceMatchesTheScatterOfDraws) {
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   const Case c{Axis::y, 0.04, {1e-6, -2e-6, 30e-6, -40e-6, 50e-6}};
@@ -118,12 +118,12 @@ TEST(Restate, CarriesTheCovarianceAsRepeatedDrawsScatter) {
   EXPECT_NEAR(product / kDraws / at.covariance[5 * kDy + kEz], 1, 0.05);
 }
 
-TEST(Restate, LeavesTheUnsolvedAlone) {
+TEST(Restate, LeavesUnsolvedErrorsUnsolved) {
   const AxisErrors nothing;
   EXPECT_FALSE(restate(nothing, Model::rigid, Axis::x, 0.1, kAtCarriage, kAtFixture).valid);
 }
 
-TEST(SmallRotation, AloneItHasTheSameBits) {
+TEST(SmallRotation, RotationAloneHasTheSameBits) {
   for (const Axis axis : {Axis::x, Axis::y, Axis::z})
     for (int i = -20; i <= 20; ++i) {
       const Errors5 errors = {0, 0, 0.011 * i, -0.007 * i + 0.01, 0.0123 * i - 0.002};

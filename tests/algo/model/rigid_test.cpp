@@ -9,9 +9,9 @@
 namespace mdof::algo {
 namespace {
 
-// A sixth probe stands where A does and reads 1 µm more. With weights of 4 and 1 A is off the fit
-// by 1/5 µm and the other one by 4/5 µm: √((1 + 16)/25/6) µm. A seventh one is left out.
-TEST(RigidModel, ResidualIsTheRootMeanSquareOfTheProbesInUse) {
+// A sixth probe is at the position of A and reads 1 µm more. With weights of 4 and 1 the residual
+// of A is 1/5 µm and of the sixth probe 4/5 µm: √((1 + 16)/25/6) µm. A seventh probe is not used.
+TEST(RigidModel, ResidualIsTheRmsOfTheProbesInUse) {
   Fixture fixture = make_fixture(test::rig_x()).value();
   for (const std::size_t k : {0, 3}) fixture.probes.push_back(fixture.probes[k]);
   const Errors5 errors{20e-6, -30e-6, 1e-4, -2e-4, 3e-4};
@@ -23,7 +23,8 @@ TEST(RigidModel, ResidualIsTheRootMeanSquareOfTheProbesInUse) {
   ASSERT_TRUE(found.valid) << found.reason;
   EXPECT_TRUE(found.reason.empty());
   EXPECT_NEAR(found.residual_m, std::sqrt(17.0 / 150) * 1e-6, 1e-11);
-  // The fit takes a fifth of it at A, and the probes that stand alone keep their readings.
+  // At A the fit takes a fifth of the 1 µm; the fit of probes without a second one equals their
+  // readings.
   const Eigen::VectorXd fitted = rigid_readings(fixture, 7e-3, found.local);
   EXPECT_NEAR(fitted(0) - exact(0), 0.2e-6, 1e-11);
   for (const Eigen::Index k : {1, 2, 3, 4}) EXPECT_NEAR(fitted(k), exact(k), 1e-11) << k;

@@ -13,7 +13,7 @@ Fixture paper_fixture() {
   return make_fixture(test::rig_x()).value();
 }
 
-// By hand at a travel of 5 mm: n·δ/(n·u) and arm × n/(n·u). The second probe is not used.
+// By hand at a travel of 5 mm: n·δ/(n·u) and lever × n/(n·u). The second probe is not used.
 TEST(Visibility, FirstOrderJacobianByHand) {
   const Fixture fixture{Axis::x,
                         {{"P", {12e-3, 3e-3, 7e-3}, {0.6, 0, 0.8}, {0, 0, 1}, 0, {}, {}},
@@ -27,8 +27,8 @@ TEST(Visibility, FirstOrderJacobianByHand) {
   EXPECT_LT((J - expected).cwiseAbs().maxCoeff(), 1e-15);
 }
 
-// The five probes of the paper as the carriage has gone 17.3 mm; arms in units of 10 mm.
-TEST(Visibility, ConditionCountsAnglesByTenMillimetres) {
+// The five probes of the paper after 17.3 mm of travel; levers in units of 10 mm.
+TEST(Visibility, ConditionScalesAnglesByTenMillimetres) {
   Eigen::Matrix<double, 5, 5> J;
   J << 0, 1, 0, 0.73, 0,   //
       0, 1, 1, 1.73, 0,    //
@@ -43,8 +43,9 @@ TEST(Visibility, ConditionCountsAnglesByTenMillimetres) {
   EXPECT_NEAR(seen.condition, singular(0) / singular(4), 1e-9);
 }
 
-// Without E: EYX and ECX together. Without B: εx = εy, and δy and δz go with them.
-TEST(Visibility, NamesWhatTakesPartInAnUnseenCombination) {
+// Without E, EYX and ECX cannot be separated. Without B, εx = εy cannot be seen, and δy and δz
+// change with it.
+TEST(Visibility, NamesTheErrorsOfUnseenCombinations) {
   using Names = std::vector<std::string>;
   const Fixture fixture = paper_fixture();
   const Visibility without_e = visibility(fixture, {true, true, true, true, false});
@@ -61,7 +62,7 @@ TEST(Visibility, NamesWhatTakesPartInAnUnseenCombination) {
   EXPECT_EQ(none.unseen, (Names{"EYX", "EZX", "EAX", "EBX", "ECX"}));
 }
 
-TEST(Visibility, DescribesTheProbesAndWhatTheyDoNotSee) {
+TEST(Visibility, DescribesTheProbesAndUnseenErrors) {
   const Fixture fixture = paper_fixture();
   const auto text = [&](std::vector<std::string> unseen) {
     return describe_unseen(fixture, {false, true, false, true, true}, {3, 0, std::move(unseen)});

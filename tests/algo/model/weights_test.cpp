@@ -1,4 +1,4 @@
-// Redundant probes count by their uncertainty: the solution of weighted least squares, to first
+// Redundant probes are weighted by their uncertainty: the weighted least-squares solution, to first
 // order by the normal equations.
 #include <gtest/gtest.h>
 
@@ -37,14 +37,14 @@ SevenReadings seven_readings(const Solver& solver, const Errors5& truth) {
   return {{r.data(), r.data() + r.size()}, rigid_jacobian(solver.fixture(), kWeighedAt_m, truth)};
 }
 
-// The change of the errors by `change` of the readings: (J'WJ)^-1 J'W.
+// The change of the errors by `change` of the readings: (J'WJ)^-1 J'W change.
 Eigen::VectorXd by_normal_equations(const Eigen::MatrixXd& J, const Eigen::VectorXd& weights,
                                     const Eigen::VectorXd& change) {
   const Eigen::MatrixXd W = weights.asDiagonal();
   return (J.transpose() * W * J).inverse() * (J.transpose() * W * change);
 }
 
-TEST(ProbeWeights, AreThoseOfTheUncertainties) {
+TEST(ProbeWeights, FollowFromTheUncertainties) {
   const Solver solver = seven_probes();
   const Errors5 truth = {2e-6, -1e-6, 1e-4, -2e-4, 3e-4};
   const SevenReadings nominal = seven_readings(solver, truth);
@@ -52,7 +52,7 @@ TEST(ProbeWeights, AreThoseOfTheUncertainties) {
     for (std::size_t bad = 0; bad < 7; ++bad) {
       std::vector<double> readings = nominal.all, u = kProbesU_m;
       readings[bad] += 10e-9;
-      if (!known) u[3] = 0;  // one that is not known: all count alike
+      if (!known) u[3] = 0;  // with one unknown u all weights are equal
       Eigen::VectorXd weights(7), change = Eigen::VectorXd::Zero(7);
       for (Eigen::Index k = 0; k < 7; ++k) {
         const double u_nm = 1e9 * kProbesU_m[static_cast<std::size_t>(k)];
@@ -69,8 +69,8 @@ TEST(ProbeWeights, AreThoseOfTheUncertainties) {
     }
 }
 
-// A probe without a reading counts nothing, and needs no u.
-TEST(ProbeWeights, ALostProbeNeedsNone) {
+// A probe without a reading has no weight and needs no u.
+TEST(ProbeWeights, LostProbeNeedsNoU) {
   const Solver solver = seven_probes();
   const Errors5 truth = {2e-6, -1e-6, 1e-4, -2e-4, 3e-4};
   SevenReadings nominal = seven_readings(solver, truth);

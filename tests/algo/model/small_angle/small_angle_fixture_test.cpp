@@ -1,4 +1,5 @@
-// Which fixtures the simplified and the exact model take. Found missing by tests/mutate.
+// The fixtures that the simplified and the exact model accept. tests/mutate showed that these tests
+// were missing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +18,7 @@ Fixture fixture_of_five() {
   return make_fixture(test::rig_x()).value();
 }
 
-// Why it is not taken; empty: it is.
+// Reason why the fixture is refused; empty: it is accepted.
 std::string refused(const Fixture& fixture) {
   const auto made = make_small_angle_fixture(fixture);
   return made ? "" : made.error().message;
@@ -44,7 +45,8 @@ TEST(SmallAngleFixture, HasThreeTopProbesAndTwoSideProbes) {
   EXPECT_TRUE(says(refused(fixture), "has 2 probes along ±z and 2 along ±y"));
 }
 
-// D and E 1 mm apart along the motion: `exact` was 76 µm off at 30 mrad with 20 mm along z.
+// D and E are 1 mm apart along the motion: `exact` was wrong by 76 µm at 30 mrad with 20 mm along
+// z.
 TEST(SmallAngleFixture, RefusesSideProbesTooCloseAlongTheMotion) {
   Fixture fixture = fixture_of_five();
   fixture.probes[4].p_MP.x() = fixture.probes[3].p_MP.x() + 1e-3;
@@ -54,7 +56,7 @@ TEST(SmallAngleFixture, RefusesSideProbesTooCloseAlongTheMotion) {
   EXPECT_TRUE(says(refused(fixture), "too close together along the motion"));
 }
 
-TEST(SmallAngleFixture, LooksAlongTheAxes) {
+TEST(SmallAngleFixture, MeasuresAlongTheAxes) {
   for (const std::size_t k : {0u, 3u}) {
     Fixture fixture = fixture_of_five();
     const Eigen::Vector3d tilted = fixture.probes[k].u_M + Eigen::Vector3d(1e-4, 0, 0);
@@ -72,8 +74,8 @@ TEST(SmallAngleFixture, LooksAlongTheAxes) {
   }
 }
 
-// A nanometre off its plane is too much.
-TEST(SmallAngleFixture, MeetsOneTopPlaneAndOneSidePlane) {
+// A probe may be at most a nanometre away from its plane.
+TEST(SmallAngleFixture, UsesOneTopPlaneAndOneSidePlane) {
   for (const double off_m : {0.9e-9, 1.1e-9, -1.1e-9}) {
     const bool taken = off_m < 1e-9 && off_m > 0;
     for (const std::size_t k : {0u, 1u, 2u}) {
@@ -89,7 +91,8 @@ TEST(SmallAngleFixture, MeetsOneTopPlaneAndOneSidePlane) {
   }
 }
 
-// A triangle of half of 1e-9 m2 at least, and 10 um between the side probes, whichever comes first.
+// The triangle of the top probes has at least half of 1e-9 m2, and the side probes are at least 10
+// um apart, in either order.
 TEST(SmallAngleFixture, IsWideEnough) {
   for (const double height_m : {0.9e-6, 1.1e-6}) {
     Fixture flat = fixture_of_five();
@@ -105,8 +108,8 @@ TEST(SmallAngleFixture, IsWideEnough) {
   }
 }
 
-// Each probe looks the other way, alone. The readings are those of the rigid model; what the other
-// models leave out of errors so small is some 10 nrad and 10 nm.
+// Each probe alone is reversed. The readings are from the rigid model; for such small errors the
+// other models differ by about 10 nrad and 10 nm.
 TEST(SmallAngleFixture, EachProbeHasItsOwnSign) {
   const Errors5 e{3e-6, -2e-6, 1e-4, 2e-4, -3e-4};
   for (std::size_t turned = 0; turned < 5; ++turned) {
@@ -123,8 +126,8 @@ TEST(SmallAngleFixture, EachProbeHasItsOwnSign) {
   }
 }
 
-// Two steps with the slope at the start come within 1e-11 rad up to 50 mrad, where D and E are at
-// different heights as well.
+// Two steps with the initial slope reach 1e-11 rad up to 50 mrad, also if D and E are at different
+// heights.
 TEST(SmallAngleFixture, IsSolvedToRoundingUpToFiftyMilliradians) {
   for (const double height_m : {20e-3, 32e-3, 6e-3}) {
     Rig rig = test::rig_x();

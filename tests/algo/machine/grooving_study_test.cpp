@@ -298,7 +298,7 @@ TEST(GroovingStudy, TheNoiseOfEachInstrumentIsInWhatItReads) {
   EXPECT_LT(rms(indicator.readings) + rms(indicator.angle) + rms(indicator.both), kStill);
 
   by = kQuiet;
-  by.tilt_rad = 1e-6;  // times the arm, twice: √((3/4 + 1/4) · 2/72)
+  by.tilt_rad = 1e-6;  // times the lever, twice: √((3/4 + 1/4) · 2/72)
   const Off level = off(by, 30);
   EXPECT_LT(rms(level.raw) + rms(level.readings), kStill);
   EXPECT_NEAR(rms(level.tilted), 1e-6 * std::sqrt(2. / 72), 0.35e-6 * std::sqrt(2. / 72));

@@ -95,7 +95,7 @@ TEST(CuttingEdge, Eq8IsCloseToTheTrochoid) {
 }
 
 // With a run-out larger than the feed a tooth does not reach the work: the chip of the next tooth
-// begins at the surface of the tooth before.
+// begins at the surface of the last tooth that did cut.
 TEST(CuttingEdge, TrochoidChecksAllEarlierTeeth) {
   MillingPlan plan = plain(ChipModel::trochoid, DeflectionModel::rigid);
   plan.runout_m = 20e-6;

@@ -85,8 +85,7 @@ TEST(ExactModel, HoldsForLargeAngles) {
   }
 }
 
-// algo/README.md: ε̂x = εx - p εz, ε̂y = εy + q εz, and ε̂z = (εz - εx εy)/(1 + εy²); δ̂ follow term by
-// term.
+// algo/README.md: ε̂x = εx - p εz, ε̂y = εy + q εz, and ε̂z = (εz - εx εy)/(1 + εy²); δ̂ likewise.
 TEST(SimplifiedModel, DiffersFromTruthByTheOmittedTerms) {
   const auto f = small(test::rig_x());
   Draw draw(4);

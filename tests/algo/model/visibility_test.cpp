@@ -43,8 +43,8 @@ TEST(Visibility, ConditionScalesAnglesByTenMillimetres) {
   EXPECT_NEAR(seen.condition, singular(0) / singular(4), 1e-9);
 }
 
-// Without E, EYX and ECX cannot be separated. Without B, εx = εy cannot be seen, and δy and δz
-// change with it.
+// Without E the probes cannot separate EYX and ECX. Without B they cannot see εx = εy together with
+// the δy and δz that compensate it.
 TEST(Visibility, NamesTheErrorsOfUnseenCombinations) {
   using Names = std::vector<std::string>;
   const Fixture fixture = paper_fixture();

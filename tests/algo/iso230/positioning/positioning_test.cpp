@@ -55,7 +55,7 @@ TEST(Positioning, GivesEachTarget) {
   EXPECT_DOUBLE_EQ(second.reverse.s, kRoot2);
   EXPECT_DOUBLE_EQ(second.mean, 9);
   EXPECT_DOUBLE_EQ(second.B, 2);
-  EXPECT_DOUBLE_EQ(second.R, 4 * kRoot2);  // of the reverse approach alone: more than 2√2 + 2
+  EXPECT_DOUBLE_EQ(second.R, 4 * kRoot2);  // from the reverse approach: larger than 2√2 + 2
 }
 
 TEST(Positioning, OneDirectionHasItsOwnResultsOnly) {

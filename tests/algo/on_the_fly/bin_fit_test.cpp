@@ -21,7 +21,7 @@ struct BinReadings {
   BinFit fit() { return fit_bin(place, reading, 5e-8, scratch); }
 };
 
-TEST(BinFit, IsExactForAParabolaThatIsNotSymmetric) {
+TEST(BinFit, IsExactForAnAsymmetricParabola) {
   BinReadings bin(
       40, [](double x) { return 2e-6 + 3e-6 * x - 4e-7 * x * x; }, -0.9, 0.5);
   const auto found = bin.fit();
@@ -30,8 +30,8 @@ TEST(BinFit, IsExactForAParabolaThatIsNotSymmetric) {
   EXPECT_EQ(found.rejected, 0U);
 }
 
-TEST(BinFit, LeavesOfAWaveWhatItStates) {
-  // A wave of 5 bins: (pi / 5)^4 / 280 of its amplitude.
+TEST(BinFit, ReducesAWaveByTheStatedShare) {
+  // The parabola reduces a wave with a length of 5 bins by (pi / 5)^4 / 280 of its amplitude.
   const double turn = std::acos(-1.0) / 5;
   BinReadings top(4001, [=](double x) { return 1e-6 * std::cos(turn * x); });
   EXPECT_NEAR(top.fit().value - 1e-6, -1e-6 * std::pow(turn, 4) / 280, 3e-11);
@@ -39,7 +39,7 @@ TEST(BinFit, LeavesOfAWaveWhatItStates) {
   EXPECT_NEAR(side.fit().slope / (1e-6 * turn), 1, 3e-3);
 }
 
-TEST(BinFit, LeavesSpikesOut) {
+TEST(BinFit, RejectsSpikes) {
   for (const int at : {0, 1, 13, 39}) {
     BinReadings bin(40, [](double x) { return 1e-6 * x; });
     bin.reading[static_cast<std::size_t>(at)] += 5e-6;
@@ -49,8 +49,9 @@ TEST(BinFit, LeavesSpikesOut) {
   }
 }
 
-// Three of five neighbours: their median is a spike. What is left is the fit without them.
-TEST(BinFit, LeavesSpikesOutThatStandTogether) {
+// Three of five neighbours are spikes, so their median is a spike. The result is the fit without
+// the spikes.
+TEST(BinFit, RejectsAdjacentSpikes) {
   const auto wave = [](double x) { return 1e-6 * x + 3e-7 * x * x; };
   for (const double height_m : {50e-6, -50e-6})
     for (const std::vector<std::size_t>& at : {std::vector<std::size_t>{10, 11, 13},
@@ -76,8 +77,8 @@ TEST(BinFit, LeavesSpikesOutThatStandTogether) {
     }
 }
 
-// A step, and a form that a line is far from, are no spikes.
-TEST(BinFit, LeavesNothingOutOfAStep) {
+// A step, and a form that deviates far from a line, contain no spikes.
+TEST(BinFit, RejectsNothingAtAStep) {
   for (const double from : {-0.8, -0.5, 0.0, 0.5, 0.8}) {
     BinReadings bin(40, [=](double x) { return x > from ? 3e-7 : 0; });
     EXPECT_EQ(bin.fit().rejected, 0U) << from;
@@ -108,18 +109,18 @@ TEST(BinFit, NeedsEightReadings) {
   EXPECT_EQ(few.fit().value, 0);
 }
 
-// Readings without a pattern: value and sd of the least-squares parabola by Gram and Schmidt's
-// method, in which the sd is of all readings less three unknowns.
-TEST(BinFit, IsTheLeastSquaresParabolaWithTheScatterAboutIt) {
+// The readings have no pattern. The expected parabola is calculated by the method of Gram and
+// Schmidt. Its sd has the degrees of freedom n - 3.
+TEST(BinFit, MatchesTheLeastSquaresParabolaAndItsScatter) {
   std::mt19937_64 random(11);
   for (const int n : {8, 9, 23}) {
     BinReadings bin(n, [&](double x) {
       return 1e-8 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5) + 2e-8 * x * x;
     });
-    const auto found = fit_bin(bin.place, bin.reading, 1e-6, bin.scratch);  // nothing is a spike
+    const auto found = fit_bin(bin.place, bin.reading, 1e-6, bin.scratch);  // no reading is a spike
     const auto count = static_cast<std::size_t>(n);
     ASSERT_EQ(found.used, count);
-    // Columns 1, x, x² made independent of each other from the last one on.
+    // Columns x², x, 1: each is made orthogonal to the columns before it.
     std::vector<std::vector<double>> q(3, std::vector<double>(count));
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t k = 0; k < 3; ++k)
@@ -136,7 +137,7 @@ TEST(BinFit, IsTheLeastSquaresParabolaWithTheScatterAboutIt) {
       double part = 0, square = 0;
       for (std::size_t i = 0; i < count; ++i)
         part += q[k][i] * left[i], square += q[k][i] * q[k][i];
-      value = part / square;  // of the constant, which comes last
+      value = part / square;  // of the constant, which is the last column
       for (std::size_t i = 0; i < count; ++i) left[i] -= value * q[k][i];
     }
     double square = 0;
@@ -146,8 +147,8 @@ TEST(BinFit, IsTheLeastSquaresParabolaWithTheScatterAboutIt) {
   }
 }
 
-// Fewer than eight readings give nothing but their number.
-TEST(BinFit, OfFewerThanEightReadingsIsEmpty) {
+// The result for fewer than eight readings contains only their number.
+TEST(BinFit, IsEmptyForFewerThanEightReadings) {
   BinReadings few(7, [](double x) { return 1e-6 + 1e-6 * x; });
   const auto none = few.fit();
   EXPECT_EQ(none.used, 7u);
@@ -160,9 +161,9 @@ TEST(BinFit, OfFewerThanEightReadingsIsEmpty) {
   EXPECT_NEAR(enough.fit().value, 1e-6, 1e-18);
 }
 
-// A reading among four neighbours of one value is off by all of its height; the two at either end,
-// whose neighbours stand on one side, count half. The limit is 50 nm.
-TEST(BinFit, AtTheEndsASpikeIsTwiceAsHigh) {
+// A spike between four equal neighbours deviates from them by its full height. The two readings at
+// each end have neighbours on one side only, so their limit is twice as high. The limit is 50 nm.
+TEST(BinFit, SpikeLimitIsTwiceAsHighAtTheEnds) {
   constexpr int kReadings = 21;
   for (int at = 0; at < kReadings; ++at) {
     const bool is_end = at < 2 || at >= kReadings - 2;
@@ -179,8 +180,9 @@ TEST(BinFit, AtTheEndsASpikeIsTwiceAsHigh) {
   }
 }
 
-// Halves about one place tell no slope: the level is that of the readings.
-TEST(BinFit, OfHalvesAboutOnePlaceTheSlopeIsNone) {
+// Both halves have the same places, so they determine no slope. The value is the level of the
+// readings.
+TEST(BinFit, HasNoSlopeIfBothHalvesHaveTheSamePlaces) {
   BinFit found;
   std::vector<double> place, reading, scratch;
   for (int i = 0; i < 20; ++i) {

@@ -1,5 +1,5 @@
-// A log of an axis that goes forth and back, whose way over time is known: what the run in motion
-// says of itself, word for number.
+// Logs of an axis that moves forward and back, with a known position over time: statements, notices
+// and points of the run in motion.
 #include "algo/on_the_fly/on_the_fly.h"
 
 #include <gtest/gtest.h>
@@ -19,11 +19,11 @@ constexpr double kOut_m_s = 10e-3, kBack_m_s = 5e-3, kTravel_m = 20e-3;
 constexpr double kWave_m = 8e-3, kHeight_m = 20e-6;
 constexpr std::int64_t kFirst_ns = 7'000'000'000;
 
-// What differs from an even way out and back.
+// Differences from a steady motion forward and back.
 struct MotionLog {
   double travel_m = kTravel_m;
-  double stop_at_m = -1, stop_s = 0;  // on the way out
-  double delay_s = 0;                 // of the probe
+  double stop_at_m = -1, stop_s = 0;  // on the way forward
+  double delay_s = 0;                 // delay of the probe
   std::function<bool(std::int64_t ms)> scanned = [](std::int64_t) { return true; };
 
   double turned_s() const { return travel_m / kOut_m_s + stop_s; }
@@ -62,8 +62,8 @@ void expect_in(const std::string& text, const std::string& words) {
   EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
 }
 
-// Bins of 1 mm at 1 to 19 mm, both ways: the mean speed is (10 + 5)/2, and a wave of two bins takes
-// 2 mm / 7.5 mm/s.
+// Bins of 1 mm at 1 to 19 mm in both directions. The mean speed is (10 + 5)/2 mm/s. Two periods of
+// 15 Hz fit in a bin: 2 * 7.5 mm/s / 1 mm.
 TEST(OnTheFlyRun, StatesSpeedsBinsAndScatter) {
   const OnTheFly run = measured({});
   const std::string said = test::shown(run.statements());
@@ -89,8 +89,8 @@ TEST(OnTheFlyRun, StatesSpeedsBinsAndScatter) {
   EXPECT_NEAR(run.summary().encoder_max_m, kTravel_m, 1e-9);
 }
 
-// 1 nm up and down about the form: the parabola over a bin leaves of it some 1 nm.
-TEST(OnTheFlyRun, TheScatterIsThatOfTheReadings) {
+// The readings alternate by ±1 nm about the form, so the parabola of a bin leaves about 1 nm.
+TEST(OnTheFlyRun, ScatterMatchesTheReadings) {
   const OnTheFly run = measured({});
   double square = 0, n = 0;
   for (const PassBins& pass : run.passes())
@@ -105,13 +105,13 @@ TEST(OnTheFlyRun, TheScatterIsThatOfTheReadings) {
   EXPECT_NEAR(std::stod(said.substr(at + 28)), nm, 0.006 * nm);
 }
 
-// The way there and back differ by the delay times both speeds.
-TEST(OnTheFlyRun, NamesADelayThatIsNotDeclared) {
+// Forward and reverse readings differ by the delay times the sum of both speeds.
+TEST(OnTheFlyRun, ReportsAnUndeclaredDelay) {
   const std::string said = test::shown(measured({.delay_s = 2e-3}).notices());
   expect_in(said, "reading_delayed A delay_ms=");
   const auto at = said.find("delay_ms=") + 9;
   EXPECT_NEAR(std::stod(said.substr(at)), 2, 0.05) << said;
-  // What it does to a reading goes with the delay.
+  // The effect on a reading is proportional to the delay.
   const auto effect_nm = [](const std::string& notices) {
     return std::stod(notices.substr(notices.find("effect_nm=") + 10));
   };
@@ -121,16 +121,17 @@ TEST(OnTheFlyRun, NamesADelayThatIsNotDeclared) {
   EXPECT_EQ(test::shown(measured({}).notices()).find("reading_delayed"), std::string::npos);
 }
 
-// It stops for 0.3 s at 7 mm, in the bin that begins at 6.5 mm, 0.65 s after the start.
-TEST(OnTheFlyRun, LeavesOutTheBinInWhichItStops) {
+// The axis stops for 0.3 s at 7 mm, in the bin that begins at 6.5 mm, 0.65 s after the start.
+TEST(OnTheFlyRun, LeavesOutTheBinOfAStop) {
   const OnTheFly run = measured({.stop_at_m = 7e-3, .stop_s = 0.3});
   expect_in(test::shown(run.notices()), "bin_of_changing_speed position_mm=7 time_s=0.65");
   expect_in(test::shown(run.statements()), " left_out=1 ");
   EXPECT_EQ(run.sequence().points.size(), 37U);
 }
 
-// In the first or the last bin that is of its way up to speed, or down; between others it is said.
-TEST(OnTheFlyRun, AStopInTheOutermostBinsIsNotSaid) {
+// A stop in the first or last bin belongs to the acceleration or deceleration of the axis, so it
+// needs no notice. A stop in another bin is reported.
+TEST(OnTheFlyRun, DoesNotReportAStopInTheOutermostBins) {
   for (const double at_mm : {1.0, 2.0, 18.0, 19.0}) {
     const OnTheFly run = measured({.stop_at_m = 1e-3 * at_mm, .stop_s = 0.3});
     EXPECT_EQ(run.sequence().points.size(), 37U) << at_mm;
@@ -139,9 +140,9 @@ TEST(OnTheFlyRun, AStopInTheOutermostBinsIsNotSaid) {
   }
 }
 
-// A third of the scans at the start of the bin at 12 mm is a gap within it; two thirds are too
-// many.
-TEST(OnTheFlyRun, LeavesOutTheBinWhoseScansAreMissing) {
+// A third of the scans is missing at the start of the bin at 12 mm: a gap within the bin. If two
+// thirds are missing, the bin is left out.
+TEST(OnTheFlyRun, LeavesOutABinWithoutScans) {
   const auto without = [](std::int64_t from_ms, std::int64_t to_ms) {
     return MotionLog{.scanned = [=](std::int64_t ms) { return ms < from_ms || ms >= to_ms; }};
   };
@@ -154,8 +155,8 @@ TEST(OnTheFlyRun, LeavesOutTheBinWhoseScansAreMissing) {
   expect_in(test::shown(many.notices()), "bin_with_gap position_mm=12 ");
 }
 
-// Targets that only one of three passes or fewer took are no targets; those of a range are.
-TEST(OnTheFlyRun, TargetsOfARangeAreKnownBeforehand) {
+// The range from 2 to 12 mm determines the targets, not the passes.
+TEST(OnTheFlyRun, RangeDeterminesTheTargets) {
   OnTheFlyOptions options;
   options.from_mm = 2;
   options.to_mm = 12;
@@ -171,15 +172,15 @@ TEST(OnTheFlyRun, ExplainsWhyThereIsNoPoint) {
   ASSERT_FALSE(too_short);
   expect_in(too_short.error().message, "contains no whole bin of 1 mm around a target");
   OnTheFlyOptions fine;
-  fine.interval_mm = 0.02;  // 2 and 4 scans a bin; at least kFewestOfBin + 1 are asked for
+  fine.interval_mm = 0.02;  // 2 and 4 scans per bin; the error asks for kFewestOfBin + 1
   const Status dense = measured({}, fine).explain_nothing();
   ASSERT_FALSE(dense);
   expect_in(dense.error().message, "and 1000 Hz a bin of 0.02 mm has ");
 }
 
-// Stops of 0.5 s between the bins, and 1 mm in 5 ms from one to the next: two or three scans a bin,
-// but a mean speed of 2 mm/s, at which a bin of 0.5 mm would have 250.
-TEST(OnTheFlyRun, ALogWithStopsNeedsNoLargerBins) {
+// Stops of 0.5 s between the bins, and 1 mm in 5 ms from one stop to the next. A bin has two or
+// three scans, but at the mean speed of 2 mm/s a bin of 0.5 mm would have 250.
+TEST(OnTheFlyRun, SuggestsReplayWithStopsForALogWithStops) {
   FrameBlock frames = empty_frames(1);
   for (std::int64_t ms = 0; ms < 20 * 505; ++ms) {
     const std::int64_t stop = ms / 505, moving_ms = std::max<std::int64_t>(ms % 505 - 500, 0);
@@ -198,7 +199,8 @@ TEST(OnTheFlyRun, ALogWithStopsNeedsNoLargerBins) {
   EXPECT_EQ(why.error().remedy, Remedy::replay_with_stops) << why.error().message;
 }
 
-// Readings in steps of 0.5 µm, which stay for some rows: u is that of a rectangle, 0.5/√12.
+// The readings have steps of 0.5 µm and repeat over several rows. u is the standard uncertainty of
+// a rectangular distribution, 0.5 µm/√12.
 TEST(OnTheFlyRun, LearnsTheResolutionOfTheProbe) {
   const MotionLog log;
   FrameBlock frames = log.frames();
@@ -214,8 +216,8 @@ TEST(OnTheFlyRun, LearnsTheResolutionOfTheProbe) {
   EXPECT_GT(of_rectangle, 30U);
 }
 
-// Out and back over 20 mm in 2 and 4 s, from -50 mm on: 40 mm in 6 s.
-TEST(OnTheFlyRun, ExplainsFromTheMeanSpeedWhereverTheAxisBegins) {
+// Forward over 20 mm in 2 s and back in 4 s, from -50 mm on: the mean speed is 40 mm / 6 s.
+TEST(OnTheFlyRun, ExplanationStatesTheMeanSpeed) {
   OnTheFlyOptions fine;
   fine.bin_mm = 0.02;
   FrameBlock frames = MotionLog().frames();
@@ -229,18 +231,18 @@ TEST(OnTheFlyRun, ExplainsFromTheMeanSpeedWhereverTheAxisBegins) {
   expect_in(why.error().message, "mm/s and 1000 Hz a bin of 0.02 mm has 3");
 }
 
-// One on the way out, before the period of the scans is known, and two on the way back.
+// One gap on the way forward, before the scan period is known, and two on the way back.
 TEST(OnTheFlyRun, CountsTheGapsOfEveryPass) {
   const OnTheFly run = measured({.scanned = [](std::int64_t ms) {
     for (const std::int64_t begin : {1160, 3000, 4000})
       if (ms >= begin && ms < begin + 35) return false;
-    return ms % 1000 != 500;  // one scan that is lost is no gap
+    return ms % 1000 != 500;  // one lost scan is no gap
   }});
   EXPECT_EQ(run.summary().gaps, 3U);
 }
 
-// A probe that stays at one reading from 8 mm on; before that it had changed all the time.
-TEST(OnTheFlyRun, FlagsThePointsOfAProbeThatStands) {
+// The reading of the probe is constant from 8 mm on; before, it changed all the time.
+TEST(OnTheFlyRun, FlagsPointsOfAFrozenProbe) {
   FrameBlock frames = MotionLog().frames();
   for (std::size_t i = 800; i < frames.size(); ++i) frames.probe_m[0][i] = frames.probe_m[0][800];
   OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
@@ -255,9 +257,9 @@ TEST(OnTheFlyRun, FlagsThePointsOfAProbeThatStands) {
   EXPECT_GT(flagged, 28U);
 }
 
-// Bins of 0.5 mm every mm: what is missing from 11.2 mm to 11.75 mm lies between those at 11 and
-// 12 mm.
-TEST(OnTheFlyRun, AGapBetweenTwoBinsIsOfNeither) {
+// Bins of 0.5 mm at every millimetre. The gap from 11.2 mm to 11.75 mm lies between the bins at 11
+// and 12 mm.
+TEST(OnTheFlyRun, GapBetweenTwoBinsFlagsNeither) {
   OnTheFlyOptions options;
   options.bin_mm = 0.5;
   const OnTheFly run =
@@ -267,8 +269,8 @@ TEST(OnTheFlyRun, AGapBetweenTwoBinsIsOfNeither) {
     EXPECT_FALSE(has_flag(p.point, Flag::gap)) << p.target;
 }
 
-// The same way about 30 mm and about -50 mm; the bins lie as before.
-TEST(OnTheFlyRun, HasTheEndsOfItsWayWhereverItIs) {
+// The same motion, shifted by 30 mm and by -50 mm; the bins keep their distances.
+TEST(OnTheFlyRun, FindsTheEndsOfTravelAtAnyOffset) {
   for (const double off_m : {30e-3, -50e-3}) {
     OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
     FrameBlock frames = MotionLog().frames();
@@ -282,8 +284,8 @@ TEST(OnTheFlyRun, HasTheEndsOfItsWayWhereverItIs) {
   }
 }
 
-// The first row is 5 m away, three have no position.
-TEST(OnTheFlyRun, CountsTheRowsWithoutAPlace) {
+// The first row is 5 m away, and three rows have no position.
+TEST(OnTheFlyRun, CountsRowsWithoutPosition) {
   OnTheFly run(TargetGrid({}, {}), {"A"}, {200e-6});
   FrameBlock frames = MotionLog().frames();
   frames.encoder_m[0] = 5;
@@ -295,9 +297,9 @@ TEST(OnTheFlyRun, CountsTheRowsWithoutAPlace) {
   EXPECT_NEAR(run.summary().encoder_max_m, kTravel_m, 1e-9);
 }
 
-// A gap is more than three periods: two scans that are lost are none, three are one. The first
-// interval of the log, one on the way out and one back are.
-TEST(OnTheFlyRun, AGapIsMoreThanThreePeriods) {
+// A gap is longer than three periods: two lost scans are no gap, three are one. The gaps are the
+// first interval of the log, one on the way forward and one on the way back.
+TEST(OnTheFlyRun, GapIsLongerThanThreePeriods) {
   const OnTheFly run = measured({.scanned = [](std::int64_t ms) {
     return !(ms >= 1 && ms < 4) && !(ms >= 601 && ms < 603) && !(ms >= 1201 && ms < 1204) &&
            !(ms >= 3601 && ms < 3603) && !(ms >= 4601 && ms < 4604);
@@ -305,9 +307,9 @@ TEST(OnTheFlyRun, AGapIsMoreThanThreePeriods) {
   EXPECT_EQ(run.summary().gaps, 3U);
 }
 
-// Passes between these places, a bin a millimetre at 10 mm/s: those of 1 to 7 mm are crossed twice
-// of five times, then twice of four.
-TEST(OnTheFlyRun, ATargetIsTakenByHalfOfThePasses) {
+// Passes between these positions at 10 mm/s, with one bin per millimetre. Two of five passes, then
+// two of four, cross the targets from 1 to 7 mm.
+TEST(OnTheFlyRun, TargetNeedsHalfOfThePasses) {
   const auto sequence_over = [](const std::vector<double>& ends_mm) {
     FrameBlock frames = empty_frames(1);
     std::int64_t ms = 0;
@@ -330,7 +332,7 @@ TEST(OnTheFlyRun, ATargetIsTakenByHalfOfThePasses) {
   EXPECT_NEAR(few.targets_m.front(), 9e-3, 1e-12);
   EXPECT_EQ(few.targets, 11);
   ASSERT_EQ(few.left_out.size(), 16U);
-  EXPECT_NEAR(few.left_out[1].position_m, 7e-3, 1e-5);  // after 8 mm, where it turned
+  EXPECT_NEAR(few.left_out[1].position_m, 7e-3, 1e-5);  // after 8 mm, where the axis turned
   EXPECT_EQ(few.points.size(), 55U);
   const Sequence half = sequence_over({20, 0, 20, 8, 20});
   EXPECT_NEAR(half.targets_m.front(), 1e-3, 1e-12);

@@ -1,4 +1,4 @@
-// Bins of passes whose way over time is known in closed form.
+// Bins of passes whose position over time has a closed form.
 #include "algo/on_the_fly/pass_bins.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::int64_t kPeriod_ns = 1'000'000;
 
-// `place_m` over s at each whole ms that `scanned` has; one probe, which reads `reading_m`.
+// A pass at `place_m` (m over s), with a row at each whole ms for which `scanned` is true, and one
+// probe with the reading `reading_m` (m over the position in m).
 FrameBlock pass_over(double seconds, const std::function<double(double)>& place_m,
                      const std::function<bool(std::int64_t)>& scanned,
                      const std::function<double(double)>& reading_m) {
@@ -43,7 +44,7 @@ PassBins found_in(const FrameBlock& frames, int direction) {
                  {{"A"}, {200e-6}, {0}}, kPeriod_ns);
 }
 
-TEST(PassBins, SpeedIsThatOfTheAxisWhateverScansAreMissing) {
+TEST(PassBins, SpeedIsCorrectWithAndWithoutMissingScans) {
   const auto gaps = [](std::int64_t ms) { return ms % 7 != 0 && ms % 50 > 12; };
   for (const int direction : {1, -1})
     for (const bool some_are_missing : {false, true}) {
@@ -73,9 +74,9 @@ TEST(PassBins, SpeedIsThatOfTheAxisWhateverScansAreMissing) {
     }
 }
 
-// Of a steady acceleration a over the time T of a bin the rms about a straight line is
-// a T²/(12 √5): 0.75 % of the bin is the limit.
-TEST(PassBins, AnAccelerationIsLeftOutFromTheLimitOn) {
+// At a steady acceleration a, the rms about a straight line over the time T of a bin is a T²/(12
+// √5). The limit is 0.75 % of the bin.
+TEST(PassBins, LeavesOutAnAccelerationAboveTheLimit) {
   const double speed = 10e-3, T = 0.1;
   const double limit = 0.0075 * 1e-3 * 12 * std::sqrt(5.0) / (T * T);
   for (const double share : {0.9, 1.1}) {
@@ -103,8 +104,8 @@ TEST(PassBins, AnAccelerationIsLeftOutFromTheLimitOn) {
   }
 }
 
-// An encoder's noise is no change of speed: its second differences tell it.
-TEST(PassBins, NoiseOfTheEncoderIsAllowedFor) {
+// The noise of the encoder is no change of speed; its second differences determine the noise.
+TEST(PassBins, EncoderNoiseIsNoChangeOfSpeed) {
   std::uint32_t state = 1;
   const auto noise = [&] {
     state = state * 1664525u + 1013904223u;
@@ -117,7 +118,7 @@ TEST(PassBins, NoiseOfTheEncoderIsAllowedFor) {
   EXPECT_EQ(found.bins.size(), 2U);
 }
 
-TEST(PassBins, TooFewScansAndHolesAreNamed) {
+TEST(PassBins, ReportsTooFewScansAndGaps) {
   const auto way = [](double t) { return 10e-3 * t; };
   const auto at = [](std::int64_t from, std::int64_t to) {
     return [=](std::int64_t ms) { return ms < from || ms >= to; };
@@ -139,8 +140,9 @@ TEST(PassBins, TooFewScansAndHolesAreNamed) {
   EXPECT_EQ(found.left_out[0].fault, BinFault::too_few);
 }
 
-// What stands between the own readings of a slow probe says nothing; a lost row is told.
-TEST(PassBins, FitOwnReadingsAlone) {
+// Interpolated rows between the readings of a slow probe contain no information. A lost row is
+// flagged.
+TEST(PassBins, FitOnlyFreshReadings) {
   auto frames = pass_over(
       1.2, [](double t) { return 10e-3 * t; }, each, [](double x) { return 1e-6 + 2e-3 * x; });
   frames.probe_fresh.assign(1, std::vector<std::uint8_t>(frames.size(), 1));
@@ -156,7 +158,8 @@ TEST(PassBins, FitOwnReadingsAlone) {
     EXPECT_NEAR(bin.slope[0], 2e-3, 1e-10);
     EXPECT_TRUE(bin.point.flags.empty());
   }
-  // Rows at 450 to 550 ms are of the first bin: one over the range, then one missing.
+  // The rows from 450 to 550 ms belong to the first bin. One is over the range, then one more is
+  // missing.
   frames.probe_quality.assign(1, std::vector<Quality>(frames.size(), Quality::good));
   frames.probe_quality[0][480] = Quality::over_range;
   found = found_in(frames, 1);
@@ -166,7 +169,7 @@ TEST(PassBins, FitOwnReadingsAlone) {
   found = found_in(frames, 1);
   EXPECT_EQ(to_string(found.bins[0].point.flags), "saturated:A missing:A");
   EXPECT_FALSE(std::isnan(found.bins[0].point.probe_m[0]));
-  frames.probe_quality[0][490] = Quality::over_range;  // two of 101
+  frames.probe_quality[0][490] = Quality::over_range;  // two of 101 rows
   found = found_in(frames, 1);
   EXPECT_EQ(to_string(found.bins[0].point.flags), "saturated:A lost:A");
   EXPECT_TRUE(std::isnan(found.bins[0].point.probe_m[0]));
@@ -179,8 +182,8 @@ TEST(PassBins, FitOwnReadingsAlone) {
   EXPECT_FALSE(std::isnan(found.bins[1].point.probe_m[0]));
 }
 
-// The bin of 5 mm is from 450 to 550 ms. A gap of ten scans before it is none of its own.
-TEST(PassBins, AGapIsOfTheBinInWhichItLies) {
+// The bin at 5 mm extends from 450 to 550 ms. A gap of ten scans before the bin does not flag it.
+TEST(PassBins, GapFlagsOnlyItsBin) {
   const auto flags_of = [](std::int64_t from_ms, std::int64_t to_ms) {
     const auto frames = pass_over(
         1.5, [](double t) { return 10e-3 * t; },
@@ -193,11 +196,11 @@ TEST(PassBins, AGapIsOfTheBinInWhichItLies) {
   EXPECT_EQ(flags_of(440, 449), none);
   EXPECT_EQ(flags_of(552, 560), none);
   EXPECT_EQ(flags_of(470, 480), gap);
-  EXPECT_EQ(flags_of(470, 472), none);  // three periods are no gap yet
+  EXPECT_EQ(flags_of(470, 472), none);  // three periods are no gap
 }
 
-// Of two scans at the ends of a bin what lies between is missing; one alone is too few.
-TEST(PassBins, TwoScansAtTheEndsLeaveAHole) {
+// With two scans at the ends of a bin, the scans between them are a gap. One scan alone is too few.
+TEST(PassBins, TwoScansAtTheEndsLeaveAGap) {
   for (const bool both : {true, false}) {
     const auto frames = pass_over(
         1.5, [](double t) { return 10e-3 * t; },

@@ -41,9 +41,9 @@ std::vector<PassFound> passes_of(const FrameBlock& frames, std::size_t block) {
   return found;
 }
 
-TEST(PassFinder, FindsPassesHoweverTheFramesAreCut) {
+TEST(PassFinder, FindsTheSamePassesForAnyBlockSize) {
   auto frames = way_over({5, 5, 20, 20, 0, 0.03, 0, 10});
-  frames.encoder_m[1500] += 1e-3;  // a spike turns nothing
+  frames.encoder_m[1500] += 1e-3;  // a spike is no turn
   const auto whole = passes_of(frames, frames.size());
   ASSERT_EQ(whole.size(), 3U);
   EXPECT_EQ(whole[0], (PassFound{5000, 20000, 1}));
@@ -53,7 +53,7 @@ TEST(PassFinder, FindsPassesHoweverTheFramesAreCut) {
   for (const std::size_t block : {1U, 7U, 1000U}) EXPECT_EQ(passes_of(frames, block), whole);
 }
 
-TEST(PassFinder, FindsNoneWhereTheAxisStands) {
+TEST(PassFinder, FindsNoPassesAtStandstill) {
   EXPECT_TRUE(passes_of(way_over({3, 3, 3.04, 3}), 100).empty());
 }
 
@@ -74,7 +74,7 @@ OnTheFlyOptions every_from_to(double interval_mm, double from_mm, double to_mm) 
 TEST(TargetGrid, HasWholeBinsOnly) {
   const TargetGrid grid(every(1), {});
   const auto targets = grid.between(-1.4e-3, 2.5e-3, 100);
-  ASSERT_EQ(targets.size(), 3U);  // 0, 1, 2 mm: the bin about -1 mm begins at -1.5 mm
+  ASSERT_EQ(targets.size(), 3U);  // 0, 1, 2 mm: the bin around -1 mm begins at -1.5 mm
   EXPECT_EQ(targets.front().position_m, 0);
   EXPECT_EQ(targets.back().position_m, 2e-3);
   EXPECT_TRUE(grid.known().empty());
@@ -87,7 +87,7 @@ TEST(TargetGrid, HasWholeBinsOnly) {
   EXPECT_EQ(given.between(0, 5e-3, 10).size(), 1U);
 }
 
-TEST(TargetGrid, RefusesWhatMakesNoTargets) {
+TEST(TargetGrid, RejectsOptionsWithoutTargets) {
   for (const OnTheFlyOptions& wrong :
        {every(0), every(-1), every(std::nan("")), every(1, 2), every(1e-6), every_from_to(1, 2, 1),
         every_from_to(1, std::nan(""), 1), every_from_to(1, 0, INFINITY),
@@ -100,8 +100,8 @@ TEST(TargetGrid, RefusesWhatMakesNoTargets) {
   EXPECT_TRUE(check_on_the_fly(every_from_to(1, 0, 60), {}));
 }
 
-// The end of a log ends its pass: what comes after it goes its own way.
-TEST(PassFinder, BeginsAnewAfterTheEnd) {
+// The end of a log ends its pass; later frames begin a new pass.
+TEST(PassFinder, StartsANewPassAfterFlush) {
   std::vector<PassFound> found;
   const auto take = [&](const AxisPass& pass) {
     const auto at = [&](std::size_t row) { return std::round(1e6 * pass.frames.encoder_m[row]); };

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kSpeed_m_s = 0.02, kLate_s = 1e-3;
 
-// Two passes over 41 targets, readings late by kLate_s, an axis that differs by its direction by a
-// constant and a line. `alike`: correlation of the noise of neighbours.
+// Two passes over 41 targets. The readings are late by kLate_s, and the directions of the axis
+// differ by a constant and a line. `alike`: correlation of the noise of neighbouring targets.
 std::vector<PassBins> late_passes(std::mt19937_64& engine, double noise_m, double alike) {
   std::normal_distribution<> normal;
   std::vector<PassBins> passes(2);
@@ -34,7 +34,7 @@ std::vector<PassBins> late_passes(std::mt19937_64& engine, double noise_m, doubl
   return passes;
 }
 
-TEST(ReadingLag, IsFoundAndItsUncertaintyIsItsScatter) {
+TEST(ReadingLag, DelayIsFoundAndUMatchesItsScatter) {
   for (const double alike : {0.0, 0.5}) {
     std::mt19937_64 engine(3);
     double mean = 0, square = 0, stated = 0;
@@ -51,7 +51,7 @@ TEST(ReadingLag, IsFoundAndItsUncertaintyIsItsScatter) {
   }
 }
 
-TEST(ReadingLag, WithoutNoiseByHand) {
+TEST(ReadingLag, MatchesManualCalculationWithoutNoise) {
   std::mt19937_64 engine(1);
   const ReadingLag lag = reading_lags(late_passes(engine, 0, 0), 1).at(0);
   EXPECT_NEAR(lag.delay_s, kLate_s, 1e-12);
@@ -61,9 +61,9 @@ TEST(ReadingLag, WithoutNoiseByHand) {
   EXPECT_TRUE(lag.significant);
 }
 
-// Three unknowns, constant, line and delay, by their normal equations; what they leave follows
-// itself.
-TEST(ReadingLag, ItsUncertaintyIsWidenedWhereNeighboursAreAlike) {
+// The expected values are calculated from the normal equations of three unknowns: constant, line
+// and delay. The residuals of neighbours are correlated.
+TEST(ReadingLag, UIsWidenedForCorrelatedNeighbours) {
   std::mt19937_64 engine(9);
   const std::vector<PassBins> passes = late_passes(engine, 2e-9, 0.7);
   const ReadingLag found = reading_lags(passes, 1).at(0);
@@ -74,7 +74,7 @@ TEST(ReadingLag, ItsUncertaintyIsWidenedWhereNeighboursAreAlike) {
     x.push_back(out.point.position_m - 0.02);
     f.push_back(-2 * kSpeed_m_s * out.slope[0]);
   }
-  // Constant and line are square to each other over these places.
+  // Constant and line are orthogonal over these positions.
   const auto without_line = [&](std::vector<double> v) {
     double mean = 0, xv = 0, xx = 0;
     for (std::size_t i = 0; i < v.size(); ++i)
@@ -95,8 +95,9 @@ TEST(ReadingLag, ItsUncertaintyIsWidenedWhereNeighboursAreAlike) {
   EXPECT_NEAR(found.u_delay_s, std::sqrt(square / 38 / ff * (1 + alike) / (1 - alike)), 1e-9);
 }
 
-// Eleven targets both ways are too few; what is lost one way is no target; no pass has no speed.
-TEST(ReadingLag, NeedsTwelveTargetsBothWays) {
+// Eleven targets in both directions are too few. A target that is lost in one direction does not
+// count. Without passes there is no speed.
+TEST(ReadingLag, NeedsTwelveTargetsInBothDirections) {
   std::mt19937_64 engine(2);
   std::vector<PassBins> passes = late_passes(engine, 1e-9, 0);
   for (PassBins& pass : passes) pass.bins.resize(13);
@@ -116,8 +117,9 @@ TEST(ReadingLag, NeedsTwelveTargetsBothWays) {
   EXPECT_EQ(none.steepest_1, 0);
 }
 
-// Readings that rise evenly tell no delay: it looks like the axis' own difference.
-TEST(ReadingLag, AnEvenSlopeTellsNone) {
+// Readings that rise linearly determine no delay, because the delay looks like the axis' own
+// difference between the directions.
+TEST(ReadingLag, IsUnknownForAConstantSlope) {
   std::mt19937_64 engine(2);
   std::vector<PassBins> passes = late_passes(engine, 1e-9, 0);
   for (PassBins& pass : passes)
@@ -125,15 +127,15 @@ TEST(ReadingLag, AnEvenSlopeTellsNone) {
   EXPECT_TRUE(std::isnan(reading_lags(passes, 1).at(0).delay_s));
 }
 
-// Each target's mean of its visits, each way with its own speed.
-TEST(ReadingLag, TakesTheMeanOfSeveralPasses) {
+// The mean of the visits of each target is used, each direction with its mean speed.
+TEST(ReadingLag, UsesTheMeanOfSeveralPasses) {
   std::mt19937_64 engine(2);
   std::vector<PassBins> passes = late_passes(engine, 0, 0);
   passes.push_back(passes[0]);
   passes.push_back(passes[0]);
   for (std::size_t i = 0; i <= 40; ++i) {
     BinPoint &fast = passes[2].bins[i], &slow = passes[3].bins[i];
-    // Faster by 20 mm/s, and slower by 10: each as much later.
+    // Faster by 20 mm/s and slower by 10 mm/s: each reading is shifted in proportion.
     fast.speed_m_s = 0.04;
     fast.point.probe_m[0] -= kLate_s * 0.02 * fast.slope[0];
     slow.speed_m_s = 0.01;
@@ -144,8 +146,8 @@ TEST(ReadingLag, TakesTheMeanOfSeveralPasses) {
   EXPECT_NEAR(lag.speed_m_s, (0.02 + 0.02 + 0.04 + 0.01) / 4, 1e-15);
 }
 
-// Readings that are alike both ways are not late, for certain.
-TEST(ReadingLag, OfNoDifferenceIsNone) {
+// Equal readings in both directions have the delay 0 with the uncertainty 0.
+TEST(ReadingLag, IsZeroWithoutDifference) {
   std::mt19937_64 engine(1);
   auto passes = late_passes(engine, 0, 0);
   for (PassBins& pass : passes)

@@ -1,4 +1,4 @@
-// Targets of a run in motion at the limits of what is accepted.
+// Limits of the accepted options for the targets of a run in motion.
 #include "algo/on_the_fly/target_grid.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ OnTheFlyOptions grid(double interval_mm, double bin_mm = 0, std::optional<double
   return options;
 }
 
-TEST(TargetGridLimits, EachKeyIsNamed) {
+TEST(TargetGridLimits, ErrorsNameTheKey) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusal_of(grid(1)), "");
@@ -51,14 +51,14 @@ TEST(TargetGridLimits, EachKeyIsNamed) {
   EXPECT_EQ(refusal_of(grid(1, 0.001)), "");
 }
 
-TEST(TargetGridLimits, ABinIsAsLongAsTheIntervalUpToAMillimetre) {
+TEST(TargetGridLimits, BinLengthIsTheIntervalUpToOneMillimetre) {
   EXPECT_NEAR(TargetGrid(grid(0.4), {}).bin_m(), 0.4e-3, 1e-15);
   EXPECT_NEAR(TargetGrid(grid(5), {}).bin_m(), 1e-3, 1e-15);
   EXPECT_NEAR(TargetGrid(grid(0), {0, 3e-3, 3.25e-3}).bin_m(), 0.25e-3, 1e-15);
 }
 
-// Bins lie within as a whole: of -3.5 to 2.5 mm those at -3 to 2.
-TEST(TargetGridLimits, TargetsAreThoseWhoseBinsLieWithin) {
+// The whole bin must lie within the range: from -3.5 to 2.5 mm, the targets are -3 to 2 mm.
+TEST(TargetGridLimits, WholeBinsMustLieWithinTheRange) {
   const TargetGrid whole(grid(1), {});
   const auto found = whole.between(-3.5e-3, 2.5e-3, 100);
   ASSERT_EQ(found.size(), 6U);
@@ -70,8 +70,8 @@ TEST(TargetGridLimits, TargetsAreThoseWhoseBinsLieWithin) {
   EXPECT_TRUE(whole.known().empty());
 }
 
-// The most that is accepted is known: 10,000 targets, the last at 9,999 mm.
-TEST(TargetGridLimits, ARangeIsKnownWhole) {
+// The largest accepted range has 10,000 targets; the last is at 9,999 mm.
+TEST(TargetGridLimits, AllTargetsOfARangeAreKnown) {
   const auto known = TargetGrid(grid(1, 0, 0, 9999), {}).known();
   ASSERT_EQ(known.size(), 10000U);
   EXPECT_NEAR(known.back().position_m, 9.999, 1e-12);
@@ -79,8 +79,8 @@ TEST(TargetGridLimits, ARangeIsKnownWhole) {
   EXPECT_TRUE(TargetGrid(grid(1, 0, 0), {}).known().empty());
 }
 
-// What a run stores of them.
-TEST(TargetGridOptions, AreWrittenWithTheRangeThatIsGiven) {
+// JSON of the options, which a run stores.
+TEST(TargetGridOptions, JsonContainsTheGivenRange) {
   EXPECT_EQ(OnTheFlyOptions().json(), R"({"interval_mm":1,"bin_mm":0})");
   EXPECT_EQ(grid(2.5, 0.5, -3).json(), R"({"interval_mm":2.5,"bin_mm":0.5,"from_mm":-3})");
   EXPECT_EQ(grid(2, 1, {}, 40).json(), R"({"interval_mm":2,"bin_mm":1,"to_mm":40})");

@@ -1,4 +1,4 @@
-// Shares of planted causes: closed forms, and whether the truth lies within U as often as U says.
+// Shares of planted causes: closed forms, and how often U contains the true value.
 #include "algo/part/part_error.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ PartPath path_of(bool with_normals) {
   return path;
 }
 
-// Shapes over the path, of which a cause has a multiple.
+// Four shapes over the path; each cause is a multiple of one shape.
 Field shape(int k) {
   Field field;
   for (std::size_t p = 0; p < kPoints; ++p) {
@@ -59,7 +59,7 @@ TEST(PartError, SharesInClosedForm) {
     EXPECT_NEAR(found.layers[k].rms_m, std::sqrt(mean_square(causes[k].value_m)), 1e-18);
     EXPECT_EQ(found.layers[k].U_share, 0);
   }
-  // The largest: at the end of the path, where all add up.
+  // The largest error is at the end of the path, where all causes add up.
   double most = 0;
   std::size_t at = 0;
   for (std::size_t p = 0; p < kPoints; ++p) {
@@ -73,12 +73,13 @@ TEST(PartError, SharesInClosedForm) {
   EXPECT_NEAR(found.max_m, most, 1e-18);
   EXPECT_EQ(found.worst, at);
   EXPECT_LT(found.p95_m, found.max_m);
-  // Without normals the length counts.
+  // Without normals the length of the error counts.
   EXPECT_NEAR(part_error(path_of(false), causes, 3).max_m, most * std::sqrt(1.09), 1e-15);
 }
 
-// Two causes of one layer add up with their signs; of a budget the expected square counts.
-TEST(PartError, WithinALayerAndUnknown) {
+// Two causes of one layer add up with their signs. For a cause with unknown value (a budget) the
+// expected square counts.
+TEST(PartError, AddsSignedCausesAndExpectedSquares) {
   std::vector<PartCause> causes = {{0, "a", times(shape(1), 3e-6), times(shape(1), 0)},
                                    {0, "b", times(shape(1), -1e-6), times(shape(1), 0)},
                                    {1, "source", times(shape(1), 0), times(shape(1), 2e-6)}};
@@ -87,12 +88,13 @@ TEST(PartError, WithinALayerAndUnknown) {
   EXPECT_NEAR(found.layers[1].rms_m, 2e-6, 1e-15);
   EXPECT_NEAR(found.layers[0].share, 0.5, 1e-12);
   EXPECT_NEAR(found.causes[0].share, 9. / 14, 1e-12);
-  // |2 + 2 xi| - 2 is beyond 1.645 u in one trial of twenty: the other way it cannot go so far.
+  // |2 + 2 xi| - 2 exceeds 1.645 u in one trial of twenty; in the other direction it cannot go so
+  // far.
   EXPECT_NEAR(found.U_max_m, 1.645 * 2e-6, 0.35e-6);
 }
 
-// 1,000 parts: each cause is measured with its u, and the true share compared with what is said.
-// With a budget the last cause is not measured: of it only u is known.
+// 1,000 parts: each cause is measured with its u, and the true share is compared with the stated
+// share. With a budget the last cause is not measured; only its u is known.
 void expect_planted_shares_within_U(bool with_budget) {
   const double size[] = {2e-6, 1.5e-6, 1e-6, 1.2e-6}, u[] = {0.1e-6, 0.08e-6, 0.1e-6, 0.05e-6};
   std::mt19937 engine(3);
@@ -135,8 +137,8 @@ TEST(PartError, SharesOfABudgetAreWithinTheirU) {
   expect_planted_shares_within_U(true);
 }
 
-// By hand: X under Y of a table; the tool above the point at which the errors hold.
-TEST(MachineCauses, LeversAndSources) {
+// Calculated by hand: X under Y of a table; the tool is above the point at which the errors hold.
+TEST(MachineCauses, MatchesManualCalculationOfLeversAndSources) {
   const auto machine = parse_machine(R"(name = "m"
 machine = {chain = "w-Y-b-X-t"}
 tool = {point_mm = [0, 0, 100]}
@@ -171,14 +173,14 @@ acts_on = [ { error = "EYY", factor = 2 }, { error = "EXX", factor = 9 } ]
   EXPECT_NEAR(found.axes[2].value_m[1](0), 10e-6 * 0.1, 1e-12);  // 10 urad at 100 mm
   EXPECT_NEAR(std::abs(found.axes[2].u_m[1](0)), 2e-6 * 0.1, 1e-12);
   EXPECT_NEAR(std::abs(found.axes[0].value_m[1](0)), 25e-6 * 0.04, 1e-12);
-  // On what was measured, EXX, the source does not act.
+  // EXX is measured, so the source does not act on it.
   ASSERT_EQ(found.budget.size(), 1u);
   EXPECT_NEAR(std::abs(found.budget[0].u_m[1](1)), 1e-6, 1e-12);
   EXPECT_EQ(found.budget[0].u_m[1](0), 0);
 }
 
-// One cause whose u is a share of its value: all sizes go with |1 + share xi|, so that U of each is
-// the 95 % point of |xi|, 1.96, times the share.
+// The u of the only cause is a share of its value. All sizes are proportional to |1 + share xi|, so
+// U of each size is the 95 % point of |xi|, 1.96, times the share.
 TEST(PartError, UncertaintyOfASingleCauseInClosedForm) {
   const double share = 0.1;
   const std::vector<PartCause> causes = {
@@ -192,7 +194,7 @@ TEST(PartError, UncertaintyOfASingleCauseInClosedForm) {
     EXPECT_NEAR(found.causes[0].U_rms_m / found.causes[0].rms_m, 1.96 * share, 0.01);
     EXPECT_EQ(found.layers[0].share, 1);
     EXPECT_NEAR(found.layers[0].U_share, 0, 1e-12);
-    // Of 200 sizes the 191st in order.
+    // The 191st of 200 sorted sizes.
     std::vector<double> sizes;
     for (const Eigen::Vector3d& v : causes[0].value_m)
       sizes.push_back(with_normals ? std::abs(v(2)) : v.norm());
@@ -201,8 +203,8 @@ TEST(PartError, UncertaintyOfASingleCauseInClosedForm) {
   }
 }
 
-// Known by its u alone: no place is said to be without error.
-TEST(PartError, OfWhatIsKnownByItsUAloneIsNotNought) {
+// Only u of the cause is known, so no point is free of error.
+TEST(PartError, IsNotZeroIfOnlyUIsKnown) {
   const std::vector<PartCause> causes = {{0, "screw", times(shape(2), 0), times(shape(2), 2e-6)}};
   const PartError found =
       part_error(path_of(true), causes, 1, {.seed = 3, .shares = 100, .errors = 4000});
@@ -214,9 +216,9 @@ TEST(PartError, OfWhatIsKnownByItsUAloneIsNotNought) {
   EXPECT_GT(found.U_max_m / largest, 1.0);
 }
 
-// The RMS of a cause with unknown value is |xi| u: 95 % of all are within 0.995 u of u, as
-// 2 (Φ(1.995) − Φ(0.005)) = 0.950.
-TEST(PartError, TheRmsOfAnUnknownCauseIsUncertain) {
+// The RMS of a cause with unknown value is |xi| u. 95 % of all trials are within 0.995 u of u,
+// because 2 (Φ(1.995) − Φ(0.005)) = 0.950.
+TEST(PartError, RmsOfAnUnknownCauseIsUncertain) {
   const std::vector<PartCause> causes = {{0, "screw", times(shape(2), 0), times(shape(2), 2e-6)}};
   const PartError found =
       part_error(path_of(true), causes, 1, {.seed = 3, .shares = 4000, .errors = 0});
@@ -224,8 +226,8 @@ TEST(PartError, TheRmsOfAnUnknownCauseIsUncertain) {
   EXPECT_NEAR(found.causes[0].U_rms_m / found.causes[0].rms_m, 0.995, 0.03);
 }
 
-// Of two causes of one mean square, the first known to a share r: its part is (1 + r xi)² /
-// ((1 + r xi)² + 1), which changes by r xi / 2 to first order.
+// Two causes have the same mean square; the first has the relative uncertainty r. Its share is (1 +
+// r xi)² / ((1 + r xi)² + 1), which changes by r xi / 2 to first order.
 TEST(PartError, UncertaintyOfAShareInClosedForm) {
   const double share = 0.02;
   const std::vector<PartCause> causes = {
@@ -242,9 +244,9 @@ TEST(PartError, UncertaintyOfAShareInClosedForm) {
   EXPECT_EQ(found.layers[1].U_rms_m, 0);
 }
 
-// The turn of the body of Y and that of its line have one letter and two effects: both by the arm
-// of the tool about Z, the line's by the travel of Y.
-TEST(MachineCauses, ABodyAndItsLineAreTwo) {
+// ECY, the rotation of the body of Y, and EC0Y, the rotation of its line, have different effects.
+// ECY acts by the X coordinate of the point, EC0Y by the travel of Y.
+TEST(MachineCauses, SeparatesRotationOfBodyAndLine) {
   const auto machine = parse_machine(R"(name = "m"
 machine = {chain = "w-Y-b-X-t"}
 tool = {point_mm = [0, 0, 0]}
@@ -276,10 +278,10 @@ u_EC0Y_urad = 3
   }
 }
 
-// By hand: X is on the table and goes along + when its command grows, so that the command +10 mm
-// brings the tool to x = -10 mm of the part. There the table is 4 um too far along +X, which leaves
-// the tool 4 um at -X. Y goes with the tool.
-TEST(MachineCauses, ThePathIsInTheCoordinatesOfThePart) {
+// Calculated by hand: X is on the table and moves along + when its command grows, so the command
+// +10 mm brings the tool to x = -10 mm of the part. There the table is 4 um too far along +X, so
+// the tool is 4 um too far along -X. Y moves the tool.
+TEST(MachineCauses, PathIsInPartCoordinates) {
   for (const bool is_iso : {false, true}) {
     const auto machine = parse_machine(std::string(R"(name = "m"
 machine = {chain = "w-X-b-Y-t", travel = { X = ")") +
@@ -311,10 +313,10 @@ acts_on = [ { error = "EZX", factor = 1, factor_per_mm = 0.1, of = "X" } ]
     EXPECT_EQ(found.axes[0].value_m[right](0), 0);
     EXPECT_NEAR(found.axes[1].value_m[0](1), 3e-6, 1e-15);
     EXPECT_EQ(found.axes[1].value_m[1](1), 0);
-    // 1 + 0.1 / mm of the command: 2 at +10 mm, 0 at -10 mm.
+    // Factor 1 + 0.1 / mm of the command: 2 at +10 mm, 0 at -10 mm.
     EXPECT_NEAR(std::abs(found.budget[0].u_m[off](2)), 1e-6, 1e-15);
     EXPECT_NEAR(found.budget[0].u_m[right](2), 0, 1e-15);
-    EXPECT_TRUE(found.beyond.empty());  // the ends of the path are those of the tables, to the bit
+    EXPECT_TRUE(found.beyond.empty());  // the ends of the path are exactly the ends of the tables
   }
 }
 

@@ -1,4 +1,4 @@
-// Readings where nobody has calibrated the probe.
+// Readings outside the calibrated range of a probe.
 #include "algo/plausibility/calibrated_stretch.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// B is calibrated from t = -10 to 30 um and counts 5 % too much.
+// Probe B is calibrated from t = -10 to 30 um and reads 5 % too much.
 Rig calibrated(bool gap = false) {
   Rig rig = test::rig_x();
   Calibration& c = rig.probes[1].calibration;
@@ -28,7 +28,7 @@ MeasuredPoint point(double reading_m, bool valid = true) {
   return p;
 }
 
-TEST(CalibratedStretch, ReadingsBeyondItAreNamed) {
+TEST(CalibratedStretch, ReportsReadingsOutsideTheRange) {
   const auto said = stretch_notices(calibrated(), {point(-20e-6), point(40e-6), point(5e-6)});
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(said[0].severity, Severity::doubtful);
@@ -36,20 +36,20 @@ TEST(CalibratedStretch, ReadingsBeyondItAreNamed) {
   EXPECT_EQ(test::shown(said),
             "beyond_calibration B from_um=-20 to_um=40 calibrated_from_um=-9.5 "
             "calibrated_to_um=28.5\n");
-  // A gap grows as the target recedes.
+  // A gap grows when the target recedes.
   EXPECT_EQ(test::shown(stretch_notices(calibrated(true), {point(0), point(40e-6)})),
             "beyond_calibration B from_um=0 to_um=40 calibrated_from_um=-28.5 "
             "calibrated_to_um=9.5\n");
 }
 
-TEST(CalibratedStretch, ATenthBeyondItIsLetPass) {
-  // 3.8 um of 38 um.
+TEST(CalibratedStretch, AcceptsATenthBeyondTheRange) {
+  // A tenth of 38 um is 3.8 um.
   EXPECT_TRUE(stretch_notices(calibrated(), {point(-13.2e-6), point(32.2e-6)}).empty());
   EXPECT_EQ(stretch_notices(calibrated(), {point(-13.4e-6)}).size(), 1U);
   EXPECT_EQ(stretch_notices(calibrated(), {point(32.4e-6)}).size(), 1U);
 }
 
-TEST(CalibratedStretch, NothingIsSaidOfWhatHasNoReadingsOrNoRecord) {
+TEST(CalibratedStretch, HasNoNoticeWithoutReadingsOrRecord) {
   EXPECT_TRUE(stretch_notices(test::rig_x(), {point(90e-6)}).empty());
   EXPECT_TRUE(stretch_notices(calibrated(), {point(90e-6, false)}).empty());
   EXPECT_TRUE(stretch_notices(calibrated(), {point(std::nan(""))}).empty());

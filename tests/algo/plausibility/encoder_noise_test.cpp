@@ -1,4 +1,4 @@
-// A noisy encoder loses no stop.
+// All stops are found with a noisy encoder.
 #include <gtest/gtest.h>
 
 #include "algo/plausibility/noise_floor.h"
@@ -37,7 +37,7 @@ TEST(EncoderNoise, EveryStopIsFoundAtEveryRate) {
   }
 }
 
-TEST(EncoderNoise, TheSameStopsHoweverTheDataAreCut) {
+TEST(EncoderNoise, FindsTheSameStopsForAnyBlockSize) {
   SteppingLog log;
   log.encoder_noise_um = 1;
   log.runs = 1;
@@ -54,8 +54,8 @@ TEST(EncoderNoise, TheSameStopsHoweverTheDataAreCut) {
   }
 }
 
-// Half of the slots at rest, the others ten times as noisy.
-TEST(EncoderNoise, IsThatOfTheAxisAtRest) {
+// Half of the slots are at rest; the other half is ten times as noisy.
+TEST(EncoderNoise, FloorIsTheNoiseAtRest) {
   std::mt19937_64 engine(3);
   std::normal_distribution<> unit;
   for (const std::size_t rows : {4u, 6u, 12u, 50u}) {

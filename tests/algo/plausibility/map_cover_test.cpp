@@ -1,4 +1,4 @@
-// Height maps that end before the probes do: what is said of which plane, direction and probe.
+// Height maps that end before the probes do: notices with plane, direction and probe.
 #include "algo/plausibility/map_cover.h"
 #include "tests/shown.h"
 
@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-// Probes at x = 0 and 10 mm over a top plane, 20 mm apart along y.
+// Two probes over a top plane, at x = 0 and 10 mm and 20 mm apart along y.
 struct Mapped {
   Rig rig;
   Fixture fixture;
@@ -31,15 +31,15 @@ struct Mapped {
   }
 };
 
-TEST(MapCover, NothingIsSaidWhereTheMapReaches) {
+TEST(MapCover, HasNoNoticeIfTheMapCoversTheTravel) {
   EXPECT_TRUE(Mapped({-60e-3, 10e-3}, {-10e-3, 10e-3}).said(0, 60e-3).empty());
   EXPECT_TRUE(Mapped({-60e-3, 10e-3}, {-10e-3, 10e-3}).said(-49e-6, 60.049e-3).empty());
-  EXPECT_TRUE(Mapped({0}, {0}).said(0, 60e-3).empty());  // the same all along
+  EXPECT_TRUE(Mapped({0}, {0}).said(0, 60e-3).empty());  // constant in both directions
   EXPECT_TRUE(Mapped({-60e-3, 10e-3}, {0}).said(0, 60e-3).empty());
   EXPECT_TRUE(Mapped({}, {}).said(0, 60e-3).empty());
 }
 
-TEST(MapCover, PlaneDirectionAndProbeAreNamed) {
+TEST(MapCover, ReportsPlaneDirectionAndProbe) {
   const auto said = Mapped({-60e-3, 0}, {-10e-3, 5e-3}).said(0, 60e-3);
   ASSERT_EQ(said.size(), 2u);
   EXPECT_EQ(test::shown(said),
@@ -49,7 +49,7 @@ TEST(MapCover, PlaneDirectionAndProbeAreNamed) {
             "reached=probe B reads at 10 mm\n");
 }
 
-TEST(MapCover, BothEndsCountAndProbesOfOtherPlanesDoNot) {
+TEST(MapCover, ChecksBothEndsAndOnlyItsProbes) {
   Mapped mapped({-60e-3, 10e-3}, {0});
   EXPECT_EQ(mapped.said(-51e-6, 60e-3).size(), 1u);
   EXPECT_EQ(mapped.said(0, 60.051e-3).size(), 1u);
@@ -61,8 +61,8 @@ TEST(MapCover, BothEndsCountAndProbesOfOtherPlanesDoNot) {
   EXPECT_TRUE(mapped.said(-1, 1).empty());
 }
 
-// A side plane's axes are x and z, one across the motion's y and z.
-TEST(MapCover, TheAxesAreThoseOfThePlane) {
+// The axes of a side plane are x and z; the axes of a plane across the motion are y and z.
+TEST(MapCover, UsesTheAxesOfThePlane) {
   Mapped mapped({-60e-3, 10e-3}, {15e-3, 25e-3});
   for (FixtureProbe& probe : mapped.fixture.probes) {
     probe.n_C = {0, 1, 0};
@@ -73,7 +73,7 @@ TEST(MapCover, TheAxesAreThoseOfThePlane) {
   EXPECT_EQ(mapped.said(0, 60e-3).size(), 1u);
 }
 
-TEST(MapCover, TravelIsThatOfTheTargetAndOfPointsWithErrors) {
+TEST(MapCover, UsesTargetTravelOfPointsWithErrors) {
   const Mapped mapped({-60e-3, 10e-3}, {0});
   std::vector<MeasuredPoint> points(3);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -89,8 +89,8 @@ TEST(MapCover, TravelIsThatOfTheTargetAndOfPointsWithErrors) {
   EXPECT_TRUE(map_notices(mapped.rig, mapped.fixture, std::vector<MeasuredPoint>(2)).empty());
 }
 
-// A plane across the motion has y and z, wherever the axis goes.
-TEST(MapCover, APlaneAcrossTheMotionHasYAndZ) {
+// A plane across the motion has the axes y and z, for any travel of the axis.
+TEST(MapCover, PlaneAcrossTheMotionHasYAndZ) {
   Mapped mapped({-11e-3, 11e-3}, {4e-3, 6e-3});
   for (FixtureProbe& probe : mapped.fixture.probes) {
     probe.n_C = {-1, 0, 0};

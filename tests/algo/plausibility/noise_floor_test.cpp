@@ -1,4 +1,4 @@
-// The lower quartile of slots, slot by slot. Found missing by tests/mutate.
+// The lower quartile of the slots, slot by slot. Mutation tests (tests/mutate) found these cases.
 #include "algo/plausibility/noise_floor.h"
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::size_t kRowsOfSlot = 16;
 
-// Mean |second difference| of white noise of this sd, and the share by which the quartile of 16
-// values lies below it.
+// Mean |second difference| of white noise with this sd, reduced by the share by which the quartile
+// of 16 values lies below the mean.
 double bend_of(double sd) {
   return std::sqrt(6) * std::sqrt(2 / std::numbers::pi) * sd * (1 - 0.72 / 4);
 }
@@ -26,12 +26,12 @@ double floor_of(const std::vector<double>& sds) {
   return floor.sd();
 }
 
-// The middles of the bins, eight an octave: 17/32, 19/32 ... 31/32.
+// Centres of the bins, eight per octave: 17/32, 19/32 ... 31/32.
 double middle(int eighth, int exponent) {
   return std::ldexp((17 + 2 * eighth) / 32.0, exponent);
 }
 
-TEST(NoiseFloorRule, ASlotIsTakenForTheMiddleOfItsBin) {
+TEST(NoiseFloorRule, SlotCountsAsTheCentreOfItsBin) {
   for (const int exponent : {-49, -48, -30, -20, 0, 10}) {
     for (int eighth = 0; eighth < 8; ++eighth) {
       const double sd = middle(eighth, exponent);
@@ -54,7 +54,7 @@ TEST(NoiseFloorRule, IsTheLowerQuartileInAnyOrder) {
   EXPECT_NEAR(floor_of({c, a, a, a, c, c, c, c, c, c, c, c}), a, 1e-12 * a);
 }
 
-TEST(NoiseFloorRule, NoNoiseIsNoughtAndWhatIsMissingIsNoSlot) {
+TEST(NoiseFloorRule, IsZeroWithoutNoiseAndIgnoresMissingSlots) {
   EXPECT_EQ(NoiseFloor().sd(), 0);
   EXPECT_EQ(floor_of({0}), 0);
   EXPECT_EQ(floor_of({middle(4, -51)}), 0);  // below 1e-15 m

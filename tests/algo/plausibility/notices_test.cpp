@@ -1,4 +1,4 @@
-// Nothing that happens to a stop vanishes without word.
+// Each event at a stop is reported by a notice or a flag.
 #include <gtest/gtest.h>
 
 #include "tests/algo/detected.h"
@@ -18,7 +18,7 @@ void shift_from(FrameBlock& frames, std::size_t row, double by_m) {
   for (std::size_t i = row; i < frames.size(); ++i) frames.encoder_m[i] += by_m;
 }
 
-TEST(Notices, ACountJumpIsToldByItsSizeAndFlagsWhatFollows) {
+TEST(Notices, ReportsAnEncoderJumpAndFlagsLaterPoints) {
   for (const double rate : {200.0, 500.0, 4000.0}) {
     for (const bool moving : {false, true}) {
       for (const double noise_um : {0.005, 1.0}) {
@@ -48,7 +48,7 @@ TEST(Notices, ACountJumpIsToldByItsSizeAndFlagsWhatFollows) {
   }
 }
 
-TEST(Notices, AGlitchThatComesBackIsNoJump) {
+TEST(Notices, GlitchThatReturnsIsNoJump) {
   SteppingLog log;
   log.runs = 1;
   FrameBlock frames = log.frames();
@@ -59,7 +59,7 @@ TEST(Notices, AGlitchThatComesBackIsNoJump) {
   EXPECT_FALSE(has_flag(found.points.back(), Flag::jump));
 }
 
-TEST(Notices, AHoleInTheTimeLineIsTold) {
+TEST(Notices, ReportsARecordingHole) {
   SteppingLog log;
   log.runs = 1;
   const FrameBlock whole = log.frames();
@@ -81,7 +81,7 @@ TEST(Notices, AHoleInTheTimeLineIsTold) {
   }
 }
 
-// The axis comes to rest `creep_um` short of where it goes, and creeps there.
+// The axis stops `creep_um` before its target and creeps to the target.
 FrameBlock creeping(const SteppingLog& log, double creep_um, double from_s, double to_s) {
   constexpr double kApproach_s = 0.2;
   FrameBlock frames = log.frames();
@@ -94,7 +94,7 @@ FrameBlock creeping(const SteppingLog& log, double creep_um, double from_s, doub
   return frames;
 }
 
-TEST(Notices, ACreepingStopIsKeptWithAFlagOrLeftOutWithAWord) {
+TEST(Notices, ReportsACreepingStopKeptOrLeftOut) {
   SteppingLog log;
   log.runs = 1;
   const auto clean = detect(log, log.frames());
@@ -106,7 +106,7 @@ TEST(Notices, ACreepingStopIsKeptWithAFlagOrLeftOutWithAWord) {
   EXPECT_NEAR(little.points[2].position_m, 10e-3, 18e-6);
   ASSERT_EQ(little.notices.size(), 1u);
   EXPECT_EQ(little.notices[0].code, NoticeCode::stop_crept);
-  // It creeps on towards + over nearly the whole stop.
+  // The stop creeps towards + over nearly its whole length.
   const double length_s =
       1e-9 * static_cast<double>(clean.points[2].end_ns - clean.points[2].begin_ns);
   const auto crept = of_kind(little, DwellEventKind::crept);
@@ -123,7 +123,7 @@ TEST(Notices, ACreepingStopIsKeptWithAFlagOrLeftOutWithAWord) {
   }
 }
 
-TEST(Notices, AStopTooShortToAverageIsTold) {
+TEST(Notices, ReportsStopsThatAreTooShort) {
   SteppingLog log;
   log.runs = 1;
   log.dwell_s = 0.15;

@@ -1,4 +1,4 @@
-// Which events become a notice, and how many. Found missing by tests/mutate.
+// Which events become a notice, and how many. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,8 +34,8 @@ bool is_told(DwellEventKind kind, double position_mm, double time_s, double leng
   return !found.empty();
 }
 
-// A stop that has its point, just before or after, needs no word.
-TEST(NoticesTold, AShortStopBesideItsPointIsNot) {
+// A short stop directly before or after a point at its position needs no notice.
+TEST(NoticesTold, ShortStopBesideItsPointIsNotReported) {
   for (const DwellEventKind kind : {DwellEventKind::short_stop, DwellEventKind::creep}) {
     EXPECT_TRUE(is_told(kind, 5, 15));
     EXPECT_FALSE(is_told(kind, 9.99, 18.6));
@@ -44,12 +44,12 @@ TEST(NoticesTold, AShortStopBesideItsPointIsNot) {
     EXPECT_TRUE(is_told(kind, 9.99, 22.1));
     EXPECT_TRUE(is_told(kind, 9.94, 20.5));
     EXPECT_FALSE(is_told(kind, 9.96, 20.5));
-    EXPECT_TRUE(is_told(kind, 10, 10.5));  // the other one's time
+    EXPECT_TRUE(is_told(kind, 10, 10.5));  // at the time of the other point
   }
 }
 
-// Beyond the ends the axis turns round.
-TEST(NoticesTold, ATurnBeyondTheEndsIsNot) {
+// The axis turns around beyond the end targets.
+TEST(NoticesTold, TurnBeyondTheEndsIsNotReported) {
   EXPECT_TRUE(is_told(DwellEventKind::short_stop, 10.04, 30));
   EXPECT_FALSE(is_told(DwellEventKind::short_stop, 10.06, 30));
   EXPECT_TRUE(is_told(DwellEventKind::short_stop, -0.04, 30));
@@ -58,7 +58,7 @@ TEST(NoticesTold, ATurnBeyondTheEndsIsNot) {
   EXPECT_EQ(event_notices({n}, {}, 0, 0.2).size(), 1u);
 }
 
-TEST(NoticesTold, WhatConcernsThePositionsAlwaysIs) {
+TEST(NoticesTold, EventsOfPositionsAreAlwaysReported) {
   for (const DwellEventKind kind :
        {DwellEventKind::jump, DwellEventKind::hole, DwellEventKind::crept}) {
     EXPECT_TRUE(is_told(kind, 10, 20.5));
@@ -66,8 +66,8 @@ TEST(NoticesTold, WhatConcernsThePositionsAlwaysIs) {
   }
 }
 
-// Ten of a kind, and how many more; jumps first.
-TEST(NoticesTold, TenOfAKindAreNamed) {
+// Ten notices of a kind are listed, then the number of the others; jumps come first.
+TEST(NoticesTold, ReportsTenOfAKind) {
   std::vector<DwellEvent> events(10, {DwellEventKind::hole, kSecond_ns, 5e-3, 1e-3, 2});
   events.push_back({DwellEventKind::jump, 3 * kSecond_ns, 4e-3, -25e-6, 0});
   const auto ten = event_notices(events, two_points(), kSecond_ns, 0.2);
@@ -80,8 +80,8 @@ TEST(NoticesTold, TenOfAKindAreNamed) {
   EXPECT_EQ(shown(twelve.back()), "more_alike count=2 alike=recording_hole");
 }
 
-// Windows of 50 ms that the axis goes through at `speed`, with a tolerance of 2 um: up to 50 um in
-// a window it is slow. The stretch is told when it ends.
+// The axis moves by `per_window_m` per window of 50 ms; the tolerance is 2 um. A window is slow up
+// to 50 um. The stretch is reported when it ends.
 std::optional<DwellEvent> slow_over(int windows, double per_window_m, bool stood = false,
                                     double most_m = 200e-6) {
   SlowStretch stretch;
@@ -100,7 +100,7 @@ std::optional<DwellEvent> slow_over(int windows, double per_window_m, bool stood
   return reported;
 }
 
-TEST(SlowStretchRule, IsToldWithItsPlaceSizeAndLength) {
+TEST(SlowStretchRule, IsReportedWithPositionSizeAndLength) {
   for (const double per_window_m : {10e-6, -10e-6}) {
     const auto reported = slow_over(10, per_window_m);
     ASSERT_TRUE(reported);
@@ -112,7 +112,7 @@ TEST(SlowStretchRule, IsToldWithItsPlaceSizeAndLength) {
   }
 }
 
-TEST(SlowStretchRule, NeitherTooShortNorTooFarNorWithAStop) {
+TEST(SlowStretchRule, RejectsShortLongAndStoppedStretches) {
   EXPECT_TRUE(slow_over(4, 10e-6));
   EXPECT_FALSE(slow_over(3, 10e-6));  // 0.15 s
   EXPECT_TRUE(slow_over(10, 19.9e-6));
@@ -120,7 +120,7 @@ TEST(SlowStretchRule, NeitherTooShortNorTooFarNorWithAStop) {
   EXPECT_FALSE(slow_over(10, -20.1e-6));
   EXPECT_FALSE(slow_over(10, 10e-6, true));
   EXPECT_TRUE(slow_over(10, 49.9e-6, false, 1));
-  EXPECT_FALSE(slow_over(10, 50.1e-6, false, 1));  // faster than slow
+  EXPECT_FALSE(slow_over(10, 50.1e-6, false, 1));  // faster than a slow window
 }
 
 }  // namespace

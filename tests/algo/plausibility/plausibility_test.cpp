@@ -1,4 +1,4 @@
-// What is wrong with a run is said by name, and nothing of a run that is right.
+// Notices name each fault of a run; a correct run has no notices.
 #include "algo/plausibility/plausibility.h"
 
 #include <gtest/gtest.h>
@@ -35,11 +35,11 @@ struct Judged {
   std::string all() const { return test::shown(notices); }
 };
 
-// As the pipeline does it, with errors solved wherever `solved` says so.
+// Evaluates a run as the pipeline does; point i has valid errors if `solved(i)` is true.
 template <class Solved>
 Judged judge(const Machine& machine, const std::vector<double>& targets_m, Solved solved) {
   Rig rig = rig_of_five();
-  rig.probes.resize(1);  // the machine has one
+  rig.probes.resize(1);  // the machine has one probe
   DwellDetector detector({}, {"A"}, {200e-6});
   std::vector<Point> points;
   detector.push(machine.frames, points);
@@ -62,7 +62,7 @@ Judged judge(const Machine& machine, const std::vector<double>& targets_m = {}) 
   return judge(machine, targets_m, [](std::size_t) { return true; });
 }
 
-TEST(Plausibility, CountsWhatWasVisited) {
+TEST(Plausibility, CountsVisits) {
   Machine m;
   m.standard(3);
   const Judged judged = judge(m);
@@ -80,7 +80,7 @@ TEST(Plausibility, CountsWhatWasVisited) {
   EXPECT_NEAR(judged.figures.probes[0].travel_m, 30e-6, 50e-9);
 }
 
-TEST(Plausibility, NamesAHole) {
+TEST(Plausibility, ReportsAMissingVisit) {
   Machine m;
   m.forward(1), m.beyond(7, 1), m.reverse(1), m.beyond(1, -1);
   for (const int t : {1, 2, 4, 5, 6, 7}) m.visit(t, 2, 1);
@@ -92,7 +92,7 @@ TEST(Plausibility, NamesAHole) {
   EXPECT_EQ(judged.figures.n_ij[2].forward, (std::vector<int>{1, 0}));
 }
 
-TEST(Plausibility, NamesAVisitThatGaveNoErrors) {
+TEST(Plausibility, ReportsAnUnsolvedVisit) {
   Machine m;
   m.standard(2);
   const Judged judged = judge(m, {}, [](std::size_t i) { return i != 8; });
@@ -102,7 +102,7 @@ TEST(Plausibility, NamesAVisitThatGaveNoErrors) {
   EXPECT_EQ(judged.figures.n_ij[5].reverse, (std::vector<int>{0, 1}));
 }
 
-TEST(Plausibility, SaysWhatARunThatEndedEarlyLacks) {
+TEST(Plausibility, ReportsVisitsMissingAfterAnEarlyEnd) {
   Machine m;
   m.standard(1);
   m.forward(2);
@@ -119,7 +119,7 @@ TEST(Plausibility, SaysWhatARunThatEndedEarlyLacks) {
             "run_lacks_visits runs=run 2\n");
 }
 
-TEST(Plausibility, NamesADoubledVisit) {
+TEST(Plausibility, ReportsADoubledVisit) {
   Machine m;
   for (int t = 1; t <= 7; ++t) {
     m.visit(t, 1, 1);
@@ -129,7 +129,7 @@ TEST(Plausibility, NamesADoubledVisit) {
   EXPECT_EQ(judge(m).all(), "visit_doubled run=1 approach=forward targets=target 4\n");
 }
 
-TEST(Plausibility, NamesATargetThatIsFoundLate) {
+TEST(Plausibility, ReportsATargetThatIsFoundLate) {
   Machine m;
   for (const int t : {1, 2, 4, 5, 6, 7}) m.visit(t, 1, 1);
   m.beyond(7, 1), m.reverse(1), m.beyond(1, -1);
@@ -140,7 +140,7 @@ TEST(Plausibility, NamesATargetThatIsFoundLate) {
   EXPECT_TRUE(judged.says("targets_renumbered targets=target 3\n")) << judged.all();
 }
 
-TEST(Plausibility, NamesAGivenTargetThatWasNeverVisited) {
+TEST(Plausibility, ReportsAGivenTargetWithoutVisits) {
   Machine m;
   m.standard(2);
   auto targets_m = m.targets;
@@ -148,7 +148,7 @@ TEST(Plausibility, NamesAGivenTargetThatWasNeverVisited) {
   EXPECT_EQ(judge(m, targets_m).all(), "target_never_visited targets=target 8\n");
 }
 
-TEST(Plausibility, TellsStopsThatWereTooShort) {
+TEST(Plausibility, ReportsStopsThatAreTooShort) {
   Machine m;
   m.forward(1), m.beyond(7, 1), m.reverse(1), m.beyond(1, -1);
   for (int t = 1; t <= 7; ++t) {
@@ -164,7 +164,7 @@ TEST(Plausibility, TellsStopsThatWereTooShort) {
   EXPECT_EQ(judged.figures.short_stops, 1u);
 }
 
-TEST(Plausibility, TellsOneStopOfMany) {
+TEST(Plausibility, ReportsStopsAtOnePlaceOnly) {
   Machine m;
   m.dwell_s = 0.15;
   m.forward(1), m.beyond(7, 1), m.reverse(1);
@@ -175,7 +175,7 @@ TEST(Plausibility, TellsOneStopOfMany) {
   EXPECT_TRUE(judged.says(" others=14 needed_s=0.2 ")) << judged.all();
 }
 
-TEST(Plausibility, TellsThatGivenTargetsAreOfAnotherUnit) {
+TEST(Plausibility, ReportsGivenTargetsInAnotherUnit) {
   Machine m;
   m.standard(2);
   std::vector<double> in_m;
@@ -184,15 +184,16 @@ TEST(Plausibility, TellsThatGivenTargetsAreOfAnotherUnit) {
   EXPECT_TRUE(judged.says("most_stops_left_out left_out=")) << judged.all();
 }
 
-TEST(Plausibility, APendulumOfOneRunIsSaidToBeAGuess) {
+TEST(Plausibility, ReportsThatAPendulumIsAssumed) {
   Machine m;
   m.forward(1);
   for (int t = 6; t >= 1; --t) m.visit(t, 1, -1);
   EXPECT_TRUE(judge(m).says("pendulum_assumed\n"));
 }
 
-// Its end targets have one visit by design; any other hole is one.
-TEST(Plausibility, APendulumLacksNothingAtItsEnds) {
+// The end targets of a pendulum cycle have one visit by design; any other missing visit is
+// reported.
+TEST(Plausibility, PendulumHasOneVisitAtItsEnds) {
   const auto pendulum = [](int missed) {
     Machine m;
     m.visit(1, 1, 1);
@@ -228,14 +229,14 @@ void scale(ProbeFigures& p, double factor) {
   p.sd_m *= factor, p.travel_m *= factor, p.min_m *= factor, p.max_m *= factor;
 }
 
-TEST(Units, NothingIsSaidOfARunThatIsRight) {
+TEST(Units, CorrectRunHasNoNotices) {
   EXPECT_EQ(said(rig_of_five(), right()), "");
-  Plausibility quiet = right();  // a good axis, well adjusted
+  Plausibility quiet = right();  // a good, well adjusted axis
   for (auto& p : quiet.probes) p = {p.id, 78, 1e-9, 0.1e-6, -0.05e-6, 0.05e-6};
   EXPECT_EQ(said(rig_of_five(), quiet), "");
 }
 
-TEST(Units, OfTheEncoder) {
+TEST(Units, ReportsWrongUnitOfTheEncoder) {
   Plausibility p = right();
   p.encoder_max_m = 61;
   EXPECT_EQ(said(rig_of_five(), p), "travel_too_long travel_m=61.001\n");
@@ -243,13 +244,13 @@ TEST(Units, OfTheEncoder) {
   EXPECT_EQ(said(rig_of_five(), p).find("travel_too_short travel_mm=0.06\n"), 0u);
 }
 
-TEST(Units, OfTime) {
+TEST(Units, ReportsWrongUnitOfTime) {
   Plausibility p = right();
   p.rate_hz = 1;
   EXPECT_EQ(said(rig_of_five(), p), "rate_too_low rate_hz=1\n");
 }
 
-TEST(Units, OfEachProbe) {
+TEST(Units, ReportsWrongUnitOfEachProbe) {
   for (std::size_t k = 0; k < 5; ++k) {
     Plausibility p = right();
     scale(p.probes[k], 1e-3);
@@ -260,13 +261,13 @@ TEST(Units, OfEachProbe) {
   }
 }
 
-TEST(Units, AFrozenProbeIsNotCalledOneInMillimetres) {
+TEST(Units, FrozenProbeHasNoUnitNotice) {
   Plausibility p = right();
   p.probes[2] = {"C", 78, 0, 0, 0, 0};
   EXPECT_EQ(said(rig_of_five(), p), "");
 }
 
-TEST(Units, AGapWithoutOffset) {
+TEST(Units, ReportsAGapWithoutOffset) {
   Rig rig = rig_of_five();
   Plausibility p = right();
   rig.probes[1].calibration.reads_gap = true;
@@ -277,7 +278,7 @@ TEST(Units, AGapWithoutOffset) {
   EXPECT_EQ(said(rig, p), "");
 }
 
-TEST(Units, OfTheFixture) {
+TEST(Units, ReportsWrongUnitOfTheFixture) {
   for (const auto& [factor, code] :
        {std::pair(1e3, "fixture_too_large reach_m=25\n"), std::pair(1e-3, "fixture_too_small ")}) {
     Rig rig = rig_of_five();
@@ -287,8 +288,8 @@ TEST(Units, OfTheFixture) {
   }
 }
 
-// Three targets are all met 0.3 mm further on from the second run on.
-TEST(Plausibility, TargetsThatShiftAreToldWithTheirTimeAndShift) {
+// From the second run on, all three targets are approached 0.3 mm further.
+TEST(Plausibility, ReportsShiftedTargetsWithTimeAndShift) {
   Sequence sequence;
   sequence.targets_m = {0, 0.3e-3, 10e-3, 10.3e-3, 20e-3, 20.3e-3};
   sequence.targets = 6;
@@ -318,10 +319,11 @@ TEST(Plausibility, TargetsThatShiftAreToldWithTheirTimeAndShift) {
     if (notice.code != NoticeCode::targets_shifted) continue;
     ++reported;
     EXPECT_NEAR(test::number(notice, "shift_mm"), 0.3, 1e-9);
-    EXPECT_NEAR(test::number(notice, "time_s"), 22, 1e-9);  // the end of the first run's third stop
+    EXPECT_NEAR(test::number(notice, "time_s"), 22,
+                1e-9);  // end of the third stop of the first run
   }
   EXPECT_EQ(reported, 1u);
-  // What the probes read of these stops.
+  // Figures of the probes' readings at these stops.
   const Plausibility found = plausibility(run);
   ASSERT_EQ(found.probes.size(), 5u);
   EXPECT_EQ(found.probes[2].id, "C");
@@ -336,8 +338,9 @@ TEST(Plausibility, TargetsThatShiftAreToldWithTheirTimeAndShift) {
   EXPECT_TRUE(std::isnan(none.min_m) && std::isnan(none.max_m) && std::isnan(none.travel_m));
 }
 
-// A stop is enough to see that a probe is noisier than 1 µm, or 0.25 % of its range; none is not.
-TEST(Plausibility, OneStopTellsThatAProbeIsNoisy) {
+// One stop is enough to detect noise above 1 µm or 0.25 % of the range. Without stops there is no
+// notice.
+TEST(Plausibility, OneStopShowsANoisyProbe) {
   const Rig rig = rig_of_five();  // ranges of 400 µm
   const auto noisy = [&](std::size_t points, double sd_m) {
     Plausibility figures;

@@ -1,4 +1,4 @@
-// The rule of resolution.h by hand: which steps make a resolution.
+// The rule of resolution.h, calculated by hand: which steps are a resolution.
 #include "algo/plausibility/resolution.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// Each step stands between two readings that stayed.
+// Each step lies between two repeated readings.
 double step_of(const std::vector<double>& steps) {
   std::vector<double> readings = {0, 0};
   for (const double step : steps) {
@@ -26,7 +26,7 @@ std::vector<double> repeated(double step, std::size_t n, std::vector<double> oth
   return others;
 }
 
-TEST(Resolution, IsAStepSeenThreeTimes) {
+TEST(Resolution, IsAStepThatOccursThreeTimes) {
   EXPECT_EQ(step_of({1, 1}), 0);
   EXPECT_EQ(step_of({1, 1, 1}), 1);
   EXPECT_EQ(step_of({1, -1, 1}), 1);
@@ -36,18 +36,18 @@ TEST(Resolution, IsAStepSeenThreeTimes) {
   EXPECT_EQ(step_of({1, 1.02, 1.06}), 0);
 }
 
-// Of few steps three quarters agree, of sixteen and more an eighth.
-TEST(Resolution, MostStepsOfFewAgree) {
+// Of few steps, three quarters must agree; of sixteen or more steps, an eighth must agree.
+TEST(Resolution, NeedsMostOfFewSteps) {
   EXPECT_EQ(step_of(repeated(1, 6, {2, 4})), 1);
   EXPECT_EQ(step_of(repeated(1, 5, {2, 4, 8})), 0);
-  EXPECT_EQ(step_of(repeated(4, 6, {1, 2})), 4);  // a stray smaller one is none
+  EXPECT_EQ(step_of(repeated(4, 6, {1, 2})), 4);  // a single smaller step does not count
   EXPECT_EQ(step_of(repeated(1, 3, {2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096})), 0);
   EXPECT_EQ(step_of(repeated(1, 3, {2, 4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096, 8192})),
             1);
 }
 
-// Of many only the sixty-four smallest are kept, of which eight agree.
-TEST(Resolution, TheSmallestOfManyThatComesAgain) {
+// Only the 64 smallest of many steps are kept; eight of them must agree.
+TEST(Resolution, IsTheSmallestRepeatedStepOfMany) {
   std::vector<double> steps;
   for (int i = 0; i < 200; ++i) steps.push_back(i % 20 == 0 ? 1 : i % 5 == 1 ? 3 : 100);
   EXPECT_EQ(step_of(steps), 1);
@@ -55,27 +55,29 @@ TEST(Resolution, TheSmallestOfManyThatComesAgain) {
   EXPECT_EQ(step_of(steps), 3);
 }
 
-TEST(Resolution, OnlyBetweenReadingsThatStayed) {
+TEST(Resolution, NeedsRepeatedReadings) {
   Resolution none;
-  none.add(std::vector<double>{0, 0, 1, 2, 2, 3, 3.5, 3.5, 4});  // never stayed on both sides
-  none.add(std::vector<double>{0, 1, 1, 2, 2, 3, 3, 4, 4});      // begins in noise
-  none.add(std::vector<double>{0, 0, 1});                        // too few
+  none.add(std::vector<double>{0, 0, 1, 2, 2, 3, 3.5, 3.5,
+                               4});  // no step has repeated readings on both sides
+  none.add(std::vector<double>{0, 1, 1, 2, 2, 3, 3, 4, 4});  // begins in noise
+  none.add(std::vector<double>{0, 0, 1});                    // too few
   none.add(std::vector<double>{0, 0, INFINITY, INFINITY, 0, 0, INFINITY, INFINITY, 0, 0});
   EXPECT_EQ(none.step(), 0);
-  Resolution parts;  // the same by parts
+  Resolution parts;  // the same readings in parts
   for (int i = 0; i < 3; ++i) parts.add(std::vector<double>{0, 0, 2, 2});
   EXPECT_EQ(parts.step(), 2);
 }
 
-// What rounding leaves of noise: half a step or more averages out, less is a rectangle.
-TEST(Resolution, IsInTheUncertaintyUnlessNoiseDithers) {
+// Noise of half a step or more averages the rounding out. With less noise the rounding has a
+// rectangular distribution.
+TEST(Resolution, IsInTheUncertaintyUnlessNoiseAveragesIt) {
   EXPECT_EQ(with_resolution(3, 1.0, 2), 3);
   EXPECT_NEAR(with_resolution(3, 0.99, 2), std::sqrt(9 + 4 / 12.0), 1e-12);
   EXPECT_NEAR(with_resolution(0, 0, 6), 6 / std::sqrt(12), 1e-12);
 }
 
-// Readings that stay for long have no steps of nothing between them.
-TEST(Resolution, StaysMayBeLong) {
+// Readings that repeat many times contain no steps of 0.
+TEST(Resolution, ReadingsMayRepeatManyTimes) {
   std::vector<double> readings;
   for (const double x : {0.5, 2.5, 0.5, 2.5}) readings.insert(readings.end(), 40, x);
   Resolution resolution;
@@ -83,9 +85,9 @@ TEST(Resolution, StaysMayBeLong) {
   EXPECT_EQ(resolution.step(), 2);
 }
 
-// Steps of 1 from a reading that stayed to one that does not, and the other way; the other steps
+// Steps of 1 from a repeated reading to a single one, and the other way round; the other steps
 // differ.
-TEST(Resolution, AStepStaysOnBothSides) {
+TEST(Resolution, NeedsRepeatedReadingsOnBothSides) {
   Resolution left, right;
   left.add(std::vector<double>{0, 0, 1, 3, 3, 4, 8, 8, 9, 17, 17, 18, 34, 34, 35, 67, 67});
   EXPECT_EQ(left.step(), 0);
@@ -93,8 +95,9 @@ TEST(Resolution, AStepStaysOnBothSides) {
   EXPECT_EQ(right.step(), 0);
 }
 
-// Strays that grow by 6 % do not agree. Of 64 steps eight do, whatever larger ones come later.
-TEST(Resolution, AnEighthOfSixtyFourAgrees) {
+// Other steps that grow by 6 % do not agree. Eight of 64 steps must agree; later larger steps
+// change nothing.
+TEST(Resolution, NeedsEightOfSixtyFourSteps) {
   const auto with_strays = [](std::size_t strays, std::size_t equal) {
     std::vector<double> steps;
     for (std::size_t i = 0; i < strays; ++i) steps.push_back(std::pow(1.06, i));
@@ -107,9 +110,9 @@ TEST(Resolution, AnEighthOfSixtyFourAgrees) {
   EXPECT_NEAR(step_of(later), 128, 1e-9);
 }
 
-// Rows 2 to 9 alone. Probe B repeats its reading in the fifth of them: from there on it has no
-// step.
-TEST(ProbeResolution, OfAProbeSlowerThanTheEncoderThereIsNone) {
+// Only rows 2 to 9 are used. Probe B repeats its reading in the fifth of these rows, so it has no
+// resolution from there on.
+TEST(ProbeResolution, IsUnknownForAProbeSlowerThanTheEncoder) {
   FrameBlock frames;
   frames.probe_m = {{0, 1, 0, 0, 2, 2, 0, 0, 2, 2, 7}, {0, 1, 0, 0, 3, 3, 0, 0, 3, 3, 7}};
   frames.probe_fresh = {std::vector<std::uint8_t>(11, 1), {1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 0}};

@@ -1,5 +1,5 @@
-// What is said of signals that stand still, at and beside each bound, of stops made by hand; and
-// steps of an encoder that were put there. Found missing by tests/mutate.
+// Notices about constant signals at and beside each limit, for stops made by hand, and steps of an
+// encoder. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +16,8 @@ namespace {
 
 using test::shown;
 
-constexpr double kU_m = 1e-9;    // of a stop's mean: 8 nm are within its noise
-constexpr double kSd_m = 10e-9;  // of single readings
+constexpr double kU_m = 1e-9;    // u of the mean of a stop: 8 nm are within its noise
+constexpr double kSd_m = 10e-9;  // standard deviation of single readings
 
 Rig rig_of(std::size_t probes) {
   Rig rig;
@@ -30,7 +30,8 @@ Rig rig_of(std::size_t probes) {
   return rig;
 }
 
-// Stops a second apart, 0.5 s long, at places 1, 2, 3, ...; each probe goes up by 1 µm a stop.
+// Stops of 0.5 s, a second apart, at targets 1, 2, 3, ...; the reading of each probe grows by 1 µm
+// per stop.
 Sequence stops_of(std::size_t probes, int n) {
   Sequence sequence;
   for (int i = 0; i < n; ++i) {
@@ -53,7 +54,7 @@ Notices said(const Sequence& sequence, std::size_t probes = 5) {
   return signal_notices({rig, sequence, none});
 }
 
-// Probe C at 3 µm from stop `first` on.
+// Probe C reads 3 µm from stop `first` on.
 Sequence with_dead_probe(int n, std::size_t first, double wobble_m = 0) {
   Sequence sequence = stops_of(5, n);
   for (std::size_t i = first; i < sequence.points.size(); ++i)
@@ -61,19 +62,20 @@ Sequence with_dead_probe(int n, std::size_t first, double wobble_m = 0) {
   return sequence;
 }
 
-TEST(Signals, NothingIsSaidOfARunThatIsRight) {
+TEST(Signals, CorrectRunHasNoNotices) {
   EXPECT_TRUE(said(stops_of(5, 20)).empty());
   EXPECT_TRUE(said(Sequence{}).empty());
 }
 
-TEST(Signals, AProbeThatNeverMovesIsNamed) {
+TEST(Signals, ReportsAProbeThatNeverMoves) {
   const auto found = said(with_dead_probe(12, 0));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(shown(found[0]), "probe_insensitive C stops=12 from_s=0 reading_um=3");
 }
 
-// Probe B ends at 7.5 um; three stops there at different times, or at its lowest reading.
-TEST(Signals, AnAmplifierAtTheEndOfItsOutputIsNamed) {
+// The output of probe B ends at 7.5 um. Three stops at different times read this value; it is the
+// highest or lowest reading.
+TEST(Signals, ReportsAClippedAmplifier) {
   const auto clipped = [](const std::vector<std::size_t>& at, double reading_m, int n = 12) {
     Sequence sequence = stops_of(5, n);
     for (MeasuredPoint& p : sequence.points) p.point.probe_m[1] = 7e-6 * std::sin(p.target * 1.3);
@@ -95,8 +97,8 @@ TEST(Signals, AnAmplifierAtTheEndOfItsOutputIsNamed) {
   EXPECT_TRUE(clipped({0, 1, 2}, 7.5e-6, 3).empty()) << "no stop has noise";
 }
 
-// Whose resolution is above its noise: stops without scatter are nothing special.
-TEST(Signals, AProbeOfCoarseResolutionIsNotClipped) {
+// The resolution of the probe exceeds its noise, so stops without scatter are normal.
+TEST(Signals, ProbeWithCoarseResolutionIsNotClipped) {
   Sequence sequence = stops_of(5, 12);
   for (std::size_t i = 0; i < 12; ++i) {
     sequence.points[i].point.probe_m[1] =
@@ -106,17 +108,17 @@ TEST(Signals, AProbeOfCoarseResolutionIsNotClipped) {
   EXPECT_TRUE(said(sequence).empty());
 }
 
-TEST(Signals, AProbeThatDiesIsNamedWithItsTime) {
-  const auto found = said(with_dead_probe(12, 5));  // it was at 0 to 4 um before
+TEST(Signals, ReportsAProbeThatDiesWithItsTime) {
+  const auto found = said(with_dead_probe(12, 5));  // it read 0 to 4 um before
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(shown(found[0]), "probe_insensitive C stops=7 from_s=5 reading_um=3");
 }
 
-TEST(Signals, ADeadProbeIsToldFromSixStopsAtThreePlacesOn) {
+TEST(Signals, DeadProbeNeedsSixStopsAtThreePlaces) {
   EXPECT_EQ(said(with_dead_probe(12, 6)).size(), 1u);
   EXPECT_EQ(said(with_dead_probe(12, 7)).size(), 0u);   // five stops
-  EXPECT_EQ(said(with_dead_probe(28, 21)).size(), 1u);  // a quarter of them
-  EXPECT_EQ(said(with_dead_probe(32, 25)).size(), 0u);  // less
+  EXPECT_EQ(said(with_dead_probe(28, 21)).size(), 1u);  // a quarter of the stops
+  EXPECT_EQ(said(with_dead_probe(32, 25)).size(), 0u);  // less than a quarter
   for (const int places : {2, 3}) {
     Sequence few = with_dead_probe(12, 0);
     for (std::size_t i = 0; i < few.points.size(); ++i)
@@ -125,14 +127,15 @@ TEST(Signals, ADeadProbeIsToldFromSixStopsAtThreePlacesOn) {
   }
 }
 
-TEST(Signals, TheSameIsWithinEightTimesTheUncertainty) {
+TEST(Signals, ConstantMeansWithinEightTimesU) {
   EXPECT_EQ(said(with_dead_probe(12, 0, 7.9e-9)).size(), 1u);
   EXPECT_EQ(said(with_dead_probe(12, 0, 8.1e-9)).size(), 0u);
 }
 
-// The others, and the probe itself before it died, must have moved by fifty times as much: 400 nm.
-TEST(Signals, TheOthersMustMove) {
-  for (const double step_m : {38e-9, 35e-9}) {  // over eleven steps 418 nm and 385 nm
+// The other probes, and the probe itself before it died, must have moved by fifty times that limit:
+// 400 nm.
+TEST(Signals, OtherProbesMustMove) {
+  for (const double step_m : {38e-9, 35e-9}) {  // 418 nm and 385 nm over eleven steps
     Sequence slow = with_dead_probe(12, 0);
     for (std::size_t i = 0; i < slow.points.size(); ++i)
       for (const std::size_t k : {0u, 1u, 3u, 4u})
@@ -146,7 +149,7 @@ TEST(Signals, TheOthersMustMove) {
   }
 }
 
-TEST(Signals, AProbeThatIsLostBeyondItsRangeIsNamed) {
+TEST(Signals, ReportsAProbeBeyondItsRange) {
   Sequence sequence = stops_of(5, 12);
   for (const std::size_t i : {2u, 3u, 7u})
     sequence.points[i].point.flags = {{Flag::saturated, "B"}, {Flag::lost, "B"}};
@@ -156,7 +159,7 @@ TEST(Signals, AProbeThatIsLostBeyondItsRangeIsNamed) {
   EXPECT_EQ(shown(found[0]), "probe_beyond_range B points=3 of=12 range_um=200");
 }
 
-TEST(Signals, AStopWithoutAValueCountsForNothing) {
+TEST(Signals, IgnoresStopsWithoutValue) {
   Sequence holes = with_dead_probe(14, 0);
   for (const std::size_t i : {0u, 3u, 13u}) holes.points[i].point.probe_m[2] = kNaN;
   holes.points[5].point.probe_m[0] = kNaN;
@@ -165,30 +168,32 @@ TEST(Signals, AStopWithoutAValueCountsForNothing) {
   EXPECT_EQ(test::number(found[0], "stops"), 11);
 }
 
-// `restless` of the probes change in stop 4 by so many times their usual sd.
+// In stop 4, the first `restless` probes have `times` times their usual sd.
 Sequence with_restless_stop(std::size_t probes, int stops, std::size_t restless, double times) {
   Sequence sequence = stops_of(probes, stops);
   for (std::size_t k = 0; k < restless; ++k) sequence.points[4].point.probe_sd_m[k] = times * kSd_m;
   return sequence;
 }
 
-TEST(Signals, AStopInWhichMostProbesChangeIsNamed) {
+TEST(Signals, ReportsAStopInWhichMostProbesChange) {
   const auto found = said(with_restless_stop(5, 12, 4, 40));
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(shown(found[0]), "encoder_stood_still position_mm=4 length_s=0.5 changing=4 probes=5");
 }
 
-TEST(Signals, RestlessAreThreeProbesAndHalfOfThemAtThirtyTimesTheirSd) {
+TEST(Signals, NeedsThreeProbesAndHalfOfThemAt30TimesSd) {
   EXPECT_EQ(said(with_restless_stop(5, 12, 3, 31)).size(), 1u);
   EXPECT_EQ(said(with_restless_stop(5, 12, 3, 29)).size(), 0u);
   EXPECT_EQ(said(with_restless_stop(5, 12, 2, 40)).size(), 0u);
   EXPECT_EQ(said(with_restless_stop(6, 12, 3, 40), 6).size(), 1u);
   EXPECT_EQ(said(with_restless_stop(7, 12, 3, 40), 7).size(), 0u);
   EXPECT_EQ(said(with_restless_stop(5, 6, 3, 40)).size(), 1u);
-  EXPECT_EQ(said(with_restless_stop(5, 5, 3, 40)).size(), 0u);  // too few to know what is usual
+  EXPECT_EQ(said(with_restless_stop(5, 5, 3, 40)).size(),
+            0u);  // too few stops to know the usual sd
   Sequence stepped = with_restless_stop(5, 12, 3, 40);
   for (std::size_t i = 0; i < 12; ++i)
-    if (i != 4) stepped.points[i].point.probe_sd_m[0] = 0;  // shows no noise: its sd tells nothing
+    if (i != 4)
+      stepped.points[i].point.probe_sd_m[0] = 0;  // without noise the sd contains no information
   EXPECT_EQ(said(stepped).size(), 0u);
   Sequence unknown = with_restless_stop(5, 12, 4, 40);
   for (const std::size_t i : {1u, 2u, 7u}) unknown.points[i].point.probe_sd_m.assign(5, kNaN);
@@ -196,7 +201,7 @@ TEST(Signals, RestlessAreThreeProbesAndHalfOfThemAtThirtyTimesTheirSd) {
   EXPECT_EQ(said(unknown).size(), 1u);
 }
 
-// An axis at `speed` m per scan of 1 ms, that goes on by `step` more at row 30.
+// An axis with the speed `speed_m` per scan of 1 ms, which moves by `step_m` more at row 30.
 struct Rows {
   std::vector<std::int64_t> time_ns;
   std::vector<double> encoder_m;
@@ -215,7 +220,7 @@ std::optional<EncoderJump> jump_in(const Rows& rows, std::size_t first = 0, std:
   return find_jump(rows.time_ns, rows.encoder_m, first, last, 1'000'000, least_m);
 }
 
-TEST(EncoderJumpRule, AStepIsFoundWithItsPlaceTimeAndSize) {
+TEST(EncoderJumpRule, FindsPositionTimeAndSizeOfAStep) {
   for (const double speed_m : {0.0, 20e-6, -20e-6}) {
     for (const double step_m : {100e-6, -100e-6, 6e-6}) {
       const auto jump = jump_in(rows_of(speed_m, step_m));
@@ -227,18 +232,18 @@ TEST(EncoderJumpRule, AStepIsFoundWithItsPlaceTimeAndSize) {
   }
 }
 
-TEST(EncoderJumpRule, NoneWhereThereIsNone) {
+TEST(EncoderJumpRule, FindsNothingWithoutAJump) {
   EXPECT_FALSE(jump_in(rows_of(20e-6, 0)));
-  EXPECT_FALSE(jump_in(rows_of(0, 4.9e-6)));  // less than is asked for
+  EXPECT_FALSE(jump_in(rows_of(0, 4.9e-6)));  // below the limit
   EXPECT_FALSE(jump_in(rows_of(0, 100e-6), 31));
   EXPECT_FALSE(jump_in(rows_of(0, 100e-6), 0, 30));
   EXPECT_TRUE(jump_in(rows_of(0, 100e-6), 30, 31));
-  // 10 m/s² over two scans of 1 ms are 2.5 µm to and fro.
+  // 10 m/s² over two scans of 1 ms move the axis by 2.5 µm to and fro.
   EXPECT_FALSE(jump_in(rows_of(0, 2.4e-6), 0, 60, 1e-9));
   EXPECT_TRUE(jump_in(rows_of(0, 2.6e-6), 0, 60, 1e-9));
 }
 
-TEST(EncoderJumpRule, ASpikeOfOneScanIsNone) {
+TEST(EncoderJumpRule, SpikeOfOneScanIsNoJump) {
   for (const int at : {20, 29, 30, 31, 33}) {
     Rows rows = rows_of(10e-6, 0);
     rows.encoder_m[static_cast<std::size_t>(at)] += 500e-6;
@@ -248,8 +253,9 @@ TEST(EncoderJumpRule, ASpikeOfOneScanIsNone) {
   }
 }
 
-// Two steps: the greater one. Beside a hole in time: none, as the axis may have moved in it.
-TEST(EncoderJumpRule, TheGreatestAndNotInAHole) {
+// The larger of two steps is returned. A step at a gap in time is ignored, because the axis may
+// have moved in the gap.
+TEST(EncoderJumpRule, FindsTheLargestStepOutsideGaps) {
   Rows two = rows_of(0, 60e-6);
   for (std::size_t i = 45; i < 60; ++i) two.encoder_m[i] -= 100e-6;
   EXPECT_EQ(jump_in(two)->time_ns, 45'000'000);
@@ -262,8 +268,8 @@ TEST(EncoderJumpRule, TheGreatestAndNotInAHole) {
   }
 }
 
-// The axis starts to move, however suddenly: another speed after than before.
-TEST(EncoderJumpRule, AStartIsNone) {
+// A sudden start of the axis changes the speed, so it is no jump.
+TEST(EncoderJumpRule, StartIsNoJump) {
   Rows rows = rows_of(0, 0);
   for (std::size_t i = 30; i < 60; ++i) rows.encoder_m[i] = 50e-6 * static_cast<double>(i - 29);
   EXPECT_FALSE(jump_in(rows));

@@ -1,4 +1,4 @@
-// What is said of units on either side of each limit. Found missing by tests/mutate.
+// Notices about units on both sides of each limit. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRange_m = 400e-6;
 
-// Five probes 20 mm apart, of which B reads a gap; nothing is wrong.
+// Five probes 5 mm apart; probe B reads a gap. The rig has no fault.
 Rig rig_of_gap() {
   Rig rig;
   for (int k = 0; k < 5; ++k) {
@@ -45,7 +45,7 @@ std::size_t said_of_probe(const ProbeFigures& probe) {
   return said_of(p);
 }
 
-TEST(UnitsLimits, OfTheEncoder) {
+TEST(UnitsLimits, ReportsTravelBeyondEachLimit) {
   for (const auto& [travel_m, said] :
        {std::pair(0.49e-3, 1u), std::pair(0.5e-3, 0u), std::pair(2.0, 0u), std::pair(2.01, 1u)}) {
     EXPECT_EQ(encoder_unit_notice(travel_m).has_value(), said != 0) << travel_m;
@@ -55,7 +55,7 @@ TEST(UnitsLimits, OfTheEncoder) {
   }
 }
 
-TEST(UnitsLimits, OfTime) {
+TEST(UnitsLimits, ReportsRateBeyondEachLimit) {
   for (const auto& [rate_hz, said] : {std::pair(1.9, 1u), std::pair(2.0, 0u), std::pair(2e6, 0u),
                                       std::pair(2.1e6, 1u), std::pair(kNaN, 0u)}) {
     Plausibility p = figures();
@@ -64,8 +64,8 @@ TEST(UnitsLimits, OfTime) {
   }
 }
 
-// Within a thousandth of half the range, 0.2 um, and quieter than 0.5 nm.
-TEST(UnitsLimits, AProbeInMillimetres) {
+// The readings are within a thousandth of half the range, 0.2 um, and the noise is below 0.5 nm.
+TEST(UnitsLimits, ReportsAProbeInMillimetres) {
   const double least_m = 1e-3 * kRange_m / 2;
   EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, -least_m, 0}), 1u);
   EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, 0, least_m}), 1u);
@@ -73,12 +73,12 @@ TEST(UnitsLimits, AProbeInMillimetres) {
   EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, -1.01 * least_m, 0}), 0u);
   EXPECT_EQ(said_of_probe({"B", 78, 0.5e-9, 1e-9, 0, least_m}), 0u);
   EXPECT_EQ(said_of_probe({"B", 78, 0.49e-9, 1e-9, 0, least_m}), 1u);
-  EXPECT_EQ(said_of_probe({"B", 78, 0, 0, 0, least_m}), 0u);  // it does not change at all
-  EXPECT_EQ(said_of_probe({"B", 0, 0, 1e-9, 0, 0}), 0u);      // nothing is known
+  EXPECT_EQ(said_of_probe({"B", 78, 0, 0, 0, least_m}), 0u);  // the reading does not change at all
+  EXPECT_EQ(said_of_probe({"B", 0, 0, 1e-9, 0, 0}), 0u);      // there are no readings
 }
 
-// Noise over 1 um and a quarter of a hundredth of the range, whichever is more.
-TEST(UnitsLimits, AProbeInNanometres) {
+// The noise exceeds both 1 um and 0.25 % of the range.
+TEST(UnitsLimits, ReportsAProbeInNanometres) {
   EXPECT_EQ(said_of_probe({"B", 78, 1.01e-6, 20e-6, -8e-6, 12e-6}), 1u);
   EXPECT_EQ(said_of_probe({"B", 78, 0.99e-6, 20e-6, -8e-6, 12e-6}), 0u);
   Rig wide = rig_of_gap();
@@ -90,18 +90,18 @@ TEST(UnitsLimits, AProbeInNanometres) {
   }
 }
 
-// The middle of what it reads is off zero by more than a tenth of the range, 40 um.
-TEST(UnitsLimits, AGapWithoutOffset) {
+// The middle of the readings differs from zero by more than a tenth of the range, 40 um.
+TEST(UnitsLimits, ReportsAGapWithoutOffset) {
   EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 20e-6, -50.1e-6, -30e-6}), 1u);
   EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 20e-6, -49.9e-6, -30e-6}), 0u);
   const double tenth_m = 0.1 * kRange_m;
   EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 0, -tenth_m, -tenth_m}), 0u);
-  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 300e-6, -300e-6, 0}), 0u);  // it reads 0, too
+  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 300e-6, -300e-6, 0}), 0u);  // the readings include 0
   EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 20e-6, 80e-6, 100e-6}), 0u);
   EXPECT_EQ(said_of_probe({"B", 0, 10e-9, 20e-6, -100e-6, -80e-6}), 0u);
 }
 
-TEST(UnitsLimits, OfTheFixture) {
+TEST(UnitsLimits, ReportsFixtureSizeBeyondEachLimit) {
   for (const auto& [size_m, said] :
        {std::pair(0.49e-3, 1u), std::pair(0.51e-3, 1u), std::pair(4.9e-3, 1u),
         std::pair(5.1e-3, 0u), std::pair(0.299, 0u), std::pair(0.301, 1u), std::pair(0.51, 1u)}) {
@@ -118,8 +118,8 @@ TEST(UnitsLimits, OfTheFixture) {
   }
 }
 
-// A default fixture of 35 mm whose positions were written in cm, and in tenths of a mm.
-TEST(UnitsLimits, LengthsTenTimesTooSmallAndTooLarge) {
+// A default fixture of 35 mm whose positions are written in cm, and in tenths of a mm.
+TEST(UnitsLimits, ReportsLengthsWrongByAFactorOfTen) {
   for (const auto& [factor, says] : {std::pair(0.1, "fixture_too_narrow"), std::pair(1.0, ""),
                                      std::pair(10.0, "fixture_too_wide")}) {
     Rig rig = test::rig_x();

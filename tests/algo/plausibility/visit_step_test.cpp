@@ -23,7 +23,8 @@ using test::shown;
 constexpr int kTargets = 13;
 constexpr double kNoise = 20e-9, kStop_s = 2;
 
-// Three runs there and back, five probes; `more`: what is added to probe E at each stop, m.
+// Points of `runs` runs forward and back with five probes. `more`: change of probe E at each stop,
+// m.
 std::vector<MeasuredPoint> repeated_log(std::uint64_t seed, const std::function<double(int)>& more,
                                         int runs = 3) {
   std::mt19937_64 engine(seed);
@@ -51,9 +52,9 @@ double no_change(int) {
   return 0;
 }
 
-TEST(VisitStep, NamesTheProbeAndTheVisit) {
+TEST(VisitStep, ReportsProbeAndVisit) {
   const Rig rig = test::rig_x();
-  for (const int at : {15, 26, 40, 70})  // in a run, between two, near the end
+  for (const int at : {15, 26, 40, 70})  // within a run, between two runs, near the end
     for (const double size : {200e-9, -200e-9}) {
       const auto points = repeated_log(7, [=](int n) { return n >= at ? size : 0; });
       const auto steps = visit_steps(rig, points);
@@ -70,9 +71,9 @@ TEST(VisitStep, NamesTheProbeAndTheVisit) {
   EXPECT_NE(shown(said[0]).find(" run=2 target=12 approach=reverse"), std::string::npos);
 }
 
-// On the fly a visit is a bin: where the probe steps in its middle, that bin's u is of the order of
-// the step itself.
-TEST(VisitStep, IsFoundWhereItFallsIntoAVisit) {
+// On the fly, a visit is a bin. If the probe steps in the middle of a bin, the u of this bin is
+// about as large as the step.
+TEST(VisitStep, IsFoundWithinAVisit) {
   const Rig rig = test::rig_x();
   for (const int at : {15, 40, 70}) {
     auto points = repeated_log(7, [=](int n) { return n > at ? 300e-9 : n == at ? 150e-9 : 0.0; });
@@ -85,7 +86,7 @@ TEST(VisitStep, IsFoundWhereItFallsIntoAVisit) {
   }
 }
 
-TEST(VisitStep, ProbesThatStepTogetherAreOneNoticeEach) {
+TEST(VisitStep, ProbesThatStepTogetherHaveOneNoticeEach) {
   auto points = repeated_log(9, [](int n) { return n >= 30 ? 300e-9 : 0; });
   for (std::size_t n = 30; n < points.size(); ++n) points[n].point.probe_m[1] -= 400e-9;
   const auto said = repeat_notices(test::rig_x(), points);
@@ -95,7 +96,7 @@ TEST(VisitStep, ProbesThatStepTogetherAreOneNoticeEach) {
   EXPECT_NEAR(test::number(said[1], "step_um"), 0.3, 0.1);
 }
 
-TEST(VisitStep, WhatChangesSlowlyIsNone) {
+TEST(VisitStep, SlowChangesAreNoStep) {
   const Rig rig = test::rig_x();
   int found = 0, logs = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -124,18 +125,18 @@ TEST(VisitStep, WhatChangesSlowlyIsNone) {
   EXPECT_LE(found, logs / 100);
 }
 
-TEST(VisitStep, WhatTheDwellsFoundIsNotSaidAgain) {
+TEST(VisitStep, DoesNotRepeatStepsFoundInDwells) {
   auto points = repeated_log(7, [](int n) { return n >= 40 ? 200e-9 : 0; });
   points[40].point.flags = {{Flag::step, "E"}};
   EXPECT_TRUE(visit_steps(test::rig_x(), points).empty());
   EXPECT_TRUE(visit_steps(test::rig_x(), {}).empty());
-  // One run visits each place once.
+  // A single run visits each place once.
   EXPECT_TRUE(visit_steps(test::rig_x(), repeated_log(
                                              7, [](int n) { return n >= 15 ? 2e-7 : 0; }, 1))
                   .empty());
 }
 
-TEST(VisitStep, ASecondCopyOfTheSameRun) {
+TEST(VisitStep, ReportsASecondCopyOfARun) {
   auto points = repeated_log(3, no_change, 1);
   const auto once = points;
   for (MeasuredPoint p : once) {
@@ -147,12 +148,12 @@ TEST(VisitStep, ASecondCopyOfTheSameRun) {
   ASSERT_EQ(said.size(), 1U);
   EXPECT_EQ(shown(said[0]), "readings_copied copies=26 points=52");
   EXPECT_TRUE(repeat_notices(test::rig_x(), repeated_log(3, no_change)).empty());
-  for (MeasuredPoint& p : points) p.point.probe_sd_m.assign(5, 0);  // without noise they repeat
+  for (MeasuredPoint& p : points) p.point.probe_sd_m.assign(5, 0);  // points without noise repeat
   EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
 }
 
-// The blocks of the second copy begin elsewhere, so that its dwells have other means.
-TEST(VisitStep, ASecondCopyWhoseDwellsBeginElsewhere) {
+// The blocks of the second copy begin at other scans, so its dwells have other means.
+TEST(VisitStep, ReportsACopyWithShiftedDwells) {
   auto points = repeated_log(3, no_change, 1);
   for (std::size_t i = 0; i < points.size(); ++i) points[i].point.scan_fingerprint = i + 1;
   const auto once = points;
@@ -168,8 +169,8 @@ TEST(VisitStep, ASecondCopyWhoseDwellsBeginElsewhere) {
   EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
 }
 
-// A single visit cannot show slow noise, and that keeps no table from a controller.
-TEST(VisitStep, TargetsThatWereVisitedOnceAreSaid) {
+// A single visit cannot show slow noise. This notice does not reject a table.
+TEST(VisitStep, ReportsTargetsVisitedOnce) {
   SyntheticRun synthetic{.rig = test::rig_x(), .runs = 1};
   const auto said = repeat_notices(synthetic.rig, synthetic.measure().points);
   ASSERT_EQ(said.size(), 1u);
@@ -179,12 +180,12 @@ TEST(VisitStep, TargetsThatWereVisitedOnceAreSaid) {
   EXPECT_TRUE(repeat_notices(synthetic.rig, synthetic.measure().points).empty());
 }
 
-// Six copies and a tenth of all points are enough, less of either is not.
-TEST(VisitStep, CopiesOfASixthStopAndATenthAreSaid) {
+// At least six copies and a tenth of all points are needed.
+TEST(VisitStep, ReportsCopiesFromSixAndATenthOn) {
   const auto said = [](std::size_t copies, std::size_t all) {
     auto points = repeated_log(3, no_change);
     points.resize(all);
-    // Each of the second run is one of the first again.
+    // Points of the second run copy points of the first run.
     for (std::size_t i = 0; i < copies; ++i) points[26 + i].point = points[i].point;
     return repeat_notices(test::rig_x(), points);
   };
@@ -195,7 +196,7 @@ TEST(VisitStep, CopiesOfASixthStopAndATenthAreSaid) {
   EXPECT_EQ(said(6, 40).size(), 1u);
 }
 
-// One probe's log by its places.
+// Visits of one probe, grouped by target and direction.
 struct PlacesOfProbe {
   std::vector<const MeasuredPoint*> visits;
   std::vector<std::vector<std::size_t>> places;
@@ -220,7 +221,7 @@ struct PlacesOfProbe {
   }
 };
 
-// Every step tried by a fit of its own, and the smooth change by powers of the time.
+// Fits each possible step separately, and the smooth change by powers of the time.
 std::vector<VisitStep> brute_steps(const std::vector<MeasuredPoint>& points) {
   std::vector<VisitStep> steps;
   for (std::size_t k = 0; k < 5; ++k) {
@@ -265,9 +266,9 @@ std::vector<VisitStep> brute_steps(const std::vector<MeasuredPoint>& points) {
   return steps;
 }
 
-// Logs of irregular times, with stops of no approach and without a reading, of a few places, and
-// with steps from small to large: what is found is what trying all of them finds.
-TEST(VisitStep, IsTheBestOfAllThatAreTried) {
+// Logs with irregular times, stops without approach or reading, few places, and steps from small to
+// large: the result equals the exhaustive fit.
+TEST(VisitStep, MatchesTheExhaustiveFit) {
   const Rig rig = test::rig_x();
   std::size_t found = 0, logs = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
@@ -303,8 +304,8 @@ TEST(VisitStep, IsTheBestOfAllThatAreTried) {
   EXPECT_LT(found, 2 * logs);
 }
 
-// A step counts from before · after / all = 2 on, summed over the places: three places in four
-// rounds have 3/4 each after the first, two in eight 7/8.
+// A step is accepted if before · after / all, summed over the places, is at least 2. Three places
+// with four visits have 3/4 each after the first visit, two places with eight visits have 7/8 each.
 TEST(VisitStep, NeedsFourPlacesOrMoreVisits) {
   const auto found = [](int targets, int visits, int before, double u_m) {
     std::vector<MeasuredPoint> points;
@@ -323,15 +324,16 @@ TEST(VisitStep, NeedsFourPlacesOrMoreVisits) {
   ASSERT_EQ(found(4, 4, 2, 0).size(), 1u);
   EXPECT_EQ(found(4, 4, 2, 0)[0].point, 8u);
   EXPECT_NEAR(found(4, 4, 2, 0)[0].size_m, 100e-9, 1e-15);
-  EXPECT_NEAR(found(4, 4, 2, 0)[0].sd_m, 1e-9 / 6, 1e-15);  // without noise the least that counts
+  EXPECT_NEAR(found(4, 4, 2, 0)[0].sd_m, 1e-9 / 6,
+              1e-15);  // without noise, the smallest accepted sd
   EXPECT_NEAR(found(4, 4, 2, 1e-9)[0].sd_m, 1e-9, 1e-15);
   EXPECT_EQ(found(3, 4, 1, 0).size(), 1u);
   EXPECT_TRUE(found(2, 8, 1, 0).empty());
-  // Six times the noise; so far below its u it is none.
+  // A step below six times u is not found.
   EXPECT_TRUE(found(4, 4, 2, 16.7e-9).empty());
 }
 
-TEST(VisitStep, CopiesHaveTheirPlaceAndTheirNoise) {
+TEST(VisitStep, CopiesNeedEqualPositionAndNoise) {
   const auto said = [](const std::function<void(MeasuredPoint&)>& change) {
     auto points = repeated_log(3, no_change, 2);
     for (std::size_t i = 26; i < points.size(); ++i) {
@@ -344,7 +346,7 @@ TEST(VisitStep, CopiesHaveTheirPlaceAndTheirNoise) {
   EXPECT_EQ(said([](MeasuredPoint& p) { p.point.position_m += 1e-9; }), 0u);
   EXPECT_EQ(said([](MeasuredPoint& p) { p.point.probe_m[2] += 1e-12; }), 0u);
   EXPECT_EQ(said([](MeasuredPoint& p) { p.target = 14 - p.target; }), 0u);
-  // Noise of one probe only.
+  // Only one probe has noise.
   auto points = repeated_log(3, no_change, 2);
   for (std::size_t i = 0; i < 26; ++i) points[i].point.probe_sd_m = {1e-9, 0, 0, 0, 0};
   for (std::size_t i = 26; i < points.size(); ++i) points[i].point = points[i - 26].point;
@@ -353,8 +355,9 @@ TEST(VisitStep, CopiesHaveTheirPlaceAndTheirNoise) {
   EXPECT_TRUE(repeat_notices(test::rig_x(), points).empty());
 }
 
-// Half a second in all is a log as well; visits at one instant have no order that shows a change.
-TEST(VisitStep, TimesMayBeShortAndNotNone) {
+// Half a second is long enough for a log. Visits at the same instant have no order, so they show no
+// change.
+TEST(VisitStep, NeedsDifferentTimes) {
   auto points = repeated_log(7, [](int n) { return n >= 40 ? 200e-9 : 0; });
   for (MeasuredPoint& p : points) p.point.begin_ns /= 400;
   ASSERT_EQ(visit_steps(test::rig_x(), points).size(), 1U);
@@ -362,8 +365,8 @@ TEST(VisitStep, TimesMayBeShortAndNotNone) {
   EXPECT_TRUE(visit_steps(test::rig_x(), points).empty());
 }
 
-// Five times the noise, however often it is seen.
-TEST(VisitStep, BelowSixTimesTheNoiseIsNone) {
+// A step of five times the noise is not found, regardless of the number of visits.
+TEST(VisitStep, IgnoresStepsBelowSixTimesTheNoise) {
   const Rig rig = test::rig_x();
   EXPECT_TRUE(visit_steps(rig, repeated_log(
                                    7, [](int n) { return n >= 100 ? 95e-9 : 0; }, 8))

@@ -1,4 +1,4 @@
-// Jumps of an axis that stands still, in a whole log: each is found once, wherever it is.
+// Jumps of an axis at rest, in a whole log: each jump is found once, at any position.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// 2.5 s at 1 kHz; from each row on the encoder shows so much more.
+// The log takes 2.5 s at 1 kHz; from row `row` on the encoder reads `by_m` more.
 struct EncoderShift {
   std::size_t row;
   double by_m;
@@ -57,8 +57,8 @@ std::vector<DwellEvent> jumps_of(const std::vector<EncoderShift>& shifts) {
   return jumps;
 }
 
-// A slot of the detection has 12 or 13 rows, a window four of them.
-TEST(EncoderJumpInALog, IsFoundOnceAtEachPhaseOfTheSlots) {
+// A slot of the detection has 12 or 13 rows; a window has four slots.
+TEST(EncoderJumpInALog, IsFoundOnceAtEachPhaseOfTheSlot) {
   for (std::size_t row = 1000; row < 1054; ++row) {
     const auto jumps = jumps_of({{row, 100e-6}});
     ASSERT_EQ(jumps.size(), 1u) << row;
@@ -69,28 +69,29 @@ TEST(EncoderJumpInALog, IsFoundOnceAtEachPhaseOfTheSlots) {
   }
 }
 
-// Ten tolerances of 2 µm.
-TEST(EncoderJumpInALog, IsTenTolerances) {
+// The limit is ten tolerances of 2 µm.
+TEST(EncoderJumpInALog, LimitIsTenTolerances) {
   EXPECT_TRUE(jumps_of({{1020, 19.8e-6}}).empty());
   EXPECT_EQ(jumps_of({{1020, 20.2e-6}}).size(), 1u);
   EXPECT_EQ(jumps_of({{1020, -20.2e-6}}).size(), 1u);
 }
 
-// What comes back within a second, to half of that, was a wrong count.
-TEST(EncoderJumpInALog, ThatComesBackWithinASecondIsNone) {
+// A jump is a wrong count if the count returns within a second and less than half of the limit is
+// left.
+TEST(EncoderJumpInALog, IgnoresAJumpThatReturnsWithinASecond) {
   EXPECT_TRUE(jumps_of({{1000, 100e-6}, {1990, -100e-6}}).empty());
   EXPECT_EQ(jumps_of({{1000, 100e-6}, {2010, -100e-6}}).size(), 2u);
   EXPECT_TRUE(jumps_of({{1000, 100e-6}, {1500, -109e-6}}).empty());
   EXPECT_EQ(jumps_of({{1000, 100e-6}, {1500, -111e-6}}).size(), 2u);
   EXPECT_EQ(jumps_of({{1000, 100e-6}, {1500, 100e-6}}).size(), 2u);
-  // Of three the last two are a wrong count.
+  // The last two of three jumps are a wrong count.
   const auto three = jumps_of({{500, 60e-6}, {1000, 100e-6}, {1500, -100e-6}});
   ASSERT_EQ(three.size(), 1u);
   EXPECT_NEAR(three[0].size_m, 60e-6, 0.1e-6);
 }
 
-// The axis moved by 100 µm while nobody saw it: no jump that the next one takes back.
-TEST(EncoderJumpInALog, AHoleIsNoJump) {
+// The axis moved by 100 µm during the hole; the jump after the hole does not cancel this movement.
+TEST(EncoderJumpInALog, HoleIsNoJump) {
   std::size_t holes = 0, jumps = 0;
   for (const DwellEvent& event : events_of({{1000, 100e-6}, {1800, -100e-6}}, 1000, 1600)) {
     holes += event.kind == DwellEventKind::hole;

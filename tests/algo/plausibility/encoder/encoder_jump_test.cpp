@@ -1,4 +1,5 @@
-// Jumps of known size on an axis that moves, and single spikes, at speeds to 10 mm/s either way.
+// Jumps of known size on a moving axis, and single spikes, at speeds up to 10 mm/s in both
+// directions.
 #include "algo/plausibility/encoder/encoder_jump.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ namespace {
 constexpr std::int64_t kScan_ns = 1'000'000;
 constexpr std::size_t kRows = 60, kAt = 30;
 
-// Scans of 1 ms.
+// Encoder readings of kRows scans at intervals of 1 ms; the jump is at row kAt.
 struct Motion {
   double speed_mm_s = 0, acceleration_m_s2 = 0, jump_um = 0, noise_um = 0;
   std::uint64_t seed = 1;
@@ -46,7 +47,7 @@ std::optional<EncoderJump> jump_among(const std::vector<double>& encoder_m, doub
 
 const std::vector<double> kSpeeds_mm_s = {-10, -9.9, -5, -2, -0.3, 0, 0.3, 2, 5, 9.9, 10};
 
-TEST(EncoderJumpInMotion, ItsSizeIsToldWithTheMotionAndAgainstIt) {
+TEST(EncoderJumpInMotion, SizeIsCorrectInBothDirections) {
   for (const double speed : kSpeeds_mm_s) {
     for (const double size : {-500.0, -100.0, -20.0, -6.0, 6.0, 20.0, 100.0, 500.0}) {
       const auto jump = jump_among(Motion{.speed_mm_s = speed, .jump_um = size}.encoder_m());
@@ -58,7 +59,7 @@ TEST(EncoderJumpInMotion, ItsSizeIsToldWithTheMotionAndAgainstIt) {
   }
 }
 
-TEST(EncoderJumpInMotion, ASpikeOfOneScanIsNoneAtAnySpeed) {
+TEST(EncoderJumpInMotion, SpikeOfOneScanIsNoJumpAtAnySpeed) {
   for (const double speed : kSpeeds_mm_s) {
     for (const double spike_um : {-500.0, -30.0, -8.0, 8.0, 30.0, 500.0, 2e8}) {
       for (std::size_t at = 10; at < 50; at += 3) {
@@ -70,9 +71,9 @@ TEST(EncoderJumpInMotion, ASpikeOfOneScanIsNoneAtAnySpeed) {
   }
 }
 
-// An axis that gathers speed. A jump's size is then off by at most twice what a scan adds to the
-// speed.
-TEST(EncoderJumpInMotion, AccelerationAloneIsNone) {
+// An accelerating axis. The error of a jump's size is at most twice the change of speed per scan
+// times the scan interval.
+TEST(EncoderJumpInMotion, AccelerationIsNoJump) {
   for (const double speed : kSpeeds_mm_s) {
     for (const double acceleration : {-5.0, -1.0, 1.0, 5.0}) {
       Motion motion{.speed_mm_s = speed, .acceleration_m_s2 = acceleration};
@@ -87,8 +88,8 @@ TEST(EncoderJumpInMotion, AccelerationAloneIsNone) {
   }
 }
 
-// Nor a start or stop from one scan to the next.
-TEST(EncoderJumpInMotion, AStartOrAStopIsNone) {
+// A start or stop within one scan is no jump.
+TEST(EncoderJumpInMotion, StartOrStopIsNoJump) {
   for (const double speed : kSpeeds_mm_s) {
     std::vector<double> start(kRows), stop(kRows);
     for (std::size_t i = 0; i < kRows; ++i) {
@@ -101,8 +102,8 @@ TEST(EncoderJumpInMotion, AStartOrAStopIsNone) {
   }
 }
 
-// Of a count that its device hands out again in two or three scans.
-TEST(EncoderJumpInMotion, AStairOfTwoOrThreeScansIsNone) {
+// A device repeats each count for two or three scans.
+TEST(EncoderJumpInMotion, RepeatedCountsAreNoJump) {
   for (const double speed : kSpeeds_mm_s) {
     for (const std::size_t scans : {2u, 3u}) {
       auto rows = Motion{.speed_mm_s = speed}.encoder_m();
@@ -112,9 +113,9 @@ TEST(EncoderJumpInMotion, AStairOfTwoOrThreeScansIsNone) {
   }
 }
 
-// 0.2 um of noise: none is found where there is none, and a size is right within what four readings
-// leave of it.
-TEST(EncoderJumpInMotion, NoiseNeitherMakesNorHidesOne) {
+// With noise of 0.2 um, no jump is found where there is none, and the size is correct within the
+// noise of four readings.
+TEST(EncoderJumpInMotion, NoiseNeitherCausesNorHidesAJump) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const double speed = kSpeeds_mm_s[seed % kSpeeds_mm_s.size()];
     Motion motion{.speed_mm_s = speed, .noise_um = 0.2, .seed = seed};
@@ -126,21 +127,21 @@ TEST(EncoderJumpInMotion, NoiseNeitherMakesNorHidesOne) {
   }
 }
 
-// Gone over in two scans, the neighbour shows as much: the axis itself went that far.
-TEST(EncoderJumpInMotion, AJumpOverTwoScansIsNone) {
+// A jump over two scans has a neighbour of the same size, so the axis itself has moved.
+TEST(EncoderJumpInMotion, JumpOverTwoScansIsRejected) {
   for (const double speed : kSpeeds_mm_s) {
     auto rows = Motion{.speed_mm_s = speed, .jump_um = 100}.encoder_m();
     rows[kAt] -= 50e-6;
     EXPECT_FALSE(jump_among(rows)) << speed;
-    rows[kAt] += 40e-6;  // 90 and 10 um: more than four times as much
+    rows[kAt] += 40e-6;  // 90 and 10 um: more than four times the neighbour
     EXPECT_TRUE(jump_among(rows)) << speed;
   }
 }
 
-// Another one three scans later, or earlier, is in the speed after it, or before: a sixth of it in
-// the size of this one, and of both in that of its neighbour, which a jump is four times as large
-// as.
-TEST(EncoderJumpInMotion, OneWithAnotherBesideItIsNone) {
+// Another jump three scans later or earlier changes the speed after or before this jump. A sixth of
+// it is in the size of this jump and of its neighbour; a jump must be four times as large as its
+// neighbour.
+TEST(EncoderJumpInMotion, JumpBesideALargeJumpIsRejected) {
   for (const std::size_t other : {kAt - 3, kAt + 3}) {
     for (const double size_um : {30.0, 50.0}) {
       auto rows = Motion{.speed_mm_s = 2, .jump_um = 100}.encoder_m();
@@ -154,7 +155,7 @@ TEST(EncoderJumpInMotion, OneWithAnotherBesideItIsNone) {
   }
 }
 
-TEST(EncoderJumpInMotion, MissingPlacesAreNone) {
+TEST(EncoderJumpInMotion, MissingPositionsAreNoJump) {
   auto rows = Motion{.speed_mm_s = 10}.encoder_m();
   for (std::size_t i = 25; i < 35; ++i) rows[i] = kNaN;
   EXPECT_FALSE(jump_among(rows));

@@ -1,4 +1,4 @@
-// Positions that an axis of 100 m/s can have reached, and those that it cannot.
+// Positions that an axis with at most 100 m/s can and cannot have reached.
 #include "algo/plausibility/encoder/place_watch.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,8 @@ FrameBlock frames_at(const std::vector<TimedPlace>& places) {
   return frames;
 }
 
-// Which of the frames have a place, '+', and which have none, '-', after one at 0 m and 0 ms.
+// '+' for each frame with a valid position, '-' for each frame without. The axis begins at 0 m and
+// 0 ms.
 std::string placed(PlaceWatch& watch, const std::vector<TimedPlace>& places) {
   const FrameBlock frames = frames_at(places);
   std::string text;
@@ -46,8 +47,8 @@ std::string placed(const std::vector<TimedPlace>& places) {
   return placed(watch, places);
 }
 
-// 0.1 m in a millisecond, and 50 um for noise.
-TEST(PlaceWatch, AnAxisReachesItsSpeedTimesTheTime) {
+// 0.1 m per millisecond, plus 50 um for noise.
+TEST(PlaceWatch, ReachIsSpeedTimesTime) {
   EXPECT_EQ(placed({{1, 0.10004}}), "+");
   EXPECT_EQ(placed({{1, 0.10006}}), "-");
   EXPECT_EQ(placed({{1, -0.10004}}), "+");
@@ -56,29 +57,32 @@ TEST(PlaceWatch, AnAxisReachesItsSpeedTimesTheTime) {
   EXPECT_EQ(placed({{1, kNaN}, {2, 0.2}, {3, kNaN}}), "-+-");
 }
 
-// What goes on from a stray position is stray, though the axis could have got there in the time.
-TEST(PlaceWatch, WhatGoesOnFromAStrayPositionIsStray) {
+// Positions that continue from a stray position are stray, even if the axis could have reached them
+// in the time.
+TEST(PlaceWatch, PositionsAfterAStrayPositionAreStray) {
   EXPECT_EQ(placed({{1, 1}, {5, 1}, {20, 1.001}}), "---");
-  // It jumps back to where the axis can be: 0.7 m from the stray one in 3 ms.
+  // The count jumps back to a position that the axis can have reached: 0.7 m from the stray
+  // position in 3 ms.
   EXPECT_EQ(placed({{1, 1}, {4, 0.3}, {5, 0.35}}), "-++");
-  EXPECT_EQ(placed({{1, 1}, {4, 0.5}}), "--");  // 0.5 m from either in 4 and 3 ms
-  // A tenth as near to where it was as to the stray one: it is back, however long that took.
+  EXPECT_EQ(placed({{1, 1}, {4, 0.5}}), "--");  // 0.5 m from both positions, in 4 and 3 ms
+  // A position ten times as close to the last valid position as to the stray position is valid,
+  // after any time.
   EXPECT_EQ(placed({{1, 1}, {40, 0.09}}), "-+");
   EXPECT_EQ(placed({{1, 1}, {40, 0.095}}), "--");
   EXPECT_EQ(placed({{1, 1}, {40, -0.1}}), "-+");
   EXPECT_EQ(placed({{1, 1}, {40, -0.12}}), "--");
 }
 
-TEST(PlaceWatch, BeforeItBeginsOnlyMissingPositionsAreLeftOut) {
+TEST(PlaceWatch, LeavesOutOnlyMissingPositionsBeforeItBegins) {
   PlaceWatch watch(100);
   EXPECT_EQ(placed(watch, {{1, 0}, {2, 50}, {3, kNaN}, {4, -50}}), "++-+");
   EXPECT_EQ(watch.left_out(), 1u);
-  // The last of them is where it was.
+  // The last frame gives the position of the axis.
   watch.begin_at(4 * kMs, -50);
   EXPECT_EQ(placed(watch, {{5, -49.9}, {6, 0}}), "+-");
 }
 
-TEST(PlaceWatch, TellsHowManyAndTheFirst) {
+TEST(PlaceWatch, ReportsNumberAndFirstScan) {
   PlaceWatch watch(100);
   watch.begin_at(0, 0);
   EXPECT_TRUE(watch.notices(0).empty());

@@ -1,5 +1,5 @@
-// The rule of probe_step.h on either side of each of its limits: columns by hand. Found missing by
-// tests/mutate.
+// The rule of probe_step.h on both sides of each limit, with columns made by hand. Mutation tests
+// (tests/mutate) found these cases.
 #include "algo/plausibility/probe/probe_step.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kRows = 40, kAt = 17;
 
-// Three probes and an axis that stand still but for what a test adds; B steps by 1 um.
+// Three probes and an axis at rest, except for the changes that a test adds; probe B steps by 1 um.
 struct Rows {
   FrameBlock frames;
 
@@ -24,7 +24,7 @@ struct Rows {
       frames.time_ns.push_back(1'000'000 * static_cast<std::int64_t>(i));
     for (std::size_t i = at; i < kRows; ++i) frames.probe_m[1][i] = size_m;
   }
-  // Goes up and down by so much from row to row, among these.
+  // Adds `by_m` to every second row from `from` to `to`.
   void shake(std::vector<double>& x, double by_m, std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; i += 2) x[i] += by_m;
   }
@@ -34,7 +34,7 @@ struct Rows {
   }
 };
 
-TEST(ProbeStepRule, AStepIsFoundWithItsProbeRowAndSize) {
+TEST(ProbeStepRule, FindsProbeRowAndSizeOfAStep) {
   for (const double size_m : {1e-6, -3e-6}) {
     for (const std::size_t at : {10u, 11u, 15u, 18u, 19u}) {
       const auto found = Rows(at, size_m).steps();
@@ -46,26 +46,27 @@ TEST(ProbeStepRule, AStepIsFoundWithItsProbeRowAndSize) {
   }
 }
 
-TEST(ProbeStepRule, ItIsOfTheRowsFromFirstToBeforeLast) {
+TEST(ProbeStepRule, FindsStepsFromFirstToBeforeLast) {
   EXPECT_TRUE(Rows(9).steps().empty());
   EXPECT_TRUE(Rows(20).steps().empty());
   EXPECT_TRUE(Rows(kRows).steps().empty());
 }
 
-// Three readings on either side tell how far it has gone, beyond the one next to the step.
-TEST(ProbeStepRule, WhereTheReadingCannotBeSettledThereIsNone) {
+// The size needs three readings on each side, beyond the reading next to the step.
+TEST(ProbeStepRule, NeedsThreeSettledReadingsOnEachSide) {
   EXPECT_EQ(Rows(4).steps(0, 2, 20).size(), 1u);
   EXPECT_EQ(Rows(3).steps(0, 2, 20).size(), 0u);
   EXPECT_EQ(Rows(36).steps(0, 10, 38).size(), 1u);
   EXPECT_EQ(Rows(37).steps(0, 10, 38).size(), 0u);
   EXPECT_EQ(Rows(14).steps(10, 12, 20).size(), 1u);
   EXPECT_EQ(Rows(13).steps(10, 12, 20).size(), 0u);
-  EXPECT_EQ(Rows(17).steps(0, 1, 20).size(), 0u);  // nothing around to compare with
+  EXPECT_EQ(Rows(17).steps(0, 1, 20).size(), 0u);  // no readings around to compare with
   EXPECT_EQ(Rows(17).steps(0, 10, 39).size(), 0u);
 }
 
-// Of three readings, not counting the one beside the step: one of them may be anything.
-TEST(ProbeStepRule, ItsSizeIsOfTheMiddleOneOfThree) {
+// The size is the difference of medians of three readings, without the reading next to the step, so
+// one of the three may deviate.
+TEST(ProbeStepRule, SizeIsTheMedianOfThreeReadings) {
   Rows rows;
   rows.frames.probe_m[1][kAt - 2] = rows.frames.probe_m[1][kAt - 1] = -0.4e-6;
   rows.frames.probe_m[1][kAt + 3] = rows.frames.probe_m[1][kAt + 4] = 1.4e-6;
@@ -73,7 +74,7 @@ TEST(ProbeStepRule, ItsSizeIsOfTheMiddleOneOfThree) {
   EXPECT_EQ(rows.steps(0, 10, 24)[0].size_m, 1e-6);
 }
 
-TEST(ProbeStepRule, ItStaysAtSixTenthsAtLeast) {
+TEST(ProbeStepRule, KeepsAtLeastSixTenthsOfTheStep) {
   for (const double left : {0.61, 0.59}) {
     Rows rows;
     for (std::size_t i = kAt + 1; i < kRows; ++i) rows.frames.probe_m[1][i] = left * 1e-6;
@@ -83,7 +84,7 @@ TEST(ProbeStepRule, ItStaysAtSixTenthsAtLeast) {
   }
 }
 
-TEST(ProbeStepRule, ItIsEightTimesWhatTheProbeDoesAround) {
+TEST(ProbeStepRule, IsEightTimesTheSurroundingChanges) {
   for (const bool before : {true, false}) {
     for (const double times : {8.1, 7.9}) {
       Rows rows;
@@ -94,7 +95,7 @@ TEST(ProbeStepRule, ItIsEightTimesWhatTheProbeDoesAround) {
   }
 }
 
-TEST(ProbeStepRule, NoOtherProbeStepsByAQuarterOfIt) {
+TEST(ProbeStepRule, IsRejectedIfAnotherProbeStepsByAQuarter) {
   for (const std::size_t other : {0u, 2u}) {
     for (const double share : {0.24, 0.26}) {
       Rows rows;
@@ -104,8 +105,8 @@ TEST(ProbeStepRule, NoOtherProbeStepsByAQuarterOfIt) {
   }
 }
 
-// The axis may move by 2 um more than by twice what it does around.
-TEST(ProbeStepRule, TheAxisDoesNotMakeIt) {
+// The axis may move by 2 um more than twice its movement in the surrounding rows.
+TEST(ProbeStepRule, IsRejectedIfTheAxisMoves) {
   for (const double moves_um : {1.9, 2.1}) {
     Rows rows;
     for (std::size_t i = 14; i < kRows; ++i) rows.frames.encoder_m[i] = -1e-6 * moves_um;
@@ -119,7 +120,7 @@ TEST(ProbeStepRule, TheAxisDoesNotMakeIt) {
   }
 }
 
-TEST(ProbeStepRule, OfReadingsThatAreGoodOnly) {
+TEST(ProbeStepRule, NeedsGoodReadings) {
   Rows rows;
   rows.frames.probe_quality[1].assign(kRows, Quality::good);
   EXPECT_EQ(rows.steps().size(), 1u);
@@ -131,21 +132,21 @@ TEST(ProbeStepRule, OfReadingsThatAreGoodOnly) {
   }
 }
 
-// The encoder's noise is 2 um: an axis that moves by more beside the step has moved the probe.
-TEST(ProbeStepRule, AnAxisThatStaysWithinItsNoiseStands) {
+// The noise of the encoder is 2 um. An axis that moves further at the step has moved the probe.
+TEST(ProbeStepRule, AxisWithinItsNoiseIsAtRest) {
   for (const auto& [by_m, count] : {std::pair(1.9e-6, 1U), {2.1e-6, 0U}}) {
     Rows rows;
     for (std::size_t i = kAt; i < kRows; ++i) rows.frames.encoder_m[i] = by_m;
     EXPECT_EQ(rows.steps().size(), count) << by_m;
-    Rows restless;  // and twice what it does around
+    Rows restless;  // twice the movement in the surrounding rows is allowed, too
     restless.shake(restless.frames.encoder_m, 0.5e-6, 21, kRows);
     for (std::size_t i = kAt; i < kRows; ++i) restless.frames.encoder_m[i] += by_m + 1e-6;
     EXPECT_EQ(restless.steps().size(), count) << by_m;
   }
 }
 
-// Of three readings on either side the middle one, whatever their order.
-TEST(ProbeStepRule, OneOfThreeReadingsMayBeOff) {
+// The median of three readings on each side is used, in any order.
+TEST(ProbeStepRule, OneOfThreeReadingsMayDeviate) {
   for (const std::size_t at : {kAt + 1, kAt + 2, kAt + 3, kAt - 4, kAt - 3, kAt - 2})
     for (const double off_m : {-0.1e-6, 0.1e-6}) {
       Rows rows;

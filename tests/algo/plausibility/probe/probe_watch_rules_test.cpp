@@ -1,4 +1,4 @@
-// The rules of probe_watch.h on either side of each of their limits, scan by scan.
+// The rules of probe_watch.h on both sides of each limit, scan by scan.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int64_t kScan_ns = 1'000'000;
 
-// A watch that is given one scan after the other; it counts nothing itself.
+// A watch that takes one scan after another; the stops are given by the test.
 struct Watched {
   ProbeWatch watch;
   std::vector<double> reading_m;
@@ -35,7 +35,8 @@ struct Watched {
   }
 };
 
-// Readings each held for `each` scans, then one held for `held` scans: is it frozen?
+// Each of ten readings is held for `each` scans, then one reading for `held` scans. Returns whether
+// the probe is reported as frozen.
 bool frozen_by_noise(int each, int held, int stops, double sd_m, double resolution_m) {
   Watched w(1);
   for (int value = 0; value < 10; ++value) {
@@ -48,17 +49,17 @@ bool frozen_by_noise(int each, int held, int stops, double sd_m, double resoluti
   return !w.watch.frozen().empty();
 }
 
-TEST(ProbeWatchRule, FrozenIsEightTimesAsLongAsEverAnd128Scans) {
+TEST(ProbeWatchRule, FrozenIsEightTimesTheLongestSpanAnd128Scans) {
   EXPECT_FALSE(frozen_by_noise(20, 159, 3, 2e-9, 1e-9));
   EXPECT_TRUE(frozen_by_noise(20, 160, 3, 2e-9, 1e-9));
   EXPECT_FALSE(frozen_by_noise(1, 127, 3, 2e-9, 1e-9));
   EXPECT_TRUE(frozen_by_noise(1, 128, 3, 2e-9, 1e-9));
-  EXPECT_FALSE(frozen_by_noise(1, 128, 2, 2e-9, 1e-9));  // three stops at least
-  EXPECT_FALSE(frozen_by_noise(1, 128, 3, 1e-9, 1e-9));  // noise no larger than its step
-  EXPECT_FALSE(frozen_by_noise(1, 128, 3, 1e-12, 0));    // what arithmetic leaves
+  EXPECT_FALSE(frozen_by_noise(1, 128, 2, 2e-9, 1e-9));  // at least three stops are needed
+  EXPECT_FALSE(frozen_by_noise(1, 128, 3, 1e-9, 1e-9));  // the noise does not exceed the resolution
+  EXPECT_FALSE(frozen_by_noise(1, 128, 3, 1e-12, 0));    // rounding of the arithmetic only
 }
 
-TEST(ProbeWatchRule, OneStopWithoutNoiseIsEnoughToDoubt) {
+TEST(ProbeWatchRule, OneStopWithoutNoisePreventsDetection) {
   Watched w(1);
   w.stops(0, 2, 2e-9);
   w.stops(0, 1, 0);
@@ -70,8 +71,9 @@ TEST(ProbeWatchRule, OneStopWithoutNoiseIsEnoughToDoubt) {
   EXPECT_TRUE(w.watch.frozen().empty());
 }
 
-// From the first scan of the held reading to the one with another; each span by itself.
-TEST(ProbeWatchRule, EachSpanHasItsTimesAndItsReading) {
+// A span extends from the first scan of the held reading to the scan with another reading; each
+// span is separate.
+TEST(ProbeWatchRule, EachSpanHasItsTimesAndReading) {
   Watched w(2);
   w.stops(1, 3, 2e-9);
   int n = 0;
@@ -85,7 +87,7 @@ TEST(ProbeWatchRule, EachSpanHasItsTimesAndItsReading) {
     since_ns.push_back(w.t_ns);
     for (int i = 0; i < 300; ++i) w.scan(0);
     until_ns.push_back(w.t_ns);
-    live(200);  // what follows is live again, and its spans count for what is longest
+    live(200);  // the probe works again; its spans count for the longest normal span
   }
   const auto frozen = w.watch.frozen();
   ASSERT_EQ(frozen.size(), 2u);
@@ -105,7 +107,7 @@ struct Travel {
   double travel_m = 10e-3, share = 0.9, range_in_steps = 5;
 };
 
-// No stop tells of noise: the axis goes on, the reading does not.
+// The stops contain no information about noise: the axis moves, but the reading is constant.
 bool frozen_by_travel(const Travel& t) {
   constexpr double kStep_m = 100e-9;
   Watched w(1);
@@ -131,7 +133,7 @@ TEST(ProbeWatchRule, FrozenOverFourFifthsOfTheTravel) {
   EXPECT_TRUE(frozen_by_travel({.range_in_steps = 4.1}));
 }
 
-// Of `probes` the last never changes, and `noisy` of the others have noise in their stops.
+// The last of `probes` never changes, and `noisy` of the others have noise in their stops.
 bool dead_from_the_start(std::size_t probes, std::size_t noisy, int rows, double travel_m) {
   Watched w(probes);
   for (std::size_t k = 0; k < noisy; ++k) w.stops(k, 3, 2e-9);
@@ -148,7 +150,7 @@ bool dead_from_the_start(std::size_t probes, std::size_t noisy, int rows, double
   return !frozen.empty();
 }
 
-TEST(ProbeWatchRule, DeadFromTheStartWhereHalfOfTheOthersLive) {
+TEST(ProbeWatchRule, DeadFromTheStartIfHalfOfTheOthersWork) {
   EXPECT_TRUE(dead_from_the_start(5, 2, 128, 5e-3));
   EXPECT_FALSE(dead_from_the_start(5, 1, 128, 5e-3));
   EXPECT_TRUE(dead_from_the_start(4, 2, 128, 5e-3));
@@ -167,14 +169,15 @@ bool chain_is_dead(std::size_t alive, double travel_m) {
   return w.watch.is_dead();
 }
 
-TEST(ProbeWatchRule, AChainWithOneLivingProbeOrNoneIsDead) {
+TEST(ProbeWatchRule, ChainWithAtMostOneWorkingProbeIsDead) {
   EXPECT_TRUE(chain_is_dead(0, 5e-3));
   EXPECT_TRUE(chain_is_dead(1, 5e-3));
   EXPECT_FALSE(chain_is_dead(2, 5e-3));
   EXPECT_FALSE(chain_is_dead(0, 0.99e-3));
 }
 
-// How many steps of `size_m` are told when as many are seen and the stops have these sds.
+// Number of reported steps of `size_m` if `seen` steps are seen and the stops have the standard
+// deviations `sd_m`.
 std::size_t steps_told(double size_m, std::size_t seen, const std::vector<double>& sd_m,
                        double resolution_m) {
   FrameBlock frames;
@@ -198,7 +201,7 @@ std::size_t steps_told(double size_m, std::size_t seen, const std::vector<double
   return steps.size();
 }
 
-TEST(ProbeWatchRule, AStepIsTwelveTimesTheNoiseAndFourOfTheResolution) {
+TEST(ProbeWatchRule, StepIs12TimesTheNoiseAnd4TimesTheResolution) {
   const std::vector<double> median_2_nm = {9e-9, 1e-9, 2e-9};
   for (const double sign : {1.0, -1.0}) {
     EXPECT_EQ(steps_told(sign * 23.9e-9, 1, median_2_nm, 1e-9), 0u);
@@ -206,11 +209,11 @@ TEST(ProbeWatchRule, AStepIsTwelveTimesTheNoiseAndFourOfTheResolution) {
     EXPECT_EQ(steps_told(sign * 39.9e-9, 1, median_2_nm, 10e-9), 0u);
     EXPECT_EQ(steps_told(sign * 40.1e-9, 1, median_2_nm, 10e-9), 1u);
   }
-  EXPECT_EQ(steps_told(1e-13, 1, {}, 0), 0u);  // what arithmetic leaves of exact numbers
+  EXPECT_EQ(steps_told(1e-13, 1, {}, 0), 0u);  // rounding of exact numbers only
   EXPECT_EQ(steps_told(1e-11, 1, {}, 0), 1u);
 }
 
-TEST(ProbeWatchRule, ManyStepsAreHowAProbeIs) {
+TEST(ProbeWatchRule, IgnoresProbesWithManySteps) {
   EXPECT_EQ(steps_told(1e-6, 127, {}, 0), 127u);
   EXPECT_EQ(steps_told(1e-6, 128, {}, 0), 0u);
   EXPECT_EQ(steps_told(1e-6, 1000, {}, 0), 0u);

@@ -1,4 +1,4 @@
-// A probe that died or shifted is found, and none on a clean log.
+// A frozen or stepped probe is detected; clean logs have no notices.
 #include <gtest/gtest.h>
 
 #include "tests/algo/detected.h"
@@ -7,7 +7,7 @@
 namespace mdof::algo {
 namespace {
 
-TEST(ProbeWatch, NoFalseAlarmOnCleanLogsOfSixtySeeds) {
+TEST(ProbeWatch, HasNoNoticesForSixtyCleanLogs) {
   const double noises_um[] = {0, 0.002, 0.01, 0.05, 0.2};
   const double steps_um[] = {0, 1e-6, 0.003, 0.03, 0.1, 0.15};
   const double rates[] = {200, 500, 1000};
@@ -28,8 +28,9 @@ TEST(ProbeWatch, NoFalseAlarmOnCleanLogsOfSixtySeeds) {
   }
 }
 
-TEST(ProbeWatch, AFrozenProbeIsNotUsedFromWhereItFroze) {
-  for (const double step_um : {1e-6, 0.05, 0.1}) {  // the last two: constant in most stops
+TEST(ProbeWatch, FrozenProbeIsNotUsedAfterItFreezes) {
+  for (const double step_um :
+       {1e-6, 0.05, 0.1}) {  // the last two: readings are constant in most stops
     for (const double from_s : {25.3, 30.0, 31.2}) {
       SteppingLog log;
       log.probe_step_um = step_um;
@@ -59,13 +60,13 @@ TEST(ProbeWatch, AFrozenProbeIsNotUsedFromWhereItFroze) {
   }
 }
 
-TEST(ProbeWatch, AProbeThatIsDeadFromTheStart) {
+TEST(ProbeWatch, DetectsAProbeThatIsDeadFromTheStart) {
   SteppingLog log;
   FrameBlock frames = log.frames();
   std::fill(frames.probe_m[3].begin(), frames.probe_m[3].end(), 1.25e-6);
   const auto found = detect(log, frames);
   for (const Point& p : found.points) EXPECT_TRUE(has_flag(p, Flag::frozen, "D"));
-  // Without noise in the others it may be what the rig reads.
+  // If the other probes have no noise either, the constant reading may be real.
   log.probe_noise_um = 0;
   log.probe_step_um = 0;
   log.drift_um_per_min = 0;
@@ -74,7 +75,7 @@ TEST(ProbeWatch, AProbeThatIsDeadFromTheStart) {
   EXPECT_TRUE(detect(log, frames).notices.empty());
 }
 
-TEST(ProbeWatch, AProbeThatComesBackIsLostOnlyMeanwhile) {
+TEST(ProbeWatch, FlagsARecoveredProbeOnlyWhileFrozen) {
   SteppingLog log;
   FrameBlock frames = log.frames();
   const std::size_t from = row_at(frames, 20.0), to = row_at(frames, 30.0);
@@ -86,7 +87,7 @@ TEST(ProbeWatch, AProbeThatComesBackIsLostOnlyMeanwhile) {
   }
 }
 
-TEST(ProbeWatch, AStepOfOneProbeIsToldAndFlagged) {
+TEST(ProbeWatch, ReportsAndFlagsAStepOfOneProbe) {
   for (const double rate : {200.0, 500.0, 4000.0}) {
     for (const double size_um : {-0.6, 24.0}) {
       for (const double at_s : {20.1, 20.3, 20.5, 20.7}) {  // in a stop and in motion
@@ -106,8 +107,8 @@ TEST(ProbeWatch, AStepOfOneProbeIsToldAndFlagged) {
   }
 }
 
-// A knock that all feel is a matter of the machine.
-TEST(ProbeWatch, AStepOfAllProbesIsNone) {
+// A step of all probes is a movement of the machine.
+TEST(ProbeWatch, IgnoresAStepOfAllProbes) {
   SteppingLog log;
   FrameBlock frames = log.frames();
   for (auto& column : frames.probe_m)

@@ -1,4 +1,4 @@
-// Channels that come later than their time stamps say, by a known time: an axis in motion shows it.
+// Channels with a known delay behind their time stamps, shown by an axis in motion.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,13 +10,14 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kSpeed_m_s = 0.02, kSlope = 1e-3;  // of what a probe sees against the encoder
+constexpr double kSpeed_m_s = 0.02,
+                 kSlope = 1e-3;  // slope of the probe readings over the encoder position
 
 double place_m(double t_s) {
   return kSpeed_m_s * t_s;
 }
 
-// A scan of an axis that moves evenly: encoder, A read `late_s` late, B at once.
+// Scans of an axis at constant speed: encoder, probe A read `late_s` late, probe B without delay.
 SampleBlock scans(std::int64_t from_ms, std::int64_t to_ms, double late_s) {
   SampleBlock b;
   b.device = "daq";
@@ -45,7 +46,7 @@ FrameBlock frames(const AlignOptions& options, double late_s) {
   return out;
 }
 
-// The worst of probe `k` from 0.1 s on, m.
+// Largest deviation of probe `k` from 0.1 s on, m; 1 if a deviation is NaN.
 double worst_m(const FrameBlock& out, std::size_t k) {
   double worst = 0;
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -56,8 +57,8 @@ double worst_m(const FrameBlock& out, std::size_t k) {
   return worst;
 }
 
-// 6.5 ms at 20 mm/s and 1 µm/mm: 0.13 µm.
-TEST(AlignDelay, IsTakenOutOfTheChannelThatHasIt) {
+// 6.5 ms at 20 mm/s and 1 µm/mm is 0.13 µm.
+TEST(AlignDelay, IsRemovedFromItsChannel) {
   for (const double late_s : {0.0065, -0.0042, 0.25}) {
     const double error_m = kSlope * kSpeed_m_s * std::abs(late_s);
     EXPECT_NEAR(worst_m(frames({}, late_s), 0), error_m, 1e-15);
@@ -69,10 +70,10 @@ TEST(AlignDelay, IsTakenOutOfTheChannelThatHasIt) {
   }
 }
 
-// A device reads A, B and the encoder's counter one after the other, 0.5 ms apart, and stamps the
-// scan with the first instant. What is read earlier is older: the delay of an input is the time to
-// the last one (drivers/README.md).
-TEST(AlignDelay, OfInputsReadInTurnIsTheTimeToTheLast) {
+// A device reads A, B and the counter of the encoder one after the other, 0.5 ms apart, and stamps
+// the scan with the first instant. An earlier reading is older: the delay of an input is the time
+// until the last input is read (drivers/README.md).
+TEST(AlignDelay, SequentialInputsHaveTheTimeToTheLast) {
   constexpr double kTurn_s = 0.5e-3;
   const auto frames_of = [&](const AlignOptions& options) {
     Aligner aligner(options, {"A", "B"});
@@ -99,8 +100,9 @@ TEST(AlignDelay, OfInputsReadInTurnIsTheTimeToTheLast) {
   EXPECT_NEAR(worst_m(wrong, 0), 4 * error_m, 1e-15);
 }
 
-// The encoder's instants stay, to the nanosecond, and none is without the reading to come.
-TEST(AlignDelay, FramesStayOnTheEncodersTimeAndEndWhereReadingsDo) {
+// The time stamps of the encoder are unchanged, to the nanosecond, and each frame has its delayed
+// reading.
+TEST(AlignDelay, FramesKeepTheEncoderTime) {
   const FrameBlock out = frames({.delay_s = {{"A", 0.25}, {"B", 0}}}, 0.25);
   ASSERT_EQ(out.size(), 1750u);
   for (std::size_t i = 0; i < out.size(); ++i)
@@ -109,13 +111,13 @@ TEST(AlignDelay, FramesStayOnTheEncodersTimeAndEndWhereReadingsDo) {
   EXPECT_TRUE(out.probe_quality[1].empty());
 }
 
-// With a delay of less than a scan, and one that no scan divides.
-TEST(AlignDelay, BetweenScansItIsInterpolated) {
+// Delays of less than a scan interval.
+TEST(AlignDelay, InterpolatesBetweenScans) {
   EXPECT_LT(worst_m(frames({.delay_s = {{"A", 0.0003}}}, 0.0003), 0), 1e-15);
   EXPECT_EQ(frames({.delay_s = {{"A", 0.0003}}}, 0.0003).size(), 1999u);
 }
 
-TEST(AlignDelay, LongerThanTheLagBoundIsAwaitedAndASilentProbeIsNot) {
+TEST(AlignDelay, WaitsForALongDelayButNotForASilentProbe) {
   const FrameBlock out = frames({.lag_bound_s = 0.1, .delay_s = {{"A", 0.25}}}, 0.25);
   EXPECT_EQ(out.size(), 1750u);
   EXPECT_LT(worst_m(out, 0), 1e-15);
@@ -129,7 +131,7 @@ TEST(AlignDelay, LongerThanTheLagBoundIsAwaitedAndASilentProbeIsNot) {
   EXPECT_EQ(some.quality_at(0, 100), Quality::good);
 }
 
-// An axis that goes on by 1 mm and stops for 0.5 s, and a probe behind a mean of the last 161 ms.
+// An axis that moves by 1 mm and stops for 0.5 s, and a probe with a moving mean over 161 ms.
 SampleBlock averaged_stops() {
   constexpr int kMean = 161;
   SampleBlock b;
@@ -150,7 +152,7 @@ SampleBlock averaged_stops() {
   return b;
 }
 
-// What the probe is off by at the worst of the stops, m.
+// Largest deviation of the probe over the stops, m.
 double worst_stop_m(const AlignOptions& align, const DwellOptions& dwell) {
   Aligner aligner(align, {"A"});
   DwellDetector detector(dwell, {"A"}, {200e-6});
@@ -168,8 +170,9 @@ double worst_stop_m(const AlignOptions& align, const DwellOptions& dwell) {
   return worst;
 }
 
-// Half of its mean before the instant and half after it: settled for and left out.
-TEST(AlignDelay, AStopIsOfTheStopAloneWhereAFilterIsSettledForAndLeftOut) {
+// With the delay of 80 ms, half of the mean lies before the instant and half after it. The settling
+// time and leave_s exclude both.
+TEST(AlignDelay, ExcludesFilteredMotionFromAStop) {
   const AlignOptions known{.delay_s = {{"A", 0.08}}};
   EXPECT_LT(worst_stop_m(known, {.leave_s = 0.08}), 1e-14);
   EXPECT_GT(worst_stop_m(known, {}), 1e-9);

@@ -21,7 +21,7 @@ SampleBlock block(const std::string& device, const std::vector<std::string>& ids
   return b;
 }
 
-TEST(Aligner, OneDeviceGoesThroughBitForBitInTheRigsOrder) {
+TEST(Aligner, CopiesOneDeviceExactlyInTheOrderOfTheRig) {
   Aligner aligner({}, {"A", "B"});
   SampleBlock b = block("dev", {"B", "extra", "encoder", "A"}, {0, 1, 2}, 0.1);
   b.value[0] = {7, 8, 9};
@@ -32,8 +32,9 @@ TEST(Aligner, OneDeviceGoesThroughBitForBitInTheRigsOrder) {
   EXPECT_EQ(out.probe_m[0], (std::vector<double>{0, 0.1, 0.2}));
 }
 
-// Frames that nobody took yet are gone on with; those that were taken may hold anything.
-TEST(Aligner, OneDevicesBlocksFollowOneAnother) {
+// New frames are appended until the caller clears the time column; the other columns may then hold
+// anything.
+TEST(Aligner, AppendsBlocksOfOneDevice) {
   Aligner aligner({}, {"A"});
   FrameBlock out;
   for (const std::vector<std::int64_t>& times_ms : {std::vector<std::int64_t>{0, 1}, {2}, {3, 4}}) {
@@ -52,8 +53,8 @@ TEST(Aligner, OneDevicesBlocksFollowOneAnother) {
   EXPECT_EQ(out.encoder_m, std::vector<double>{10});
 }
 
-// What stood in frames that were taken is no mark of the next ones.
-TEST(Aligner, TakenFramesLeaveNoMarks) {
+// The marks of cleared frames do not remain for the next frames.
+TEST(Aligner, ClearedFramesLeaveNoMarks) {
   Aligner aligner({}, {"A"});
   FrameBlock out;
   SampleBlock b = block("dev", {"A", "encoder"}, {0}, 2.0);
@@ -66,8 +67,8 @@ TEST(Aligner, TakenFramesLeaveNoMarks) {
   EXPECT_TRUE(out.probe_quality[0].empty());
 }
 
-// A sample of the encoder's very instant is all that it waits for.
-TEST(Aligner, AProbesSampleAtTheInstantIsEnough) {
+// The aligner needs no later probe sample if one has the same time as the encoder.
+TEST(Aligner, NeedsNoLaterSampleAtTheSameInstant) {
   Aligner aligner({}, {"A"});
   FrameBlock out;
   SampleBlock probe = block("p", {"A"}, {0, 4}, 2.0);
@@ -77,7 +78,7 @@ TEST(Aligner, AProbesSampleAtTheInstantIsEnough) {
   EXPECT_EQ(out.probe_m[0], std::vector<double>{8});
 }
 
-TEST(Aligner, WaitsForNothingBeforeAnythingCame) {
+TEST(Aligner, WaitsForNothingAtTheBeginning) {
   EXPECT_EQ(Aligner({}, {"A"}).waiting_for(), std::nullopt);
 }
 
@@ -105,7 +106,7 @@ TEST(Aligner, DoesNotInterpolateIntoAGap) {
   EXPECT_EQ(out.quality_at(0, 0), Quality::missing);
 }
 
-TEST(Aligner, GivesUpASilentProbeAfterTheLagBoundAndNamesIt) {
+TEST(Aligner, GivesUpASilentProbeAfterTheLagBound) {
   Aligner aligner({.lag_bound_s = 0.1}, {"A", "B"});
   FrameBlock out;
   for (int t = 0; t < 300; t += 10) {
@@ -121,7 +122,7 @@ TEST(Aligner, GivesUpASilentProbeAfterTheLagBoundAndNamesIt) {
   EXPECT_EQ(aligner.given_up(), out.size());
 }
 
-TEST(Aligner, RefusesTimeThatGoesBackwards) {
+TEST(Aligner, RejectsTimeThatGoesBackwards) {
   Aligner aligner({}, {"A"});
   FrameBlock out;
   SampleBlock b = block("dev", {"A", "encoder"}, {5, 6}, 1.0),
@@ -132,7 +133,7 @@ TEST(Aligner, RefusesTimeThatGoesBackwards) {
   EXPECT_NE(refused.error().message.find("dev"), std::string::npos);
 }
 
-TEST(Aligner, FlushGivesOutWhatWaits) {
+TEST(Aligner, FlushReturnsPendingFrames) {
   Aligner aligner({}, {"A"});
   FrameBlock out;
   SampleBlock e = block("e", {"encoder"}, {1, 2}, 1.0);
@@ -142,8 +143,8 @@ TEST(Aligner, FlushGivesOutWhatWaits) {
   EXPECT_EQ(out.quality_at(0, 1), Quality::missing);
 }
 
-// One device or two: where the encoder is suspect, or gone, no probe is good.
-TEST(Aligner, AReadingIsNoBetterThanItsPlace) {
+// With one device or two: if the encoder is suspect or missing, no probe reading is good.
+TEST(Aligner, ReadingIsNoBetterThanItsPosition) {
   const std::vector<Quality> of_encoder = {Quality::good, Quality::suspect, Quality::missing};
   Aligner one({}, {"A"}), two({}, {"A"});
   FrameBlock together, apart;
@@ -171,9 +172,10 @@ TEST(Aligner, AReadingIsNoBetterThanItsPlace) {
   }
 }
 
-// Ten minutes of two probes at 1 kHz without a word of the encoder, then it is back: what waits is
-// what twice the lag bound holds, and the frames after it are right.
-TEST(Aligner, ASilentEncoderDoesNotFillTheMemory) {
+// Two probes at 1 kHz send for ten minutes without the encoder, then the encoder returns. The
+// pending samples are limited to about twice the lag bound, and the frames after the return are
+// correct.
+TEST(Aligner, SilentEncoderDoesNotFillTheMemory) {
   Aligner aligner({.lag_bound_s = 3}, {"A", "B"});
   FrameBlock out;
   std::size_t most = 0;
@@ -190,7 +192,7 @@ TEST(Aligner, ASilentEncoderDoesNotFillTheMemory) {
   EXPECT_EQ(out.size(), 0u);
   EXPECT_EQ(aligner.waiting_for(), kEncoderChannel);
   EXPECT_LE(most, 2u * (7000 + 200));  // 7 s of two probes
-  // It sends what it had kept for 2.5 s, and goes on.
+  // The encoder sends the samples of the last 2.5 s, then continues.
   SampleBlock late = block("e", {"encoder"}, {597'500, 598'000, 599'999}, 1.0);
   ASSERT_TRUE(aligner.push(late, out));
   ASSERT_EQ(out.size(), 3u);
@@ -200,8 +202,8 @@ TEST(Aligner, ASilentEncoderDoesNotFillTheMemory) {
   }
 }
 
-// A probe at 10 Hz beside an encoder at 1 kHz, 30 s; the probe reads 2 t. One of its samples is
-// lost at 12 s: a gap of two intervals is none, three lost in a row at 20 s are one.
+// A probe at 10 Hz and an encoder at 1 kHz for 30 s; the probe reads 2 t. One sample is lost at 12
+// s: an interval of two periods is no gap. Three lost samples at 20 s are a gap.
 struct Slow {
   FrameBlock out;
   std::map<std::string, Notice> too_slow;
@@ -229,7 +231,7 @@ struct Slow {
   }
 };
 
-TEST(Aligner, ASlowProbeIsInterpolatedByItsOwnInterval) {
+TEST(Aligner, InterpolatesASlowProbeByItsInterval) {
   const Slow known({.interval_s = {{"A", 0.1}}});
   EXPECT_GE(known.out.size(), 29'900u);
   EXPECT_NEAR(static_cast<double>(known.missing), 399, 2);  // 19.9 to 20.3 s
@@ -237,7 +239,7 @@ TEST(Aligner, ASlowProbeIsInterpolatedByItsOwnInterval) {
   EXPECT_TRUE(known.too_slow.empty());
 }
 
-TEST(Aligner, ASlowProbeThatNobodyKnewOfIsTold) {
+TEST(Aligner, ReportsAnUndeclaredSlowProbe) {
   const Slow unknown({});
   EXPECT_GT(unknown.missing, 29'000u);
   ASSERT_EQ(unknown.too_slow.count("A"), 1u);
@@ -245,9 +247,10 @@ TEST(Aligner, ASlowProbeThatNobodyKnewOfIsTold) {
   EXPECT_NEAR(test::number(unknown.too_slow.at("A"), "needed_gap_s"), 0.25, 1e-9);
 }
 
-// A probe every 2 ms at positions every ms: between two of its readings the later one is new, at it
-// no more. A probe as fast as the encoder has no such marks.
-TEST(Aligner, MarksWhatASlowerProbeRepeats) {
+// A probe every 2 ms and an encoder every 1 ms. A row between two readings uses the later reading
+// first, so it is fresh; the row at that reading repeats it. A probe as fast as the encoder has no
+// marks.
+TEST(Aligner, MarksRepeatedReadingsOfASlowerProbe) {
   Aligner aligner({}, {"slow", "fast"});
   FrameBlock out;
   SampleBlock slow = block("s", {"slow"}, {0, 2, 4, 6}, 2.0);
@@ -260,7 +263,8 @@ TEST(Aligner, MarksWhatASlowerProbeRepeats) {
   EXPECT_TRUE(out.probe_fresh[1].empty());
 }
 
-// An encoder that has spoken is waited for once it is silent for longer than the lag bound.
+// The aligner waits for an encoder that sent samples and is then silent for longer than the lag
+// bound.
 TEST(Aligner, WaitsForAnEncoderThatFellSilent) {
   Aligner aligner({.lag_bound_s = 0.1}, {"A"});
   FrameBlock out;

@@ -11,7 +11,7 @@
 namespace mdof::algo {
 namespace {
 
-// A stepping axis: moves at `speed`, stops at each position, one probe that reads 1 µm a mm.
+// An axis that moves at `speed` and stops at each position; its probe reads 1 µm per mm.
 struct Stepper {
   double rate_hz = 1000, dwell_s = 0.5, speed_m_s = 0.02, noise_m = 10e-9;
   FrameBlock frames;
@@ -43,13 +43,13 @@ struct Stepper {
   void dwell() {
     for (int i = 0; i < dwell_s * rate_hz; ++i) scan();
   }
-  // Nobody sees the axis go there.
+  // The axis moves during a recording gap.
   void jump_unseen(double target, double after_s) {
     breaks.push_back(t_ns - static_cast<std::int64_t>(1e9 / rate_hz));
     t_ns += static_cast<std::int64_t>(after_s * 1e9);
     x = target;
   }
-  // Over the targets and back, with an overrun past both ends.
+  // Over the targets and back, with an overrun beyond both ends.
   void passes(const std::vector<double>& targets, int n) {
     for (int k = 0; k < n; ++k) {
       for (const double t : targets) move_to(t), dwell();
@@ -79,7 +79,7 @@ std::vector<Point> detect(const FrameBlock& frames, std::size_t block, DwellOpti
                     {cut(frames.probe_quality[0])},
                     {}};
     if (!frames.probe_fresh.empty()) part.probe_fresh = {cut(frames.probe_fresh[0])};
-    // As alignment gives them: no column where no row repeats a reading.
+    // Alignment gives no column if no row repeats a reading.
     for (auto& column : part.probe_fresh)
       if (std::find(column.begin(), column.end(), 0) == column.end()) column.clear();
     detector.push(part, points);
@@ -108,7 +108,7 @@ TEST(Dwell, FindsEveryStopAndInventsNone) {
   }
 }
 
-TEST(Dwell, GivesTheSameBitsHoweverTheDataAreCut) {
+TEST(Dwell, GivesTheSameBitsForAnyBlockSize) {
   Stepper axis;
   axis.passes(kTargets, 1);
   const auto whole = detect(axis.frames, axis.frames.size());
@@ -124,10 +124,10 @@ TEST(Dwell, GivesTheSameBitsHoweverTheDataAreCut) {
   }
 }
 
-// A replay has larger blocks than the live run, so that a late repeated reading gives rows a column
-// of marks that had none.
-TEST(Dwell, LearnsTheSameResolutionHoweverTheDataAreCut) {
-  constexpr double step_m = 100e-9;  // five rows of the way
+// A replay has larger blocks than the live run, so a late repeated reading adds a column of marks
+// to rows that had none.
+TEST(Dwell, LearnsTheSameResolutionForAnyBlockSize) {
+  constexpr double step_m = 100e-9;  // five rows of the motion
   Stepper axis;
   axis.noise_m = 1e-9;
   axis.passes(kTargets, 2);
@@ -154,14 +154,14 @@ TEST(Dwell, FollowsAnEncoderNoisierThanTheDefaultTolerance) {
   EXPECT_EQ(detect(axis.frames, 1000).size(), 10u);
 }
 
-TEST(Dwell, AShortStopIsNoDwell) {
+TEST(Dwell, ShortStopIsNoDwell) {
   Stepper axis;
   axis.dwell_s = 0.15;
   axis.passes(kTargets, 1);
   EXPECT_TRUE(detect(axis.frames, 1000).empty());
 }
 
-TEST(Dwell, ACreepingAxisIsNoDwell) {
+TEST(Dwell, CreepingAxisIsNoDwell) {
   Stepper axis;
   axis.noise_m = 0;
   axis.speed_m_s = 35e-6;  // 1.75 µm in the window: within the tolerance at any moment
@@ -206,7 +206,7 @@ TEST(Dwell, FlagsGapsSpikesSaturationAndLoss) {
   }
 }
 
-TEST(Dwell, AGlitchOfTheEncoderIsNoApproach) {
+TEST(Dwell, EncoderGlitchIsNoApproach) {
   Stepper axis;
   axis.passes(kTargets, 1);
   const auto clean = detect(axis.frames, 1000);
@@ -221,9 +221,9 @@ TEST(Dwell, AGlitchOfTheEncoderIsNoApproach) {
   EXPECT_EQ(s.points[2].point.direction, 1);
 }
 
-// A knock that is seen in two slots (quarters of the window) is none, in three it is a way: the
-// axis came from above.
-TEST(Dwell, AKnockOfTwoSlotsIsNoApproach) {
+// A knock that is seen in two slots (quarters of the window) is ignored; in three slots it is a
+// motion, so the axis approached from above.
+TEST(Dwell, KnockOfTwoSlotsIsNoApproach) {
   for (const int length_ms : {14, 26}) {
     Stepper axis;
     axis.move_to(5e-3), axis.dwell();
@@ -239,8 +239,8 @@ TEST(Dwell, AKnockOfTwoSlotsIsNoApproach) {
   }
 }
 
-// Half of the scans of a stop are enough for a probe.
-TEST(Dwell, AProbeIsLostWhereMostOfItsScansAreMissing) {
+// A probe needs half of the scans of a stop.
+TEST(Dwell, ProbeIsLostIfMostScansAreMissing) {
   for (const int of_ten : {4, 6}) {
     Stepper axis;
     axis.passes({0, 2e-3}, 1);
@@ -254,7 +254,7 @@ TEST(Dwell, AProbeIsLostWhereMostOfItsScansAreMissing) {
   }
 }
 
-TEST(Dwell, AnEndlessStopKeepsMemoryBoundedAndSaysSo) {
+TEST(Dwell, TruncatesAnEndlessStop) {
   Stepper axis;
   axis.dwell_s = 60;
   axis.passes({0.0, 2e-3}, 1);
@@ -283,7 +283,7 @@ TEST(Sequence, RecognisesTargetsRunsAndApproaches) {
   }
 }
 
-TEST(Sequence, AMissedStopDoesNotShiftTheRuns) {
+TEST(Sequence, MissedStopDoesNotShiftTheRuns) {
   Stepper axis;
   axis.passes(kTargets, 3);
   auto points = detect(axis.frames, 1000);
@@ -294,7 +294,7 @@ TEST(Sequence, AMissedStopDoesNotShiftTheRuns) {
       std::count_if(s.points.begin(), s.points.end(), [](const auto& p) { return p.run == 2; }), 9);
 }
 
-TEST(Sequence, OneWayPassesWithoutStopsOnTheReturnAreRuns) {
+TEST(Sequence, OneWayPassesAreRuns) {
   Stepper axis;
   for (int k = 0; k < 3; ++k) {
     for (const double t : kTargets) axis.move_to(t), axis.dwell();
@@ -306,7 +306,7 @@ TEST(Sequence, OneWayPassesWithoutStopsOnTheReturnAreRuns) {
   for (const auto& p : s.points) EXPECT_EQ(p.point.direction, 1);
 }
 
-TEST(Sequence, NominalTargetsLeaveOtherStopsOutAndSaySo) {
+TEST(Sequence, NominalTargetsLeaveOutOtherStops) {
   Stepper axis;
   axis.passes(kTargets, 1);
   SequenceOptions options;
@@ -318,7 +318,7 @@ TEST(Sequence, NominalTargetsLeaveOtherStopsOutAndSaySo) {
   EXPECT_EQ(s.points[1].target_m, 4e-3);
 }
 
-TEST(Sequence, ALogThatBeginsAtRestTakesTheApproachOfTheMotionThatFollows) {
+TEST(Sequence, FirstStopTakesTheApproachOfTheNextMotion) {
   Stepper axis;
   axis.x = 0;
   for (const double t : kTargets) axis.move_to(t), axis.dwell();
@@ -329,8 +329,8 @@ TEST(Sequence, ALogThatBeginsAtRestTakesTheApproachOfTheMotionThatFollows) {
   EXPECT_EQ(s.runs, 1);
 }
 
-// Forward to 4 mm; unseen it goes to 8 mm and stops at 6 mm on its way back.
-TEST(Sequence, WhatNobodySawIsNoApproach) {
+// The axis moves forward to 4 mm. Unseen, it moves to 8 mm and back to a stop at 6 mm.
+TEST(Sequence, UnseenMotionIsNoApproach) {
   Stepper axis;
   for (const double t : {0.0, 2e-3, 4e-3}) axis.move_to(t), axis.dwell();
   axis.jump_unseen(6e-3, 10);
@@ -341,14 +341,14 @@ TEST(Sequence, WhatNobodySawIsNoApproach) {
   EXPECT_TRUE(reported.points[2].point.flags.empty());
   EXPECT_EQ(reported.points[3].point.direction, -1);
   EXPECT_EQ(to_string(reported.points[3].point.flags), "approach_assumed");
-  // The hole in the time line says it as well.
+  // The gap in the time stamps has the same effect.
   const Sequence untold = recognise_sequence(detect(axis.frames, 1000), {});
   ASSERT_EQ(untold.points.size(), 6u);
   EXPECT_EQ(untold.points[3].point.direction, -1);
   EXPECT_EQ(to_string(untold.points[3].point.flags), "approach_assumed");
 }
 
-TEST(Sequence, AStopThatNobodySawInBetweenCountsOnce) {
+TEST(Sequence, StopWithARecordingGapCountsOnce) {
   for (const std::size_t block : {1u, 7u, 100000u}) {
     Stepper axis;
     for (const double t : {0.0, 2e-3, 4e-3}) axis.move_to(t), axis.dwell();
@@ -360,14 +360,14 @@ TEST(Sequence, AStopThatNobodySawInBetweenCountsOnce) {
     const Sequence s = recognise_sequence(detect(axis.frames, block, {}, axis.breaks), {});
     ASSERT_EQ(s.points.size(), 4u);
     EXPECT_EQ(s.points[2].point.direction, 1);
-    EXPECT_GT(s.points[2].point.samples, 700u);  // of the longer part
+    EXPECT_GT(s.points[2].point.samples, 700u);  // samples of the longer part
     EXPECT_LT(s.points[2].point.samples, 1000u);
     EXPECT_EQ(to_string(s.points[2].point.flags), "approach_assumed interrupted");
     EXPECT_EQ(s.points[3].point.direction, -1);
   }
 }
 
-TEST(Sequence, AnInterruptedStopCountsOnce) {
+TEST(Sequence, InterruptedStopCountsOnce) {
   Stepper axis;
   axis.move_to(0);
   axis.dwell();
@@ -382,8 +382,8 @@ TEST(Sequence, AnInterruptedStopCountsOnce) {
   EXPECT_EQ(to_string(s.points[0].point.flags), "interrupted");
 }
 
-// A slow probe has a reading of its own every fourth row; what stands between is none.
-TEST(Dwell, AveragesOwnReadingsAlone) {
+// A slow probe has a fresh reading every fourth row; the rows between are interpolated.
+TEST(Dwell, AveragesOnlyFreshReadings) {
   Stepper axis;
   axis.passes(kTargets, 1);
   axis.frames.probe_fresh.resize(1);

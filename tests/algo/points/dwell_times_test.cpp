@@ -1,4 +1,4 @@
-// When a stop begins and ends, and what is counted of a log: the test makes both and knows them.
+// Begin and end of a stop, and the counts of a log, for logs with known values.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kSlot_s = 0.0125;  // the grain of detection: a quarter of the window
+constexpr double kSlot_s = 0.0125;  // resolution of the detection: a quarter of the window
 
 struct Found {
   std::vector<Point> points;
@@ -37,8 +37,9 @@ SteppingAxis fast_axis() {
   return axis;
 }
 
-// A stop is seen within a slot of its begin, and within two of its end what is averaged is over.
-TEST(DwellTimes, AreThoseOfTheStop) {
+// The begin of a stop is found within one slot, the end of the averaged scans within two slots
+// before the end.
+TEST(DwellTimes, MatchTheStop) {
   SteppingAxis axis = fast_axis();
   std::vector<double> begin_s, end_s;
   for (int i = 0; i < 25; ++i) {
@@ -64,7 +65,7 @@ TEST(DwellTimes, AreThoseOfTheStop) {
   EXPECT_GE(found.summary.longest_still_s, longest_s - 3 * kSlot_s);
 }
 
-TEST(DwellTimes, AStopOfSettlingAndLeastLengthIsFoundAndAShorterOneTold) {
+TEST(DwellTimes, FindsLongEnoughStopsAndReportsShorterOnes) {
   SteppingAxis axis = fast_axis();
   for (int i = 0; i < 6; ++i) {
     axis.move_to(30e-3 + 2e-3 * i);
@@ -87,8 +88,8 @@ TEST(DwellTimes, AStopOfSettlingAndLeastLengthIsFoundAndAShorterOneTold) {
   }
 }
 
-// A filter's readings of the last 60 ms of a stop are made from the way on too.
-TEST(DwellTimes, WhatIsToBeLeftOutAtTheEndOfAStopIs) {
+// A filter calculates its readings of the last 60 ms of a stop also from the next motion.
+TEST(DwellTimes, LeavesOutTheEndOfAStop) {
   SteppingAxis axis = fast_axis();
   for (const double wait_s : {0.5, 0.25, 0.32, 0.5}) {
     axis.move_to(axis.x_m + 3e-3);
@@ -108,8 +109,9 @@ TEST(DwellTimes, WhatIsToBeLeftOutAtTheEndOfAStopIs) {
   }
 }
 
-// 100 µm/s is 5 µm in a window of 50 ms, more than 2 µm; 20 µm/s is 1 µm. Either way.
-TEST(DwellTimes, ASlowTravelIsNoStop) {
+// 100 µm/s is 5 µm in a window of 50 ms, more than 2 µm; 20 µm/s is 1 µm. Both directions are
+// tested.
+TEST(DwellTimes, SlowTravelIsNoStop) {
   for (const double speed_m_s : {100e-6, -100e-6, 20e-6, -20e-6}) {
     SteppingAxis axis = fast_axis();
     for (int i = 0; i < 2000; ++i) axis.x_m += speed_m_s / axis.rate_hz, axis.scan();
@@ -119,9 +121,9 @@ TEST(DwellTimes, ASlowTravelIsNoStop) {
   }
 }
 
-// At 0.2 mm/s, between fast motions: up to 200 um it was to be a stop. The stretch is seen from the
-// slot in which it begins to three slots before its end.
-TEST(DwellTimes, ACreepOverMoreThanAFifthOfAMillimetreIsATravel) {
+// The axis creeps at 0.2 mm/s between fast motions: up to 200 um it is a creeping stop. The stretch
+// is seen from the slot in which it begins to three slots before its end.
+TEST(DwellTimes, CreepOverMoreThan200umIsTravel) {
   for (const int scans : {1000, 1100}) {  // 200 um and 220 um, seen as 190 um and 210 um
     SteppingAxis axis = fast_axis();
     axis.move_to(5e-3);
@@ -133,7 +135,7 @@ TEST(DwellTimes, ACreepOverMoreThanAFifthOfAMillimetreIsATravel) {
   }
 }
 
-TEST(DwellTimes, TheSummaryCountsWhatIsInTheLog) {
+TEST(DwellTimes, SummaryCountsTheLog) {
   SteppingAxis axis = fast_axis();
   axis.noise_m = 0;
   for (const double at_m : {3e-3, -2e-3, 7e-3, 1e-3}) axis.stop(at_m);
@@ -147,7 +149,7 @@ TEST(DwellTimes, TheSummaryCountsWhatIsInTheLog) {
   EXPECT_DOUBLE_EQ(found.summary.tolerance_m, 2e-6);
 }
 
-TEST(DwellTimes, TheSummaryOfNothingIsNought) {
+TEST(DwellTimes, SummaryOfAnEmptyLogIsZero) {
   const DwellDetector::Summary none = found_in(SteppingAxis().frames).summary;
   EXPECT_EQ(none.scans + none.gaps + none.unplaced, 0u);
   EXPECT_EQ(none.encoder_min_m, 0);
@@ -157,9 +159,9 @@ TEST(DwellTimes, TheSummaryOfNothingIsNought) {
   EXPECT_TRUE(none.passed_over.empty());
 }
 
-// Six times the encoder's noise, here of 1 um, as far as its floor is known (in eighths of an
-// octave).
-TEST(DwellTimes, TheToleranceIsSixTimesTheNoise) {
+// The tolerance is six times the encoder's noise, here 1 um. Its floor is known to an eighth of an
+// octave.
+TEST(DwellTimes, ToleranceIsSixTimesTheNoise) {
   SteppingAxis axis = fast_axis();
   axis.noise_m = 1e-6;
   for (int i = 0; i < 10; ++i) axis.stop(1e-3 * i);
@@ -169,8 +171,8 @@ TEST(DwellTimes, TheToleranceIsSixTimesTheNoise) {
   EXPECT_EQ(found_in(axis.frames, 100, given).summary.tolerance_m, 3e-6);
 }
 
-// Two scans lost are an interval of three periods, three are a gap.
-TEST(DwellTimes, AGapIsMoreThanThreePeriods) {
+// Two lost scans are an interval of three periods; three lost scans are a gap.
+TEST(DwellTimes, GapIsLongerThanThreePeriods) {
   for (const std::size_t lost : {1u, 2u, 3u}) {
     SteppingAxis axis = fast_axis();
     axis.stop(2e-3);
@@ -188,8 +190,8 @@ TEST(DwellTimes, AGapIsMoreThanThreePeriods) {
   }
 }
 
-// The period is the median of the first 32 intervals, whatever follows and however it is cut.
-TEST(DwellTimes, ThePeriodIsTheMedianOfTheFirstIntervals) {
+// The period is the median of the first 32 intervals, for any later intervals and any block size.
+TEST(DwellTimes, PeriodIsTheMedianOfTheFirstIntervals) {
   SteppingAxis axis;
   for (int i = 0; i < 500; ++i) axis.scan();
   std::int64_t t_ns = 0;
@@ -197,7 +199,7 @@ TEST(DwellTimes, ThePeriodIsTheMedianOfTheFirstIntervals) {
     axis.frames.time_ns[i] = t_ns;
     t_ns += i == 16 ? 1'100'000 : i < 32 && i % 2 == 0 ? 1'000'000 : i < 32 ? 1'200'000 : 1'500'000;
   }
-  // 15 of 1 ms, 16 of 1.2 ms, one of 1.1 ms: with the 17th of 32 in order as the median 1.2 ms.
+  // 15 intervals of 1 ms, 16 of 1.2 ms, one of 1.1 ms: the 17th of 32, the median, is 1.2 ms.
   for (const std::size_t block : {1u, 33u, 40u, 1000u})
     EXPECT_DOUBLE_EQ(found_in(axis.frames, block).summary.period_s, 1.2e-3) << block;
   t_ns = 0;
@@ -209,7 +211,7 @@ TEST(DwellTimes, ThePeriodIsTheMedianOfTheFirstIntervals) {
     EXPECT_DOUBLE_EQ(found_in(axis.frames, block).summary.period_s, 1.1e-3) << block;
 }
 
-// Even where the clock stands, each row is counted once.
+// Each row is counted once even if the clock does not advance.
 TEST(DwellTimes, RowsAtOneInstantAreCountedOnce) {
   SteppingAxis axis;
   for (int i = 0; i < 70; ++i) axis.scan();
@@ -217,7 +219,7 @@ TEST(DwellTimes, RowsAtOneInstantAreCountedOnce) {
   EXPECT_EQ(found_in(axis.frames, 1).summary.scans, 70u);
 }
 
-TEST(DwellTimes, AStopOfFewerRowsThanThePeriodTakesIsFound) {
+TEST(DwellTimes, FindsAStopBeforeThePeriodIsKnown) {
   SteppingAxis axis;
   axis.rate_hz = 20;
   axis.wait(1.5);
@@ -230,9 +232,9 @@ TEST(DwellTimes, AStopOfFewerRowsThanThePeriodTakesIsFound) {
   }
 }
 
-// An axis at 10 mm/s of which 1.5 s are missing: the last place before, and how far it came
-// meanwhile.
-TEST(DwellTimes, AHoleIsToldByTheLastScanBeforeIt) {
+// An axis at 10 mm/s with 1.5 s missing: the event has the last position before the hole and the
+// distance moved during it.
+TEST(DwellTimes, HoleHasTheLastScanBeforeIt) {
   FrameBlock frames = empty_frames(1);
   for (std::int64_t ms = 0; ms < 4000; ++ms) {
     if (ms > 1000 && ms < 2500) continue;
@@ -252,8 +254,8 @@ TEST(DwellTimes, AHoleIsToldByTheLastScanBeforeIt) {
   EXPECT_EQ(found.summary.scans, frames.size());
 }
 
-// Readings that are no number, in a log without qualities: the others are averaged.
-TEST(DwellTimes, AReadingThatIsNoNumberIsLeftOut) {
+// NaN readings in a log without qualities: the other readings are averaged.
+TEST(DwellTimes, LeavesOutNaNReadings) {
   SteppingAxis axis = fast_axis();
   for (int i = 0; i < 4; ++i) axis.stop(1e-3 * i);
   axis.move_to(9e-3);
@@ -267,8 +269,8 @@ TEST(DwellTimes, AReadingThatIsNoNumberIsLeftOut) {
     EXPECT_NEAR(found.points[i].probe_m[0], whole.points[i].probe_m[0], 2e-9) << i;
 }
 
-// A break that is told before its time comes is passed where it is, as one that is told in time.
-TEST(DwellTimes, ABreakIsPassedWhereItIs) {
+// A break that is announced early takes effect at its time, like a break that is announced in time.
+TEST(DwellTimes, BreakTakesEffectAtItsTime) {
   SteppingAxis axis = fast_axis();
   for (int i = 0; i < 3; ++i) axis.stop(1e-3 * i);
   const std::size_t before = axis.frames.size();

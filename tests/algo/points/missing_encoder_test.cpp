@@ -1,5 +1,5 @@
-// Frames in which the encoder gave no position (NaN): few, many, from the first on, throughout. The
-// truth is that of the log: where each stop is.
+// Frames without an encoder position (NaN): a few, many, from the first frame on, and all. The
+// expected positions are those of the stops in the log.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,8 +27,8 @@ SteppingLog one_run() {
 
 const std::size_t kBlocks[] = {1, 13, 100'000};
 
-// Three of five in one stop: what is left is averaged, and the point says what it lacks.
-TEST(MissingEncoder, MoreThanHalfOfAStopIsNoEndlessLoop) {
+// Three of five scans of one stop are missing. The others are averaged, and the point has a flag.
+TEST(MissingEncoder, HandlesMoreThanHalfOfAStop) {
   const SteppingLog log = one_run();
   const FrameBlock whole = log.frames();
   const auto clean = detect(log, whole, 1000);
@@ -54,7 +54,7 @@ TEST(MissingEncoder, MoreThanHalfOfAStopIsNoEndlessLoop) {
   }
 }
 
-TEST(MissingEncoder, AFirstFrameWithoutItFailsNoRun) {
+TEST(MissingEncoder, FirstFramesMayHaveNoPosition) {
   const SteppingLog log = one_run();
   FrameBlock frames = log.frames();
   const auto clean = detect(log, frames, 1000);
@@ -69,7 +69,7 @@ TEST(MissingEncoder, AFirstFrameWithoutItFailsNoRun) {
   }
 }
 
-// A second without position while the axis goes from the third to the fifth stop: a hole.
+// A second without positions, while the axis moves from the third to the fifth stop, is a hole.
 TEST(MissingEncoder, ManyInARowAreAHole) {
   const SteppingLog log = one_run();
   FrameBlock frames = log.frames();
@@ -88,7 +88,7 @@ TEST(MissingEncoder, ManyInARowAreAHole) {
 
 constexpr double kOverflow_m = 4'294'967'296 * 0.05e-6;  // 2^32 counts of 50 nm
 
-TEST(UnreachablePlace, ACountThatOverflowsForAMomentCostsItsScansOnly) {
+TEST(UnreachablePlace, ShortOverflowLosesOnlyItsScans) {
   const SteppingLog log = one_run();
   FrameBlock frames = log.frames();
   const auto clean = detect(log, frames, 1000);
@@ -110,9 +110,9 @@ TEST(UnreachablePlace, ACountThatOverflowsForAMomentCostsItsScansOnly) {
   }
 }
 
-// The count is wrong from the seventh stop on: nothing after it has a place, and it says so. Also a
-// jump of 1 mm, of an axis whose greatest speed is known.
-TEST(UnreachablePlace, WhatGoesOnFromAJumpIsLeftOut) {
+// The count is wrong from the seventh stop on. All later scans have no valid position, and a notice
+// reports this. A jump of 1 mm has the same effect if the greatest speed of the axis is known.
+TEST(UnreachablePlace, LeavesOutPositionsAfterAJump) {
   const SteppingLog log = one_run();
   const FrameBlock whole = log.frames();
   const auto clean = detect(log, whole, 1000);
@@ -143,8 +143,9 @@ TEST(UnreachablePlace, WhatGoesOnFromAJumpIsLeftOut) {
   }
 }
 
-// A disturbance: positions far off that come back by what the axis could reach, or after a hole.
-TEST(UnreachablePlace, ADisturbanceLosesNothingAfterIt) {
+// A disturbance: far positions that return by a distance that the axis could travel, or after
+// missing positions.
+TEST(UnreachablePlace, DisturbanceLosesOnlyItsScans) {
   const SteppingLog log = one_run();
   const FrameBlock whole = log.frames();
   const auto clean = detect(log, whole, 1000);
@@ -164,14 +165,14 @@ TEST(UnreachablePlace, ADisturbanceLosesNothingAfterIt) {
   }
 }
 
-TEST(UnreachablePlace, AnAxisAtItsGreatestSpeedLosesNothing) {
+TEST(UnreachablePlace, AxisAtItsGreatestSpeedLosesNothing) {
   const SteppingLog log = one_run();  // its moves reach 1.875 · 5 mm / 0.25 s = 37.5 mm/s
   const FrameBlock frames = log.frames();
   EXPECT_EQ(detect(log, frames, 1000, {.max_speed_m_s = 0.0375}).summary.unplaced, 0u);
   EXPECT_GT(detect(log, frames, 1000, {.max_speed_m_s = 0.005}).summary.unplaced, 0u);
 }
 
-TEST(MissingEncoder, ThroughoutThereIsNoPointAndItIsCounted) {
+TEST(MissingEncoder, CountsALogWithoutPositions) {
   const SteppingLog log = one_run();
   FrameBlock frames = log.frames();
   for (std::size_t i = 0; i < frames.size(); ++i) lose(frames, i);
@@ -181,8 +182,8 @@ TEST(MissingEncoder, ThroughoutThereIsNoPointAndItIsCounted) {
   EXPECT_EQ(found.summary.unplaced, frames.size());
 }
 
-// Values that are no numbers and that nothing marks: lost, as if they were marked.
-TEST(MissingEncoder, AProbeOfUnmarkedNaNIsLost) {
+// NaN readings without a quality mark are lost, like marked readings.
+TEST(MissingEncoder, ProbeWithUnmarkedNaNIsLost) {
   const SteppingLog log = one_run();
   FrameBlock frames = log.frames();
   frames.probe_m[1].assign(frames.size(), kNaN);
@@ -194,12 +195,12 @@ TEST(MissingEncoder, AProbeOfUnmarkedNaNIsLost) {
   }
 }
 
-TEST(MissingEncoder, AMeanOfNaNEnds) {
+TEST(MissingEncoder, RobustMeanOfNaNTerminates) {
   std::vector<double> scratch;
   for (const std::size_t bad : {1u, 50u, 51u, 99u, 100u}) {
     std::vector<double> readings(100, 1.0);
     std::fill_n(readings.begin(), bad, kNaN);
-    robust_mean(readings, 0.1, scratch);  // whatever it gives
+    robust_mean(readings, 0.1, scratch);  // the result does not matter
   }
 }
 

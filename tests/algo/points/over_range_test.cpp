@@ -1,5 +1,5 @@
-// A probe at the end of its range: what is left of its readings is biased, by tables of the normal
-// distribution and by a vibration whose middle is known.
+// A probe at the end of its range: the remaining readings are biased. The bias follows from tables
+// of the normal distribution and from a vibration with a known mean.
 #include "algo/points/over_range.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kEnd_m = 100e-6;
 
-// Three stops with 150 or so averaged scans each, in which the probe vibrates about `middle_m`.
+// Three stops with about 150 averaged scans each, in which the probe vibrates about `middle_m`.
 FrameBlock vibrating(double middle_m, double amplitude_m) {
   SteppingAxis axis;
   for (const double target_m : {0.0, 2e-3, 4e-3}) axis.stop(target_m);
@@ -46,7 +46,7 @@ OverRange one_over(double at_m) {
   return over;
 }
 
-// phi(a)/Phi(a) where Phi(-a) = p, of a table of the normal distribution: how far the mean is off.
+// The bias of the mean is phi(a)/Phi(a) with Phi(-a) = p, from a table of the normal distribution.
 TEST(OverRange, UCoversTheBiasOfATrace) {
   struct {
     std::size_t of;
@@ -72,7 +72,7 @@ bool is_too_much(std::size_t count, std::size_t readings, double at_m = 1e-6) {
   return is_saturated(over, readings, 0, 0.5e-6);
 }
 
-TEST(OverRange, MoreThanOneReadingAndOnePercentIsTooMuch) {
+TEST(OverRange, SaturatedAboveOneReadingAndOnePercent) {
   EXPECT_FALSE(is_too_much(0, 0));
   EXPECT_FALSE(is_too_much(1, 10));
   EXPECT_TRUE(is_too_much(2, 10));
@@ -81,15 +81,15 @@ TEST(OverRange, MoreThanOneReadingAndOnePercentIsTooMuch) {
   EXPECT_FALSE(is_too_much(3, 300));
 }
 
-// Far from all others it is the reading of a broken cable, on either side.
-TEST(OverRange, AGlitchSaysNothingOfTheOthers) {
+// A reading far from all others, on either side, is caused by a broken cable.
+TEST(OverRange, GlitchDoesNotSaturate) {
   for (const double at_m : {100e-6, -100e-6}) EXPECT_FALSE(is_too_much(20, 100, at_m));
   EXPECT_TRUE(is_too_much(20, 100, -2.9e-6));
   EXPECT_TRUE(is_too_much(20, 100, std::nan("")));
 }
 
-// 0.7 um rms about 99.9 um: the mean of what stays below 100 um is 99.3 um.
-TEST(OverRange, AVibrationAcrossTheEndOfTheRangeLosesTheProbe) {
+// A vibration of 0.7 um rms about 99.9 um: the mean of the readings below 100 um is 99.3 um.
+TEST(OverRange, VibrationAcrossTheEndLosesTheProbe) {
   const auto points = points_of(vibrating(99.9e-6, 0.7e-6 * std::numbers::sqrt2));
   ASSERT_EQ(points.size(), 3u);
   for (const Point& point : points) {
@@ -99,7 +99,7 @@ TEST(OverRange, AVibrationAcrossTheEndOfTheRangeLosesTheProbe) {
   }
 }
 
-TEST(OverRange, AVibrationBelowTheEndOfTheRangeIsAveraged) {
+TEST(OverRange, VibrationBelowTheEndIsAveraged) {
   const auto points = points_of(vibrating(98.9e-6, 0.7e-6 * std::numbers::sqrt2));
   ASSERT_EQ(points.size(), 3u);
   for (const Point& point : points) {

@@ -1,4 +1,5 @@
-// The robust mean against a plain computation by sorting. Found missing by tests/mutate.
+// The robust mean against a plain calculation by sorting. Mutation tests (tests/mutate) found these
+// cases.
 #include "algo/points/robust_mean.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +22,8 @@ struct Plain {
   std::size_t used = 0;
 };
 
-// Up to 512 readings: those within eight standard deviations, as the median absolute deviation
-// (halfway to the next larger one) tells them.
+// Mean of up to 512 readings within eight standard deviations. The standard deviation is estimated
+// from the median absolute deviation, halfway to the next larger deviation.
 Plain plain_mean(const std::vector<double>& x) {
   const double centre = middle_of(x);
   std::vector<double> off;
@@ -46,8 +47,8 @@ Plain plain_mean(const std::vector<double>& x) {
   return plain;
 }
 
-// Of a Cauchy distribution several in a hundred are out, and some are near the limit.
-TEST(RobustMeanPlainly, OfReadingsWithManyOutliers) {
+// In a Cauchy distribution several percent are outliers, and some readings are near the limit.
+TEST(RobustMeanPlainly, RejectsManyOutliers) {
   std::mt19937_64 engine(5);
   std::cauchy_distribution<> wide(3, 1);
   std::vector<double> scratch;
@@ -66,8 +67,9 @@ TEST(RobustMeanPlainly, OfReadingsWithManyOutliers) {
   EXPECT_GT(rejected, 10'000u);
 }
 
-// Of 1200 every third tells the middle and the limit: of three levels only its own is near.
-TEST(RobustMeanPlainly, OfMoreReadingsByAPartOfThem) {
+// Every third of 1200 readings determines the median and the limit, so only one of three levels is
+// near them.
+TEST(RobustMeanPlainly, UsesEveryThirdOfManyReadings) {
   std::vector<double> x, scratch;
   for (int i = 0; i < 1200; ++i) x.push_back(1000.0 * (i % 3) + i % 7);
   for (const double level : {0.0, 1000.0, 2000.0}) {
@@ -78,9 +80,9 @@ TEST(RobustMeanPlainly, OfMoreReadingsByAPartOfThem) {
   }
 }
 
-// Most are alike: one apart by more than `coarse` is out, several at one distance are a step of the
-// reading, up to three and a half of it.
-TEST(RobustMeanPlainly, OfReadingsThatHardlyChange) {
+// Most readings are equal. A single reading further than `coarse` is rejected; several at one
+// distance are a step of the reading, and readings within three and a half steps are used.
+TEST(RobustMeanPlainly, AcceptsStepsOfTheReading) {
   std::vector<double> x(100, 5.0), scratch;
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 100u);
   EXPECT_EQ(robust_mean(x, 0.5, scratch).mean, 5);
@@ -89,7 +91,7 @@ TEST(RobustMeanPlainly, OfReadingsThatHardlyChange) {
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 100u);
   x[7] = 5.6;
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 99u);
-  x[30] = 4.4;  // two steps of 0.6, to either side
+  x[30] = 4.4;  // two steps of 0.6, one to each side
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 100u);
   x[31] = 5 + 3.4 * 0.6;
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 100u);
@@ -97,7 +99,7 @@ TEST(RobustMeanPlainly, OfReadingsThatHardlyChange) {
   EXPECT_EQ(robust_mean(x, 0.5, scratch).used, 99u);
 }
 
-TEST(RobustMeanPlainly, OfTwo) {
+TEST(RobustMeanPlainly, IsCorrectForTwoReadings) {
   std::vector<double> scratch;
   const RobustMean two = robust_mean(std::vector<double>{1, 3}, 1, scratch);
   EXPECT_EQ(two.used, 2u);
@@ -106,7 +108,7 @@ TEST(RobustMeanPlainly, OfTwo) {
   EXPECT_NEAR(two.u, 1, 1e-15);
 }
 
-TEST(RobustMeanPlainly, OfNoneAndOfOne) {
+TEST(RobustMeanPlainly, IsCorrectForNoneAndOneReading) {
   std::vector<double> scratch;
   EXPECT_EQ(robust_mean({}, 1, scratch).used, 0u);
   const RobustMean one = robust_mean(std::vector<double>{7}, 1, scratch);

@@ -1,4 +1,5 @@
-// Scans that come twice: seen wherever a dwell begins, and not of other scans of the same place.
+// The fingerprint recognises repeated scans for any begin of the dwell, and differs for other scans
+// of the same place.
 #include "algo/points/scan_fingerprint.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-// Readings in steps of `step_m` with noise of one step, of an axis that stands.
+// Readings of an axis at rest, in steps of `step_m` with noise of one step.
 FrameBlock standing(std::uint64_t seed, double step_m, std::size_t rows = 120) {
   std::mt19937_64 rng(seed);
   std::normal_distribution<> unit;
@@ -23,7 +24,7 @@ FrameBlock standing(std::uint64_t seed, double step_m, std::size_t rows = 120) {
   return frames;
 }
 
-TEST(ScanFingerprint, IsThatOfTheSameScansWhereverADwellBegins) {
+TEST(ScanFingerprint, IsEqualForAnyBeginOfTheDwell) {
   int same = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const FrameBlock frames = standing(seed, 1e-9);
@@ -32,7 +33,7 @@ TEST(ScanFingerprint, IsThatOfTheSameScansWhereverADwellBegins) {
   EXPECT_GE(same, 80);  // 105 of 113 groups are in both
 }
 
-TEST(ScanFingerprint, OfCoarseReadingsOfTheSamePlaceDiffers) {
+TEST(ScanFingerprint, DiffersForCoarseReadingsOfOnePlace) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed)
     EXPECT_NE(scan_fingerprint(standing(seed, 1e-9), 0, 120),
               scan_fingerprint(standing(seed + 1000, 1e-9), 0, 120));

@@ -1,4 +1,5 @@
-// Published figures of the air and of tilted targets, and a tilted disc integrated by itself.
+// Published values for air and for tilted targets, and a tilted disc that is integrated
+// numerically.
 #include "algo/probe_physics/gap.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +20,8 @@ ProbePhysics electrode(double radius_m, double factor) {
   return physics;
 }
 
-// The gap that a probe without fringes shows over a tilted target: A / ∫ dA/(d + ρ θ cos φ), by
-// rings and the mean of each over its middle angles.
+// The gap that a probe without fringing field reads over a tilted target: A / ∫ dA/(d + ρ θ cos φ),
+// integrated over rings and angles by the midpoint rule.
 double disc_shows_m(double radius_m, double gap_m, double tilt_rad) {
   constexpr int kRings = 400, kAngles = 400;
   double sum = 0;
@@ -35,7 +36,7 @@ double disc_shows_m(double radius_m, double gap_m, double tilt_rad) {
   return area / integral;
 }
 
-TEST(ProbeGap, TiltsAsPublished) {
+TEST(ProbeGap, TiltExcessMatchesPublishedValues) {
   const auto excess_m = [](double r_mm, double d_mm, double mrad) {
     return tilt_excess_m(electrode(r_mm * 1e-3, 5), mrad * mrad * 1e-6, d_mm * 1e-3);
   };
@@ -44,7 +45,7 @@ TEST(ProbeGap, TiltsAsPublished) {
   EXPECT_NEAR(excess_m(2, 0.25, 1) * 1e9, 20, 0.005);
 }
 
-TEST(ProbeGap, OfAnIdealDiscTheFactorIsOne) {
+TEST(ProbeGap, TiltFactorOfAnIdealDiscIsOne) {
   for (const double tilt_rad : {0.5e-3, 2e-3, 10e-3}) {
     const double d_m = 250e-6, r_m = 2e-3, shown_m = disc_shows_m(r_m, d_m, tilt_rad);
     EXPECT_LT(shown_m, d_m) << "a tilted target seems nearer";
@@ -56,7 +57,7 @@ TEST(ProbeGap, OfAnIdealDiscTheFactorIsOne) {
   }
 }
 
-TEST(ProbeGap, TheGapOfWhatIsShownIsTheGap) {
+TEST(ProbeGap, GapIsCalculatedBackFromTheReading) {
   const ProbePhysics physics = electrode(2e-3, 5);
   for (const double d_m : {60e-6, 250e-6, 900e-6})
     for (const double tilt_rad : {0.0, 1e-3, 20e-3})
@@ -67,7 +68,7 @@ TEST(ProbeGap, TheGapOfWhatIsShownIsTheGap) {
       }
 }
 
-TEST(ProbeGap, AnElectrodeThatTouchesIsSeen) {
+TEST(ProbeGap, DetectsAnElectrodeThatTouches) {
   const ProbePhysics physics = electrode(2e-3, 5);
   EXPECT_FALSE(touches(physics, 0.0999 * 0.0999, 200e-6));
   EXPECT_TRUE(touches(physics, 0.1001 * 0.1001, 200e-6));
@@ -76,12 +77,12 @@ TEST(ProbeGap, AnElectrodeThatTouchesIsSeen) {
   EXPECT_TRUE(touches(physics, 0, std::nan("")));
 }
 
-TEST(ProbeAir, IsAsPublished) {
+TEST(ProbeAir, PermittivityMatchesPublishedValues) {
   EXPECT_NEAR((air_permittivity(kDry) - 1) * 1e6, 537, 1);
   EXPECT_NEAR(air_permittivity_slope(kDry, 0) * 1e6, -1.8, 0.05);
   EXPECT_NEAR(air_permittivity_slope(kDry, 1) * 1e6, 5.3, 0.05);
   EXPECT_NEAR(air_permittivity_slope(kDry, 2) * 1e6, 2.0, 0.05);
-  // Another source for the vapour: Magnus (WMO), 6.112 exp(17.62 t/(243.12 + t)) hPa.
+  // Another source for the water vapour: Magnus (WMO), 6.112 exp(17.62 t/(243.12 + t)) hPa.
   for (const double t : {0.0, 10.0, 25.0, 40.0}) {
     const double e_hPa = 6.112 * std::exp(17.62 * t / (243.12 + t)), T_K = t + 273.15;
     const double damp = air_permittivity({t, 100, 100}) - air_permittivity({t, 100, 0});
@@ -89,7 +90,7 @@ TEST(ProbeAir, IsAsPublished) {
   }
 }
 
-TEST(ProbeAir, TwentyPercentOfHumidityAreTenNanometresNearer) {
+TEST(ProbeAir, HumidityOf20PercentChangesTheGapBy10nm) {
   const double ratio = air_permittivity({20, 101.325, 60}) / air_permittivity({20, 101.325, 40});
   const double gap_m = 250e-6, shown_m = gap_m / ratio;
   EXPECT_NEAR((gap_m - shown_m) * 1e9, 10, 0.3);

@@ -1,5 +1,5 @@
-// Readings of probes that tilt and air deceive, by the formulas of metrology written out here, and
-// what is left of it in the errors; whether the stated uncertainty holds what is not known.
+// Readings with errors by tilt and permittivity of air, from published formulas: the remaining
+// errors after the correction, and whether the stated uncertainty covers the unknown parameters.
 #include "algo/probe_physics/reading_correction.h"
 
 #include <gtest/gtest.h>
@@ -47,14 +47,14 @@ Errors5 tilting(double d) {
           0.8e-3 * d / 0.04};
 }
 
-// ε - 1 by the coefficients at 20 °C alone: 537 ppm, -1.83 ppm/K, 5.3 ppm/kPa, 2.03 ppm/%.
+// ε - 1 from the coefficients; at 20 °C they give 537 ppm, -1.83 ppm/K, 5.3 ppm/kPa, 2.03 ppm/%.
 double permittivity_by_hand(double t_C, double p_kPa, double rh) {
   const double T = t_C + 273.15,
                e_kPa = rh / 100 * 0.61094 * std::exp(17.625 * t_C / (t_C + 243.04));
   return 1 + 2e-6 * (776 * p_kPa / T + 3.73e6 * e_kPa / (T * T));
 }
 
-// What a probe shows whose target stands so: which angles tilt it is written out by hand.
+// Reading of probe k for the errors `e`, calculated by hand with the angles that tilt its target.
 double shown_m(std::size_t k, const Errors5& e, double s_m, double factor, double ratio) {
   const double along = e[kEx], across = k < 3 ? e[kEy] : e[kEz];
   const double gap_m = kStandoff_m - s_m;
@@ -77,7 +77,7 @@ SyntheticRun deceived(const Rig& rig, const Nature& nature) {
   return run;
 }
 
-// The run as the pipeline makes it.
+// The run, corrected and solved as in the pipeline.
 Run corrected(const Rig& rig, Run run) {
   const Solver solver = Solver::create(rig, Model::rigid).value();
   const ReadingCorrection correction(rig, solver, {rig.physics->tilt, rig.physics->dielectric});
@@ -93,7 +93,7 @@ Run corrected(const Rig& rig, Run run) {
   return run;
 }
 
-// Against the first point: what is common to all points is the zero's.
+// The difference to the first point; errors common to all points belong to the zero.
 Errors5 off(const Run& run, const Run& truth, std::size_t j) {
   Errors5 e{};
   for (std::size_t k = 0; k < 5; ++k)
@@ -116,7 +116,7 @@ Run true_run(const Rig& rig) {
   return run.measure();
 }
 
-TEST(ReadingCorrection, WhatIsKnownIsTakenOut) {
+TEST(ReadingCorrection, CorrectsKnownEffects) {
   const Rig rig = physics_rig(kBoth);
   const auto truth = true_run(rig), raw = deceived(rig, Nature()).measure();
   const Errors5 before = worst(raw, truth), after = worst(corrected(rig, raw), truth);
@@ -128,7 +128,7 @@ TEST(ReadingCorrection, WhatIsKnownIsTakenOut) {
   RecordProperty("after_nm", std::to_string(after[kDy] * 1e9));
 }
 
-TEST(ReadingCorrection, EachHasItsSwitch) {
+TEST(ReadingCorrection, EachCorrectionHasItsSwitch) {
   const Rig tilt = physics_rig("[corrections]\ntilt = true\n");
   Nature same_air;
   same_air.ratio = 1;
@@ -139,13 +139,14 @@ TEST(ReadingCorrection, EachHasItsSwitch) {
   square.factor.assign(5, 0.0);
   const auto in_air = deceived(air, square).measure();
   const auto fine = corrected(air, in_air);
-  // The air's part is not that of the change alone: its zero is that of the calibration.
+  // The correction for air refers to the conditions of the calibration, so the first point changes
+  // too.
   for (std::size_t j = 0; j < truth.points.size(); ++j)
     EXPECT_NEAR(fine.points[j].errors.local[kDz], truth.points[j].errors.local[kDz], 1e-10);
   EXPECT_GT(std::abs(in_air.points[0].errors.local[kDz] - truth.points[0].errors.local[kDz]), 3e-9);
 }
 
-TEST(ReadingCorrection, ClosedGapsAndTouchingElectrodesAreNamed) {
+TEST(ReadingCorrection, ReportsClosedGapsAndTouchingElectrodes) {
   const Rig rig = physics_rig(kBoth);
   const Solver solver = Solver::create(rig, Model::rigid).value();
   const ReadingCorrection correction(rig, solver, {true, true});
@@ -154,12 +155,12 @@ TEST(ReadingCorrection, ClosedGapsAndTouchingElectrodesAreNamed) {
   EXPECT_NE(out.why_not.find("standoff_um"), std::string::npos);
   EXPECT_EQ(out.closed, 4U);
   EXPECT_TRUE(std::isnan(out.readings_m[4]));
-  // 21.5 mrad bring the edge of 2 mm nearer by 43 µm, and 35 µm are left.
+  // 21.5 mrad bring the edge of the electrode, at 2 mm, nearer by 43 µm; 35 µm are left.
   out = correction.correct(0, {215e-6, 0, 0, 0, 0}, {}, {20, 100, 50});
   EXPECT_NE(out.why_not.find("touch"), std::string::npos) << out.why_not;
 }
 
-TEST(ReadingCorrection, ALostProbeHasNoTilt) {
+TEST(ReadingCorrection, LostProbeGivesNoTilt) {
   const Rig rig = physics_rig(kBoth);
   const Solver solver = Solver::create(rig, Model::rigid).value();
   const ReadingCorrection correction(rig, solver, {true, true});
@@ -175,8 +176,9 @@ struct Inside {
   double percent() const { return 100.0 * count / of; }
 };
 
-// Drawn factors, temperature, pressure and humidity; the errors at the last target.
-TEST(ReadingCorrection, TheStatedUncertaintyHoldsWhatIsNotKnown) {
+// Tilt factors, temperature, pressure and humidity are random; the errors at the last target are
+// compared.
+TEST(ReadingCorrection, StatedUncertaintyCoversUnknownParameters) {
   std::string toml = physics_toml(kBoth);
   for (std::size_t at = 0; (at = toml.find("u_linearity_um = 0.002", at)) != std::string::npos;)
     toml.erase(at, 22);
@@ -208,7 +210,7 @@ TEST(ReadingCorrection, TheStatedUncertaintyHoldsWhatIsNotKnown) {
   }
 }
 
-TEST(ReadingCorrection, WhatIsNotCorrectedIsInTheBudgetWhole) {
+TEST(ReadingCorrection, BudgetContainsUncorrectedEffects) {
   const Rig rig = physics_rig(kNone);
   const auto truth = true_run(rig), raw = deceived(rig, Nature()).measure();
   const auto stated = run_uncertainty(rig, raw);

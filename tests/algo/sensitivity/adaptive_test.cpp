@@ -13,7 +13,8 @@
 namespace mdof::algo {
 namespace {
 
-// JCGM 101 §9.2.3: the sum of four rectangular quantities ±√3: u = 2.0, 95 % ±3.88.
+// JCGM 101 §9.2.3: the sum of four rectangular quantities ±√3 has u = 2.0 and the 95 % interval
+// ±3.88.
 class FourRectangular : public Experiment {
  public:
   const std::vector<std::string>& outputs() const override { return outputs_; }
@@ -45,12 +46,12 @@ std::uint64_t run_until_settled(const Experiment& e, AdaptiveRule& rule, StudySt
   return at;
 }
 
-TEST(AdaptiveRule, SettlesAtTheStandardsOwnExample) {
+TEST(AdaptiveRule, SettlesForTheExampleOfTheStandard) {
   const FourRectangular e;
   AdaptiveRule rule = rule_of({2, {}});
   StudyStatistics all(e, pilot_scale(e));
   const std::uint64_t trials = run_until_settled(e, rule, all);
-  // δ = 0.05 for u = 2.0 with two digits. The standard reports some 10^5 trials for it.
+  // δ = 0.05 for u = 2.0 with two digits. The standard reports about 10^5 trials.
   EXPECT_DOUBLE_EQ(rule.progress().at(0).tolerance, 0.05);
   EXPECT_TRUE(rule.settled());
   EXPECT_LT(trials, 2'000'000u);
@@ -61,7 +62,7 @@ TEST(AdaptiveRule, SettlesAtTheStandardsOwnExample) {
   EXPECT_NEAR(s.symmetric.high, 3.88, 0.05);
 }
 
-TEST(AdaptiveRule, ATighterToleranceTakesMoreTrials) {
+TEST(AdaptiveRule, TighterToleranceNeedsMoreTrials) {
   const FourRectangular e;
   std::uint64_t last = 0;
   for (const double tolerance_um : {0.1, 0.04, 0.02}) {
@@ -91,7 +92,7 @@ TEST(AdaptiveRule, ToleranceIsHalfAUnitOfTheLastDigit) {
   EXPECT_DOUBLE_EQ(tolerance(1.2e-9, 3), 0.5e-11);
 }
 
-// Two blocks by hand: means 1 and 3, so the average's standard deviation is 1.
+// Two blocks with the means 1 and 3: the standard deviation of the average is 1.
 TEST(AdaptiveRule, WorstIsTwiceTheStandardDeviationOfTheAverage) {
   AdaptiveRule rule = rule_of({2, {{"Y_um", 2.5}}});
   EXPECT_FALSE(rule.settled());
@@ -103,13 +104,13 @@ TEST(AdaptiveRule, WorstIsTwiceTheStandardDeviationOfTheAverage) {
   EXPECT_TRUE(rule.settled());
 }
 
-TEST(AdaptiveRule, ABlockWithoutSolutionsNeverSettles) {
+TEST(AdaptiveRule, BlockWithoutSolutionsNeverSettles) {
   AdaptiveRule rule = rule_of({2, {{"Y_um", 1}}});
   for (int i = 0; i < 5; ++i) rule.add({{}});
   EXPECT_FALSE(rule.settled());
 }
 
-TEST(AdaptiveRule, AConstantOutputIsSettledAfterTwoBlocks) {
+TEST(AdaptiveRule, ConstantOutputSettlesAfterTwoBlocks) {
   AdaptiveRule rule = rule_of({2, {}});
   rule.add({{10'000, 4, 0, 4, 4}});
   EXPECT_FALSE(rule.settled());
@@ -117,8 +118,8 @@ TEST(AdaptiveRule, AConstantOutputIsSettledAfterTwoBlocks) {
   EXPECT_TRUE(rule.settled());
 }
 
-// Constant in each block, and another constant in the next.
-TEST(AdaptiveRule, AnOutputThatJumpsFromBlockToBlockIsNotConstant) {
+// The output is constant in each block, but differs between the blocks.
+TEST(AdaptiveRule, OutputThatChangesBetweenBlocksIsNotConstant) {
   AdaptiveRule rule = rule_of({2, {}});
   rule.add({{10'000, 4, 0, 4, 4}});
   rule.add({{10'000, 6, 0, 6, 6}});
@@ -126,7 +127,7 @@ TEST(AdaptiveRule, AnOutputThatJumpsFromBlockToBlockIsNotConstant) {
   EXPECT_FALSE(rule.settled());
 }
 
-TEST(AdaptiveRule, RefusesWhatItCannotDo) {
+TEST(AdaptiveRule, RejectsImpossibleTolerances) {
   const auto message = [](const AdaptiveTolerance& tolerance) {
     const auto rule = AdaptiveRule::create({"EAX_urad", "EBX_urad"}, tolerance);
     return rule ? std::string() : rule.error().message;
@@ -137,7 +138,7 @@ TEST(AdaptiveRule, RefusesWhatItCannotDo) {
   EXPECT_NE(message({2, {{"EAX_urad", 0}}}).find("above zero"), std::string::npos);
 }
 
-TEST(BlockFigures, AreThoseOfTheSortedTrials) {
+TEST(BlockFigures, MatchTheSortedTrials) {
   const FourRectangular e;
   const std::uint64_t block = block_trials(e);
   const BlockFigures f = block_figures(e, block, block, 0.9).at(0);
@@ -152,7 +153,7 @@ TEST(BlockFigures, AreThoseOfTheSortedTrials) {
   EXPECT_NEAR(f.u, 2, 0.1);
 }
 
-TEST(BlockFigures, AreTheSameWhileStatisticsAreKept) {
+TEST(BlockFigures, AreEqualWithAndWithoutStatistics) {
   const auto e = make_simulation(simulation_2_defaults()).value();
   const std::uint64_t block = block_trials(*e);
   StudyStatistics all(*e, pilot_scale(*e));
@@ -169,15 +170,15 @@ TEST(BlockFigures, AreTheSameWhileStatisticsAreKept) {
   }
 }
 
-TEST(AdaptiveBlocks, AreAtLeastAHundredTimesTheReciprocalOfWhatIsLeftOut) {
+TEST(AdaptiveBlocks, HaveAtLeast100TrialsOutside) {
   const FourRectangular e;
   EXPECT_EQ(adaptive_block_trials(e, 0.95).value(), block_trials(e));
   EXPECT_GE(adaptive_block_trials(e, 0.9999).value(), 1'000'000u);
   EXPECT_EQ(adaptive_block_trials(e, 0.9999).value() % block_trials(e), 0u);
 }
 
-// The values of a block are kept: 10^12 of them would end the program.
-TEST(AdaptiveBlocks, ACoverageThatNeedsTooLongABlockIsRefused) {
+// The values of a block are kept in memory, so 10^12 values are rejected.
+TEST(AdaptiveBlocks, RejectsACoverageWithTooLongBlocks) {
   const FourRectangular e;
   EXPECT_GE(adaptive_block_trials(e, 0.99999).value(), 10'000'000u);
   for (const double coverage : {0.999999, 0.9999999999, std::nextafter(1.0, 0.0)}) {

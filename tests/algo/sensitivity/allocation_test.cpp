@@ -1,4 +1,4 @@
-// Tolerances and comparisons where the answer is known: linear outputs of normal quantities.
+// Tolerances and comparisons with known results: linear outputs of normal quantities.
 #include "algo/sensitivity/allocation.h"
 
 #include <gtest/gtest.h>
@@ -40,8 +40,8 @@ Allocation allocate_first(const StudyPlan& plan) {
   return allocate(*e, plan.allocations.at(0)).value();
 }
 
-// εy = ((B + C)/2 - A)/l, l = 10 mm: sd = √(a² + (b² + c²)/4)/10 µrad with sd in nm. Sampling: the
-// 95 % quantile of 10000 trials is known to about 1.1 %.
+// εy = ((B + C)/2 - A)/l, l = 10 mm: sd = √(a² + (b² + c²)/4)/10 µrad with sd in nm. The sampling
+// uncertainty of the 95 % quantile of 10000 trials is about 1.1 %.
 TEST(Allocation, FindsTheTolerancesOfALinearOutput) {
   const double limit = 2;
   const Allocation found =
@@ -70,7 +70,7 @@ TEST(Allocation, FindsTheTolerancesOfALinearOutput) {
   EXPECT_NEAR(found.frontier[7][0].value / allowed, 1, 0.03);
 }
 
-// Over 20 seeds the interval holds the true tolerance about 19 times.
+// The interval of about 19 of 20 seeds contains the true tolerance.
 TEST(Allocation, SamplingBoundsHoldTheTruth) {
   int held = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -92,7 +92,7 @@ TEST(Allocation, ALimitThatOthersBreakAllowsNothing) {
   EXPECT_LT(found.alone[1].value, 60);
 }
 
-TEST(Allocation, AToleranceThatDoesNotMatterIsUnlimited) {
+TEST(Allocation, ToleranceWithoutEffectIsUnlimited) {
   const Allocation found = allocate_first(
       plan_of(drift("A", 1) + drift("D", 1) + allocation("\"probe.D.drift_nm\"", 2)));
   EXPECT_EQ(found.alone[0].value, std::numeric_limits<double>::infinity());
@@ -110,8 +110,8 @@ TEST(Allocation, IsTheSameHoweverItsTasksAreRun) {
   EXPECT_EQ(forward.reached, backward.reached);
 }
 
-// Every trial gives `scale` times its quantity, which is 1: within a limit up to just that factor.
-// Trial j of n gives (1 + spread j/n) times that.
+// Each trial gives `scale` times its quantity, which is 1, so it is within a limit up to exactly
+// that factor. Trial j of n gives (1 + spread j/n) times that value.
 class Proportional : public ScalableExperiment {
  public:
   explicit Proportional(double spread = 0) : spread_(spread) {}
@@ -160,9 +160,9 @@ double largest_factor(double limit) {
   return found.common_factor;
 }
 
-// Powers of two are tried themselves, between them by halves to 5e-4; from 2^20 on all is allowed,
-// below 2^-20 nothing.
-TEST(Allocation, OfAProportionalOutputIsItsLimit) {
+// Powers of two are found exactly, other factors by bisection to 5e-4. From 2^20 on everything is
+// allowed, below 2^-20 nothing.
+TEST(Allocation, EqualsTheLimitOfAProportionalOutput) {
   for (const double limit : {1.0, 8.0, 0x1p19, 0.25, 0x1p-19})
     EXPECT_EQ(largest_factor(limit), limit);
   for (const double limit : {1.3, 7.9, 1000.1, 0.9, 0.013, 0x1.8p19, 0x1.8p-20}) {
@@ -174,9 +174,9 @@ TEST(Allocation, OfAProportionalOutputIsItsLimit) {
   EXPECT_EQ(largest_factor(0x1.8p-21), 0);
 }
 
-// 300 trials from 1 to 2, of which 285 are to be within 10: the 285th in order is 1 + 284/300. The
-// bounds are of 293 and 277 trials: 285 ± 1.96 √(300 · 0.95 · 0.05) = 292.4 and 277.6.
-TEST(Allocation, IsThatOfTheOrderStatistic) {
+// 300 trials from 1 to 2, of which 285 must be within 10: the 285th in order is 1 + 284/300. The
+// bounds are those of 293 and 277 trials: 285 ± 1.96 √(300 · 0.95 · 0.05) = 292.4 and 277.6.
+TEST(Allocation, MatchesTheOrderStatistic) {
   const Proportional e(1);
   const PlannedAllocation planned{"EBX_urad", 10, 0.95, {"probe.A.drift_nm"}, 300, "plan.toml:9"};
   const Allocation found = allocate(e, planned).value();
@@ -192,7 +192,7 @@ TEST(Allocation, IsThatOfTheOrderStatistic) {
   EXPECT_EQ(allocate(e, tight)->reached, 151 / 300.0);
 }
 
-TEST(Allocation, RefusesWhatIsNotThere) {
+TEST(Allocation, RejectsAnUnknownOutput) {
   const StudyPlan plan = plan_of(drift("A", 6));
   const auto e = make_plan_experiment(plan).value();
   PlannedAllocation planned{"EZX_um", 1, 0.95, {"probe.A.drift_nm"}, 1000, "plan.toml:9"};
@@ -201,8 +201,8 @@ TEST(Allocation, RefusesWhatIsNotThere) {
   EXPECT_EQ(found.error().message, "plan.toml:9: this study has no output \"EZX_um\"");
 }
 
-// Twice the distance: half the angle, for the same reading errors, trial by trial.
-TEST(Comparison, AFixtureTwiceAsWideHalvesTheAngles) {
+// At twice the distance the angle is half as large for the same reading errors, in each trial.
+TEST(Comparison, TwiceTheWidthHalvesTheAngles) {
   const StudyPlan plan = plan_of(drift("*", 6) + "[compare]\nrig = \"rig_wide.toml\"\n");
   const auto ours = make_plan_experiment(plan).value();
   const auto other = make_compared_experiment(plan).value();
@@ -218,9 +218,9 @@ TEST(Comparison, AFixtureTwiceAsWideHalvesTheAngles) {
   EXPECT_EQ(reversed.result()[0].ratio, result[0].ratio);
 }
 
-TEST(Comparison, TheStandardErrorIsThatOfPairs) {
-  // The other fixture has an error more that the first has not: A's position does not matter here,
-  // but its drift is twice as large in the second plan. Independent parts: b alike, a as 1 : 2.
+TEST(Comparison, StandardErrorIsThatOfPairedTrials) {
+  // The drift of A is twice as large in the second plan, and the drift of B is equal. A and B are
+  // independent.
   double squares = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     StudyPlan small = plan_of(drift("A", 3) + drift("B", 8));

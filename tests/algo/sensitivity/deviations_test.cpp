@@ -1,5 +1,5 @@
-// What each name of a plan does to the mounting of a trial: that, by its unit, and nothing else
-// (PLAN.md).
+// The effect of each name of a plan on the mounting of a trial: one deviation in its unit, and
+// nothing else (PLAN.md).
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,7 @@ Deviations deviations_of(const Mounting& m, const PlanAxis::TrueErrors& truth) {
   return all;
 }
 
-// Of a quantity of the size 3.
+// Deviations by the quantity `name` with the constant value 3.
 Deviations deviations_by(const std::string& name) {
   const auto plan = parse_study_plan(
       "name = \"t\"\nmodel = \"rigid\"\nrig = "
@@ -113,7 +113,7 @@ TEST(PlanDeviations, EachNameChangesOneThing) {
     EXPECT_TRUE(value == 0 || what.starts_with("truth")) << what;
 }
 
-TEST(PlanDeviations, TrueErrorsAreThoseOfTheAxis) {
+TEST(PlanDeviations, TruthNamesSetTheErrorsOfTheAxis) {
   const char* const names[] = {"EYX_um", "EZX_um", "EAX_urad", "EBX_urad", "ECX_urad"};
   for (std::size_t k = 0; k < 5; ++k)
     EXPECT_NEAR(deviations_by("truth." + std::string(names[k])).at("truth " + std::to_string(k)),

@@ -1,4 +1,5 @@
-// Quantiles and special functions against values of 30-digit arithmetic, moments against JCGM 101.
+// Quantiles and special functions against values from 30-digit arithmetic, moments against JCGM
+// 101.
 #include "algo/sensitivity/distribution.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ struct Moments {
   double mean, sd;
 };
 
-// By the midpoints of n equal shares of probability.
+// Moments from the midpoints of n equal shares of probability.
 Moments moments_of(const Distribution& d, int n = 1'000'000) {
   const QuantileFunction q(d);
   double sum = 0, squares = 0;
@@ -48,7 +49,7 @@ Moments moments_of(const Distribution& d, int n = 1'000'000) {
   return {mean, std::sqrt(squares / n - mean * mean)};
 }
 
-TEST(PlanFunctions, AreThoseOfTheTables) {
+TEST(PlanFunctions, MatchTheTables) {
   const double cdf[][2] = {{0, 0.5},
                            {-8, 6.2209605742717841e-16},
                            {-5, 2.8665157187919391e-7},
@@ -65,7 +66,7 @@ TEST(PlanFunctions, AreThoseOfTheTables) {
                              {5000, 37582.62631568535}};
   for (const auto& [x, value] : gamma)
     EXPECT_NEAR(log_gamma(x), value, 1e-14 * (1 + std::abs(value))) << x;
-  // ln 14! and ln 15!: where the series is shortest, to the last digits of a double.
+  // ln 14! and ln 15!, where the series is shortest, to the last digits of a double.
   EXPECT_NEAR(log_gamma(15), 25.191221182738681500, 1.5e-14);
   EXPECT_NEAR(log_gamma(16), 27.899271383840891566, 1.5e-14);
   for (const double x : {1e-300, 1e-5, 0.7, 0.999999, 1.0, 1.5, 3.0, 1e10, 1e300})
@@ -75,7 +76,7 @@ TEST(PlanFunctions, AreThoseOfTheTables) {
   EXPECT_EQ(exponential(-1000), 0);
 }
 
-TEST(StudentT, QuantilesAreThoseOfTheTables) {
+TEST(StudentT, QuantilesMatchTheTables) {
   const double rows[][3] = {
       {1, 0.6, 0.32491969623290633},       {1, 0.975, 12.706204736174705},
       {1, 0.999999, 318309.88618274347},   {1, 0.999999999, 318309886.18379067},
@@ -91,7 +92,8 @@ TEST(StudentT, QuantilesAreThoseOfTheTables) {
       {10000, 0.975, 1.9602012398906263},  {10000, 0.999999999, 6.0033554479471416},
   };
   for (const auto& [dof, p, x] : rows) {
-    // Of p = 1 - q near 1 a double keeps q to 1e-16/q only, and x follows by its slope.
+    // For p = 1 - q near 1, a double stores q with an error of 1e-16 only, and x follows by its
+    // slope.
     const double by_p = 1e-16 / (1 - p);
     const QuantileFunction q(student(dof, 5, 2));
     EXPECT_NEAR((q.at(p) - 5) / 2 / x, 1, 1e-8 + by_p) << dof << " " << p;
@@ -100,7 +102,7 @@ TEST(StudentT, QuantilesAreThoseOfTheTables) {
   }
 }
 
-TEST(StudentT, IsAlwaysNearEnoughBetweenItsNodes) {
+TEST(StudentT, IsAccurateBetweenItsNodes) {
   for (const double dof : {1.0, 2.0, 4.0, 50.0}) {
     const QuantileFunction q(student(dof));
     for (double z = 0.001; z < 8; z += 0.0137) {
@@ -116,7 +118,7 @@ TEST(StudentT, HasTheStandardDeviationOfJcgm101) {
   EXPECT_NEAR(m.sd, 3 * std::sqrt(9.0 / 7), 1e-3);
 }
 
-TEST(Distribution, LimitedOnesHaveTheirMomentsAndEnds) {
+TEST(Distribution, LimitedDistributionsHaveTheirMomentsAndEnds) {
   const double a = 2, b = 8, half = 3, mean = 5;
   Distribution trapezoid = limited(Kind::trapezoidal, a, b);
   trapezoid.beta = 0.4;
@@ -138,7 +140,7 @@ TEST(Distribution, LimitedOnesHaveTheirMomentsAndEnds) {
   }
 }
 
-TEST(Distribution, ATriangleMayLean) {
+TEST(Distribution, TriangleMayBeAsymmetric) {
   Distribution d = limited(Kind::triangular, 0, 4);
   d.mode = 0;
   const QuantileFunction q(d);
@@ -146,7 +148,7 @@ TEST(Distribution, ATriangleMayLean) {
   EXPECT_NEAR(moments_of(d).mean, 4.0 / 3, 1e-6);
 }
 
-TEST(Distribution, NormalIsTheSameByProbabilityAndByScore) {
+TEST(Distribution, NormalIsEqualByProbabilityAndScore) {
   Distribution d;
   d.kind = Kind::normal;
   d.centre = 1;
@@ -173,7 +175,7 @@ TEST(Distribution, EmpiricalInterpolatesBetweenItsValues) {
   EXPECT_EQ(q.size(), 10);
 }
 
-TEST(Correlation, TheFactorGivesTheMatrixBack) {
+TEST(Correlation, FactorReproducesTheMatrix) {
   const PlannedCorrelation group{{"a", "b", "c"}, {1, 0.5, -0.2, 0.5, 1, 0.3, -0.2, 0.3, 1}, ""};
   const auto L = cholesky_factor(group).value();
   for (std::size_t i = 0; i < 3; ++i) {
@@ -185,8 +187,9 @@ TEST(Correlation, TheFactorGivesTheMatrixBack) {
   }
 }
 
-TEST(Correlation, AMatrixThatIsNoneIsRefusedWithItsEigenvalue) {
-  // Eigenvalues 1.9, 1.9 and -0.8: three quantities cannot each be against the other two.
+TEST(Correlation, RejectsAnIndefiniteMatrixWithItsEigenvalue) {
+  // The eigenvalues are 1.9, 1.9 and -0.8: three quantities cannot all be negatively correlated
+  // with the other two by 0.9.
   const PlannedCorrelation group{{"a", "b", "c"},
                                  {1, -0.9, -0.9, -0.9, 1, -0.9, -0.9, -0.9, 1},
                                  "plan.toml:7: correlation[1].quantities"};

@@ -1,4 +1,4 @@
-// Sobol indices against functions whose indices are known in closed form.
+// Sobol indices of functions whose indices have a closed form.
 #include "algo/sensitivity/indices.h"
 
 #include <gtest/gtest.h>
@@ -114,7 +114,7 @@ void expect_known(const FunctionExperiment& e, const std::vector<Known>& known) 
   }
 }
 
-TEST(Sobol, IshigamiHasItsAnalyticIndices) {
+TEST(Sobol, IshigamiFunctionHasItsAnalyticIndices) {
   expect_known(FunctionExperiment(3, 1, ishigami), ishigami_known());
 }
 
@@ -122,9 +122,9 @@ TEST(Sobol, GFunctionHasItsAnalyticIndices) {
   expect_known(FunctionExperiment(8, 2, g_function), g_known());
 }
 
-// Over 30 seeds the deviations in units of their standard error have a variance of one: a standard
-// error that is too small or too large is not honest.
-TEST(Sobol, StandardErrorsAreHonest) {
+// The deviations of 30 seeds, in units of their standard error, have a mean square of one if the
+// standard errors are correct.
+TEST(Sobol, StandardErrorsAreCorrect) {
   const auto known = ishigami_known();
   double first = 0, total = 0, worst = 0;
   int n = 0;
@@ -149,7 +149,7 @@ TEST(Sobol, StandardErrorsAreHonest) {
   EXPECT_LT(worst, 5);
 }
 
-TEST(SumBlocks, AreEnoughForAStandardErrorFromAFewTrialsOn) {
+TEST(SumBlocks, SufficeForAStandardErrorOfFewTrials) {
   for (const std::uint64_t trials : {30u, 63u, 64u, 127u, 1000u, 10'000u, 65'536u, 1u << 18}) {
     const std::uint64_t each = sum_block_trials(trials);
     EXPECT_GE(trials / each, kFewSumBlocks) << trials;
@@ -157,8 +157,8 @@ TEST(SumBlocks, AreEnoughForAStandardErrorFromAFewTrialsOn) {
   }
 }
 
-// As StandardErrorsAreHonest, in the shortest blocks there are.
-TEST(Sobol, StandardErrorsAreHonestInBlocksOfOneTrial) {
+// Like StandardErrorsAreCorrect, in the shortest possible blocks.
+TEST(Sobol, StandardErrorsAreCorrectInBlocksOfOneTrial) {
   const auto known = ishigami_known();
   double total = 0;
   for (std::uint64_t seed = 200; seed < 400; ++seed) {
@@ -171,8 +171,8 @@ TEST(Sobol, StandardErrorsAreHonestInBlocksOfOneTrial) {
   EXPECT_NEAR(total / 200, 1, 0.35);
 }
 
-// The same in pairs, one with twice the x1: 200 seeds of 100 trials.
-TEST(Comparison, StandardErrorIsHonestInBlocksOfOneTrial) {
+// The same for pairs: the second experiment has twice the x1. 200 seeds of 100 trials.
+TEST(Comparison, StandardErrorIsCorrectInBlocksOfOneTrial) {
   double squares = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const FunctionExperiment ours(
@@ -187,7 +187,7 @@ TEST(Comparison, StandardErrorIsHonestInBlocksOfOneTrial) {
   EXPECT_NEAR(squares / 200, 1, 0.35);
 }
 
-TEST(Sobol, TheOrderOfBlocksAndThreadsDoesNotMatter) {
+TEST(Sobol, DoesNotDependOnTheOrderOfBlocks) {
   const FunctionExperiment e(3, 3, ishigami);
   const auto forward = sums_of(e, 6).result()[0];
   SobolSums one(e, kBlockTrials), two(e, kBlockTrials);
@@ -209,7 +209,7 @@ TEST(Sobol, LargestTotalComesFirst) {
   for (std::size_t i = 1; i < causes.size(); ++i) EXPECT_LE(causes[i].total, causes[i - 1].total);
 }
 
-TEST(Sobol, WhatDoesNotVaryHasNoIndices) {
+TEST(Sobol, ConstantOutputHasZeroIndices) {
   const FunctionExperiment e(2, 5, [](const std::vector<double>&) { return 3.0; });
   const OutputIndices result = sums_of(e, 3).result()[0];
   for (const auto& c : result.causes) {
@@ -218,7 +218,7 @@ TEST(Sobol, WhatDoesNotVaryHasNoIndices) {
   }
 }
 
-TEST(Sobol, TrialsWithoutSolutionAreLeftOut) {
+TEST(Sobol, LeavesOutUnsolvedTrials) {
   const FunctionExperiment e(
       2, 6, [](const std::vector<double>& u) { return u[0] < 0.1 ? std::nan("") : u[0] + u[1]; });
   const auto found = by_cause(sums_of(e, 16));
@@ -244,9 +244,9 @@ std::string drift(const std::string& probe, double sd) {
          ".drift_nm\"\ndistribution = \"normal\"\nsd = " + std::to_string(sd) + "\n";
 }
 
-// εy = ((B + C)/2 - A)/l is linear: indices are shares of variance, and a correlated group is one
-// cause with the variance of its combination.
-TEST(Sobol, ACorrelatedGroupHasTheVarianceOfItsCombination) {
+// εy = ((B + C)/2 - A)/l is linear, so the indices are shares of variance. A correlated group is
+// one cause with the variance of its combination.
+TEST(Sobol, CorrelatedGroupHasTheVarianceOfItsSum) {
   const auto e =
       experiment_of("[truth]\ntravel_mm = [30]\n" + drift("A", 3) + drift("B", 4) + drift("C", 5) +
                     "[[correlation]]\nquantities = [\"probe.B.drift_nm\", "
@@ -262,8 +262,9 @@ TEST(Sobol, ACorrelatedGroupHasTheVarianceOfItsCombination) {
   EXPECT_NEAR(two.total, group / (a + group), 5 * two.total_se);
 }
 
-// The travel is drawn in bins; its second stream must not stay in the bin of the first.
-TEST(Sobol, ABinnedCauseIsJudgedLikeAnyOther) {
+// The travel is drawn in bins; its second stream must be independent of the bin of the first
+// stream.
+TEST(Sobol, BinnedCauseHasCorrectIndices) {
   const std::string rest =
       "[truth]\ntravel_mm = [0, 60]\nEZX_um = [0]\n"
       "[[quantity]]\nname = \"target.top.pitch_mrad\"\ndistribution = \"constant\"\nvalue = 0.1\n" +

@@ -1,5 +1,5 @@
-// Ranks and intervals of JCGM 101 §7.7, worked by hand or looked for one by one. Found missing by
-// tests/mutate.
+// Ranks and intervals of JCGM 101 §7.7, calculated by hand or by exhaustive search. Mutation tests
+// (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ double edge_of(std::size_t bin) {
   return kIntervalScale.low + static_cast<double>(bin) * kIntervalScale.width;
 }
 
-// p M = 3.47 and 3.55; 950; 95.95: the integer part of p M + 1/2.
-TEST(IntervalRanks, AreThoseOfJcgm101) {
+// p M = 3.47, 3.55, 950 and 95.95; the rank is the integer part of p M + 1/2.
+TEST(IntervalRanks, MatchJcgm101) {
   EXPECT_EQ(quantile_rank(0.0347, 100), 3u);
   EXPECT_EQ(quantile_rank(0.0355, 100), 4u);
   EXPECT_EQ(quantile_rank(0, 100), 1u);
@@ -36,9 +36,9 @@ TEST(IntervalRanks, AreThoseOfJcgm101) {
   EXPECT_EQ(symmetric(0.96, 100), Ranks(2, 98));     // q = 96
 }
 
-// Of small lists, counts of a power of two a bin, so that every length is exact: the first of the
-// shortest over all ranks.
-TEST(IntervalRanks, TheShortestIsTheFirstOfTheLeastLength) {
+// Small lists with a power of two of trials per bin, so that each length is exact. The expected
+// interval is the first of the shortest intervals over all ranks.
+TEST(IntervalRanks, ShortestIsTheFirstOfTheSmallestLength) {
   std::uint32_t state = 12345;
   const auto next = [&](std::uint32_t below) {
     state = state * 1664525u + 1013904223u;
@@ -49,7 +49,8 @@ TEST(IntervalRanks, TheShortestIsTheFirstOfTheLeastLength) {
     std::size_t bin = 100, first = 0, last = 0;
     std::uint64_t n = 0;
     for (int k = 0; k < 5; ++k) {
-      const bool end = k == 0 || k == 4;  // of one trial: the least and the greatest are known
+      const bool end =
+          k == 0 || k == 4;  // one trial, so the smallest and the largest value are known
       const std::uint64_t count = std::uint64_t{1} << (end ? 0 : next(list % 2 == 0 ? 1 : 4));
       counts.add_core(bin, count);
       if (k == 0) first = bin;
@@ -72,10 +73,10 @@ TEST(IntervalRanks, TheShortestIsTheFirstOfTheLeastLength) {
   }
 }
 
-// 3200 trials: rank 3 (0.001 M = 3.2) alone in bin 1000 and rank 3197 (3196.8) alone in bin 2400,
-// each in the middle of its bin. A tenth of their distance is 140 bins: bins 860 to 2540 are drawn,
-// 1681 bins in bars of 15.
-TEST(HistogramForDrawing, IsOfTheCentralTrialsAndATenthMore) {
+// 3200 trials: rank 3 (0.001 M = 3.2) is alone in bin 1000 and rank 3197 (3196.8) is alone in bin
+// 2400, each in the middle of its bin. A tenth of their distance is 140 bins: bins 860 to 2540 are
+// drawn, 1681 bins in bars of 15.
+TEST(HistogramForDrawing, ShowsTheCentralTrialsAndATenthMore) {
   OutputHistogram counts;
   for (const auto& [bin, n] : {std::pair(50u, 2u), std::pair(1000u, 1u), std::pair(1500u, 1000u),
                                std::pair(1700u, 2193u), std::pair(2400u, 1u), std::pair(8000u, 3u)})
@@ -93,8 +94,9 @@ TEST(HistogramForDrawing, IsOfTheCentralTrialsAndATenthMore) {
   EXPECT_EQ(h.counts[102], 1u);    // (2400 - 860)/15
 }
 
-// From this bin to the last one of the core, beyond which a fifth of the trials lie: 1200 bins are
-// in bars of ten, 1201 of eleven. From below the core it begins with its first bin.
+// The histogram extends from bin `first` to the last bin of the core, because a fifth of the trials
+// is beyond the core: 1200 bins need bars of ten bins, 1201 bins bars of eleven. With trials below
+// the core, it begins with the first bin.
 TEST(HistogramForDrawing, EndsWithTheCore) {
   const auto drawn_from = [](std::size_t first, std::uint64_t below) {
     OutputHistogram counts;

@@ -1,4 +1,4 @@
-// What a plan draws, names and cannot solve. Found missing by tests/mutate.
+// Draws, names and unsolved trials of a plan. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ std::unique_ptr<ScalableExperiment> experiment_with(const std::string& text) {
   return std::move(*experiment);
 }
 
-// The first output of trials 0 ... n - 1.
+// First output of trials 0 ... n - 1.
 std::vector<double> first_output(const Experiment& e, std::size_t n) {
   std::vector<std::vector<double>> all(e.outputs().size(), std::vector<double>(n));
   std::vector<double*> place;
@@ -41,8 +41,8 @@ double drawn(const ScalableExperiment& e, const std::string& name) {
   return 0;
 }
 
-// 0.3 rad are beyond what the model holds for.
-TEST(PlanRules, AnglesBeyondTheModelAreNotSolved) {
+// The model is valid up to 0.25 rad.
+TEST(PlanRules, DoesNotSolveAnglesBeyondTheModel) {
   for (const char* const forward : {"small-angle", "rigid"}) {
     for (const char* const angle : {"EAX_urad", "EBX_urad", "ECX_urad"}) {
       for (const auto& [value, solved] : {std::pair("240000", true), std::pair("260000", false)}) {
@@ -55,8 +55,8 @@ TEST(PlanRules, AnglesBeyondTheModelAreNotSolved) {
   }
 }
 
-// Of constant size, but each in a direction that is drawn.
-TEST(PlanRules, ATiltAndACircleVaryByTheirDirection) {
+// The size is constant, but each direction is drawn.
+TEST(PlanRules, TiltAndCircleVaryByTheirDirection) {
   const auto e =
       experiment_with("[truth]\ntravel_mm = [30]\n" +
                       quantity("probe.A.tilt_mrad", "distribution = \"constant\"\nvalue = 1") +
@@ -68,8 +68,8 @@ TEST(PlanRules, ATiltAndACircleVaryByTheirDirection) {
   EXPECT_GT(drawn(*e, "probe.E.position_um direction/turns"), 0);
 }
 
-// What is drawn together keeps the directions that each has alone.
-TEST(PlanRules, ACorrelatedCircleHasItsOwnDirection) {
+// Correlated quantities keep the directions that they have without correlation.
+TEST(PlanRules, CorrelatedCirclesKeepTheirDirections) {
   const std::string circles =
       "[truth]\ntravel_mm = [30]\n" +
       quantity("probe.D.position_um", "distribution = \"normal\"\nsd = 10") +
@@ -87,9 +87,9 @@ TEST(PlanRules, ACorrelatedCircleHasItsOwnDirection) {
   EXPECT_NE(drawn(*together, "probe.E.position_um"), drawn(*apart, "probe.E.position_um"));
 }
 
-// At a pitch of 1 mrad an encoder that scatters by 1 mm gives heights that scatter by 1 um, anew at
-// each position: the straightness is wrong by parts of it.
-TEST(PlanRules, TheEncodersNoiseIsDrawnAnewAtEachPosition) {
+// At a pitch of 1 mrad, encoder noise of 1 mm changes the heights by 1 um. The noise is drawn anew
+// at each position, so it changes the straightness.
+TEST(PlanRules, EncoderNoiseIsDrawnAtEachPosition) {
   const std::string head =
       "outputs = [\"EZX_straightness_um\"]\n"
       "[truth]\ntravel_mm = [0, 60]\nEBX_urad = [1000]\n[series]\npositions = 25\n";
@@ -105,8 +105,8 @@ TEST(PlanRules, TheEncodersNoiseIsDrawnAnewAtEachPosition) {
   EXPECT_LT(mean(first_output(*quiet, 200)), 1e-3);
 }
 
-// Mountings and planes beyond 0.25 rad, too.
-TEST(PlanRules, MountingsBeyondTheModelAreNotSolved) {
+// Mountings and planes are limited to 0.25 rad, too.
+TEST(PlanRules, DoesNotSolveMountingsBeyondTheModel) {
   for (const char* const name :
        {"installation.top.yaw_mrad", "installation.side.yaw_mrad", "target.top.pitch_mrad",
         "target.side.yaw_mrad", "probe.A.tilt_mrad"})
@@ -118,9 +118,9 @@ TEST(PlanRules, MountingsBeyondTheModelAreNotSolved) {
     }
 }
 
-// A normal travel is looked at over two standard deviations to each side: a series over it is that
-// of the range of as much.
-TEST(PlanRules, ASeriesOverANormalTravelGoesTwoStandardDeviationsEachWay) {
+// A normal travel is evaluated over two standard deviations to each side: a series over it equals a
+// series over that range.
+TEST(PlanRules, NormalTravelCoversTwoStandardDeviations) {
   const auto series = [](const std::string& travel, const std::string& quantities) {
     return experiment_with(
         "outputs = [\"EYX_straightness_um\"]\n[truth]\n" + travel +
@@ -137,7 +137,7 @@ TEST(PlanRules, ASeriesOverANormalTravelGoesTwoStandardDeviationsEachWay) {
   }
 }
 
-// Noise of A and B at each reading: each has its own scale, at a point and in a series alike.
+// Noise of A and B at each reading: each has its own scale factor, at a point and in a series.
 TEST(PlanRules, EachNoiseHasItsOwnScale) {
   const auto noise = [](const char* probe) {
     return quantity(std::string("probe.") + probe + ".noise_nm",
@@ -169,8 +169,9 @@ TEST(PlanRules, EachNoiseHasItsOwnScale) {
   }
 }
 
-// The target of two of these rigs moves against the encoder: their travel is the plan's negated.
-TEST(PlanRules, ARigThatMovesOtherwiseIsToldHowToBeReplaced) {
+// The target of two of these rigs moves against the encoder, so their travel has the opposite sign
+// of the travel in the plan.
+TEST(PlanRules, ErrorStatesHowToReplaceAMovingFixture) {
   const std::string folder = ::testing::TempDir() + "mdof_plan_rules_test";
   std::filesystem::create_directories(folder);
   const auto says = [&](const std::string& keys) {

@@ -1,4 +1,4 @@
-// Plans as experiments: theory, what each quantity does, and how random numbers are addressed.
+// Plans as experiments: theory, the effect of each quantity, and the addresses of random numbers.
 #include "algo/sensitivity/plan/experiment.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ void expect_sd(const std::vector<double>& x, double sd, const std::string& what)
   EXPECT_NEAR(f.sd, sd, 5 * f.sd_se + 1e-12) << what;
 }
 
-// Rig and truth of most tests: the default fixture, d = 30 mm, no errors of motion.
+// Rig and true errors of most tests: the default fixture, d = 30 mm, no error motion.
 std::string still(const std::string& rest, const std::string& head = "") {
   return "name = \"test\"\nrig = \"../five-probe/rig_X.toml\"\n" + head +
          "\n[truth]\ntravel_mm = [30]\n" + rest;
@@ -108,7 +108,7 @@ TEST(PlanExperiment, SimulationIAgreesWithTheory) {
   EXPECT_NEAR(figures_of(x[kEAX]).worst, 1.0, 0.02);
 }
 
-TEST(PlanExperiment, TheForwardModelIsTheOneOfTheSmallAngleOutputs) {
+TEST(PlanExperiment, ForwardModelEqualsTheSmallAngleOutputs) {
   const auto rig = load_rig(MDOF_TEST_DATA "/five-probe/rig_X.toml").value();
   const Fixture fixture = make_fixture(rig).value();
   const auto small = make_small_angle_fixture(fixture).value();
@@ -123,7 +123,7 @@ TEST(PlanExperiment, TheForwardModelIsTheOneOfTheSmallAngleOutputs) {
   for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(got[small.probe[k]], expected[k], 1e-17);
 }
 
-TEST(PlanExperiment, NothingThatVariesIsNoError) {
+TEST(PlanExperiment, HasNoErrorWithoutQuantities) {
   for (const char* model : {"exact", "rigid"}) {
     const bool rigid = std::string(model) == "rigid";
     const auto e = experiment_of("name = \"t\"\nrig = \"../five-probe/rig_X.toml\"\nmodel = \"" +
@@ -133,9 +133,9 @@ TEST(PlanExperiment, NothingThatVariesIsNoError) {
   }
 }
 
-// What the rig knows of itself is in the readings and in the solution: it must cancel, not act
-// twice.
-TEST(PlanExperiment, AHeightMapAndAPlanesOffsetAreNoError) {
+// The rig's own height map and plane offset are in the readings and in the solution, so they must
+// cancel.
+TEST(PlanExperiment, HeightMapAndPlaneOffsetCancel) {
   for (const char* const head :
        {"model = \"rigid\"\n", "model = \"rigid\"\nzero_at_start = false\n"}) {
     StudyPlan plan = plan_of(still("", head));
@@ -152,7 +152,7 @@ TEST(PlanExperiment, AHeightMapAndAPlanesOffsetAreNoError) {
   }
 }
 
-TEST(PlanExperiment, NoiseZeroAndDriftGoThroughAsTheModelSays) {
+TEST(PlanExperiment, NoiseZeroAndDriftPropagateAsInTheModel) {
   // l = 10 mm, d = 30 mm, independent u: εx = (B - C)/2l; εy = ((B + C)/2 - A)/l; εz = (E - D)/l.
   const double u = 5;  // nm; µrad = nm/mm
   for (const char* kind : {"noise_nm", "zero_nm", "drift_nm"}) {
@@ -168,12 +168,12 @@ TEST(PlanExperiment, NoiseZeroAndDriftGoThroughAsTheModelSays) {
   }
 }
 
-TEST(PlanExperiment, ProbesThatDriftTogetherHideFromTheAngles) {
+TEST(PlanExperiment, CommonDriftHardlyChangesTheAngles) {
   const auto e = experiment_of(still(normal("probe.*.drift_nm", 5) +
                                      "[[correlation]]\nquantities = [\"probe.*.drift_nm\"]\n"
                                      "coefficient = 0.8\n"));
   const auto x = run(*e, 50'000);
-  // Differences keep 1 - 0.8 of the variance.
+  // The differences keep 1 - 0.8 of the variance.
   expect_sd(x[kEAX], 0.5 * std::sqrt(0.2 / 2), "EAX");
   expect_sd(x[kEBX], 0.5 * std::sqrt(0.2 * 1.5), "EBX");
   // δz = Σ w with Σ w = 1: variance u² (0.2 Σ w² + 0.8)
@@ -201,11 +201,11 @@ TEST(PlanExperiment, SensitivityScalesTheReading) {
   EXPECT_NEAR(run(*e, 1)[kEBX][0], -2.0, 1e-3);
 }
 
-TEST(PlanExperiment, PositionsMatterByTheAngles) {
+TEST(PlanExperiment, PositionErrorsActWithTheAngles) {
   // εz of 100 µrad: side probe E 10 µm further along x reads εz 10 µm more: 1 nm, 0.1 µrad.
   const auto shifted = experiment_of(still("ECX_urad = [100]\n" + constant("probe.E.x_um", 10)));
   EXPECT_NEAR(run(*shifted, 1)[kECX][0], 0.1, 1e-4);
-  // On a circle: the same amplitude times a cosine, sd 1/√2.
+  // On a circle: the same amplitude times a cosine, so the sd is 1/√2 of it.
   const auto circle =
       experiment_of(still("ECX_urad = [100]\n" + constant("probe.E.position_um", 10)));
   const auto x = run(*circle, 50'000);
@@ -213,22 +213,22 @@ TEST(PlanExperiment, PositionsMatterByTheAngles) {
   EXPECT_NEAR(figures_of(x[kECX]).worst, 0.1, 1e-4);
 }
 
-TEST(PlanExperiment, AYawedFixtureMixesPitchAndRoll) {
-  // Top probes turned by 2 mrad about z: of a pitch of 100 µrad, 0.2 µrad appear as roll. A probe
-  // at (x, y) sits at (x - θy, y + θx): Δz = q y - p x = ... - p(x - θy): q̂ = p θ.
+TEST(PlanExperiment, YawedFixtureMixesPitchAndRoll) {
+  // The top probes are turned by 2 mrad about z, so 0.2 µrad of a pitch of 100 µrad appear as roll.
+  // A probe at (x, y) moves to (x - θy, y + θx): Δz = q y - p x = ... - p(x - θy): q̂ = p θ.
   const auto e =
       experiment_of(still("EBX_urad = [100]\n" + constant("installation.top.yaw_mrad", 2)));
   EXPECT_NEAR(run(*e, 1)[kEAX][0], 0.2, 1e-3);
   EXPECT_NEAR(run(*e, 1)[kEBX][0], 0, 1e-3);
 }
 
-TEST(PlanExperiment, AFixtureOffsetAlongTheMotionTurnsPitchIntoHeight) {
-  // All probes 50 µm along x: -p x gives -100 µrad · 50 µm = -5 nm of δz.
+TEST(PlanExperiment, FixtureOffsetAlongTheMotionTurnsPitchIntoZ) {
+  // All probes are 50 µm further along x: -p x gives -100 µrad · 50 µm = -5 nm of δz.
   const auto e = experiment_of(still("EBX_urad = [100]\n" + constant("installation.x_um", 50)));
   EXPECT_NEAR(run(*e, 1)[kEZX][0], -0.005, 1e-5);
 }
 
-TEST(PlanExperiment, ATiltedTargetPlaneIsSeenAsSlope) {
+TEST(PlanExperiment, TiltedTargetPlaneGivesASlope) {
   // Side plane yawed by 1 mrad about z: y = h + 1e-3 (x - d) in M: 30 mm of travel give -30 µm.
   const auto side = experiment_of(still(constant("target.side.yaw_mrad", 1)));
   EXPECT_NEAR(run(*side, 1)[kEYX][0], -30, 0.05);
@@ -237,7 +237,7 @@ TEST(PlanExperiment, ATiltedTargetPlaneIsSeenAsSlope) {
   EXPECT_NEAR(run(*top, 1)[kEZX][0], 30, 0.05);
 }
 
-TEST(PlanExperiment, FlatnessKeepsWithinItsLimit) {
+TEST(PlanExperiment, FlatnessStaysWithinItsLimit) {
   const auto e = experiment_of(still(constant("target.top.flatness_um", 0.2)));
   const auto x = run(*e, 20'000);
   // εx = (B - C)/2l of heights and zeros, each within ±0.1 µm.
@@ -245,8 +245,9 @@ TEST(PlanExperiment, FlatnessKeepsWithinItsLimit) {
   EXPECT_GT(figures_of(x[kEAX]).sd, 1);
 }
 
-TEST(PlanExperiment, WarmingGrowsAboutTheOriginOfM) {
-  // Probe D and E 15 mm off: 10 ppm/K · 2 K · 15 mm = 300 nm nearer the target: reads -0.3 µm.
+TEST(PlanExperiment, ExpansionIsAboutTheOriginOfM) {
+  // The distance of probes D and E grows by 10 ppm/K · 2 K · 15 mm = 300 nm towards the target:
+  // they read -0.3 µm.
   const std::string expansion = "[expansion]\nfixture_ppm_per_K = 10\ntarget_ppm_per_K = 10\n";
   const auto fixture = experiment_of(still(constant("temperature.fixture_K", 2) + expansion));
   EXPECT_NEAR(run(*fixture, 1)[kEYX][0], -0.3, 1e-6);
@@ -254,8 +255,8 @@ TEST(PlanExperiment, WarmingGrowsAboutTheOriginOfM) {
   EXPECT_NEAR(run(*target, 1)[kEYX][0], 0.3, 1e-6);
 }
 
-TEST(PlanExperiment, AnEncoderErrorActsByTheAngles) {
-  // δz = c - d p: 1 µm of travel too much with 100 µrad of pitch: -0.1 nm.
+TEST(PlanExperiment, EncoderErrorsActWithTheAngles) {
+  // δz = c - d p: 1 µm of travel too much with a pitch of 100 µrad gives -0.1 nm.
   const auto offset = experiment_of(still("EBX_urad = [100]\n" + constant("encoder.offset_um", 1)));
   EXPECT_NEAR(run(*offset, 1)[kEZX][0], -1e-4, 1e-6);
   const auto scale =
@@ -263,7 +264,7 @@ TEST(PlanExperiment, AnEncoderErrorActsByTheAngles) {
   EXPECT_NEAR(run(*scale, 1)[kEZX][0], -3e-4, 1e-6);
 }
 
-TEST(PlanExperiment, WithoutZeroTheMountingItselfIsRead) {
+TEST(PlanExperiment, WithoutZeroTheMountingIsAnError) {
   const std::string lower = constant("probe.A.z_um", 3);
   const auto zeroed = experiment_of(still(lower));
   EXPECT_NEAR(run(*zeroed, 1)[kEBX][0], 0, 1e-6);
@@ -271,9 +272,9 @@ TEST(PlanExperiment, WithoutZeroTheMountingItselfIsRead) {
   EXPECT_NEAR(run(*raw, 1)[kEBX][0], 300, 1e-3);  // A reads -3 µm: -A/l
 }
 
-TEST(PlanExperiment, SeriesGiveErrorsOfFigures) {
-  // A side probe with 1 % too much sensitivity: a wave of δy is 1 % higher in D (1 - d/l) ...; with
-  // both side probes alike the whole series is, and its straightness too.
+TEST(PlanExperiment, SeriesGiveErrorsOfStraightness) {
+  // Both side probes have 1 % too much sensitivity, so the whole series of δy and its straightness
+  // are 1 % too large.
   const auto e = experiment_of(
       "name = \"t\"\nrig = \"../five-probe/rig_X.toml\"\n"
       "outputs = [\"EYX_straightness_um\", \"EYX_straightness_end_point_um\"]\n"
@@ -281,22 +282,22 @@ TEST(PlanExperiment, SeriesGiveErrorsOfFigures) {
       constant("probe.D.sensitivity_percent", 1) + constant("probe.E.sensitivity_percent", 1));
   for (const auto& x : run(*e, 500)) {
     const Figures f = figures_of(x);
-    // Peak to valley of a wave of ±10 µm about a line: 20 µm at most, some less.
+    // The peak-to-valley value of a wave of ±10 µm about a line is at most 20 µm.
     EXPECT_LT(f.worst, 0.4);
     EXPECT_GT(f.mean, 0.1);
     for (const double v : x) EXPECT_GT(v, 0.05);
   }
 }
 
-TEST(PlanExperiment, SquarenessTakesTheArtefactAndBothSlopes) {
+TEST(PlanExperiment, SquarenessUsesTheArtefactAndBothSlopes) {
   const std::string head =
       "name = \"t\"\nrig = \"../five-probe/rig_X.toml\"\noutputs = [\"EC0Y_urad\"]\n"
       "[squareness]\nrig_y = \"../five-probe/rig_Y.toml\"\n"
       "[truth]\ntravel_mm = [0, 60]\nEYX_um = [2]\nEXY_um = [2]\n";
   const auto square = experiment_of(head + constant("target.square_urad", 5));
   EXPECT_NEAR(run(*square, 1)[0][0], 5, 1e-3);
-  // A side plane yawed by 100 µrad is a slope of -100 µrad of δy for X, and for Y, whose δy is
-  // -EXY, of +100 µrad of EXY: they cancel in -slope(EXY) - slope(EYX).
+  // A side plane yawed by 100 µrad gives a slope of -100 µrad of δy for X. For Y, whose δy is -EXY,
+  // it gives +100 µrad of EXY. They cancel in -slope(EXY) - slope(EYX).
   const auto yawed = experiment_of(head + constant("target.side.yaw_mrad", 0.1));
   EXPECT_NEAR(run(*yawed, 1)[0][0], 0, 1e-2);
 }
@@ -316,7 +317,7 @@ std::unique_ptr<ScalableExperiment> mounting() {
   return std::move(*make_plan_experiment(*plan));
 }
 
-TEST(PlanExperiment, ATrialAloneIsTheTrialAmongOthers) {
+TEST(PlanExperiment, SingleTrialEqualsTheBatch) {
   const auto e = mounting();
   const auto all = run(*e, 300, 1000);
   for (const std::size_t j : {0U, 127U, 128U, 299U}) {
@@ -327,7 +328,7 @@ TEST(PlanExperiment, ATrialAloneIsTheTrialAmongOthers) {
   for (std::size_t k = 0; k < all.size(); ++k) EXPECT_EQ(strided[k][3], all[k][37]);
 }
 
-TEST(PlanExperiment, MixedWithNothingAndScaledByOneAreTheSameBits) {
+TEST(PlanExperiment, MixingNothingAndScalingByOneKeepTheBits) {
   const auto e = mounting();
   const auto plain = run(*e, 50);
   std::vector<std::uint8_t> second(e->causes().size(), 0);
@@ -352,7 +353,7 @@ TEST(PlanExperiment, TrialsAreInTheirBins) {
   }
 }
 
-// The first bits of a plan's results. They change only with the meaning of a plan.
+// Stored bits of a plan's results. They change only if the meaning of a plan changes.
 TEST(PlanExperiment, HasTheSameBitsInEveryBuild) {
   const auto e = mounting();
   std::uint64_t hash = 14695981039346656037U;
@@ -366,7 +367,7 @@ TEST(PlanExperiment, HasTheSameBitsInEveryBuild) {
   EXPECT_EQ(hash, 15719322836937508599U);
 }
 
-TEST(PlanExperiment, RefusesWhatItCannotSee) {
+TEST(PlanExperiment, RejectsPlansThatCannotBeEvaluated) {
   const std::string blind = error_of("name = \"t\"\nrig = \"rig_blind.toml\"\n");
   EXPECT_NE(blind.find("plan.toml: rig: "), std::string::npos) << blind;
   EXPECT_NE(blind.find("cannot"), std::string::npos) << blind;

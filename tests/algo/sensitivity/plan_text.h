@@ -1,4 +1,4 @@
-// Text of plans.
+// Texts of plans for tests.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// The paper's simulations against their theory (algo/sensitivity/README.md derives it), against the
-// scalar models, and bit for bit.
+// The simulations of the paper against their theory (algo/sensitivity/README.md derives it),
+// against the scalar models, and bit for bit.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -64,7 +64,7 @@ std::array<double, 5> variance_at(const SimulationOptions& o, double d_mm) {
           by_angle * pitch * 1e12 + products, by_angle * yaw * 1e12 + products};
 }
 
-TEST(Simulation1, SpreadAndExtremesAreThoseOfTheory) {
+TEST(Simulation1, SpreadAndExtremesMatchTheory) {
   const auto experiment = make_simulation(simulation_1_defaults()).value();
   const auto outputs = study(*experiment, 1'000'000).overall();
   const std::array<double, 5> sd = {std::sqrt(1 / 36.0 / 100 + 4.0 / 9 * 4e-4), 0.05 / 3, 1 / 3.0,
@@ -77,7 +77,7 @@ TEST(Simulation1, SpreadAndExtremesAreThoseOfTheory) {
     EXPECT_NEAR(outputs[k].mean, 0, 5 * outputs[k].mean_se);
     EXPECT_NEAR(outputs[k].sd, sd[k], 5 * outputs[k].sd_se);
     EXPECT_NEAR(outputs[k].mean_se, sd[k] / 1e3, 1e-3 * sd[k]);
-    // Never beyond, but for the third order; and close to it.
+    // Only the third order exceeds these extremes, and the found extremes are close to them.
     EXPECT_LT(outputs[k].max, extreme[k] * 1.002);
     EXPECT_GT(outputs[k].min, -extreme[k] * 1.002);
     EXPECT_GT(outputs[k].max, extreme[k] * (k == 0 ? 0.8 : 0.98));
@@ -85,8 +85,9 @@ TEST(Simulation1, SpreadAndExtremesAreThoseOfTheory) {
   }
 }
 
-// The standard error of the sd is the fourth moment's: of a product of two uniforms, kurtosis 3.24.
-TEST(Simulation1, StandardErrorOfTheSdIsThatOfTheFourthMoment) {
+// The standard error of the sd follows from the fourth moment; a product of two uniform quantities
+// has the kurtosis 3.24.
+TEST(Simulation1, StandardErrorOfTheSdMatchesTheFourthMoment) {
   const auto experiment = make_simulation(simulation_1_defaults()).value();
   const auto outputs = study(*experiment, 1'000'000).overall();
   EXPECT_NEAR(outputs[3].sd_se, outputs[3].sd * std::sqrt((3.24 - 1) / 4 / 1e6), 1e-6);
@@ -104,7 +105,7 @@ TEST(Simulation1, ErrorDoesNotDependOnTravel) {
   }
 }
 
-TEST(Simulation2, StaysWithinThePapersLimitsWithTheSpreadOfTheory) {
+TEST(Simulation2, SpreadAndLimitsMatchThePaper) {
   const SimulationOptions options = simulation_2_defaults();
   const auto experiment = make_simulation(options).value();
   const auto outputs = study(*experiment, 1'000'000).overall();
@@ -125,7 +126,7 @@ TEST(Simulation2, StaysWithinThePapersLimitsWithTheSpreadOfTheory) {
   }
 }
 
-TEST(Simulation2, TranslationalErrorGrowsWithTravelAsTheoryHasIt) {
+TEST(Simulation2, TranslationalErrorGrowsWithTravelAsInTheory) {
   SimulationOptions options = simulation_2_defaults();
   options.travel_to_mm = 60;
   options.travel_bins = 6;
@@ -146,14 +147,16 @@ TEST(Simulation2, TranslationalErrorGrowsWithTravelAsTheoryHasIt) {
   for (std::size_t i = 1; i < bins.size(); ++i) {
     EXPECT_GT(bins[i].outputs[1].sd, bins[i - 1].outputs[1].sd);
   }
-  // EYX first falls, for the offset σz and the rotation θp work against each other until 25 mm.
+  // EYX first decreases, because the offset σz and the rotation θp compensate each other until 25
+  // mm.
   EXPECT_LT(bins[2].outputs[0].sd, bins[0].outputs[0].sd);
   EXPECT_GT(bins[5].outputs[0].sd, 1.2 * bins[0].outputs[0].sd);
 }
 
-// The kernel against the scalar models of algo/small_angle: a rig whose probes stand where trial i
-// put them gives the readings, the nominal one solves them. Side plane and all rotations included.
-TEST(Simulation2, EveryTrialIsThatOfTheScalarModels) {
+// The kernel against the scalar models of algo/small_angle: the readings come from a fixture with
+// the probe positions of trial i; the nominal fixture solves them. Side plane and all rotations are
+// included.
+TEST(Simulation2, EveryTrialMatchesTheScalarModels) {
   SimulationOptions o = simulation_2_defaults();
   o.side_plane_mm = 15;
   o.theta_r_mrad = 1.5;
@@ -185,7 +188,7 @@ TEST(Simulation2, EveryTrialIsThatOfTheScalarModels) {
   }
 }
 
-TEST(Simulations, DrawWhatTheAddressesSay) {
+TEST(Simulations, DrawTheNumbersOfTheirAddresses) {
   const SimulationOptions o = simulation_2_defaults();
   const SimulationTrial t = simulation_trial(o, 8731).value();
   const Stream stream = {o.seed, 0};
@@ -196,7 +199,7 @@ TEST(Simulations, DrawWhatTheAddressesSay) {
   EXPECT_EQ(t.probe_turns[4], draw(stream, 8731, 10));
 }
 
-TEST(Simulations, ATrialAloneIsThatOfTheBatchWhateverTheStep) {
+TEST(Simulations, SingleTrialEqualsTheBatchForAnyStep) {
   for (const auto& options : {simulation_1_defaults(), simulation_2_defaults()}) {
     const auto experiment = make_simulation(options).value();
     const Columns all = columns_of(*experiment, 0, 1, 1000);
@@ -213,7 +216,7 @@ TEST(Simulations, ATrialAloneIsThatOfTheBatchWhateverTheStep) {
   }
 }
 
-// Stored from g++ 12; the same from clang++ and every instruction set.
+// Stored from g++ 12; clang++ and every instruction set give the same bits.
 TEST(Simulations, HaveTheStoredBits) {
   for (const InstructionSet set : available_instruction_sets()) {
     const auto hash = [set](const SimulationOptions& options) {
@@ -234,7 +237,7 @@ TEST(Simulations, AnotherSeedGivesOtherTrials) {
   EXPECT_NE(simulation_trial(options, 0)->truth[0], simulation_trial({}, 0)->truth[0]);
 }
 
-TEST(Simulations, NameTheOptionThatMakesNoSense) {
+TEST(Simulations, ErrorsNameTheInvalidOption) {
   const auto message = [](auto change) {
     SimulationOptions options;
     change(options);
@@ -253,8 +256,8 @@ TEST(Simulations, NameTheOptionThatMakesNoSense) {
   EXPECT_NE(message([](O& o) { o.travel_bins = 201; }).find("1 to 200"), std::string::npos);
 }
 
-// Four bins of 10 mm from 20 mm on: trial i is in bin i modulo 4, anywhere in it.
-TEST(Simulations, TravelBeginsWhereItIsAskedTo) {
+// Four bins of 10 mm from 20 mm on: trial i is anywhere in bin i modulo 4.
+TEST(Simulations, TravelBeginsAtTheGivenPosition) {
   SimulationOptions o;
   o.travel_from_mm = 20;
   o.travel_to_mm = 60;

@@ -1,4 +1,5 @@
-// The histogram of a study by hand: where its core lies, and that no trial is lost beyond it.
+// The histogram of a study, calculated by hand: the range of its core, and that it counts every
+// trial beyond the core.
 #include "algo/sensitivity/statistics/quantile.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +10,8 @@
 namespace mdof::algo {
 namespace {
 
-// Twice the central 98 %, about its middle: of 0 ... 199 that is 2 ... 197.
+// The core is twice as wide as the central 98 %, about their middle: for 0 ... 199 they are 2 ...
+// 197.
 TEST(HistogramScale, IsTwiceTheCentralPart) {
   std::vector<double> values;
   for (int i = 0; i < 200; ++i) values.push_back((i * 77) % 200);
@@ -17,7 +19,7 @@ TEST(HistogramScale, IsTwiceTheCentralPart) {
   const OutputScale scale = scale_for(values);
   EXPECT_EQ(scale.low, 99.5 - 195);
   EXPECT_EQ(scale.high(), 99.5 + 195);
-  // All but rare ones are alike: what differs makes the core.
+  // If almost all values are equal, the different ones determine the core.
   std::vector<double> rare(1000, 5.0);
   rare[17] = 1;
   rare[900] = 8;
@@ -25,7 +27,7 @@ TEST(HistogramScale, IsTwiceTheCentralPart) {
   EXPECT_EQ(scale_for(rare).high(), 4.5 + 7);
 }
 
-TEST(HistogramScale, OfAConstantIsAShareOfItOrOfTheUnit) {
+TEST(HistogramScale, WidthOfAConstantIsAShareOfItOrOfOne) {
   const OutputScale small = scale_for({0.125, 0.125}), large = scale_for({-4, -4});
   EXPECT_EQ(small.high() - small.low, 1 / 512.0);
   EXPECT_EQ((small.high() + small.low) / 2, 0.125);
@@ -35,8 +37,8 @@ TEST(HistogramScale, OfAConstantIsAShareOfItOrOfTheUnit) {
   EXPECT_EQ(scale_for({}).high(), 1);
 }
 
-// Edges keep apart: not less than 2^-30 of the size.
-TEST(HistogramScale, IsNotNarrowerThanItsEdgesAllow) {
+// The width is at least 2^-30 of the value, so that the edges of the bins differ.
+TEST(HistogramScale, HasALeastWidth) {
   const OutputScale narrow = scale_for({4, 4 + 0x1p-36}), wide = scale_for({4, 4 + 0x1p-28});
   EXPECT_NEAR(narrow.width * kCoreBins / 0x1p-28, 1, 1e-6);
   EXPECT_NEAR(wide.width * kCoreBins / 0x1p-27, 1, 1e-6);
@@ -57,8 +59,9 @@ OutputHistogram histogram_of(const std::vector<double>& x) {
   return counts;
 }
 
-// Beyond the core a bin of j widths begins where 64 + j has a power of 2 in 64 parts.
-TEST(OutputHistogram, NoTrialIsLost) {
+// Beyond the core, the width of the bins doubles with each power of 2 of 64 + j, at a distance of j
+// widths. Each octave has 64 bins.
+TEST(OutputHistogram, CountsEveryTrial) {
   constexpr double kMost = std::numeric_limits<double>::max();
   for (const double sign : {1.0, -1.0}) {
     for (const double x : {1.5, 3.0, 1e6, kMost}) {
@@ -95,16 +98,16 @@ TEST(OutputHistogram, NoTrialIsLost) {
   EXPECT_LT(ordered.resolution(6), 0.2);
 }
 
-// The first and the last bin of the core keep theirs when there are others beyond.
-TEST(OutputHistogram, WhatIsBeyondTakesNothingFromTheCore) {
+// Values beyond the core do not change the first and the last bin of the core.
+TEST(OutputHistogram, ValuesBeyondKeepTheCore) {
   const OutputHistogram counts = histogram_of({-1 + kScale.width / 2, -7, 1 - kScale.width / 2, 9});
   EXPECT_EQ(counts.core(0), 1u);
   EXPECT_EQ(counts.core(kCoreBins - 1), 1u);
   EXPECT_EQ(counts.tails().size(), 2u);
 }
 
-// Counts of 32 bits are moved into larger ones before they could overflow.
-TEST(OutputHistogram, CountsAreMovedBeforeTheyOverflow) {
+// Counts of 32 bits are moved to larger counters before they overflow.
+TEST(OutputHistogram, MovesCountsBeforeTheyOverflow) {
   OutputHistogram counts(3);
   for (int i = 0; i < 5; ++i) {
     const std::vector<double> x = {-1 + kScale.width / 2, 0.5, 1 - kScale.width / 2};
@@ -118,8 +121,8 @@ TEST(OutputHistogram, CountsAreMovedBeforeTheyOverflow) {
   EXPECT_EQ(counts.core(kCoreBins - 2), 0u);
 }
 
-// Four trials in one bin are spread evenly from the least to the greatest.
-TEST(OrderedTrials, LieEvenlyInTheirBin) {
+// Four trials in one bin are spread evenly from the smallest value to the end of the bin.
+TEST(OrderedTrials, AreSpreadEvenlyInTheirBin) {
   const double w = kScale.width;
   const std::vector<double> x = {0.5 * w, 0.1 * w, 0.9 * w, 0.6 * w, 3.5 * w, 7.5 * w};
   const OrderedTrials trials(histogram_of(x), kScale, 0.1 * w, 7.5 * w);
@@ -127,7 +130,7 @@ TEST(OrderedTrials, LieEvenlyInTheirBin) {
   EXPECT_EQ(trials.value(1), 0.1 * w);
   EXPECT_NEAR(trials.value(2), (0.1 + 0.9 * 1.5 / 4) * w, 1e-12 * w);  // from 0.1 to 1 widths
   EXPECT_NEAR(trials.value(4), (0.1 + 0.9 * 3.5 / 4) * w, 1e-12 * w);
-  EXPECT_NEAR(trials.value(5), 3.5 * w, 1e-12 * w);  // one in the middle of its bin
+  EXPECT_NEAR(trials.value(5), 3.5 * w, 1e-12 * w);  // a single trial is in the middle of its bin
   EXPECT_EQ(trials.value(6), 7.5 * w);
   EXPECT_EQ(trials.find(4), trials.find(2));
   EXPECT_EQ(trials.find(5), trials.find(4) + 1);

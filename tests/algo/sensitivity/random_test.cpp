@@ -12,9 +12,9 @@ namespace {
 
 constexpr Stream kStream = {0x299f31d0a4093822, 1};
 
-// Random123's known answer for the counter of π's digits, as draws: its words are
+// The known answer of Random123 for the counter of the digits of π, as draws: its words are
 // d16cfe09 94fdcceb 5001e420 24126ea1.
-TEST(SensitivityRandom, DrawsAreTheWordsOfThePublishedBlock) {
+TEST(SensitivityRandom, DrawsMatchThePublishedBlock) {
   const Stream stream = {0x299f31d0a4093822, 0x03707344};
   const std::uint64_t trial = 0x85a308d3'243f6a88;
   const std::uint64_t q = 2 * std::uint64_t{0x13198a2e};
@@ -24,7 +24,7 @@ TEST(SensitivityRandom, DrawsAreTheWordsOfThePublishedBlock) {
             (static_cast<double>(0x5001e420'24126ea1ull >> 12) + 0.5) * 0x1p-52);
 }
 
-TEST(SensitivityRandom, EveryInstructionSetGivesTheBitsOfTheScalar) {
+TEST(SensitivityRandom, EveryInstructionSetGivesTheScalarBits) {
   for (const InstructionSet set : available_instruction_sets()) {
     for (const std::uint64_t first : {0ull, 4294967290ull, 0xFFFFFFFF'00000000ull}) {
       for (const std::uint64_t step : {1ull, 20ull, 5'000'000'001ull}) {
@@ -41,7 +41,7 @@ TEST(SensitivityRandom, EveryInstructionSetGivesTheBitsOfTheScalar) {
   }
 }
 
-TEST(SensitivityRandom, APairIsTwoDraws) {
+TEST(SensitivityRandom, PairIsTwoDraws) {
   std::vector<double> even(100), odd(100);
   draw_pairs(kStream, 3, 10, 2, even, odd);
   for (std::size_t j = 0; j < even.size(); ++j) {
@@ -74,7 +74,7 @@ TEST(SensitivityRandom, DrawsAreUniformAndUncorrelated) {
   }
 }
 
-TEST(SensitivityCircle, CosineAndSineAreWithinARoundingOfTheirArgument) {
+TEST(SensitivityCircle, CosineAndSineAreExactToRounding) {
   double worst = 0;
   for (int i = 0; i <= 1'000'000; ++i) {
     const double turns = i == 1'000'000 ? 1 - 0x1p-53 : draw(kStream, i, 0);

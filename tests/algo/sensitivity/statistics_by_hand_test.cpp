@@ -1,4 +1,5 @@
-// Statistics of a few trials, each figure worked by hand. Found missing by tests/mutate.
+// Statistics of a few trials, each value calculated by hand. Mutation tests (tests/mutate) found
+// these cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace mdof::algo {
 namespace {
 
-// Outputs that are given trial by trial; the last value goes on.
+// Outputs given trial by trial; the last value is repeated.
 class Given : public Experiment {
  public:
   explicit Given(std::vector<double> values, BinnedQuantity binned = {})
@@ -41,7 +42,7 @@ StudyStatistics small_study(const Experiment& e, std::uint64_t trials) {
 
 // 1, 2, 2, 3, 3, 3, 7, 11: mean 4, squares 9 + 4 + 4 + 1 + 1 + 1 + 9 + 49 = 78, fourth powers 81 +
 // 16 + 16 + 1 + 1 + 1 + 81 + 2401 = 2598.
-TEST(StatisticsByHand, OfEightTrials) {
+TEST(StatisticsByHand, IsCorrectForEightTrials) {
   const Given e({1, 2, 2, 3, 3, 3, 7, 11});
   const OutputSummary s = small_study(e, 8).overall().at(0);
   const double variance = 78 / 7.0, of_variance = (2598 / 8.0 - 5 / 7.0 * variance * variance) / 8;
@@ -54,7 +55,7 @@ TEST(StatisticsByHand, OfEightTrials) {
   EXPECT_EQ(s.max, 11);
 }
 
-TEST(StatisticsByHand, OfTwoTrialsAndOfOne) {
+TEST(StatisticsByHand, IsCorrectForTwoTrialsAndOne) {
   const OutputSummary two = small_study(Given({1, 3}), 2).overall().at(0);
   EXPECT_NEAR(two.mean, 2, 1e-12);
   EXPECT_NEAR(two.sd, std::sqrt(2), 1e-9);
@@ -64,15 +65,16 @@ TEST(StatisticsByHand, OfTwoTrialsAndOfOne) {
   EXPECT_TRUE(std::isnan(one.sd) && std::isnan(one.mean_se) && std::isnan(one.sd_se));
 }
 
-TEST(StatisticsByHand, TheQuantilesAskedForByDefault) {
+TEST(StatisticsByHand, HasTheDefaultQuantiles) {
   std::vector<double> asked;
   const OutputSummary s = small_study(Given({1, 3}), 2).overall().at(0);
   for (const Quantile& q : s.quantiles) asked.push_back(q.p);
   EXPECT_EQ(asked, (std::vector<double>{0.025, 0.25, 0.5, 0.75, 0.975}));
 }
 
-// Each bin ends where the next begins, and the last at the end itself: 0.1 + 3 × 0.2 is more.
-TEST(StatisticsByHand, TheBinsMeet) {
+// Each bin ends where the next one begins, and the last at the exact end: 0.1 + 3 × 0.2 would be
+// larger.
+TEST(StatisticsByHand, BinsAreContiguous) {
   const auto bins = small_study(Given({1, 2, 3}, {"travel_mm", 0.1, 0.7, 3}), 7).bins();
   ASSERT_EQ(bins.size(), 3u);
   EXPECT_EQ(bins[0].from, 0.1);
@@ -87,7 +89,7 @@ TEST(StatisticsByHand, TheBinsMeet) {
   EXPECT_TRUE(small_study(Given({1, 2, 3}), 7).bins().empty());
 }
 
-TEST(StatisticsByHand, ABlockIsTheLeastMultiple) {
+TEST(StatisticsByHand, BlockIsTheSmallestMultiple) {
   EXPECT_EQ(block_trials(Given({1}), 1), 512u);
   EXPECT_EQ(block_trials(Given({1}), 512), 512u);
   EXPECT_EQ(block_trials(Given({1}), 513), 1024u);
@@ -95,15 +97,15 @@ TEST(StatisticsByHand, ABlockIsTheLeastMultiple) {
   EXPECT_EQ(block_trials(Given({1}, {"travel_mm", 0, 1, 3}), 1537), 3072u);
 }
 
-// 100/(1 - coverage) trials in blocks of 10240: 10204 and 10246.
-TEST(StatisticsByHand, AnAdaptiveBlockHasAHundredTrialsOutside) {
+// 100/(1 - coverage) trials in blocks of 10240: 10204 and 10246 trials.
+TEST(StatisticsByHand, AdaptiveBlockHas100TrialsOutside) {
   EXPECT_EQ(adaptive_block_trials(Given({1}), 0.5).value(), 10240u);
   EXPECT_EQ(adaptive_block_trials(Given({1}), 0.9902).value(), 10240u);
   EXPECT_EQ(adaptive_block_trials(Given({1}), 0.99024).value(), 20480u);
 }
 
-// Blocks of -0 and of +0 after a first number, the one or the other first.
-TEST(StatisticsByHand, NoughtHasOneSignInAnyOrder) {
+// Blocks of -0 and of +0 after a first number, in both orders.
+TEST(StatisticsByHand, ZeroHasOneSignInAnyOrder) {
   for (const double first : {5.0, -5.0}) {
     std::vector<double> values(1024, 0.0);
     std::fill_n(values.begin(), 512, -0.0);
@@ -118,8 +120,8 @@ TEST(StatisticsByHand, NoughtHasOneSignInAnyOrder) {
   }
 }
 
-// 1, 4, 9 ... of a number that is no multiple of what a processor takes at once.
-TEST(StatisticsByHand, OfAnyNumberByEveryInstructionSet) {
+// 1, 4, 9 ...: numbers of trials that are not multiples of the vector length.
+TEST(StatisticsByHand, IsCorrectForAnyNumberAndInstructionSet) {
   std::vector<double> squares;
   for (int i = 1; i <= 17; ++i) squares.push_back(i * i);
   const Given e(squares);
@@ -140,7 +142,7 @@ TEST(StatisticsByHand, OfAnyNumberByEveryInstructionSet) {
   }
 }
 
-TEST(StatisticsByHand, TrialsThatWereNotSolvedAreKept) {
+TEST(StatisticsByHand, KeepsUnsolvedTrials) {
   const Given e({1, std::nan(""), 3, std::nan(""), 5});
   const auto read = StudyStatistics::parse(small_study(e, 5).serialise(), e);
   ASSERT_TRUE(read);
@@ -150,8 +152,9 @@ TEST(StatisticsByHand, TrialsThatWereNotSolvedAreKept) {
   EXPECT_NEAR(read->overall().at(0).mean, 3, 1e-12);
 }
 
-// Its end is marked by no count in no bin; bytes that end with no count in one bin are damaged.
-TEST(StatisticsByHand, TheEndOfAHistogramIsLookedAt) {
+// The end of a histogram is a count of 0 in bin 0. Bytes that end with a count of 0 in bin 1 are
+// damaged.
+TEST(StatisticsByHand, ChecksTheEndOfAHistogram) {
   const Given e({1, 3});
   std::string bytes = small_study(e, 2).serialise();
   ASSERT_TRUE(StudyStatistics::parse(bytes, e));
@@ -161,7 +164,8 @@ TEST(StatisticsByHand, TheEndOfAHistogramIsLookedAt) {
   EXPECT_FALSE(StudyStatistics::parse(bytes, e));
 }
 
-// One trial in each of `n` bins from bin 1000 on, and so many below and above the core.
+// One trial in each of `n` bins from bin 1000 on, `beyond` trials below and `beyond` + 1 above the
+// core.
 Histogram drawn(std::size_t n, std::uint64_t beyond = 0) {
   const OutputScale scale{-1, 0x1p-12};
   OutputHistogram counts;
@@ -173,8 +177,8 @@ Histogram drawn(std::size_t n, std::uint64_t beyond = 0) {
   return histogram_for_drawing(counts, scale, trials);
 }
 
-// Up to 120 bins are drawn one by one, then two together, and so on.
-TEST(HistogramForDrawing, HasUpToAHundredAndTwentyBars) {
+// Up to 120 bins are drawn separately, then two bins per bar, and so on.
+TEST(HistogramForDrawing, HasUpTo120Bars) {
   for (const auto& [bins, together, bars] :
        {std::tuple(120u, 1u, 120u), std::tuple(121u, 2u, 61u), std::tuple(240u, 2u, 120u),
         std::tuple(241u, 3u, 81u)}) {
@@ -189,7 +193,7 @@ TEST(HistogramForDrawing, HasUpToAHundredAndTwentyBars) {
 }
 
 // Five of 2011 trials are beyond the bins on one side, six on the other.
-TEST(HistogramForDrawing, WhatIsBeyondIsCounted) {
+TEST(HistogramForDrawing, CountsTrialsBeyondTheBars) {
   const Histogram h = drawn(2000, 5);
   EXPECT_GE(h.below, 5u);
   EXPECT_GE(h.above, 6u);

@@ -1,5 +1,5 @@
-// The bytes of statistics, put together by hand as statistics_bytes.cpp states them, good and
-// damaged. Found missing by tests/mutate.
+// Valid and damaged bytes of statistics, assembled by hand in the format of statistics_bytes.cpp.
+// Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -15,14 +15,14 @@ namespace {
 
 using Pairs = std::vector<std::pair<std::int64_t, std::uint64_t>>;
 
-// One output in one bin; `core`: empty bins before, count; `tails`: key, count.
+// One output in one bin. `core`: number of empty bins before, count; `tails`: key, count.
 struct OutputBytes {
   std::uint64_t n = 0, unsolved = 0;
   double min = 1.5, max = 2.5;
   std::uint8_t lost = 0;
   Pairs core = {}, tails = {};
-  bool ends_in_core = false;  // the data end behind the last core bin
-  bool ends = false;          // the data end behind this tail, though there are to be more
+  bool ends_in_core = false;  // the data end after the last core bin
+  bool ends = false;          // the data end after this tail, although another tail is announced
 };
 
 class BytesShape : public Experiment {
@@ -73,7 +73,7 @@ std::string bytes_of(std::size_t outputs, std::size_t bins, std::uint64_t trials
   return to;
 }
 
-// Of one output in one bin.
+// Whether the bytes of one output in one bin can be read.
 bool is_read(const OutputBytes& cell) {
   const BytesShape shape(1, 1);
   const std::string bytes = bytes_of(1, 1, cell.n + cell.unsolved, {cell});
@@ -82,24 +82,26 @@ bool is_read(const OutputBytes& cell) {
   return read.has_value();
 }
 
-// Eleven trials: bins 5, 6 and the last; the tails' ends and keys next to the core.
+// Eleven trials: core bins 5, 6 and the last; tails with the first and last keys and the keys next
+// to the core.
 const OutputBytes kGood{.n = 11,
                         .unsolved = 2,
                         .core = {{5, 2}, {0, 1}, {8184, 1}},
                         .tails = {{-65153, 1}, {-1, 2}, {1, 3}, {65153, 1}}};
 
-TEST(StatisticsBytes, AreReadAndWrittenAlike) {
+TEST(StatisticsBytes, AreWrittenAsTheyWereRead) {
   EXPECT_TRUE(is_read(kGood));
   for (const std::uint8_t lost : {1, 2, 3}) {
     OutputBytes some = kGood;
     some.lost = lost;
     EXPECT_TRUE(is_read(some)) << int{lost};
   }
-  EXPECT_TRUE(is_read({.unsolved = 3, .min = 2, .max = -2}));  // no trial: no extremes
+  EXPECT_TRUE(
+      is_read({.unsolved = 3, .min = 2, .max = -2}));  // without trials there are no extremes
   EXPECT_TRUE(is_read({.n = 1, .min = 2, .max = 2, .core = {{3, 1}}}));
 }
 
-TEST(StatisticsBytes, ExtremesAndPowersThatCannotBe) {
+TEST(StatisticsBytes, RejectsImpossibleExtremesAndPowers) {
   OutputBytes cell = kGood;
   cell.lost = 4;
   EXPECT_FALSE(is_read(cell));
@@ -111,21 +113,21 @@ TEST(StatisticsBytes, ExtremesAndPowersThatCannotBe) {
   }
 }
 
-TEST(StatisticsBytes, CountsOfBinsThatCannotBe) {
+TEST(StatisticsBytes, RejectsImpossibleCountsOfBins) {
   const auto core = [](std::uint64_t n, const Pairs& pairs, bool ends = false) {
     return is_read({.n = n, .core = pairs, .ends_in_core = ends});
   };
   EXPECT_TRUE(core(3, {{8191, 3}}));
   EXPECT_TRUE(core(3, {{1, 2}, {8189, 1}}));
   for (const bool ends : {false, true}) {
-    EXPECT_FALSE(core(3, {{8192, 3}}, ends));          // behind the last bin
+    EXPECT_FALSE(core(3, {{8192, 3}}, ends));          // after the last bin
     EXPECT_FALSE(core(3, {{1, 2}, {8190, 1}}, ends));  // the same from the third bin on
-    EXPECT_FALSE(core(3, {{1, 3}, {0, 1}}, ends));     // more than there are trials
-    EXPECT_FALSE(core(3, {{1, 2}}, ends));             // fewer
+    EXPECT_FALSE(core(3, {{1, 3}, {0, 1}}, ends));     // more than the trials
+    EXPECT_FALSE(core(3, {{1, 2}}, ends));             // fewer than the trials
   }
 }
 
-TEST(StatisticsBytes, TailsThatCannotBe) {
+TEST(StatisticsBytes, RejectsImpossibleTails) {
   const auto tails = [](const Pairs& pairs, bool ends = false) {
     return is_read({.n = 5, .core = {{4, 2}}, .tails = pairs, .ends = ends});
   };
@@ -137,13 +139,13 @@ TEST(StatisticsBytes, TailsThatCannotBe) {
     EXPECT_FALSE(tails({{2, 2}, {2, 1}}, ends));
     EXPECT_FALSE(tails({{2, 2}, {-3, 1}}, ends));
     EXPECT_FALSE(tails({{-3, 3}, {2, 0}}, ends));
-    EXPECT_FALSE(tails({{-3, 2}, {2, 2}}, ends));  // more than there are trials
-    EXPECT_FALSE(tails({{-3, 2}}, ends));          // fewer
+    EXPECT_FALSE(tails({{-3, 2}, {2, 2}}, ends));  // more than the trials
+    EXPECT_FALSE(tails({{-3, 2}}, ends));          // fewer than the trials
   }
 }
 
-// Two outputs in two bins: the trials of each output are those of the study.
-TEST(StatisticsBytes, EachOutputHasAllTrials) {
+// Two outputs in two bins: the sum of the trials of each output must equal the trials of the study.
+TEST(StatisticsBytes, EachOutputNeedsAllTrials) {
   const auto of = [](std::uint64_t n, std::uint64_t unsolved) {
     return OutputBytes{.n = n, .unsolved = unsolved, .core = {{9, n}}};
   };

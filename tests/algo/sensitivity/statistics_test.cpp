@@ -1,5 +1,5 @@
-// Statistics of distributions of every shape against exact order statistics by sorting, and the
-// same bits for every order, split and instruction set.
+// Statistics of many distributions against exact order statistics by sorting, and equal bits for
+// every order, split and instruction set.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 namespace mdof::algo {
 namespace {
 
-// One output, a function of the first draw of the trial and of its bin.
+// One output: a function of the first random number of the trial and of its number.
 class OneOutput : public Experiment {
  public:
   using Function = std::function<double(double u, std::uint64_t trial)>;
@@ -88,7 +88,7 @@ std::vector<Shape> shapes() {
   };
 }
 
-// Every value of a summary against the trial of that rank.
+// Compares each value of a summary with the trial of its rank.
 void expect_order(const OutputSummary& s, const std::vector<double>& x) {
   const auto at = [&](std::uint64_t rank) { return x[rank - 1]; };
   ASSERT_EQ(s.n, x.size());
@@ -100,7 +100,8 @@ void expect_order(const OutputSummary& s, const std::vector<double>& x) {
   const IntervalRanks r = symmetric_ranks(s.coverage, s.n);
   EXPECT_NEAR(s.symmetric.low, at(r.low), s.resolution);
   EXPECT_NEAR(s.symmetric.high, at(r.high), s.resolution);
-  // The shortest interval over all ranks; ours is about as short, and holds as many trials.
+  // The shortest interval over all ranks: the found interval is equally short within the resolution
+  // and contains as many trials.
   const std::uint64_t q = r.high - r.low;
   double shortest = std::numeric_limits<double>::infinity();
   for (std::uint64_t i = 1; i + q <= s.n; ++i) shortest = std::min(shortest, at(i + q) - at(i));
@@ -140,7 +141,7 @@ TEST(StudyStatistics, ResolutionIsASmallPartOfTheSpread) {
   EXPECT_EQ(resolution([](double u, auto) { return u < 0.5 ? 1.0 : 2.0; }) < 1 / 1000.0, true);
 }
 
-TEST(StudyStatistics, MomentsAreThoseOfTheTrials) {
+TEST(StudyStatistics, MomentsMatchTheTrials) {
   for (const Shape& shape : shapes()) {
     SCOPED_TRACE(shape.name);
     const OneOutput e(shape.f);
@@ -169,8 +170,8 @@ TEST(StudyStatistics, MomentsAreThoseOfTheTrials) {
   }
 }
 
-// What the fixed-point sums cannot hold is not known; it is never wrong.
-TEST(StudyStatistics, AMomentThatOverflowsIsNotANumber) {
+// A moment that exceeds the fixed-point sums is NaN; it is never wrong.
+TEST(StudyStatistics, OverflowingMomentIsNaN) {
   const OneOutput e([](double u, std::uint64_t i) { return i == 50'000 ? 1e200 : gaussian(u); });
   const OutputSummary s = study(e, 60'000).overall().at(0);
   EXPECT_TRUE(std::isnan(s.mean));
@@ -180,8 +181,9 @@ TEST(StudyStatistics, AMomentThatOverflowsIsNotANumber) {
   EXPECT_NEAR(s.symmetric.high, 1.96, 0.05);
 }
 
-// A rare event that the pilot did not meet, from nm to mm, and a constant but for rounding.
-TEST(StudyStatistics, APilotWithoutSpreadDoesNotLoseWhatComesLater) {
+// A rare event, from nm to mm, that is not in the pilot, and values that are constant except for
+// rounding.
+TEST(StudyStatistics, PilotWithoutSpreadKeepsLaterValues) {
   for (const double usual : {0.0, -3.0, 250.0}) {
     for (const double event : {1e-3, 50.0, 1000.0}) {
       SCOPED_TRACE(std::to_string(usual) + ", " + std::to_string(event));
@@ -199,7 +201,7 @@ TEST(StudyStatistics, APilotWithoutSpreadDoesNotLoseWhatComesLater) {
   }
 }
 
-TEST(StudyStatistics, AnyOrderSplitAndInstructionSetGivesTheSameBytes) {
+TEST(StudyStatistics, AnyOrderSplitAndInstructionSetGivesSameBytes) {
   const auto experiment = make_simulation(simulation_1_defaults()).value();
   const StudyScale scale = pilot_scale(*experiment);
   const std::uint64_t block = block_trials(*experiment), trials = 7 * block + 4321;
@@ -215,20 +217,21 @@ TEST(StudyStatistics, AnyOrderSplitAndInstructionSetGivesTheSameBytes) {
     b.merge(a);
     EXPECT_EQ(b.serialise(), bytes) << to_string(set);
     StudyStatistics c = StudyStatistics::parse(a.serialise(), *experiment, set).value();
-    c.add_block(*experiment, 2 * block, 5 * block);  // as a run that is continued
+    c.add_block(*experiment, 2 * block, 5 * block);  // like a run that is continued
     EXPECT_EQ(c.serialise(), bytes) << to_string(set);
     EXPECT_EQ(c.trials(), trials);
   }
 }
 
-// Pilot, sums and histograms of the first 10^5 trials: stored from g++ 12, the same from clang++.
+// Pilot, sums and histograms of the first 10^5 trials: stored from g++ 12; clang++ gives the same
+// bits.
 TEST(StudyStatistics, HaveTheStoredBits) {
   const auto experiment = make_simulation(simulation_1_defaults()).value();
   EXPECT_EQ(sha256_hex(study(*experiment, 100'000).serialise()),
             "ac88faf275d7f348882d393ca3ca9be5fcce86b392242f3bc2d4c0b6da52873e");
 }
 
-TEST(StudyStatistics, HeavyTailsAndUnsolvedTrialsDoNotDependOnTheOrderEither) {
+TEST(StudyStatistics, TailsAndUnsolvedTrialsDoNotDependOnOrder) {
   for (const Shape& shape : shapes()) {
     const OneOutput e(shape.f, 5);
     const std::uint64_t block = block_trials(e);
@@ -243,7 +246,7 @@ TEST(StudyStatistics, HeavyTailsAndUnsolvedTrialsDoNotDependOnTheOrderEither) {
   }
 }
 
-TEST(StudyStatistics, BinsHoldTheirOwnTrials) {
+TEST(StudyStatistics, BinsContainTheirOwnTrials) {
   const OneOutput e([](double u, std::uint64_t i) { return static_cast<double>(i % 4) + u; }, 4);
   const StudyStatistics s = study(e, 40'003);
   const auto bins = s.bins();
@@ -257,7 +260,7 @@ TEST(StudyStatistics, BinsHoldTheirOwnTrials) {
   EXPECT_EQ(s.overall().at(0).n, 40'003u);
 }
 
-TEST(StudyStatistics, HistogramForDrawingHoldsEveryTrialOnce) {
+TEST(StudyStatistics, DrawnHistogramCountsEveryTrialOnce) {
   for (const Shape& shape : shapes()) {
     SCOPED_TRACE(shape.name);
     const OneOutput e(shape.f);
@@ -272,11 +275,11 @@ TEST(StudyStatistics, HistogramForDrawingHoldsEveryTrialOnce) {
   EXPECT_GE(study(normal, 30'000).overall().at(0).histogram.counts.size(), 100u);
 }
 
-TEST(StudyStatistics, DamagedBytesAreAnErrorAndNothingWorse) {
+TEST(StudyStatistics, RejectsDamagedBytes) {
   const OneOutput e([](double u, auto) { return std::tan(M_PI * (u - 0.5)); }, 2);
   const std::string bytes = study(e, 20'000).serialise();
   ASSERT_TRUE(StudyStatistics::parse(bytes, e));
-  EXPECT_EQ(StudyStatistics::parse(bytes, e)->serialise(), bytes);  // tails far out among them
+  EXPECT_EQ(StudyStatistics::parse(bytes, e)->serialise(), bytes);  // the tails have far values
   for (std::size_t n = 0; n < bytes.size(); n += 1 + n / 50) {
     EXPECT_FALSE(StudyStatistics::parse(bytes.substr(0, n), e)) << n;
   }
@@ -287,7 +290,7 @@ TEST(StudyStatistics, DamagedBytesAreAnErrorAndNothingWorse) {
       std::string other = bytes;
       other[at] = static_cast<char>(other[at] ^ flip);
       const auto parsed = StudyStatistics::parse(other, e);
-      if (parsed) {  // a sum or an edge may be another number; it can still be worked with
+      if (parsed) {  // a changed sum or edge may be another valid number
         ++accepted;
         parsed->overall();
         parsed->bins();
@@ -320,9 +323,9 @@ TEST(StudyStatistics, BlocksAreMultiplesOfTheBins) {
   }
 }
 
-// The scale stands behind the magic, the version and three counts: low, and the width of a bin,
-// which is above 0 and whose 8192 reach a number.
-TEST(StudyStatistics, AScaleThatReachesBeyondAllNumbersIsRefused) {
+// The scale follows the magic, the version and three counts: the lower edge and the width of a bin,
+// which must be positive and small enough that 8192 bins reach a finite number.
+TEST(StudyStatistics, RejectsAScaleThatIsNotFinite) {
   const OneOutput e([](double u, auto) { return u; });
   const std::string bytes = study(e, 1000).serialise();
   const auto is_read = [&](std::size_t which, double value) {
@@ -333,7 +336,7 @@ TEST(StudyStatistics, AScaleThatReachesBeyondAllNumbersIsRefused) {
   EXPECT_TRUE(is_read(0, -3));
   EXPECT_TRUE(is_read(1, 0.5));
   EXPECT_TRUE(is_read(1, 2e304));
-  EXPECT_FALSE(is_read(1, 2.3e304));  // 8192 of them are 1.88e308
+  EXPECT_FALSE(is_read(1, 2.3e304));  // 8192 bins are 1.88e308
   for (const double none : {0.0, -1.0, HUGE_VAL, std::nan("")}) EXPECT_FALSE(is_read(1, none));
   for (const double none : {-HUGE_VAL, HUGE_VAL, std::nan("")}) EXPECT_FALSE(is_read(0, none));
 }

@@ -1,4 +1,4 @@
-// k and U of a separation. Machine and target are straight, so that what is found is its noise.
+// k and U of a separation. Machine and target are straight, so the result is only noise.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,8 @@ double normal(std::uint32_t trial, std::uint32_t set_up, std::uint32_t i) {
   return gaussian(uniform(words[0], words[1]));
 }
 
-// Three set-ups, the second shifted by a step, the third turned over: n - 3 degrees of freedom.
+// Three set-ups: the second is shifted by a step, the third is turned over. There are n - 3 degrees
+// of freedom.
 SeparationRequest noise_only(std::uint32_t n, std::uint32_t trial) {
   SeparationRequest request;
   for (std::uint32_t k = 0; k < 3; ++k) {
@@ -31,8 +32,8 @@ SeparationRequest noise_only(std::uint32_t n, std::uint32_t trial) {
   return request;
 }
 
-// How many of 3,000 intervals hold the truth, which is 0.
-TEST(SeparationExpanded, UHoldsTheTruthByStudentsT) {
+// Counts how many of 3,000 intervals contain the true value 0.
+TEST(SeparationExpanded, UCoversTheTruthWithStudentsT) {
   constexpr std::uint32_t kTrials = 3000;
   for (const std::uint32_t n : {4U, 6U}) {
     int held = 0, held_by_two = 0;
@@ -45,14 +46,14 @@ TEST(SeparationExpanded, UHoldsTheTruthByStudentsT) {
       held += off_m <= found->machine.U_m(1);
       held_by_two += off_m <= 2 * found->machine.u_m[1];
     }
-    // 95 % and three standard deviations of 3,000.
+    // 95 %, within three standard deviations for 3,000 trials.
     EXPECT_NEAR(100.0 * held / kTrials, 95, 1.2) << n;
     EXPECT_LT(100.0 * held_by_two / kTrials, 88) << n;
   }
 }
 
-// 12.71 and 1.960 of GUM's table G.2; between them the degrees of freedom are those of G.2b.
-TEST(SeparationExpanded, WhatIsDeclaredHasInfinitelyManyDegreesOfFreedom) {
+// 12.71 and 1.960 are from GUM table G.2; between them the degrees of freedom follow equation G.2b.
+TEST(SeparationExpanded, DeclaredUHasInfiniteDegreesOfFreedom) {
   auto request = noise_only(4, 1);
   const auto scatter = separate(request).value();
   EXPECT_NEAR(scatter.machine.k[1], 12.71, 0.01);
@@ -60,7 +61,7 @@ TEST(SeparationExpanded, WhatIsDeclaredHasInfinitelyManyDegreesOfFreedom) {
               1e-3 * scatter.machine.U_m(1));
   for (auto& set_up : request.set_ups) set_up.declared = {{"", {0, 30e-9, 0, 0}}};
   const auto both = separate(request).value();
-  // u^4 / (u_s^4 / 1) of the scatter u_s alone.
+  // Degrees of freedom: u^4 / (u_s^4 / 1) with the scatter u_s alone.
   const double ratio = both.machine.u_m[1] / scatter.machine.u_m[1];
   EXPECT_GT(ratio, 1);
   EXPECT_NEAR(both.machine.freedom[1] / std::pow(ratio, 4), 1, 1e-9);
@@ -70,7 +71,7 @@ TEST(SeparationExpanded, WhatIsDeclaredHasInfinitelyManyDegreesOfFreedom) {
   EXPECT_TRUE(std::isinf(known.machine.freedom[1]));
 }
 
-TEST(SeparationExpanded, WithoutUAndFreedomThereIsNoFactor) {
+TEST(SeparationExpanded, HasNoFactorWithoutUAndFreedom) {
   auto request = noise_only(6, 1);
   request.set_ups.erase(request.set_ups.begin() + 1);
   const auto found = separate(request).value();

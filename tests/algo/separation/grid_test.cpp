@@ -1,4 +1,4 @@
-// Positions of set-ups on one grid, by hand.
+// Positions of set-ups on a common grid, calculated by hand.
 #include "algo/separation/grid.h"
 
 #include <gtest/gtest.h>
@@ -16,16 +16,16 @@ SetUp at_positions(std::vector<double> position_m, double shift_m = 0) {
   return set_up;
 }
 
-// 0.4 mm off a step of 10 mm is 0.4 mm.
-TEST(SeparationGrid, AShiftOffTheStepsIsTakenWithinTheMatch) {
+// A shift that is 0.4 mm away from a multiple of the step of 10 mm.
+TEST(SeparationGrid, AcceptsAShiftWithinTheMatch) {
   const std::vector<double> x = {0, 10e-3, 20e-3, 30e-3};
   const SetUps set_ups = {at_positions(x), at_positions(x, 20.4e-3)};
   const auto grid = grid_of({}, set_ups, 0.41e-3);
   ASSERT_TRUE(grid) << grid.error().message;
   EXPECT_NEAR(grid->step_m, 10e-3, 1e-15);
   EXPECT_EQ(grid->at_position, (std::vector<std::size_t>{0, 1, 2, 3, 0, 1, 2, 3}));
-  // The target moves to + past the probe, which reads ever lower places; shifted by two steps to +
-  // it shows places that are lower by two.
+  // When the target moves to +, the probe reads lower places of the target. A shift by two steps to
+  // + shows places that are two steps lower.
   EXPECT_EQ(grid->at_place, (std::vector<std::size_t>{5, 4, 3, 2, 3, 2, 1, 0}));
   ASSERT_EQ(grid->place_m.size(), 6u);
   EXPECT_NEAR(grid->place_m[5] - grid->place_m[0], 50e-3, 1e-15);
@@ -38,8 +38,8 @@ TEST(SeparationGrid, AShiftOffTheStepsIsTakenWithinTheMatch) {
       << refused.error().message;
 }
 
-// Positions within the match of the lowest are one, at their mean.
-TEST(SeparationGrid, PositionsWithinTheMatchAreOne) {
+// Positions within the match tolerance of the lowest position are one position, at their mean.
+TEST(SeparationGrid, MergesPositionsWithinTheMatch) {
   const auto grid = grid_of(
       {}, {at_positions({0, 10e-3, 25e-3}), at_positions({0.2e-3, 10.3e-3, 25e-3})}, 0.31e-3);
   ASSERT_TRUE(grid) << grid.error().message;
@@ -47,15 +47,16 @@ TEST(SeparationGrid, PositionsWithinTheMatchAreOne) {
   EXPECT_NEAR(grid->position_m[0], 0.1e-3, 1e-15);
   EXPECT_NEAR(grid->position_m[1], 10.15e-3, 1e-15);
   EXPECT_EQ(grid->at_position, (std::vector<std::size_t>{0, 1, 2, 0, 1, 2}));
-  EXPECT_EQ(grid->at_place, (std::vector<std::size_t>{2, 1, 0, 2, 1, 0}));  // nothing is shifted
+  EXPECT_EQ(grid->at_place, (std::vector<std::size_t>{2, 1, 0, 2, 1, 0}));  // no set-up is shifted
   const auto apart = grid_of(
       {}, {at_positions({0, 10e-3, 25e-3}), at_positions({0.2e-3, 10.3e-3, 25e-3})}, 0.29e-3);
   EXPECT_EQ(apart->position_m.size(), 4u);
-  EXPECT_FALSE(grid_of({}, {at_positions({0, 0.1e-3, 5e-3})}, 0.31e-3));  // two are no line
+  EXPECT_FALSE(
+      grid_of({}, {at_positions({0, 0.1e-3, 5e-3})}, 0.31e-3));  // two positions are no line
 }
 
-// Steps are differences: wherever the positions lie, and one that lies out of them is named.
-TEST(SeparationGrid, StepsAreTheSameOnEitherSideOfZero) {
+// Steps are differences, so the origin has no effect. A position off the steps is reported.
+TEST(SeparationGrid, StepsDoNotDependOnTheOrigin) {
   for (const double from_m : {-50e-3, -20e-3, 0.0, 70e-3}) {
     std::vector<double> x = {from_m, from_m + 10e-3, from_m + 20e-3, from_m + 40e-3};
     const auto grid = grid_of({}, {at_positions(x), at_positions(x, 10e-3)}, 0.1e-3);

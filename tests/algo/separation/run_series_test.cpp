@@ -1,4 +1,4 @@
-// What a separation takes of a run: the error itself, or one probe's own readings.
+// The data of a run for a separation: the error, or the readings of one probe.
 #include "algo/separation/run_series.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace mdof::algo {
 namespace {
 
-// δy of 2 µm/m and a yaw of 30 µrad/m: at the fixture EYX = δy - d εz.
+// A δy of 2 µm/m and a yaw of 30 µrad/m: at the fixture, EYX = δy - d εz.
 mdof::Run of_slopes(const Rig& rig) {
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .targets_m = {0, 10e-3, 30e-3}};
   synthetic.truth = [](double d) { return Errors5{2e-6 * d, 0, 0, 0, 30e-6 * d}; };
@@ -17,7 +17,7 @@ mdof::Run of_slopes(const Rig& rig) {
   return synthetic.measure();
 }
 
-TEST(RunSeries, OfAnErrorIsItsMeanAtEachTarget) {
+TEST(RunSeries, ErrorSeriesIsTheMeanAtEachTarget) {
   const auto run = of_slopes(test::rig_x());
   const auto series = error_series(run, 0);
   ASSERT_EQ(series.position_m, (std::vector<double>{0, 10e-3, 30e-3}));
@@ -27,8 +27,8 @@ TEST(RunSeries, OfAnErrorIsItsMeanAtEachTarget) {
   }
 }
 
-// D stands at x = 0: it reads δy - εz d; three runs of two visits: u/√6.
-TEST(RunSeries, OfAProbeIsWhatItReads) {
+// Probe D is at x = 0 and reads δy - εz d. Three runs of two visits give u/√6.
+TEST(RunSeries, ProbeSeriesIsTheReading) {
   for (const char* id : {"D", "E"}) {
     const auto run = of_slopes(test::rig_x());
     const std::size_t k = id[0] == 'D' ? 3 : 4;
@@ -45,8 +45,9 @@ TEST(RunSeries, OfAProbeIsWhatItReads) {
   EXPECT_NEAR(probe_series(run, test::rig_x(), "D", Axis::y)->set_up.error_m[2], -before, 1e-18);
 }
 
-// The same run with a gain that is really there, read again: 2 % of D, and of B through the roll.
-TEST(RunSeries, ADeclaredGainDoesWhatItWouldDo) {
+// The declared shift is compared with a run that has this gain: 2 % of D, and of B with the effect
+// of the roll.
+TEST(RunSeries, DeclaredGainHasTheEffectOfARealGain) {
   for (const std::size_t k : {1u, 3u}) {
     const Rig rig = test::rig_x_with(k == 1 ? "B" : "D", "u_sensitivity_ppm = 20000");
     SyntheticRun synthetic{.rig = rig, .model = Model::exact, .targets_m = {0, 10e-3, 30e-3}};
@@ -71,8 +72,8 @@ TEST(RunSeries, ADeclaredGainDoesWhatItWouldDo) {
   }
 }
 
-// The surface that is looked at is what a separation finds; the other one is in u.
-TEST(RunSeries, TheFlatnessOfTheOtherSurfaceIsInIt) {
+// The separation determines the measured surface; the other surface contributes to u.
+TEST(RunSeries, ContainsFlatnessOfTheOtherSurface) {
   const std::string planes =
       "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.05\n"
       "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n";
@@ -82,7 +83,7 @@ TEST(RunSeries, TheFlatnessOfTheOtherSurfaceIsInIt) {
 }
 
 // A plane needs no id.
-TEST(RunSeries, TheFlatnessOfThisSurfaceIsNotInItWithoutAnId) {
+TEST(RunSeries, OmitsFlatnessOfThisSurfaceWithoutAnId) {
   const Rig side = test::rig_x_with("", "",
                                     "[[plane]]\nnormal = \"+Y\"\nu_flatness_um = "
                                     "0.05\n[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n");
@@ -90,7 +91,7 @@ TEST(RunSeries, TheFlatnessOfThisSurfaceIsNotInItWithoutAnId) {
   EXPECT_FALSE(declared_shifts(of_slopes(side), side, 0, Axis::z)->empty());
 }
 
-TEST(RunSeries, RefusesAProbeThatLooksElsewhere) {
+TEST(RunSeries, RejectsAProbeOfAnotherDirection) {
   const auto run = of_slopes(test::rig_x());
   const auto other = probe_series(run, test::rig_x(), "A", Axis::y);
   ASSERT_FALSE(other);
@@ -102,8 +103,9 @@ TEST(RunSeries, RefusesAProbeThatLooksElsewhere) {
       std::string::npos);
 }
 
-// Both are of the probe that is read, and of no other one; a run begins with its drift at 0.
-TEST(RunSeries, AProbeHasItsOwnSensitivityAndItsOwnDrift) {
+// The sensitivity and the drift of the read probe count, and those of no other probe. The drift is
+// 0 at the start of the run.
+TEST(RunSeries, ProbeHasItsOwnSensitivityAndDrift) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 20000",
                                    "[drift]\nu_um_per_h = 3.6\n");  // 1 nm/s
   const auto run = of_slopes(rig);
@@ -115,7 +117,7 @@ TEST(RunSeries, AProbeHasItsOwnSensitivityAndItsOwnDrift) {
       if (scales) {
         EXPECT_NEAR(own.declared[0].shift_m[i], 0.02 * own.error_m[i], 1e-18);
       }
-      // Six visits, ten seconds apart: forward at 10 (i + 1), back at 10 (6 - i), 60 s a run.
+      // Six visits, ten seconds apart: forward at 10 i, reverse at 10 (5 - i), 60 s per run.
       double mean_s = 0;
       for (int r = 0; r < 3; ++r)
         mean_s += (60.0 * r + 10 * static_cast<double>(i) + 60.0 * r +

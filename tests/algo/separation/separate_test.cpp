@@ -1,5 +1,5 @@
-// Error separation against machines and targets that are known: what is planted comes back where
-// it is seen, and what is not seen is named and left out.
+// Error separation of known machines and targets: planted shapes are found where they are seen;
+// unseen shapes are named and left out.
 #include "algo/separation/separate.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ constexpr double kMm = 1e-3, kUm = 1e-6, kNm = 1e-9;
 double wave(double x, double period_mm, double phase) {
   return std::sin(2 * std::numbers::pi * (x / (period_mm * kMm) + phase));
 }
-// About 3 µm of machine and 1 µm of target, with parabolas and no common period.
+// About 3 µm of machine and 1 µm of target error, with parabolas and without a common period.
 double machine_at(double x) {
   return kUm * (1.1 * wave(x, 47, 0.1) + 0.4 * wave(x, 17, 0.7) + 900 * x * x);
 }
@@ -30,14 +30,14 @@ double height_at(double c) {
   return kUm * (0.3 * wave(c, 38, 0.3) + 0.1 * wave(c, 13, 0.6) - 300 * c * c);
 }
 
-// Where the material that is read lies in the target's own length: by moving bodies about, not by
-// the formula of set_up.h.
+// Position of the read material in the target's own coordinate. It is calculated by moving the
+// bodies, not by the formula of set_up.h.
 struct Lain {
   bool upside_down = false, end_for_end = false;
   double shift_m = 0;
 };
 double own_length(double in_C, const Lain& lain) {
-  const double from_zero = in_C - lain.shift_m;  // to + of the motion
+  const double from_zero = in_C - lain.shift_m;  // towards + of the motion
   return lain.end_for_end ? -from_zero : from_zero;
 }
 
@@ -55,8 +55,8 @@ double normal(std::uint64_t seed, int number, std::size_t i) {
   return gaussian(uniform(words[0], words[1]));
 }
 
-// What an instrument says: the displacement of the surface along +, read as an error of the body
-// that moves.
+// Reading of an instrument: the displacement of the surface along +, as an error of the moving
+// body.
 SetUp measured(const World& world, const Lain& lain, int number) {
   SetUp s;
   s.turn = {lain.upside_down ? -1.0 : 1.0, lain.end_for_end};
@@ -90,7 +90,7 @@ Column steps(int n, double step_m, double from_m = 0) {
   return x;
 }
 
-// Takes shapes out of a column by least squares, one after the other made square to those before.
+// Removes shapes from a column by least squares; each is orthogonal to the previous shapes.
 Column without(Column y, std::vector<Column> shapes) {
   std::vector<Column> square;
   const auto take_out = [](Column& of, const Column& shape) {
@@ -132,7 +132,7 @@ std::set<std::string> names(const SeenSeries& series) {
   return found;
 }
 
-TEST(Separation, ReversalTellsBothButForALine) {
+TEST(Separation, ReversalSeparatesBothExceptForALine) {
   for (const bool fixture : {false, true}) {
     for (const bool against : {false, true}) {
       const World world{{fixture, against}, 7 * kMm, {0, 4e-3, 11e-3, 19e-3, 33e-3, 48e-3, 60e-3}};
@@ -144,7 +144,7 @@ TEST(Separation, ReversalTellsBothButForALine) {
       const Column& c = found->target.place_m;
       EXPECT_NEAR(c.front(), fixture == against ? -53 * kMm : 7 * kMm, 1e-15);
       EXPECT_LT(worst(found->target.seen_m, without(of(c, height_at), line(c))), 1e-15);
-      // The textbook's halves, each less a line.
+      // The halves of the textbook, each without its line.
       Column half;
       for (std::size_t i = 0; i < world.x_m.size(); ++i)
         half.push_back((request.set_ups[0].error_m[i] + request.set_ups[1].error_m[i]) / 2);
@@ -183,7 +183,7 @@ TEST(Separation, OneShiftHidesParabolaAndPeriods) {
   }
 }
 
-TEST(Separation, ShiftsWithoutCommonDivisorHideTheParabolaAlone) {
+TEST(Separation, ShiftsWithoutCommonDivisorHideOnlyTheParabola) {
   const World world{{}, 0, steps(25, 2.5 * kMm)};
   const auto found =
       separate(request_of(world, {{}, {false, false, 10 * kMm}, {false, false, -7.5 * kMm}}));
@@ -191,7 +191,7 @@ TEST(Separation, ShiftsWithoutCommonDivisorHideTheParabolaAlone) {
   EXPECT_EQ(names(found->target), (std::set<std::string>{"offset", "slope", "parabola"}));
 }
 
-TEST(Separation, ShiftedAndTurnedSeesAllButALine) {
+TEST(Separation, ShiftAndTurnSeparateAllExceptALine) {
   const World world{{}, 3 * kMm, steps(25, 2.5 * kMm)};
   const auto found = separate(request_of(
       world, {{}, {false, false, 10 * kMm}, {false, false, -5 * kMm}, {true, false, 0}}));
@@ -203,8 +203,8 @@ TEST(Separation, ShiftedAndTurnedSeesAllButALine) {
   EXPECT_LT(found->residual_m, 1e-15);
 }
 
-// What changes its sign over the shift looks like the machine once it is turned as well.
-TEST(Separation, TurnedAndShiftedAtOnceHidesTwiceTheShift) {
+// A shape that changes its sign over the shift looks like the machine after the turn.
+TEST(Separation, TurnWithShiftHidesTwiceTheShift) {
   const World world{{}, 0, steps(25, 2.5 * kMm)};
   auto found = separate(request_of(world, {{}, {true, false, 10 * kMm}}));
   ASSERT_TRUE(found) << found.error().message;
@@ -216,9 +216,9 @@ TEST(Separation, TurnedAndShiftedAtOnceHidesTwiceTheShift) {
   EXPECT_EQ(names(found->target), (std::set<std::string>{"offset", "slope", "period 5 mm"}));
 }
 
-// About the normal the surface still looks the same way, so that what is symmetric about the middle
-// stays hidden; about the third axis it is what is antisymmetric.
-TEST(Separation, EndForEndSeesHalfOfTheShapes) {
+// After a turn about the normal, the surface faces the same direction, so shapes symmetric about
+// the middle stay hidden. After a turn about the third axis, antisymmetric shapes stay hidden.
+TEST(Separation, EndForEndTurnSeesHalfOfTheShapes) {
   const World world{{}, 0, steps(13, 5 * kMm)};
   for (const bool upside_down : {false, true}) {
     const auto found = separate(request_of(world, {{}, {upside_down, true, -60 * kMm}}));
@@ -236,7 +236,7 @@ TEST(Separation, EndForEndSeesHalfOfTheShapes) {
   }
 }
 
-TEST(Separation, UncertaintyIsThatOfTheNoise) {
+TEST(Separation, UncertaintyMatchesTheNoise) {
   World world{{}, 0, steps(13, 5 * kMm), 5 * kNm};
   const std::vector<Lain> lain = {{}, {true, false, 0}, {false, false, 5 * kMm}};
   constexpr int kTrials = 2000;
@@ -254,15 +254,15 @@ TEST(Separation, UncertaintyIsThatOfTheNoise) {
   }
   for (std::size_t i = 0; i < u.size(); ++i)
     EXPECT_NEAR(std::sqrt(square[i] - sum[i] * sum[i]) / u[i], 1, 0.06) << i;
-  // Reversal alone: of n readings with u, the half difference has u/sqrt(2), less a line.
+  // Reversal alone: the half difference of n readings with u has u/sqrt(2), without a line.
   const auto reversal = separate(request_of(world, {{}, {true, false, 0}}));
   double trace = 0;
   for (const double v : reversal->target.u_m) trace += v * v / (5 * kNm * 5 * kNm);
   EXPECT_NEAR(trace, (13 - 2) / 2.0, 1e-9);
 }
 
-// A third set-up as the first was, with ten times its uncertainty, adds its weight and no more.
-TEST(Separation, ReadingsCountByTheirUncertainty) {
+// A third set-up equal to the first, with ten times its uncertainty, contributes only its weight.
+TEST(Separation, ReadingsAreWeightedByTheirUncertainty) {
   const World world{{}, 0, steps(7, 10 * kMm), 1 * kNm};
   auto request = request_of(world, {{}, {true, false, 0}, {}});
   for (double& u : request.set_ups[2].u_m) u *= 10;
@@ -273,7 +273,7 @@ TEST(Separation, ReadingsCountByTheirUncertainty) {
   EXPECT_NEAR(trace / (kNm * kNm), (7 - 2) * (1 / (1 + 0.01) + 1) / 4, 1e-9);
 }
 
-TEST(Separation, WithoutUncertaintyTheScatterTells) {
+TEST(Separation, UsesTheScatterWithoutUncertainty) {
   constexpr int kTrials = 400;
   double square = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -290,7 +290,7 @@ TEST(Separation, WithoutUncertaintyTheScatterTells) {
   EXPECT_NEAR(square, 1, 0.09);  // sd of the mean: sqrt(2/6/400) = 0.03
 }
 
-TEST(Separation, AWrongShiftContradicts) {
+TEST(Separation, ReportsAWrongShift) {
   const World world{{}, 0, steps(25, 2.5 * kMm), 5 * kNm};
   auto request = request_of(world, {{}, {true, false, 0}, {false, false, 5 * kMm}});
   EXPECT_TRUE(separate(request)->notices.empty());
@@ -302,7 +302,7 @@ TEST(Separation, AWrongShiftContradicts) {
   EXPECT_EQ(wrong->notices[0].severity, Severity::invalid);
 }
 
-TEST(Separation, WhatCannotBeIsRefusedWithARemedy) {
+TEST(Separation, RejectsImpossibleSetUps) {
   const World world{{}, 0, steps(7, 10 * kMm)};
   const auto says = [&](const SeparationRequest& request, const std::string& words) {
     const auto found = separate(request);
@@ -330,9 +330,9 @@ TEST(Separation, WhatCannotBeIsRefusedWithARemedy) {
   says(request, "2 readings");
 }
 
-// By hand: of a reversal the machine is half the sum. One gain of 1 % in both set-ups is 1 % of
-// all that is seen; a gain of each is 1 % of each half, whose squares add.
-TEST(Separate, WhatIsDeclaredIsInU) {
+// Calculated by hand: in a reversal the machine is half the sum. A common gain of 1 % in both
+// set-ups is 1 % of the seen shape. Separate gains are 1 % of each half, and their squares add.
+TEST(Separate, UContainsDeclaredShifts) {
   const auto found = [](const std::string& common, double gain) {
     SeparationRequest request;
     request.u_is_noise = true;
@@ -357,7 +357,7 @@ TEST(Separate, WhatIsDeclaredIsInU) {
     EXPECT_NEAR(one.target.u_m[i], 0.01 * std::abs(one.target.seen_m[i]), 2e-12);
     EXPECT_LT(none.machine.u_m[i], 2e-12);
   }
-  // Each set-up's own; places on the target descend as positions ascend.
+  // Each set-up has its own gain; places on the target descend when positions ascend.
   const Separation own = found("", 0.01);
   for (std::size_t i = 0; i < 7; ++i) {
     const double first = one.machine.seen_m[i] + one.target.seen_m[6 - i];
@@ -369,8 +369,8 @@ TEST(Separate, WhatIsDeclaredIsInU) {
   EXPECT_NE(none.u_reason.find("repeatability only"), std::string::npos);
 }
 
-// Four set-ups whose probes are 1 % off in scale, each by its own, in noise of 2 nm.
-TEST(Separate, WhatIsDeclaredContradictsNothing) {
+// Four set-ups whose probes have separate scale errors of about 1 %, with noise of 2 nm.
+TEST(Separate, DeclaredShiftsDoNotContradict) {
   const auto accused = [](double declared_scale) {
     int n = 0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
@@ -393,7 +393,7 @@ TEST(Separate, WhatIsDeclaredContradictsNothing) {
   };
   EXPECT_EQ(accused(0.01), 0);
   EXPECT_GT(accused(0), 75);
-  EXPECT_GT(accused(0.001), 40);  // ten times as far off as declared
+  EXPECT_GT(accused(0.001), 40);  // scale errors are ten times as large as declared
 }
 
 }  // namespace

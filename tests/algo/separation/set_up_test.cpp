@@ -1,4 +1,5 @@
-// What half a turn does to a surface, by turning its normal and the motion as vectors.
+// The effect of a rotation by 180° on a surface, from rotated vectors of its normal and of the
+// motion.
 #include "algo/separation/set_up.h"
 
 #include <gtest/gtest.h>
@@ -6,12 +7,12 @@
 namespace mdof::algo {
 namespace {
 
-// By 180° about an axis a vector keeps its part along it and loses the sign of the rest.
+// A rotation by 180° about an axis keeps the component along this axis and inverts the others.
 double sign_after(Axis about, Axis of) {
   return about == of ? 1 : -1;
 }
 
-TEST(HalfTurn, SignsAreThoseOfTheTurnedVectors) {
+TEST(HalfTurn, SignsMatchTheTurnedVectors) {
   for (const Axis motion : {Axis::x, Axis::y, Axis::z}) {
     for (const Surface surface : {Surface::side, Surface::top}) {
       const Axis normal = across(motion, surface).normal;

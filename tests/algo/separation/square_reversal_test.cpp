@@ -1,4 +1,4 @@
-// Two set-ups of a square by hand.
+// Two set-ups of a square, calculated by hand.
 #include "algo/separation/square_reversal.h"
 
 #include <gtest/gtest.h>
@@ -19,10 +19,10 @@ SquareSetUp set_up(int corner, double value_urad, double u_random_urad, double d
 }
 
 // m + α = 12 and m - α = 4 µrad: m = 8, α = 4.
-TEST(SquareReversalByHand, TellsTheSquareFromTheMachine) {
+TEST(SquareReversalByHand, SeparatesTheSquareFromTheMachine) {
   const auto found = square_reversal(set_up(1, 12, 3, 2, 10), set_up(-1, 4, 4, 2, 10)).value();
   EXPECT_NEAR(found.EC0Y_rad, 8e-6, 1e-15);
-  EXPECT_NEAR(found.square_rad, -4e-6, 1e-15);  // EC0Y of a square taken as true is m - α
+  EXPECT_NEAR(found.square_rad, -4e-6, 1e-15);  // EC0Y of a square assumed to be perfect is m - α
   EXPECT_NEAR(found.u_random_rad, 2.5e-6, 1e-15);
   EXPECT_NEAR(found.u_declared_rad, 2e-6, 1e-12);
   EXPECT_NEAR(found.u_rad, std::hypot(2.5e-6, 2e-6), 1e-12);
@@ -30,7 +30,8 @@ TEST(SquareReversalByHand, TellsTheSquareFromTheMachine) {
   EXPECT_NEAR(turned.square_rad, 4e-6, 1e-15);
 }
 
-// Welch-Satterthwaite of two equal parts of 5 degrees of freedom: 10, and k of t is 2.228.
+// Welch-Satterthwaite for two equal contributions with 5 degrees of freedom: 10 degrees of freedom,
+// k from the t distribution is 2.228.
 TEST(SquareReversalByHand, DegreesOfFreedomAdd) {
   const auto found = square_reversal(set_up(1, 1, 3, 0, 5), set_up(-1, 1, 3, 0, 5)).value();
   EXPECT_NEAR(found.freedom, 10, 1e-9);
@@ -40,9 +41,9 @@ TEST(SquareReversalByHand, DegreesOfFreedomAdd) {
   EXPECT_NEAR(uneven.freedom, 45. * 45 / (36. * 36 / 5 + 81. / 20), 1e-9);
 }
 
-// u a last bit above u_random, and repeatability of 1e-13 of u: nothing is declared, and the
-// degrees of freedom are as good as infinite.
-TEST(SquareReversalByHand, RoundingIsNothing) {
+// u exceeds u_random by the last bit only, and the repeatability is 1e-13 of u: nothing is
+// declared, and the degrees of freedom are infinite.
+TEST(SquareReversalByHand, IgnoresRounding) {
   SquareSetUp a = set_up(1, 1, 3, 0, 5e52), b = set_up(-1, 1, 3, 0, 5e52);
   a.budget.u = std::nextafter(a.budget.u_random, 1);
   const auto found = square_reversal(a, b).value();
@@ -51,7 +52,7 @@ TEST(SquareReversalByHand, RoundingIsNothing) {
   EXPECT_NEAR(found.coverage_factor, 1.960, 1e-3);
 }
 
-TEST(SquareReversalByHand, RefusesCornersThatTellNothing) {
+TEST(SquareReversalByHand, RejectsCornersWithoutReversal) {
   EXPECT_NE(square_reversal(set_up(0, 1, 1, 1, 5), set_up(1, 1, 1, 1, 5))
                 .error()
                 .message.find("the first set-up"),
@@ -66,7 +67,7 @@ TEST(SquareReversalByHand, RefusesCornersThatTellNothing) {
             std::string::npos);
 }
 
-TEST(SquareReversalByHand, KeepsBothFigures) {
+TEST(SquareReversalByHand, KeepsBothValues) {
   SquareSetUp first = set_up(1, 12, 3, 2, 10), second = set_up(-1, 4, 4, 1, 10);
   const auto found = square_reversal(first, second).value();
   EXPECT_NEAR(found.first_rad, 12e-6, 1e-18);

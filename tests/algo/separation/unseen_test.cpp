@@ -1,4 +1,4 @@
-// Names of shapes that are made by hand.
+// Names of unseen shapes, for shapes made by hand.
 #include "algo/separation/unseen.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 const std::vector<double> kPlaces = {0, 10e-3, 20e-3, 30e-3, 40e-3, 50e-3};
 
-// Orthonormal columns that span those given.
+// Orthonormal columns that span the given shapes.
 Eigen::MatrixXd unseen(const std::vector<std::vector<double>>& shapes) {
   Eigen::MatrixXd columns(6, static_cast<Eigen::Index>(shapes.size()));
   for (Eigen::Index k = 0; k < columns.cols(); ++k) {
@@ -36,17 +36,18 @@ std::string named(const std::vector<std::vector<double>>& shapes,
 const std::vector<double> kOnes(6, 1.0), kLine = {0, 1, 2, 3, 4, 5}, kSquares = {0, 1,  4,
                                                                                  9, 16, 25};
 
-TEST(UnseenShapes, HaveTheNamesOfWhatTheySpan) {
+TEST(UnseenShapes, HaveTheNamesOfTheirSpan) {
   EXPECT_EQ(named({kOnes}), "offset (1)\n");
   EXPECT_EQ(named({kLine, kOnes}), "offset (1)\nslope (1)\n");
   EXPECT_EQ(named({kOnes, kLine, kSquares}), "offset (1)\nslope (1)\nparabola (1)\n");
-  // A line about the middle, without an offset: the slope alone.
+  // A line about the middle, without an offset, is only the slope.
   EXPECT_EQ(named({{-5, -3, -1, 1, 3, 5}}), "slope (1)\n");
-  // The line of the first place has an offset in it, which is seen: it is none of them.
+  // The line that starts at 0 contains an offset, which is seen. So the shape is neither offset nor
+  // slope.
   EXPECT_EQ(named({kLine}), "1 more shape, from 10 mm to 50 mm (1)\n");
 }
 
-TEST(UnseenShapes, OfAPeriodAreTwoOrOneWhereItIsOfTwoSteps) {
+TEST(UnseenShapes, PeriodHasTwoShapesOrOneIfTwoStepsLong) {
   std::vector<double> sine, cosine;
   for (int i = 0; i < 6; ++i) {
     sine.push_back(std::sin(2 * std::numbers::pi * i / 3));
@@ -58,7 +59,7 @@ TEST(UnseenShapes, OfAPeriodAreTwoOrOneWhereItIsOfTwoSteps) {
             "1 more shape antisymmetric about 25 mm (1)\n");
 }
 
-TEST(UnseenShapes, WithoutANameAreSymmetricOrSomewhere) {
+TEST(UnseenShapes, UnnamedShapesHaveSymmetryOrRange) {
   EXPECT_EQ(named({{1, 0, 0, 0, 0, 1}}), "1 more shape symmetric about 25 mm (1)\n");
   EXPECT_EQ(named({{0, 1, 0, 0, -1, 0}}), "1 more shape antisymmetric about 25 mm (1)\n");
   EXPECT_EQ(named({{1, 0, 0, 0, 0, 1}, {0, 1, 0, 0, 1, 0}}),
@@ -72,7 +73,7 @@ TEST(UnseenShapes, WithoutANameAreSymmetricOrSomewhere) {
   EXPECT_EQ(uneven[0].name, "1 more shape, from 0 mm to 60 mm");
 }
 
-TEST(HiddenPeriods, AreTheGreatestCommonDivisorAndItsParts) {
+TEST(HiddenPeriods, AreTheGreatestCommonDivisorAndItsFractions) {
   const auto mm = [](const std::vector<double>& ways_mm, double step_mm) {
     std::vector<double> ways;
     for (const double way : ways_mm) ways.push_back(1e-3 * way);
@@ -90,9 +91,9 @@ TEST(HiddenPeriods, AreTheGreatestCommonDivisorAndItsParts) {
   EXPECT_EQ(mm({}, 2), (std::vector<double>{}));
 }
 
-// A shape is unseen where less than a millionth of it is seen, whatever its number of places. The
-// columns are an offset turned by so little towards +1, -1 ..., which is as long.
-TEST(UnseenShapes, AMillionthOfAShapeMayBeSeen) {
+// A shape is unseen if less than a millionth of it is seen, for any number of places. The columns
+// are an offset rotated by this amount towards +1, -1 ..., which has the same length.
+TEST(UnseenShapes, UpToAMillionthOfAShapeMayBeSeen) {
   const auto turned = [](double by) {
     std::vector<double> shape;
     for (int i = 0; i < 6; ++i) shape.push_back(1 + (i % 2 == 0 ? by : -by));

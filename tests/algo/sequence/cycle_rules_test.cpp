@@ -1,5 +1,5 @@
-// Which cycle a row of visits is, and the run of each, on either side of the limits: rows by hand.
-// Found missing by tests/mutate.
+// The cycle and the runs of a row of visits, on both sides of the limits, with rows made by hand.
+// Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -12,14 +12,15 @@ namespace {
 
 using Runs = std::vector<int>;
 
-// Each number is a target, with the sign of the direction.
+// Each number is a target with the sign of the direction.
 std::vector<Visit> visits_of(const std::vector<int>& row) {
   std::vector<Visit> visits;
   for (const int v : row) visits.push_back({std::abs(v), v > 0 ? 1 : -1});
   return visits;
 }
 
-// Over seven targets and back; the first `repeated` visits of each pass up are there twice.
+// Forward and back over seven targets; the first `repeated` visits of the first pass are made
+// twice.
 std::vector<int> over_and_back(int runs, int repeated) {
   std::vector<int> row;
   for (int run = 0; run < runs; ++run) {
@@ -33,12 +34,12 @@ bool by_passes(const std::vector<int>& row) {
   return recognise_cycle(visits_of(row), 7).by_passes;
 }
 
-TEST(CycleRule, ThreeRepeatedVisitsAreForgivenInAShortRun) {
+TEST(CycleRule, AllowsThreeRepeatedVisitsInAShortRun) {
   EXPECT_TRUE(by_passes(over_and_back(1, 3)));   // 3 of 17
   EXPECT_FALSE(by_passes(over_and_back(1, 4)));  // 4 of 18
 }
 
-TEST(CycleRule, ThreeOfTwentyAreForgivenInALongOne) {
+TEST(CycleRule, AllowsThreeOfTwentyInALongRun) {
   EXPECT_TRUE(by_passes(over_and_back(3, 7)));  // 7 of 49
   // The first two visits are in order, three are not.
   EXPECT_TRUE(by_passes({1, 2, 3, 4, 4, 5, 5, 6, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
@@ -47,14 +48,14 @@ TEST(CycleRule, ThreeOfTwentyAreForgivenInALongOne) {
   EXPECT_FALSE(by_passes(more));  // 8 of 50
 }
 
-// 4, 6 follow a visit from the other side; 5 and 7 from there are not beyond the 3.
-TEST(CycleRule, APassThatAnotherInterruptsIsOutOfOrder) {
+// 4 and 6 follow a visit in the other direction; 5 and 7 in that direction are not beyond 3.
+TEST(CycleRule, InterruptedPassIsOutOfOrder) {
   EXPECT_FALSE(by_passes({1, 2, -3, 4, -5, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
   EXPECT_TRUE(by_passes({1, 2, -3, 4, 5, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
 }
 
-// A short way before the first turn is a pass of its own, whichever way it goes.
-TEST(CycleRule, AShortFirstPassIsARun) {
+// A short motion before the first turn is a separate pass, in both directions.
+TEST(CycleRule, ShortFirstPassIsARun) {
   for (const int up : {1, -1}) {
     const auto at = [&](int target) { return up * (up > 0 ? target : 8 - target); };
     std::vector<int> row = {-at(3), -at(2), -at(1)};
@@ -69,8 +70,9 @@ TEST(CycleRule, AShortFirstPassIsARun) {
   }
 }
 
-// Each target twice; from one to the next the axis goes one way, but for one in seven.
-TEST(CycleRule, APilgrimGoesAlong) {
+// Each target is visited twice; between targets the axis moves in one direction, with at most one
+// exception in seven motions.
+TEST(CycleRule, PilgrimMovesInOneDirection) {
   const auto cycle = [](const std::vector<int>& targets, int count) {
     std::vector<int> row;
     for (const int t : targets) row.insert(row.end(), {t, -t});
@@ -85,8 +87,8 @@ TEST(CycleRule, APilgrimGoesAlong) {
   EXPECT_NE(cycle({1, 2, 3, 5, 4, 6, 7}, 7), Cycle::pilgrim);
 }
 
-// Of up to three targets one makes a pass; of more, half of them.
-TEST(CycleRule, APassTurnsAtHalfOfTheTargets) {
+// With up to three targets, one target makes a pass; with more targets, half of them.
+TEST(CycleRule, PassTurnsAtHalfOfTheTargets) {
   const auto runs = [](int targets, const std::vector<int>& row) {
     Passes passes(targets);
     Runs all;
@@ -98,8 +100,9 @@ TEST(CycleRule, APassTurnsAtHalfOfTheTargets) {
   EXPECT_EQ(runs(4, {1, 2, 3, -2, -1, 2, 3, 4}), (Runs{1, 1, 1, 1, 1, 2, 2, 2}));
 }
 
-// At each target there and back, over and over: as often at each, or one far more than others.
-TEST(CycleRule, AQuasiPilgrimVisitsAllAlike) {
+// Each target is visited repeatedly in both directions, equally often or one target far more often
+// than the others.
+TEST(CycleRule, QuasiPilgrimVisitsAllEquallyOften) {
   const auto cycle = [](const std::vector<int>& times) {
     std::vector<int> row;
     for (int pass = 0; pass < 2; ++pass)
@@ -110,7 +113,7 @@ TEST(CycleRule, AQuasiPilgrimVisitsAllAlike) {
   };
   EXPECT_EQ(cycle({3, 3, 3, 3, 3}), Cycle::quasi_pilgrim);
   EXPECT_EQ(cycle({9, 1, 1, 1, 1}), Cycle::none);
-  EXPECT_EQ(cycle({4, 4, 4, 4, 2}), Cycle::quasi_pilgrim);  // 8 of 72 lack: 4 of 36 visits
+  EXPECT_EQ(cycle({4, 4, 4, 4, 2}), Cycle::quasi_pilgrim);  // 8 of 72 are missing: 4 of 36 visits
   EXPECT_EQ(cycle({4, 4, 4, 3, 2}), Cycle::none);           // 12 of 68
 }
 

@@ -1,5 +1,5 @@
-// What the notices say of the stops that are left out: how many, and the first five positions of
-// each reason. Found missing by tests/mutate.
+// Notices about stops that are left out: their number, and the first five positions of each reason.
+// Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -11,8 +11,8 @@
 namespace mdof::algo {
 namespace {
 
-// A log that begins at 10.02 mm, where nobody saw the axis arrive; it comes back from 9 mm. Targets
-// at 10, 20 and 30 mm.
+// The log begins at 10.02 mm with an unseen approach, and the axis returns from 9 mm. The targets
+// are at 10, 20 and 30 mm.
 Sequence sequence_of(const std::vector<double>& stops_mm) {
   std::vector<Point> points;
   double before_mm = 9;
@@ -32,7 +32,7 @@ Sequence sequence_of(const std::vector<double>& stops_mm) {
 }
 
 // The window is 0.25 mm: 20.24 and 29.76 mm are at targets, 20.26 and 29.74 mm are not.
-TEST(LeftOutNotice, NamesTheFirstFivePositionsOfEachReason) {
+TEST(LeftOutNotice, ListsTheFirstFivePositionsOfEachReason) {
   const Sequence s =
       sequence_of({10.02, 10.01, 13.1, 14.2346, 20.24, 20.26, 23.3, 29.74, 29.76, 33.7});
   EXPECT_EQ(test::shown(s.notices),
@@ -45,7 +45,7 @@ TEST(LeftOutNotice, NamesTheFirstFivePositionsOfEachReason) {
   EXPECT_EQ(s.points.size(), 3u);
 }
 
-TEST(LeftOutNotice, OfFiveItNamesAll) {
+TEST(LeftOutNotice, ListsAllOfFivePositions) {
   const Sequence s = sequence_of({10.02, 10.01, 13.1, 14.2, 20.1, 23.3, 29.9, 33.7, 34.8});
   EXPECT_EQ(test::shown(s.notices),
             "stop_near_no_target stops=5 positions_mm=13.1000, 14.2000, 23.3000, 33.7000, 34.8000\n"

@@ -1,5 +1,5 @@
-// Stops that gave no point, and targets that are all visited again further on, of stops made by
-// hand. Found missing by tests/mutate.
+// Stops without a point, and targets that are all visited again at a distance, with stops made by
+// hand. Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <utility>
@@ -13,7 +13,7 @@ namespace {
 
 using PassedOver = DwellDetector::Summary::PassedOver;
 
-// Visits in order, a second apart: at each the number of a target.
+// Visits in order, a second apart; `order` has the target number of each visit.
 Sequence visited(const std::vector<double>& targets_m, const std::vector<int>& order) {
   Sequence sequence;
   sequence.targets_m = targets_m;
@@ -35,21 +35,21 @@ std::size_t lost(const Sequence& sequence, double position_m, std::int64_t begin
   return lost_stops({rig, sequence, dwells}).size();
 }
 
-TEST(LostStops, AreThoseOfATargetWithoutAPointBeside) {
+TEST(LostStops, HaveNoAdjacentPointOfTheirTarget) {
   const Sequence s = visited({0, 10e-3, 20e-3, 30e-3}, {1, 2, 4});
-  EXPECT_EQ(lost(s, 20e-3, 1'500'000'000), 1u);  // between 2 and 4: target 3 gave no point
-  EXPECT_EQ(lost(s, 10e-3, 1'500'000'000), 0u);  // target 2 again, just after its point
-  EXPECT_EQ(lost(s, 30e-3, 1'500'000'000), 0u);  // target 4, just before its point
-  EXPECT_EQ(lost(s, 0, 1'500'000'000), 1u);      // target 1, but its point is not beside
-  EXPECT_EQ(lost(s, 25e-3, 1'500'000'000), 0u);  // of no target
-  EXPECT_EQ(lost(s, 0, -1), 0u);                 // before all, at the first one's target
+  EXPECT_EQ(lost(s, 20e-3, 1'500'000'000), 1u);  // between targets 2 and 4: target 3 has no point
+  EXPECT_EQ(lost(s, 10e-3, 1'500'000'000), 0u);  // target 2 again, directly after its point
+  EXPECT_EQ(lost(s, 30e-3, 1'500'000'000), 0u);  // target 4, directly before its point
+  EXPECT_EQ(lost(s, 0, 1'500'000'000), 1u);      // target 1, but its point is not adjacent
+  EXPECT_EQ(lost(s, 25e-3, 1'500'000'000), 0u);  // at no target
+  EXPECT_EQ(lost(s, 0, -1), 0u);                 // before all points, at the first point's target
   EXPECT_EQ(lost(s, 30e-3, -1), 1u);
-  EXPECT_EQ(lost(s, 30e-3, 9'000'000'000), 0u);  // after all, at the last one's
+  EXPECT_EQ(lost(s, 30e-3, 9'000'000'000), 0u);  // after all points, at the last point's target
   EXPECT_EQ(lost(s, 10e-3, 9'000'000'000), 1u);
   EXPECT_EQ(lost(visited({}, {}), 0, 0), 0u);
 }
 
-TEST(ShiftedTargets, AreToldWithTheirMomentAndDistance) {
+TEST(ShiftedTargets, AreFoundWithTimeAndShift) {
   const double d = 2e-3;
   const auto shifted = find_shifted_targets(
       visited({0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d}, {1, 3, 5, 3, 6, 4, 2}));
@@ -62,8 +62,8 @@ TEST(ShiftedTargets, AreToldWithTheirMomentAndDistance) {
   EXPECT_NEAR(back->shift_m, -d, 1e-12);
 }
 
-// One more target on either side: the distance holds for what both have.
-TEST(ShiftedTargets, MayHaveOneMoreOnOneSide) {
+// One side has one more target: the shift holds for the common targets.
+TEST(ShiftedTargets, MayHaveOneMoreTargetOnOneSide) {
   const double d = 2e-3;
   EXPECT_NEAR(find_shifted_targets(
                   visited({0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d, 45e-3}, {1, 3, 5, 7, 6, 4, 2}))
@@ -76,9 +76,9 @@ TEST(ShiftedTargets, MayHaveOneMoreOnOneSide) {
       d, 1e-12);
 }
 
-TEST(ShiftedTargets, NoneWhereTheyDiffer) {
+TEST(ShiftedTargets, AreNotFoundIfTheShiftsDiffer) {
   const double d = 2e-3;
-  for (const double off_m : {49e-6, 51e-6}) {  // one of them by more than 50 um
+  for (const double off_m : {49e-6, 51e-6}) {  // one target deviates by less or more than 50 um
     for (const std::size_t which : {3u, 5u}) {
       std::vector<double> targets = {0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d};
       targets[which] += off_m;
@@ -86,12 +86,12 @@ TEST(ShiftedTargets, NoneWhereTheyDiffer) {
                 off_m < 50e-6);
     }
   }
-  // Two before and two after are too few; a target that both have parts nothing.
+  // Two targets before and two after are too few; with a target on both sides there is no shift.
   EXPECT_FALSE(find_shifted_targets(visited({0, d, 10e-3, 10e-3 + d}, {1, 3, 4, 2})));
   EXPECT_FALSE(find_shifted_targets(
       visited({0, d, 10e-3, 10e-3 + d, 25e-3, 25e-3 + d}, {1, 3, 5, 6, 4, 2, 1, 3, 5})));
   EXPECT_FALSE(find_shifted_targets(visited({0, 10e-3, 20e-3}, {1, 2, 3, 3, 2, 1})));
-  // By half of the range or more it is another part of the axis.
+  // A shift of half of the range or more is another part of the axis.
   for (const double far_m : {9.9e-3, 10.1e-3})
     EXPECT_EQ(find_shifted_targets(
                   visited({0, 3e-3, far_m, 3e-3 + far_m, 20e-3, 20e-3 + far_m}, {1, 2, 5, 6, 4, 3}))

@@ -1,5 +1,5 @@
-// Which places are no targets, by their visits and their distance, on either side of each limit.
-// Found missing by tests/mutate.
+// Which places are no targets, by their visits and their distance, on both sides of each limit.
+// Mutation tests (tests/mutate) found these cases.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-// A place and how often it is visited from below and from above.
+// A place and the number of its visits from below and from above.
 struct Visited {
   double position_mm;
   int forward, reverse;
@@ -20,10 +20,10 @@ struct Visited {
 
 struct Told {
   std::vector<double> kept_mm;
-  std::vector<std::string> reasons;  // of each stop left out
+  std::vector<std::string> reasons;  // reason of each stop that is left out
 };
 
-// The log goes over all places, and again over those that have more visits: it ends at one of them.
+// The log visits all places, and again those with more visits, so it ends at one of these.
 Told odd_stops_of(const std::vector<Visited>& places, bool parked_first = false) {
   std::vector<double> targets_m;
   for (const Visited& place : places) targets_m.push_back(1e-3 * place.position_mm);
@@ -65,18 +65,18 @@ bool is_target(const Visited& place, int forward, int reverse) {
   return reported.reasons.empty();
 }
 
-TEST(OddStops, ATargetHasSixTenthsOfTheVisits) {
-  EXPECT_TRUE(is_target({3, 3, 3}, 5, 5));   // 6 of 10: whatever its distance
-  EXPECT_FALSE(is_target({3, 3, 2}, 5, 5));  // 3 mm from the next one
+TEST(OddStops, TargetNeedsSixTenthsOfTheVisits) {
+  EXPECT_TRUE(is_target({3, 3, 3}, 5, 5));   // 6 of 10 visits: a target at any distance
+  EXPECT_FALSE(is_target({3, 3, 2}, 5, 5));  // 3 mm from the next target
   EXPECT_FALSE(is_target({3, 6, 0}, 5, 5));  // from one side only
   EXPECT_TRUE(is_target({3, 3, 0}, 5, 0));
   EXPECT_FALSE(is_target({3, 2, 0}, 5, 0));
   EXPECT_TRUE(is_target({3, 0, 3}, 0, 5));
-  EXPECT_FALSE(is_target({3, 3, 0}, 0, 5));  // from the other side than the others
+  EXPECT_FALSE(is_target({3, 3, 0}, 0, 5));  // from another side than the other targets
 }
 
-// Between targets from 0.6 of their interval on.
-TEST(OddStops, APlaceBetweenTargetsIsOneWhereTheyLeaveRoom) {
+// A place between two targets is a target if both are at least 0.6 of the interval away.
+TEST(OddStops, PlaceBetweenDistantTargetsIsATarget) {
   const auto with_gap = [](double gap_mm, double at_mm) {
     std::vector<Visited> places;
     for (int i = 0; i < 4; ++i) places.push_back({10.0 * i, 3, 3});
@@ -91,8 +91,8 @@ TEST(OddStops, APlaceBetweenTargetsIsOneWhereTheyLeaveRoom) {
   EXPECT_EQ(with_gap(20, 14.1).size(), 2u);
 }
 
-// Beyond the end targets up to 1.6 of the interval.
-TEST(OddStops, BeyondTheEndATargetIsNotFar) {
+// Beyond the end targets, a place is a target up to 1.6 of the interval.
+TEST(OddStops, PlaceBeyondTheEndMustBeNear) {
   for (const bool below : {false, true}) {
     const auto at = [&](double off_mm) { return below ? -off_mm : 60 + off_mm; };
     EXPECT_FALSE(is_target({at(5.9), 1, 1}, 3, 3));
@@ -102,8 +102,9 @@ TEST(OddStops, BeyondTheEndATargetIsNotFar) {
   }
 }
 
-// A target that all passes but one missed is none, where there are three; of two it may be.
-TEST(OddStops, VisitedOnceBeyondTheEndItIsNoneFromThreeVisitsOn) {
+// Beyond the end, a place with one visit is no target if the other targets have three visits; with
+// two visits it may be a target.
+TEST(OddStops, OneVisitBeyondTheEndIsNoTargetOfThree) {
   for (const double at_mm : {-10.0, 70.0}) {
     EXPECT_TRUE(is_target({at_mm, 1, 0}, 2, 0));
     EXPECT_FALSE(is_target({at_mm, 1, 0}, 3, 0));
@@ -111,8 +112,8 @@ TEST(OddStops, VisitedOnceBeyondTheEndItIsNoneFromThreeVisitsOn) {
   }
 }
 
-// Those with more visits are judged first: at 72 mm a target, so that none is at 67 mm.
-TEST(OddStops, MoreVisitsAreJudgedFirst) {
+// Places with more visits are evaluated first: with a target at 72 mm, 67 mm is no target.
+TEST(OddStops, PlacesWithMoreVisitsAreFirst) {
   const auto beyond = [](int near, int far) {
     std::vector<Visited> places;
     for (int i = 0; i < 7; ++i) places.push_back({10.0 * i, 3, 3});
@@ -122,17 +123,17 @@ TEST(OddStops, MoreVisitsAreJudgedFirst) {
   };
   EXPECT_NEAR(beyond(2, 3), 72, 1e-9);
   EXPECT_NEAR(beyond(3, 2), 67, 1e-9);
-  EXPECT_NEAR(beyond(2, 2), 67, 1e-9);  // then the nearer
+  EXPECT_NEAR(beyond(2, 2), 67, 1e-9);  // with equal visits the nearer place is first
 }
 
-// A row of places with few visits goes on from the last target, place by place.
-TEST(OddStops, ARowOfFewVisitsGoesOn) {
+// Several places with few visits continue the row of targets, place by place.
+TEST(OddStops, RowOfFewVisitsContinues) {
   std::vector<Visited> places;
   for (int i = 0; i < 10; ++i) places.push_back({10.0 * i, i < 7 ? 3 : 1, i < 7 ? 3 : 1});
   EXPECT_TRUE(odd_stops_of(places).reasons.empty());
 }
 
-TEST(OddStops, TheReasonSaysWhatThePlaceIs) {
+TEST(OddStops, ReasonDescribesThePlace) {
   EXPECT_EQ(with_place({3, 2, 0}, 3, 3).reasons,
             std::vector<std::string>(2, "stop_between_targets"));
   EXPECT_EQ(with_place({62, 1, 1}, 3, 3).reasons,
@@ -144,25 +145,25 @@ TEST(OddStops, TheReasonSaysWhatThePlaceIs) {
   EXPECT_EQ(with_place({62, 1, 0}, 3, 3).reasons, std::vector<std::string>{"stop_beyond_targets"});
 }
 
-// All places have one visit: a start off the grid, of four places and more.
-TEST(OddStops, AParkedStartOffTheGridOfASinglePass) {
+// All places have one visit. A start off the grid is recognised with four places or more.
+TEST(OddStops, LeavesOutAParkedStartOfASinglePass) {
   const auto kept = [](double parked_mm, int targets) {
     std::vector<Visited> places = {{parked_mm, 1, 0}};
     for (int i = 1; i <= targets; ++i) places.push_back({10.0 * i, 1, 0});
     return odd_stops_of(places, true).reasons.empty();
   };
   EXPECT_TRUE(kept(0, 4));
-  EXPECT_FALSE(kept(4.1, 4));  // 5.9 mm from the next
+  EXPECT_FALSE(kept(4.1, 4));  // 5.9 mm from the next target
   EXPECT_TRUE(kept(3.9, 4));
   EXPECT_TRUE(kept(-5.9, 4));
   EXPECT_FALSE(kept(-6.1, 4));
   EXPECT_FALSE(kept(-6.1, 3));
-  EXPECT_TRUE(kept(-6.1, 2));  // three places tell nothing
+  EXPECT_TRUE(kept(-6.1, 2));  // three places are too few
 }
 
-// ---- what is typical of the others ----
+// ---- typical values of the other places ----
 
-// Rows of places without an order of visits that matters.
+// Places for which the order of the visits has no effect.
 std::vector<double> kept_of(const std::vector<Visited>& places) {
   return odd_stops_of(places).kept_mm;
 }
@@ -173,11 +174,11 @@ void expect_kept(const std::vector<Visited>& places, const std::vector<double>& 
   for (std::size_t i = 0; i < kept_mm.size(); ++i) EXPECT_NEAR(kept_mm[i], expected_mm[i], 1e-9);
 }
 
-// The typical number of visits is the one that three quarters of the stops do not exceed. In the
-// first case 12 of 16 stops are at places of at most two visits, so 3 mm is no target. In the
-// second fewer than three quarters are at places of one visit, so two visits are typical, and no
-// two places have two.
-TEST(OddStopsTypical, ThreeQuartersOfTheStops) {
+// The typical number of visits is the number that three quarters of the stops do not exceed. In the
+// first case, 12 of 16 stops are at places with at most two visits, so 3 mm is no target. In the
+// second case, fewer than three quarters are at places with one visit, so two visits are typical,
+// and there is only one place with two visits.
+TEST(OddStopsTypical, CoversThreeQuartersOfTheStops) {
   expect_kept({{0, 2, 0},
                {3, 1, 0},
                {10, 2, 0},
@@ -192,35 +193,35 @@ TEST(OddStopsTypical, ThreeQuartersOfTheStops) {
           .reasons.empty());
 }
 
-// Whether targets are visited from both sides: most of the places decide that have three quarters
-// of the typical visits.
-TEST(OddStopsTypical, BothSidesOrOne) {
+// Whether targets are visited from both sides is decided by the majority of the places that have
+// three quarters of the typical visits.
+TEST(OddStopsTypical, MajorityDecidesBothSidesOrOne) {
   expect_kept({{0, 3, 3}, {3, 6, 0}, {10, 3, 3}, {13, 6, 0}}, {0, 10});
-  // Two against three; a place of one and one does not count.
+  // Two places against three; the place with one visit from each side does not count.
   expect_kept({{0, 3, 3}, {3, 6, 0}, {10, 3, 3}, {13, 6, 0}, {23, 6, 0}, {33, 1, 1}},
               {3, 13, 23, 33});
-  // Three visits of four do.
+  // The place with three visits of four counts.
   expect_kept({{0, 2, 2}, {3, 4, 0}, {10, 2, 2}, {13, 4, 0}, {23, 3, 0}}, {3, 13, 23});
 }
 
-// 11 visits from below, 12 from above.
-TEST(OddStopsTypical, TheSideOfMoreVisits) {
+// There are 11 visits from below and 12 from above.
+TEST(OddStopsTypical, UsesTheSideWithMoreVisits) {
   expect_kept({{0, 0, 4}, {3, 4, 0}, {10, 0, 4}, {13, 4, 0}, {20, 0, 4}, {23, 3, 0}}, {0, 10, 20});
 }
 
-TEST(OddStopsTypical, FromAboveAloneIsNotFromBothSides) {
+TEST(OddStopsTypical, FromAboveOnlyIsNotFromBothSides) {
   EXPECT_FALSE(is_target({3, 0, 6}, 5, 5));
 }
 
-// 5, 5, 20, 20 mm: 7 mm is too near to a target.
-TEST(OddStopsTypical, TheLargerOfTheMiddleIntervals) {
+// The middle intervals are 5 and 20 mm; with 20 mm, 37 mm is too near to a target.
+TEST(OddStopsTypical, UsesTheLargerMiddleInterval) {
   expect_kept({{0, 3, 3}, {5, 3, 3}, {10, 3, 3}, {30, 3, 3}, {37, 1, 1}, {50, 3, 3}},
               {0, 5, 10, 30, 50});
 }
 
-// A place that is visited once, 6.5 mm beyond the last target of three visits, is no target; 8.5 mm
-// beyond it may be the first of a row of new targets.
-TEST(OddStopsTypical, VisitedOnceItIsNoneBesideATarget) {
+// A place with one visit, 6.5 mm beyond the last target with three visits, is no target. A place
+// 8.5 mm further may be the first of a row of new targets.
+TEST(OddStopsTypical, OneVisitNearATargetIsNoTarget) {
   for (const bool below : {false, true}) {
     std::vector<Visited> places;
     for (int i = 0; i < 7; ++i) places.push_back({10.0 * i, 3, 3});
@@ -260,20 +261,20 @@ std::vector<std::string> reasons_of(const std::vector<Stop>& stops, bool parked_
   return reasons;
 }
 
-TEST(OddStopsOfALog, TheLastStopIsNamedAsTheEnd) {
+TEST(OddStopsOfALog, LastStopHasTheReasonEndOfLog) {
   std::vector<Stop> stops;
   for (int pass = 0; pass < 5; ++pass)
     for (int i = 0; i < 7; ++i) stops.push_back({10.0 * i, 1});
   stops.push_back({63, 1});
   EXPECT_EQ(reasons_of(stops), std::vector<std::string>{"stop_at_end_of_log"});
-  stops.push_back({60, 1});  // no longer the last
+  stops.push_back({60, 1});  // no longer the last stop
   EXPECT_EQ(reasons_of(stops), std::vector<std::string>{"stop_beyond_targets"});
-  stops.push_back({63, 1});  // again, as the last
+  stops.push_back({63, 1});  // again, as the last stop
   EXPECT_EQ(reasons_of(stops), std::vector<std::string>(2, "stop_beyond_targets"));
 }
 
-// Parked above the targets, then a single pass down.
-TEST(OddStopsOfALog, AParkedStartAboveTheTargets) {
+// The axis is parked above the targets, then makes a single pass down.
+TEST(OddStopsOfALog, LeavesOutAParkedStartAboveTheTargets) {
   const auto kept = [](double parked_mm, bool parked) {
     std::vector<Stop> stops = {{parked_mm, -1}};
     for (int i = 4; i >= 1; --i) stops.push_back({10.0 * i, -1});
@@ -286,8 +287,8 @@ TEST(OddStopsOfALog, AParkedStartAboveTheTargets) {
   EXPECT_TRUE(kept(56.1, false));
 }
 
-// With one visit each nothing tells the sides apart.
-TEST(OddStopsOfALog, OfOneVisitEachAllAreKept) {
+// With one visit each, no side has more visits.
+TEST(OddStopsOfALog, KeepsAllPlacesWithOneVisitEach) {
   EXPECT_TRUE(reasons_of({{0, 1}, {10, 1}, {30, 1}, {20, -1}}).empty());
 }
 

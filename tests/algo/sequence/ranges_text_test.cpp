@@ -15,7 +15,7 @@ TEST(RangesText, ThreeInARowAreARange) {
   EXPECT_EQ(ranges_text({-1, 0, 1, 9, 20, 21, 22}), "-1 to 1, 9, 20 to 22");
 }
 
-TEST(RangesText, OneIsNamedInTheSingular) {
+TEST(RangesText, OneNumberHasTheSingular) {
   EXPECT_EQ(numbered("target", {7}), "target 7");
   EXPECT_EQ(numbered("target", {1, 2}), "targets 1, 2");
   EXPECT_EQ(numbered("run", {1, 2, 3}), "runs 1 to 3");

@@ -1,4 +1,5 @@
-// The drifts of runs against least squares of all runs and visits at once, without elimination.
+// The drifts of runs, compared with a least-squares fit of all runs and visits at once, without
+// elimination.
 #include "algo/sequence/run_drifts.h"
 
 #include <gtest/gtest.h>
@@ -27,8 +28,9 @@ struct Case {
   }
 };
 
-// Columns of runs, then of visits; of least norm. Of runs that visits link the mean is taken away:
-// what links them is found by letting the lowest number spread.
+// Least-squares solution of least norm; the columns are the runs, then the visits. The mean of each
+// group of runs that visits link is subtracted. The groups are found by spreading the lowest
+// number.
 std::vector<Errors5> all_at_once(const Case& of) {
   std::map<int, std::size_t> runs;
   std::map<std::pair<int, int>, std::size_t> visits;
@@ -80,8 +82,8 @@ void expect_the_same(const Case& of) {
     for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(drifts[run][k], expected[run][k], 1e-10);
 }
 
-// Few runs of many visits, and many runs of few visits, of which a third is missing.
-TEST(RunDrifts, AreThoseOfAllRunsAndVisitsAtOnce) {
+// Few runs with many visits and many runs with few visits; a third of the visits is missing.
+TEST(RunDrifts, MatchAFitOfAllRunsAndVisits) {
   std::mt19937 engine(7);
   for (int round = 0; round < 60; ++round) {
     const int runs = 1 + round % 7, targets = 1 + round % 5;
@@ -91,15 +93,15 @@ TEST(RunDrifts, AreThoseOfAllRunsAndVisitsAtOnce) {
         for (const int direction : {1, -1})
           if (engine() % 3 > 0) of.add(10 - 2 * run, target, direction, engine);
     if (of.points.empty()) continue;
-    of.add(10, 1, -1, engine);  // a target of a run twice, now and then
+    of.add(10, 1, -1, engine);  // a run may have a target twice
     SCOPED_TRACE(round);
     expect_the_same(of);
   }
 }
 
-// Runs 1 and 5 are linked by no visit to runs 2 and 4: each pair has its mean for itself. Once
-// there are more visits than runs, once fewer.
-TEST(RunDrifts, OfRunsThatNothingLinksAreApart) {
+// No visit links runs 1, 5 and 9 with runs 2, 4 and 8: each group has its own mean. Once there are
+// more visits than runs, once fewer.
+TEST(RunDrifts, UnlinkedRunsAreSeparate) {
   for (const int targets : {4, 1}) {
     std::mt19937 engine(3);
     Case of;
@@ -110,7 +112,7 @@ TEST(RunDrifts, OfRunsThatNothingLinksAreApart) {
       }
     expect_the_same(of);
     const RunDrifts found(of.points);
-    const auto drifts = found.of(of.errors);  // of runs 1, 2, 4, 5, 8, 9
+    const auto drifts = found.of(of.errors);  // drifts of runs 1, 2, 4, 5, 8, 9
     for (std::size_t k = 0; k < 5; ++k) {
       EXPECT_NEAR(drifts[0][k] + drifts[3][k] + drifts[5][k], 0, 1e-12);
       EXPECT_NEAR(drifts[1][k] + drifts[2][k] + drifts[4][k], 0, 1e-12);
@@ -121,8 +123,8 @@ TEST(RunDrifts, OfRunsThatNothingLinksAreApart) {
   }
 }
 
-// A chain of visits that links each run to the next one alone.
-TEST(RunDrifts, OfRunsThatAChainLinks) {
+// A chain of visits links each run to the next one only.
+TEST(RunDrifts, AreCorrectForRunsLinkedByAChain) {
   std::mt19937 engine(5);
   Case of;
   for (int run = 1; run <= 6; ++run) {

@@ -1,5 +1,5 @@
-// Each step of recognise_sequence() by itself, of stops made by hand, on either side of its limits.
-// Found missing by tests/mutate.
+// Each step of recognise_sequence() separately, with stops made by hand on both sides of its
+// limits. Mutation tests (tests/mutate) found these cases.
 #include "algo/sequence/sequence_stops.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ std::vector<Point> stops_at(const Places& positions_m) {
   return points;
 }
 
-// A stop of a target, with the way that led to it.
+// A stop at a target, with the way that led to it.
 MeasuredPoint stop_of(int target, double position_m, int direction, double way_min_m,
                       double way_max_m, std::size_t samples = 100) {
   MeasuredPoint p;
@@ -38,53 +38,55 @@ MeasuredPoint stop_of(int target, double position_m, int direction, double way_m
   return p;
 }
 
-TEST(TargetsOfStops, AreNoneOfNone) {
+TEST(TargetsOfStops, AreEmptyWithoutStops) {
   EXPECT_EQ(targets_of_stops({}), Places{});
   EXPECT_EQ(targets_of_stops(stops_at({3e-3})), Places{3e-3});
 }
 
-// Stops scatter by 50 um at the most.
-TEST(TargetsOfStops, ScatterByFiftyMicrometresAndNoMore) {
+// Stops of a target scatter by at most 50 um.
+TEST(TargetsOfStops, ScatterByAtMostFiftyMicrometres) {
   EXPECT_EQ(targets_of_stops(stops_at({0, 50e-6, 10e-3})), (Places{0, 10e-3}));
   EXPECT_EQ(targets_of_stops(stops_at({0, 51e-6, 10e-3})), (Places{0, 51e-6, 10e-3}));
 }
 
-// The next target is ten times as far as stops scatter; in parts of 2^-18 m, which are exact.
-TEST(TargetsOfStops, LieTenTimesAsFarApartAsTheirStops) {
+// The distance to the next target is at least ten times the scatter of the stops. Multiples of
+// 2^-18 m are exact.
+TEST(TargetsOfStops, AreTenTimesAsFarApartAsTheirStops) {
   const double part_m = 0x1p-18;  // 3.8 um
   EXPECT_EQ(targets_of_stops(stops_at({0, part_m, 11 * part_m})), (Places{0, 11 * part_m}));
   EXPECT_EQ(targets_of_stops(stops_at({0, part_m, 10.9 * part_m})).size(), 3u);
 }
 
-// A gap of 20 times, then one of 11: the first is the greater.
-TEST(TargetsOfStops, AreToldByTheFirstGapWhereItIsTheGreater) {
+// One gap is 20 times as large as the distance before it, the next one 11 times; the first gap is
+// the larger step.
+TEST(TargetsOfStops, FirstGapDecidesIfItIsLarger) {
   EXPECT_EQ(targets_of_stops(stops_at({0, 1e-7, 40.1e-6, 480.1e-6})),
             (Places{0, 40.1e-6, 480.1e-6}));
 }
 
-// Of two gaps in the steps the larger tells: 4, 60 and 6000 um are 15 and 100 times as far.
-TEST(TargetsOfStops, AreToldByTheGreatestOfTheGaps) {
+// The larger of two gaps decides: the ratios of 4, 60 and 6000 um are 15 and 100.
+TEST(TargetsOfStops, LargestGapDecides) {
   EXPECT_EQ(targets_of_stops(stops_at({0, 4e-6, 64e-6, 6e-3})).size(), 3u);
   EXPECT_EQ(targets_of_stops(stops_at({0, 4e-6, 44e-6, 6e-3})), (Places{0, 6e-3}));
 }
 
-TEST(TargetsOfStops, OfStopsWithinTwoMicrometresAreOne) {
+TEST(TargetsOfStops, StopsWithinTwoMicrometresAreOne) {
   EXPECT_EQ(targets_of_stops(stops_at({2e-6, 0, 1e-6, 3e-6})), Places{2e-6});
   EXPECT_EQ(targets_of_stops(stops_at({0, 1e-9, 0.5e-6, 2e-6})), Places{0});
   EXPECT_EQ(targets_of_stops(stops_at({0, 2.1e-6})).size(), 2u);
 }
 
-// Not the lowest stop, nor the last.
-TEST(TargetsOfStops, AreWhereTheAxisFirstStopped) {
+// The first stop is used, not the lowest and not the last.
+TEST(TargetsOfStops, AreAtTheFirstStop) {
   EXPECT_EQ(targets_of_stops(stops_at({5.001e-3, 1e-6, 5e-3, 0, 5.002e-3})),
             (Places{1e-6, 5.001e-3}));
 }
 
-TEST(NearestTarget, IsTheNearerOfTheTwoBeside) {
+TEST(NearestTarget, IsTheNearerNeighbour) {
   const Places targets_m = {0, 1, 3};
   EXPECT_EQ(nearest_target(targets_m, -5), 0u);
   EXPECT_EQ(nearest_target(targets_m, 0.4), 0u);
-  EXPECT_EQ(nearest_target(targets_m, 0.5), 0u);  // the lower one of two as near
+  EXPECT_EQ(nearest_target(targets_m, 0.5), 0u);  // the lower of two targets at the same distance
   EXPECT_EQ(nearest_target(targets_m, 0.6), 1u);
   EXPECT_EQ(nearest_target(targets_m, 1), 1u);
   EXPECT_EQ(nearest_target(targets_m, 1.9), 1u);
@@ -92,10 +94,10 @@ TEST(NearestTarget, IsTheNearerOfTheTwoBeside) {
   EXPECT_EQ(nearest_target(targets_m, 7), 2u);
 }
 
-// The axis stands at 0 after it was `beyond_m` past it, and comes from `from_m` away.
+// The axis stops at 0 after it was `beyond_m` beyond 0; it comes from a distance of `from_m`.
 bool is_overshot(int direction, double beyond_m, double from_m) {
   Point p;
-  p.direction = direction;  // of the last motion, the correction
+  p.direction = direction;  // direction of the last motion, the correction
   p.way_min_m = direction < 0 ? -from_m : -beyond_m;
   p.way_max_m = direction < 0 ? beyond_m : from_m;
   const bool overshot = correct_overshot(p);
@@ -104,14 +106,14 @@ bool is_overshot(int direction, double beyond_m, double from_m) {
   return overshot;
 }
 
-TEST(Overshot, IsMoreThanFortyAndAtMostTwoHundredAndFiftyMicrometres) {
+TEST(Overshot, IsFrom40To250Micrometres) {
   for (const int direction : {1, -1}) {
     EXPECT_FALSE(is_overshot(direction, 40e-6, 5e-3));
     EXPECT_TRUE(is_overshot(direction, 41e-6, 5e-3));
     EXPECT_TRUE(is_overshot(direction, 0.25e-3, 5e-3));
     EXPECT_FALSE(is_overshot(direction, 0.251e-3, 5e-3));
     EXPECT_TRUE(is_overshot(direction, 0.1e-3, 0.21e-3));
-    EXPECT_FALSE(is_overshot(direction, 0.1e-3, 0.2e-3));  // twice as far at least
+    EXPECT_FALSE(is_overshot(direction, 0.1e-3, 0.2e-3));  // at least twice as far
     EXPECT_FALSE(is_overshot(direction, kNaN, kNaN));
   }
   EXPECT_FALSE(is_overshot(0, 0.1e-3, 5e-3));
@@ -134,7 +136,7 @@ std::vector<int> assumed(std::vector<MeasuredPoint> points) {
   return directions;
 }
 
-TEST(AssumedApproach, IsThatOfTheMotionThatFollows) {
+TEST(AssumedApproach, IsThatOfTheNextMotion) {
   const auto at = [](int target, int direction) {
     return stop_of(target, 1e-3 * target, direction, kNaN, kNaN);
   };
@@ -142,7 +144,7 @@ TEST(AssumedApproach, IsThatOfTheMotionThatFollows) {
   EXPECT_EQ(assumed({at(3, 0), at(2, -1)}), (std::vector{-1, -1}));
   EXPECT_EQ(assumed({at(3, 0), at(3, -1)}), (std::vector{1, -1}));
   EXPECT_EQ(assumed({at(3, 0)}), std::vector{1});
-  EXPECT_EQ(assumed({at(3, -1), at(3, 0), at(5, 1)}), (std::vector{-1, -1, 1}));  // it stayed
+  EXPECT_EQ(assumed({at(3, -1), at(3, 0), at(5, 1)}), (std::vector{-1, -1, 1}));  // the axis stayed
   EXPECT_EQ(assumed({at(2, 1), at(3, 0), at(1, -1)}), (std::vector{1, -1, -1}));
   std::vector<MeasuredPoint> points = {at(3, 0), at(4, 1)};
   assume_approaches(points);
@@ -150,8 +152,8 @@ TEST(AssumedApproach, IsThatOfTheMotionThatFollows) {
   EXPECT_FALSE(has_flag(points[1].point, Flag::approach_assumed));
 }
 
-// The longer part is kept, of two as long the first; the way is that to the first.
-TEST(Interrupted, TheLongerPartIsKept) {
+// The longer part is kept; of two equally long parts the first. The way is that of the first part.
+TEST(Interrupted, KeepsTheLongerPart) {
   for (const std::size_t samples : {99u, 100u, 101u}) {
     std::vector<MeasuredPoint> points = {stop_of(2, 5e-3, 1, 0, 5e-3),
                                          stop_of(2, 5.001e-3, 1, 5e-3, 5.001e-3, samples)};
@@ -164,7 +166,7 @@ TEST(Interrupted, TheLongerPartIsKept) {
   }
 }
 
-TEST(Interrupted, IsNoStopThatTheAxisLeft) {
+TEST(Interrupted, KeepsStopsThatTheAxisLeft) {
   const auto left = [](const MeasuredPoint& second) {
     std::vector<MeasuredPoint> points = {stop_of(2, 0, 1, -5e-3, 0), second};
     merge_interrupted(points);
@@ -177,7 +179,7 @@ TEST(Interrupted, IsNoStopThatTheAxisLeft) {
   EXPECT_EQ(left(stop_of(3, 0, 1, 0, 0)), 2u);
 }
 
-TEST(ParkedStart, IsLeftOutWhereTheAxisCameAgain) {
+TEST(ParkedStart, IsLeftOutIfTheAxisReturns) {
   const auto left_out = [](bool assumed, const MeasuredPoint& next) {
     std::vector<MeasuredPoint> points = {stop_of(1, 2e-6, 1, kNaN, kNaN), next};
     points[0].point.begin_ns = 7;
@@ -195,7 +197,7 @@ TEST(ParkedStart, IsLeftOutWhereTheAxisCameAgain) {
   EXPECT_EQ(left_out(false, stop_of(1, 0, 1, -1e-3, 0)), 0u);
   EXPECT_EQ(left_out(true, stop_of(1, 0, -1, -1e-3, 0)), 0u);
   EXPECT_EQ(left_out(true, stop_of(2, 0, 1, -1e-3, 0)), 0u);
-  EXPECT_EQ(left_out(true, stop_of(1, 0, 1, -10e-6, 0)), 0u);  // it stayed
+  EXPECT_EQ(left_out(true, stop_of(1, 0, 1, -10e-6, 0)), 0u);  // the axis stayed
   std::vector<MeasuredPoint> none, one = {stop_of(1, 0, 1, -1e-3, 0)};
   EXPECT_TRUE(leave_out_parked_start(none).empty());
   EXPECT_TRUE(leave_out_parked_start(one).empty());

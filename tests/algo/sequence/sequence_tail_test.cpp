@@ -1,5 +1,5 @@
-// A sequence that grows stop by stop is that of the whole; what the stops are is written down by
-// the test as it makes them.
+// A sequence that grows stop by stop equals the sequence of the whole log. The test records target,
+// run and direction of each stop.
 #include "algo/sequence/sequence_tail.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,8 @@ struct Placed {
   int target, run, direction;
 };
 
-// Over the targets and back, beyond both ends, `runs` times; each stop with the way that led to it.
+// Forward and back over the targets, beyond both ends, `runs` times; each stop has the way that led
+// to it.
 struct Walk {
   std::vector<Point> stops;
   std::vector<Placed> truth;
@@ -70,7 +71,7 @@ void expect_alike(const Sequence& grown, const Sequence& whole) {
   }
 }
 
-TEST(SequenceTail, PutsEachStopWhereTheTestPutIt) {
+TEST(SequenceTail, FindsTargetRunAndDirectionOfEachStop) {
   Walk walk;
   walk.standard(21, 5e-3, 24);
   for (const std::size_t whole : {100u, 256u, 301u}) {
@@ -85,8 +86,8 @@ TEST(SequenceTail, PutsEachStopWhereTheTestPutIt) {
   }
 }
 
-// A stop off all targets, an interrupted one, an overshot one, one whose approach nobody saw.
-TEST(SequenceTail, OddStopsAreAsInTheWhole) {
+// A stop without target, an interrupted stop, an overshot stop, and stops with unseen approach.
+TEST(SequenceTail, OddStopsEqualThoseOfTheWholeLog) {
   SequenceOptions given;
   for (int i = 0; i < 11; ++i) given.targets_m.push_back(i * 5e-3);
   Walk walk;
@@ -96,11 +97,11 @@ TEST(SequenceTail, OddStopsAreAsInTheWhole) {
   Point part = stops[170];
   part.begin_ns += 400'000'000, part.end_ns += 400'000'000, part.samples = 500;
   part.way_min_m = part.way_max_m = part.position_m;
-  stops.insert(stops.begin() + 171, part);  // the same stop, interrupted, its longer part
+  stops.insert(stops.begin() + 171, part);  // the same stop, interrupted; this is its longer part
   stops[180].way_max_m = stops[180].position_m + 100e-6;
   stops[180].way_min_m = stops[180].position_m - 5e-3;
-  stops[180].direction = -1;                       // came back from 0.1 mm beyond
-  for (const std::size_t unseen : {200u, 215u}) {  // on the way there, and back
+  stops[180].direction = -1;                       // returned from 0.1 mm beyond
+  for (const std::size_t unseen : {200u, 215u}) {  // forward and reverse
     stops[unseen].direction = 0;
     stops[unseen].way_min_m = stops[unseen].way_max_m = kNaN;
   }
@@ -108,15 +109,16 @@ TEST(SequenceTail, OddStopsAreAsInTheWhole) {
     expect_alike(grown(stops, whole, given), recognise_sequence(stops, given));
 }
 
-// Five targets 5 mm apart; `whole` stops are recognised, the others appended.
+// Five targets 5 mm apart; the first `whole` stops are recognised, the others are appended.
 Sequence appended(const std::vector<Point>& stops, std::size_t whole) {
   SequenceOptions given;
   for (int i = 0; i < 5; ++i) given.targets_m.push_back(i * 5e-3);
   return grown(stops, whole, given);
 }
 
-// The axis left its last target and came back to it, unseen: it has the approach of before.
-TEST(SequenceTail, AStopWhereTheAxisStayedWaitsForNone) {
+// The axis left its last target and returned, unseen: the stop keeps the approach of the stop
+// before.
+TEST(SequenceTail, StopAtTheLastTargetKeepsItsApproach) {
   Walk walk;
   for (int i = 0; i < 5; ++i) walk.stop(i * 5e-3, i + 1, 1);
   Point again = walk.stops.back();
@@ -133,8 +135,9 @@ TEST(SequenceTail, AStopWhereTheAxisStayedWaitsForNone) {
   }
 }
 
-// Back at target 5 by way of 4: what follows tells its approach, not the stop before the last.
-TEST(SequenceTail, AStopAwayFromTheLastWaitsForTheNext) {
+// The axis is again at target 5 after target 4: the next motion determines the approach, not an
+// earlier stop.
+TEST(SequenceTail, StopElsewhereWaitsForTheNextMotion) {
   Walk walk;
   for (int i = 0; i < 5; ++i) walk.stop(i * 5e-3, i + 1, 1);
   walk.stop(15e-3, 4, 1);
@@ -152,8 +155,8 @@ TEST(SequenceTail, AStopAwayFromTheLastWaitsForTheNext) {
   }
 }
 
-// Neither targets nor repeats: places that nobody has seen before go on at the end.
-TEST(SequenceTail, NewTargetsGoOnAtTheEnd) {
+// Each stop is at a new position: new targets are appended at the end.
+TEST(SequenceTail, AppendsNewTargetsAtTheEnd) {
   Walk walk;
   for (int i = 0; i < 600; ++i) walk.stop(i * 1e-3, i + 1, 1);
   const Sequence sequence = grown(walk.stops, 256, {});
@@ -165,8 +168,9 @@ TEST(SequenceTail, NewTargetsGoOnAtTheEnd) {
   }
 }
 
-// A place between the last two targets, and one before the first: those beyond have other numbers.
-TEST(SequenceTail, ANewTargetMovesThoseBeyondIt) {
+// A new position between the last two targets, and one before the first: the targets beyond are
+// renumbered.
+TEST(SequenceTail, NewTargetRenumbersTheTargetsBeyond) {
   Walk walk;
   for (int i = 0; i < 5; ++i) walk.stop(i * 5e-3, i + 1, 1);
   walk.stop(18e-3, 0, 1);

@@ -1,4 +1,4 @@
-// The cycles in which axes are measured, as their encoder sees them.
+// The measuring cycles of axes, as the encoder records them.
 #include "algo/sequence/sequence.h"
 
 #include <gtest/gtest.h>
@@ -83,7 +83,7 @@ TEST(Cycle, PilgrimOneWayOnly) {
   EXPECT_EQ(test::shown(s.notices), "");
 }
 
-TEST(Cycle, QuasiPilgrimAtEachTargetOverAndOver) {
+TEST(Cycle, QuasiPilgrimAtEachTargetRepeatedly) {
   Machine m;
   for (int run = 1; run <= 3; ++run) {
     for (int t = 1; t <= m.count(); ++t) m.oscillate(t, run, 1);
@@ -91,7 +91,7 @@ TEST(Cycle, QuasiPilgrimAtEachTargetOverAndOver) {
   EXPECT_EQ(check(m).cycle, Cycle::quasi_pilgrim);
 }
 
-// Back and forth over two targets three times, then over the next two.
+// Three times forward and back over two targets, then over the next two.
 TEST(Cycle, QuasiPilgrimOverGroups) {
   Machine m;
   m.targets = {0, 5e-3, 10e-3, 15e-3, 20e-3, 25e-3, 30e-3, 35e-3};
@@ -121,7 +121,7 @@ TEST(Cycle, Pendulum) {
   }
 }
 
-TEST(Cycle, NoneIsSaidToBeNone) {
+TEST(Cycle, ReportsAnUnknownCycle) {
   Machine m;
   std::map<std::pair<int, int>, int> visits;
   for (const int t : {4, 1, 6, 2, 7, 3, 5, 1, 7, 4, 2, 6, 3, 5, 7, 2, 5, 1, 4, 6, 3}) {
@@ -152,13 +152,13 @@ TEST(Cycle, OvershootOfEveryStopIsNoTurn) {
     const Sequence s = check(m);
     EXPECT_EQ(s.runs, 3);
     EXPECT_EQ(s.cycle, Cycle::standard);
-    // One that does not show as an approach from the other side needs no word.
+    // An overshoot that does not look like an approach from the other side needs no notice.
     EXPECT_EQ(test::has(s.notices, NoticeCode::stop_overshot), by_m > 60e-6) << by_m;
   }
 }
 
-// Sent past each target so as to come to all of them from above.
-TEST(Cycle, ComingFromTheOtherSideIsTheApproach) {
+// The axis moves beyond each target, so that it approaches all of them from above.
+TEST(Cycle, ApproachFromTheOtherSideCounts) {
   Machine m;
   for (int run = 1; run <= 2; ++run) {
     for (int t = 1; t <= m.count(); ++t) {
@@ -170,7 +170,7 @@ TEST(Cycle, ComingFromTheOtherSideIsTheApproach) {
   EXPECT_EQ(check(m).runs, 2);
 }
 
-TEST(Cycle, PausesBetweenTargetsAreLeftOut) {
+TEST(Cycle, LeavesOutPausesBetweenTargets) {
   Machine m;
   for (int run = 1; run <= 2; ++run) {
     for (int t = 1; t <= m.count(); ++t) {
@@ -187,7 +187,7 @@ TEST(Cycle, PausesBetweenTargetsAreLeftOut) {
   EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_between_targets)) << test::shown(s.notices);
 }
 
-TEST(Cycle, TurningPointsAreLeftOut) {
+TEST(Cycle, LeavesOutTurningPoints) {
   Machine m;
   for (int run = 1; run <= 3; ++run) {
     m.forward(run);
@@ -200,7 +200,7 @@ TEST(Cycle, TurningPointsAreLeftOut) {
   EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_beyond_targets)) << test::shown(s.notices);
 }
 
-TEST(Cycle, TurningPointsAtEachTargetOfAPilgrimCycleAreLeftOut) {
+TEST(Cycle, LeavesOutTurningPointsOfAPilgrimCycle) {
   Machine m;
   for (int t = 1; t <= m.count(); ++t) {
     for (int run = 1; run <= 3; ++run) {
@@ -215,7 +215,7 @@ TEST(Cycle, TurningPointsAtEachTargetOfAPilgrimCycleAreLeftOut) {
   EXPECT_EQ(s.left_out.size(), 42u);
 }
 
-TEST(Cycle, AParkedStartIsNoTarget) {
+TEST(Cycle, ParkedStartIsNoTarget) {
   for (const double parked_m : {-5e-3, -1e-3, -20e-3, 12e-3, 35e-3}) {
     for (const int runs : {1, 3}) {
       Machine m;
@@ -232,7 +232,7 @@ TEST(Cycle, AParkedStartIsNoTarget) {
   }
 }
 
-TEST(Cycle, AParkedStartAtATargetIsNoVisit) {
+TEST(Cycle, ParkedStartAtATargetIsNoVisit) {
   Machine m;
   m.x_m = m.at(1);
   m.wait(2);
@@ -243,7 +243,7 @@ TEST(Cycle, AParkedStartAtATargetIsNoVisit) {
   EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_parked_at_start)) << test::shown(s.notices);
 }
 
-TEST(Cycle, ALogThatBeginsOnTheFirstTargetKeepsIt) {
+TEST(Cycle, KeepsAStartAtTheFirstTarget) {
   for (const int runs : {1, 2}) {
     Machine m;
     m.x_m = m.at(1);
@@ -253,7 +253,7 @@ TEST(Cycle, ALogThatBeginsOnTheFirstTargetKeepsIt) {
   }
 }
 
-TEST(Cycle, AMissedStopShiftsNoRun) {
+TEST(Cycle, MissedStopShiftsNoRun) {
   for (std::size_t missed = 0; missed < 42; ++missed) {
     Machine m;
     m.standard(3);
@@ -271,7 +271,7 @@ TEST(Cycle, AMissedStopShiftsNoRun) {
   }
 }
 
-TEST(Cycle, GoingBackToATargetIsASecondVisitInTheSameRun) {
+TEST(Cycle, ReturnToATargetIsASecondVisitInTheRun) {
   Machine m;
   m.forward(1);
   m.beyond(m.count(), 1);
@@ -290,7 +290,7 @@ TEST(Cycle, GoingBackToATargetIsASecondVisitInTheSameRun) {
   EXPECT_EQ(s.cycle, Cycle::standard);
 }
 
-TEST(Cycle, GoingBackByTwoTargetsIsNoNewRun) {
+TEST(Cycle, ReturnByTwoTargetsIsNoNewRun) {
   Machine m;
   m.targets = {0, 5e-3, 10e-3, 15e-3, 20e-3, 25e-3, 30e-3, 35e-3};
   for (int run = 1; run <= 3; ++run) {
@@ -309,7 +309,7 @@ TEST(Cycle, GoingBackByTwoTargetsIsNoNewRun) {
   EXPECT_EQ(s.cycle, Cycle::standard);
 }
 
-TEST(Cycle, GivenTargetsLeaveOtherStopsOut) {
+TEST(Cycle, GivenTargetsLeaveOutOtherStops) {
   Machine m;
   m.x_m = -20e-3;
   m.wait(1);
@@ -320,7 +320,7 @@ TEST(Cycle, GivenTargetsLeaveOtherStopsOut) {
   EXPECT_EQ(s.left_out.size(), 1u);
   EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_parked_at_start)) << test::shown(s.notices);
   EXPECT_FALSE(test::has(s.notices, NoticeCode::stop_near_no_target));
-  // Later, and where it came to on its own, a stop off the targets is one of another target.
+  // A later stop off the targets that is not parked at the start belongs to no target.
   m.move_to(-20e-3);
   m.wait(1);
   s = check(m, options);
@@ -328,8 +328,8 @@ TEST(Cycle, GivenTargetsLeaveOtherStopsOut) {
   EXPECT_TRUE(test::has(s.notices, NoticeCode::stop_near_no_target)) << test::shown(s.notices);
 }
 
-// Live, points are shown and kept as they come: those of a regular cycle keep their names.
-TEST(Cycle, LabelsStayAsPointsCome) {
+// Live, points are displayed and stored at once; the points of a regular cycle keep their labels.
+TEST(Cycle, LabelsStayWhenPointsAreAdded) {
   Machine m;
   m.standard(3);
   const auto points = m.points();

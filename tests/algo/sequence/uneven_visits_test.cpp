@@ -1,5 +1,5 @@
-// A log that is cut, or has targets with one approach, changes neither slope nor squareness by its
-// backlash or drift.
+// If a log is cut or has targets with one approach, backlash and drift change neither slope nor
+// squareness.
 #include "algo/sequence/uneven_visits.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kBacklash_m = 1e-6, kDrift_m = 0.3e-6, kSlope = 20e-6, kStep_m = 5e-3;
 
-// A reversal that grows by kGrown_m from target to target.
+// Growth of the reversal from target to target.
 constexpr double kGrown_m = 0.2e-6;
 
 struct Visit {
@@ -31,8 +31,8 @@ struct Visit {
 };
 using Kept = std::function<bool(const Visit&)>;
 
-// Thirteen targets there and back. EYX: a slope, half the backlash from each side, and a drift from
-// run to run; the form is a bow of 4 um.
+// Thirteen targets forward and back. EYX is a slope, half the backlash in each direction, a drift
+// from run to run, and a bow of 4 um.
 Run cut_run(int runs, const Kept& kept, Axis axis = Axis::x, double drift_m = kDrift_m) {
   Run run;
   run.header.axis = axis;
@@ -69,7 +69,7 @@ StraightnessFigure mean_figure(const mdof::Run& run) {
   return {};
 }
 
-TEST(UnevenVisits, OfAWholeRunAreNone) {
+TEST(UnevenVisits, CompleteRunHasNone) {
   for (const int runs : {1, 3}) {
     const mdof::Run run = cut_run(runs, kAll);
     EXPECT_EQ(without_drift_of_runs(run.points).points.size(), run.points.size());
@@ -80,7 +80,7 @@ TEST(UnevenVisits, OfAWholeRunAreNone) {
   EXPECT_EQ(test::shown(uneven_visits(one_way.points)), "");
 }
 
-TEST(UnevenVisits, AreNoticed) {
+TEST(UnevenVisits, AreReported) {
   const auto found = [](int runs, const Kept& kept) {
     return test::shown(uneven_visits(cut_run(runs, kept).points));
   };
@@ -97,7 +97,7 @@ TEST(UnevenVisits, AreNoticed) {
             "run_lacks_visits runs=runs 1, 2\n");
 }
 
-TEST(UnevenVisits, BacklashOfTargetsFromOneSideDoesNotTiltTheMean) {
+TEST(UnevenVisits, BacklashOfOneApproachDoesNotTiltTheMean) {
   const StraightnessFigure whole = mean_figure(cut_run(1, kAll));
   for (const int direction : {1, -1}) {
     for (const int from : {2, 5, 10, 13}) {
@@ -110,26 +110,25 @@ TEST(UnevenVisits, BacklashOfTargetsFromOneSideDoesNotTiltTheMean) {
   }
 }
 
-TEST(UnevenVisits, ARunThatLacksSomeDoesNotTiltByItsDrift) {
+TEST(UnevenVisits, DriftOfAnIncompleteRunDoesNotTiltTheMean) {
   const mdof::Run y = cut_run(3, kAll, Axis::y);
   const Squareness whole = squareness(cut_run(3, kAll), y, {}).value();
   const std::vector<Kept> lacking = {
       [](const Visit& v) { return v.run < 3 || v.target == 1; },
       [](const Visit& v) { return v.run < 3 || (v.target < 8 && v.direction > 0); },
       [](const Visit& v) { return v.run < 2 || v.target < 12; },
-      [](const Visit& v) { return v.target != (v.run < 3 ? 1 : 13); },  // none is whole
+      [](const Visit& v) { return v.target != (v.run < 3 ? 1 : 13); },  // no run is complete
   };
   for (std::size_t i = 0; i < lacking.size(); ++i) {
     const Squareness s = squareness(cut_run(3, lacking[i]), y, {}).value();
     EXPECT_NEAR(s.slope_a_rad, kSlope, 1e-14) << i;
     EXPECT_NEAR(s.error_rad, whole.error_rad, 1e-14) << i;
-    // The drift shifts whole runs: what they are uncertain by stays in it, and the form does not
-    // come in.
+    // The drift shifts whole runs: its uncertainty remains, and the form does not contribute.
     EXPECT_NEAR(s.u_slope_a_rad / whole.u_slope_a_rad, 1, 0.5) << i;
   }
 }
 
-TEST(UnevenVisits, TheDriftsOfTheRunsSumToZero) {
+TEST(UnevenVisits, DriftsOfTheRunsSumToZero) {
   const mdof::Run run = cut_run(3, [](const Visit& v) { return v.run != 3 || v.target != 9; });
   const auto without = without_drift_of_runs(run.points).points;
   const double drift_um[] = {0.3 - 1.4, 1.2 - 1.4, 2.7 - 1.4};
@@ -138,15 +137,15 @@ TEST(UnevenVisits, TheDriftsOfTheRunsSumToZero) {
                 drift_um[run.points[i].run - 1], 1e-9);
 }
 
-// What one run visited has the uncertainty of its level, too.
-TEST(UnevenVisits, TheDriftIsInTheUncertaintyOfEveryTarget) {
+// Targets that only one run visited also have the uncertainty of the run's level.
+TEST(UnevenVisits, UncertaintyOfEveryTargetContainsTheDrift) {
   const mdof::Run run = cut_run(2, [](const Visit& v) { return v.run < 2 || v.target < 10; });
   for (const auto approach : {Approach::forward, Approach::reverse, Approach::both})
     for (const TargetMean& mean : target_means({Axis::x, {}}, run.points, approach))
       EXPECT_NEAR(mean.u[0], 1.5 * kDrift_m, 1e-12) << to_string(approach);  // of 1 and 4, s/√2
 }
 
-TEST(UnevenVisits, ATableOfRunsWithOtherTargetsHasNoStep) {
+TEST(UnevenVisits, TableOfRunsWithOtherTargetsHasNoStep) {
   mdof::Run longer = cut_run(1, kAll, Axis::x, 0);
   mdof::Run shorter = cut_run(
       1, [](const Visit& v) { return v.target < 10; }, Axis::x, 10e-6);
@@ -156,7 +155,7 @@ TEST(UnevenVisits, ATableOfRunsWithOtherTargetsHasNoStep) {
   for (std::size_t i = 0; i < 13; ++i) {
     EXPECT_NEAR(table.forward[0][i] - table.forward[0][0],
                 whole.forward[0][i] - whole.forward[0][0], 1e-15);
-    // The level cancels; what stays is the noise of 1 nm.
+    // The level cancels; the noise of 1 nm remains.
     EXPECT_LE(table.u_forward[0][i], 2e-9);
     EXPECT_GT(table.u_forward[0][i], 0.3e-9);
   }
@@ -167,14 +166,14 @@ TEST(UnevenVisits, ATableOfRunsWithOtherTargetsHasNoStep) {
             "runs=run 2\n");
 }
 
-TEST(UnevenVisits, NoTargetFromBothSidesIsNoticed) {
+TEST(UnevenVisits, ReportsIfNoTargetHasBothApproaches) {
   const mdof::Run run =
       cut_run(1, [](const Visit& v) { return (v.direction > 0) == (v.target < 6); });
   EXPECT_EQ(test::shown(uneven_visits(run.points)), "approaches_mixed\n");
 }
 
-// The least squares by going to and fro between the mean of each run and of each visit, without
-// equations. `group` of a run: its visits are none of another group's.
+// The least-squares solution by alternating between the means of the runs and of the visits,
+// without equations. `group` of a run: runs of different groups share no visit.
 std::map<int, double> drifts_to_and_fro(const std::vector<MeasuredPoint>& points,
                                         const std::function<int(int)>& group) {
   std::map<int, double> of_run;
@@ -205,9 +204,9 @@ std::map<int, double> drifts_to_and_fro(const std::vector<MeasuredPoint>& points
   return of_run;
 }
 
-// Few runs of many targets, and many runs of few: each is solved its own way. Two groups of runs
-// share no visit.
-TEST(UnevenVisits, TheDriftsAreThoseOfLeastSquares) {
+// Few runs with many targets and many runs with few targets are solved in different ways. Two
+// groups of runs share no visit.
+TEST(UnevenVisits, DriftsMatchLeastSquares) {
   const auto group = [](int run) { return run % 2; };
   std::mt19937_64 engine(11);
   std::normal_distribution<> unit;
@@ -228,16 +227,16 @@ TEST(UnevenVisits, TheDriftsAreThoseOfLeastSquares) {
   }
 }
 
-// Runs that share no visit cannot be compared.
-TEST(UnevenVisits, RunsWithoutACommonVisitStay) {
+// Runs without a common visit cannot be compared.
+TEST(UnevenVisits, RunsWithoutACommonVisitAreUnchanged) {
   const mdof::Run run = cut_run(2, [](const Visit& v) { return (v.run == 1) == (v.target < 7); });
   const auto same = without_drift_of_runs(run.points).points;
   for (std::size_t i = 0; i < same.size(); ++i)
     EXPECT_NEAR(same[i].errors.local[0], run.points[i].errors.local[0], 1e-18);
 }
 
-// A line through three neighbours follows their noise.
-TEST(UnevenVisits, ARunOfThreeTargetsDoesNotScatterTheSlope) {
+// A line through three neighbouring targets would follow their noise.
+TEST(UnevenVisits, RunOfThreeTargetsKeepsTheSlopeUncertainty) {
   std::mt19937_64 engine(4);
   std::normal_distribution<> unit;
   const mdof::Run y = cut_run(1, kAll, Axis::y);
@@ -253,7 +252,7 @@ TEST(UnevenVisits, ARunOfThreeTargetsDoesNotScatterTheSlope) {
   EXPECT_NEAR(with / without, 1, 0.1);
 }
 
-TEST(UnevenVisits, ATableRemovesTheSlopeOfTheWholeAxis) {
+TEST(UnevenVisits, TableRemovesTheSlopeOfTheWholeAxis) {
   const auto of = [](const Kept& kept) { return build_table({cut_run(1, kept)}, {}).value(); };
   const auto whole = of(kAll);
   const auto cut = of([](const Visit& v) { return v.direction > 0 || v.target > 4; });
@@ -267,10 +266,11 @@ TEST(UnevenVisits, ATableRemovesTheSlopeOfTheWholeAxis) {
   }
 }
 
-// Targets 8 to 13 have one approach, and the reversal is kGrown_m times the target. By hand: the
-// mean of the others is that of target 4, so target i is off by (i - 4)/2 of it; a slope over the
-// 13 targets by sum((i - 7)(i - 4)) / 2 / 182 = 77/182 of it a step.
-TEST(UnevenVisits, TheUncertaintyHoldsWhereTheReversalGrows) {
+// Targets 8 to 13 have one approach, and the reversal is kGrown_m times the target number.
+// Calculated by hand: the mean reversal of the others is that of target 4, so target i deviates by
+// (i - 4)/2 of kGrown_m; the slope over the 13 targets deviates by sum((i - 7)(i - 4)) / 2 / 182 =
+// 77/182 of kGrown_m per step.
+TEST(UnevenVisits, UncertaintyCoversAGrowingReversal) {
   for (const int only : {1, -1}) {
     mdof::Run x = cut_run(1, [&](const Visit& v) { return v.direction == only || v.target < 8; });
     for (MeasuredPoint& p : x.points)
@@ -293,10 +293,10 @@ TEST(UnevenVisits, TheUncertaintyHoldsWhereTheReversalGrows) {
   }
 }
 
-// Stated over true u of the slope where half of the targets lack an approach, and the reversal
-// differs from target to target. In one trial of ten the scatter looks like a trend, which then is
-// in u, so that its mean square is too large; without these it is right.
-TEST(UnevenVisits, TheUncertaintyHoldsWhereTheReversalScatters) {
+// Stated u over true u of the slope if half of the targets lack an approach and the reversal
+// differs between targets. In one trial of ten the scatter looks like a trend, which then
+// contributes to u, so the mean square is too large. Without these trials it is correct.
+TEST(UnevenVisits, UncertaintyCoversAScatteringReversal) {
   std::mt19937_64 engine(3);
   std::normal_distribution<> unit;
   double square = 0, stated = 0;

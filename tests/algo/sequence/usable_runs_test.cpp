@@ -47,7 +47,7 @@ TableOptions partial_too() {
   return options;
 }
 
-TEST(UsableRuns, APartialRunIsTakenOnlyIfAskedFor) {
+TEST(UsableRuns, UsesAPartialRunOnlyOnRequest) {
   const mdof::Run partial = run_of(7, RunState::partial, "a");
   const std::string why = refusal({partial});
   EXPECT_TRUE(contains(why, "run 7 is partial")) << why;
@@ -58,7 +58,7 @@ TEST(UsableRuns, APartialRunIsTakenOnlyIfAskedFor) {
   EXPECT_EQ(test::shown(notices[0]), "made_from_partial run=7");
 }
 
-TEST(UsableRuns, AnAbortedOrFailedOneIsNeverTaken) {
+TEST(UsableRuns, NeverUsesAnAbortedOrFailedRun) {
   for (const RunState state : {RunState::aborted, RunState::failed, RunState::open}) {
     const mdof::Run run = run_of(7, state, "a");
     EXPECT_TRUE(contains(refusal({run}, partial_too()), to_string(state)));
@@ -66,15 +66,15 @@ TEST(UsableRuns, AnAbortedOrFailedOneIsNeverTaken) {
   EXPECT_TRUE(inherited_notices(all_of({run_of(7, RunState::complete, "a")})).empty());
 }
 
-// A saturated end of the travel put a squareness out by 96 urad, and only the run said so.
-TEST(UsableRuns, WhatIsWrongWithARunIsWrongWithItsFigure) {
+// A saturated end of the travel changed a squareness by 96 urad, and only the run had a notice.
+TEST(UsableRuns, InheritsTheNoticesOfTheRuns) {
   mdof::Run a = run_of(7, RunState::complete, "a"), b = run_of(8, RunState::complete, "b");
   b.header.notices = {notice(NoticeCode::cycle_unknown), notice(NoticeCode::probe_dead, "A")};
   EXPECT_EQ(test::shown(inherited_notices({&a, &b})),
             "run 8: cycle_unknown\nrun 8: probe_dead A\n");
 }
 
-TEST(UsableRuns, SimulatedAndMeasuredAreNotMixed) {
+TEST(UsableRuns, RejectsSimulatedWithMeasuredRuns) {
   mdof::Run a = run_of(7, RunState::complete, "a"), b = run_of(8, RunState::complete, "b");
   b.header.simulated = true;
   EXPECT_TRUE(contains(refusal({a, b}), "run 8 is simulated and run 7 is measured"));
@@ -82,8 +82,8 @@ TEST(UsableRuns, SimulatedAndMeasuredAreNotMixed) {
   EXPECT_EQ(refusal({a, b}), "");
 }
 
-// Counted twice, the same readings would make u smaller by the square root of two.
-TEST(UsableRuns, TheSameRecordingCountsOnce) {
+// The same readings, counted twice, would reduce u by the square root of two.
+TEST(UsableRuns, RejectsTheSameRecordingTwice) {
   const auto run = [](std::int64_t id, const char* recording) {
     return run_of(id, RunState::complete, recording);
   };
@@ -95,7 +95,7 @@ TEST(UsableRuns, TheSameRecordingCountsOnce) {
   EXPECT_TRUE(contains(refusal({run(1, ""), run(1, "")}), "run 1 is given twice"));
 }
 
-TEST(UsableRuns, ARunAndTheOneThatGoesOnFromItCountOnce) {
+TEST(UsableRuns, RejectsARunWithItsContinuation) {
   const mdof::Run first = run_of(4, RunState::complete, "a");
   mdof::Run second = run_of(6, RunState::complete, "b");
   second.header.supersedes = 4;
@@ -103,8 +103,8 @@ TEST(UsableRuns, ARunAndTheOneThatGoesOnFromItCountOnce) {
     EXPECT_TRUE(contains(refusal(runs), "run 6 continues run 4")) << refusal(runs);
 }
 
-// A log and its compressed copy, or a run and one that goes on from it at the second remove.
-TEST(UsableRuns, ReadingsInCommonCountOnce) {
+// A log and its compressed copy, or a run and a continuation of its continuation.
+TEST(UsableRuns, RejectsRunsWithCommonReadings) {
   mdof::Run log = run_of(1, RunState::complete, "a"), copy = run_of(2, RunState::complete, "b");
   for (std::size_t i = 0; i < log.points.size(); ++i)
     for (mdof::Run* run : {&log, &copy}) {
@@ -119,7 +119,7 @@ TEST(UsableRuns, ReadingsInCommonCountOnce) {
     EXPECT_TRUE(contains(refusal({log, run}), "readings in common")) << refusal({log, run});
 }
 
-TEST(UsableRuns, SquarenessAsksTheSame) {
+TEST(UsableRuns, SquarenessHasTheSameRules) {
   const mdof::Run x = run_of(1, RunState::complete, "a"),
                   y = run_of(2, RunState::partial, "b", Axis::y);
   EXPECT_TRUE(contains(squareness(x, y, {}).error().message, "run 2 is partial"));

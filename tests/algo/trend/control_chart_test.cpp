@@ -13,9 +13,9 @@ std::vector<ChartValue> values(const std::vector<double>& x, double u = 0) {
   return out;
 }
 
-// The flow rates of the NIST/SEMATECH handbook 6.3.2.2: mean 50.81, mean moving range 1.8778,
-// limits 45.8155 and 55.8041 (there 50.81 ± 3 · 1.8778 / 1.128).
-TEST(ControlChart, TheWorkedExampleOfTheHandbook) {
+// Flow rates of the NIST/SEMATECH handbook 6.3.2.2: mean 50.81, mean moving range 1.8778, limits
+// 45.8155 and 55.8041 (calculated there as 50.81 ± 3 · 1.8778 / 1.128).
+TEST(ControlChart, MatchesTheExampleOfTheHandbook) {
   const auto x = values({49.6, 47.6, 49.9, 51.3, 47.8, 51.2, 52.6, 52.4, 53.6, 52.1});
   const auto chart = control_chart(x, 10);
   ASSERT_TRUE(chart);
@@ -27,7 +27,7 @@ TEST(ControlChart, TheWorkedExampleOfTheHandbook) {
   EXPECT_FALSE(chart->moved);
 }
 
-TEST(ControlChart, TheBaselineIsAsLongAsAskedFor) {
+TEST(ControlChart, BaselineHasTheRequestedLength) {
   const auto x = values({1, 2, 1, 2, 1, 2, 30});
   EXPECT_EQ(control_chart(x)->baseline, 6U);
   EXPECT_EQ(control_chart(x, 4)->baseline, 4U);
@@ -35,15 +35,15 @@ TEST(ControlChart, TheBaselineIsAsLongAsAskedFor) {
   EXPECT_FALSE(control_chart(x, 1));
   EXPECT_FALSE(control_chart(x, 3));
   EXPECT_FALSE(control_chart(x, 8));
-  // Moved after the first value already.
+  // The chart has moved after the first value already.
   const auto first = control_chart(values({0, 9, 9, 9, 9, 90}), 5);
   ASSERT_TRUE(first->moved);
   EXPECT_EQ(first->moved->since, 5U);
 }
 
-// By hand: 1 2 1 2 1 has the mean 1.4, ranges of 1, sigma 1/1.128; 4 is inside 1.4 + 2.66, 5 is
-// not.
-TEST(ControlChart, TheLastValueIsHeldAgainstThoseBefore) {
+// Calculated by hand: 1 2 1 2 1 has the mean 1.4, ranges of 1 and sigma 1/1.128. 4 is within 1.4 +
+// 2.66, 5 is not.
+TEST(ControlChart, ComparesTheLastValueWithTheOthers) {
   EXPECT_FALSE(control_chart(values({1, 2, 1, 2, 1, 4}))->moved);
   const auto chart = control_chart(values({1, 2, 1, 2, 1, 5}));
   EXPECT_NEAR(chart->high[5], 1.4 + 3 / 1.128, 1e-12);
@@ -55,16 +55,16 @@ TEST(ControlChart, TheLastValueIsHeldAgainstThoseBefore) {
   EXPECT_TRUE(control_chart(values({1, 2, 1, 2, 1, -3}))->moved->by < 0);
 }
 
-// By hand: of 0 12 12 12 24 the squares about two means are 108 where the first or where the last
-// value stands alone, and 168 between: of equals the first is taken.
-TEST(ControlChart, OfEqualStepsTheFirstIsNamed) {
+// Calculated by hand: the squares of 0 12 12 12 24 about two means are 108 if the first or the last
+// value is separate, and 168 between. The first of equal results is used.
+TEST(ControlChart, ReportsTheFirstOfEqualSteps) {
   const auto chart = control_chart(values({0, 12, 12, 12, 24}), 4);
   ASSERT_TRUE(chart->moved);
   EXPECT_EQ(chart->moved->since, 1U);
   EXPECT_NEAR(chart->moved->by, 15, 1e-12);
 }
 
-TEST(ControlChart, AValueOfLargeUncertaintyHasWiderLimits) {
+TEST(ControlChart, LargeUncertaintyWidensTheLimits) {
   auto x = values({1, 2, 1, 2, 1, 5});
   x.back().u = 1.3;
   EXPECT_FALSE(control_chart(x)->moved);
@@ -73,7 +73,7 @@ TEST(ControlChart, AValueOfLargeUncertaintyHasWiderLimits) {
   EXPECT_NEAR(control_chart(x)->moved->u, 1.1, 1e-12);
 }
 
-TEST(ControlChart, EightOnOneSide) {
+TEST(ControlChart, ReportsEightOnOneSide) {
   std::vector<double> x = {1, -1, 1, -1, 1, -1};  // sigma 1.77
   for (int i = 0; i < 7; ++i) x.push_back(1.5);
   EXPECT_FALSE(control_chart(values(x), 6)->moved);
@@ -84,17 +84,17 @@ TEST(ControlChart, EightOnOneSide) {
   ASSERT_TRUE(chart->moved);
   EXPECT_EQ(chart->moved->since, 6u);
   EXPECT_NEAR(chart->moved->by, 1.5, 1e-12);
-  x[9] = 0;  // on the centre: on no side
+  x[9] = 0;  // on the centre, so on no side
   EXPECT_TRUE(control_chart(values(x), 6)->one_side.empty());
 }
 
-TEST(ControlChart, AnOutlierThatIsPastHasNotMoved) {
+TEST(ControlChart, PastOutlierIsNoMove) {
   const auto chart = control_chart(values({1, 2, 1, 2, 9, 1, 2}), 4);
   EXPECT_EQ(chart->outside, std::vector<std::size_t>{4});
   EXPECT_FALSE(chart->moved);
 }
 
-TEST(ControlChart, TooFewValuesSayNothing) {
+TEST(ControlChart, NeedsEnoughValues) {
   EXPECT_FALSE(control_chart({}));
   EXPECT_FALSE(control_chart(values({1, 2, 1, 2})));
   EXPECT_TRUE(control_chart(values({1, 2, 1, 2, 1})));
@@ -102,8 +102,8 @@ TEST(ControlChart, TooFewValuesSayNothing) {
   EXPECT_FALSE(control_chart(values({1, 2, 1, 2, 1}), 3));
 }
 
-// Four and five on one side of the centre, which one value in between meets exactly.
-TEST(ControlChart, AValueOnTheCentreEndsARow) {
+// Four and five values on one side of the centre, with one value between that equals the centre.
+TEST(ControlChart, ValueOnTheCentreEndsARow) {
   std::vector<ChartValue> x(4, {5, 1});
   for (int i = 0; i < 12; ++i) x.push_back({i == 6 ? 5 : 5.5, 1});
   auto chart = control_chart(x, 4);

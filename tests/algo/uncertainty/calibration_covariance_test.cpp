@@ -1,5 +1,5 @@
-// What a calibration record's matrix makes of the errors, against fixtures that are displaced one
-// by one: J Σ Jᵀ with derivatives by differences of the rigid model's readings.
+// The effect of a calibration record's matrix on the errors, compared with fixtures in which one
+// quantity is displaced: J Σ Jᵀ, with derivatives from differences of the rigid model's readings.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -78,7 +78,7 @@ Errors5 truth(double d) {
           -12e-3 + 0.2 * d, 20e-3 * std::cos(40 * d)};
 }
 
-// Errors of all points where one quantity is off by `by`.
+// Run with one quantity displaced by `by`.
 Run displaced(const Rig& rig, const Quantity& q, double by) {
   SyntheticRun synthetic{.rig = rig, .runs = 1, .stated = kAtCarriage, .truth = truth};
   synthetic.fixture = make_fixture(rig).value();
@@ -95,7 +95,7 @@ Run displaced(const Rig& rig, const Quantity& q, double by) {
   return synthetic.measure();
 }
 
-TEST(CalibrationCovariance, OfPlacesDirectionsAndZerosReachesEachError) {
+TEST(CalibrationCovariance, PlacesDirectionsAndZerosAffectEachError) {
   const Eigen::MatrixXd m = matrix();
   const Rig rig = rig_with(m);
   const mdof::Run run =

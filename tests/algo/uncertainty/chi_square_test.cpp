@@ -56,14 +56,14 @@ Tested measure(const SteppingLog& log, const FrameBlock& frames) {
   return result;
 }
 
-TEST(ChiSquare, LimitsAreThoseOfTheTables) {
-  EXPECT_NEAR(chi_square_limit(1), 4.8916 * 4.8916, 1e-3);      // the normal distribution's
-  EXPECT_NEAR(chi_square_limit(2), -2 * std::log(1e-6), 1e-3);  // the exponential's
+TEST(ChiSquare, LimitsMatchTheTables) {
+  EXPECT_NEAR(chi_square_limit(1), 4.8916 * 4.8916, 1e-3);      // from the normal distribution
+  EXPECT_NEAR(chi_square_limit(2), -2 * std::log(1e-6), 1e-3);  // from the exponential distribution
   EXPECT_GT(chi_square_limit(12), chi_square_limit(11));
 }
 
-// The probability of a greater value: e^-x/2, erfc(√(x/2)), and for each two degrees of freedom
-// more a term (x/2)^a e^-x/2 / Γ(a + 1).
+// Probability of a greater value: e^-x/2, erfc(√(x/2)), and for each two more degrees of freedom a
+// term (x/2)^a e^-x/2 / Γ(a + 1).
 double exceeds(int freedom, double chi_square) {
   const double x = chi_square / 2;
   double a = freedom % 2 ? 0.5 : 1, q = freedom % 2 ? std::erfc(std::sqrt(x)) : std::exp(-x);
@@ -81,7 +81,7 @@ TEST(ChiSquare, OneInAMillionExceedsEachLimit) {
   EXPECT_EQ(chi_square_limit(0), chi_square_limit(1));
 }
 
-TEST(ChiSquare, ProbesThatAgreeRaiseNoAlarm) {
+TEST(ChiSquare, ProbesThatAgreeAreNotFlagged) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SteppingLog log;
     log.seed = seed;
@@ -95,11 +95,11 @@ TEST(ChiSquare, ProbesThatAgreeRaiseNoAlarm) {
   }
 }
 
-// From the second run on, each probe in turn reads 0.5 µm too much.
-TEST(ChiSquare, NamesTheProbeThatContradictsTheOthers) {
+// From the second run on, one probe reads 0.5 µm too much; each probe is tested.
+TEST(ChiSquare, ReportsTheProbeThatContradictsTheOthers) {
   for (const std::size_t probes : {6u, 7u}) {
     for (std::size_t bad = 0; bad < probes; ++bad) {
-      if (probes == 6 && (bad == 3 || bad == 4)) continue;  // nothing checks two side probes
+      if (probes == 6 && (bad == 3 || bad == 4)) continue;  // two side probes cannot be checked
       SteppingLog log;
       log.probes = probes;
       FrameBlock frames = log.frames();
@@ -115,7 +115,7 @@ TEST(ChiSquare, NamesTheProbeThatContradictsTheOthers) {
   }
 }
 
-// Probes that stand, and are scaled, otherwise than the rig believes, as much as it declares.
+// Positions and scales of the probes differ from the rig as much as it declares.
 struct DeclaredFaults {
   static constexpr double kShift_m = 0.1e-3, kScale = 1e-3;
   Rig rig = rig_of(7);
@@ -126,7 +126,7 @@ struct DeclaredFaults {
       probe.uncertainty.sensitivity.u = kScale;
     }
   }
-  // `bad_m`: what probe F reads too much at every second target.
+  // `bad_m`: error of the reading of probe F at every second target.
   std::vector<MeasuredPoint> measure(std::uint64_t seed, const Rig* declares, double bad_m) const {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
@@ -164,8 +164,9 @@ std::size_t accused(const std::vector<MeasuredPoint>& points) {
   }));
 }
 
-// The residual's covariance has what the rig declares: good runs are not accused, bad ones are.
-TEST(ChiSquare, WhatTheRigDeclaresAccusesNobody) {
+// The covariance of the residuals contains the declared uncertainties: good runs are not flagged,
+// bad runs are.
+TEST(ChiSquare, DeclaredFaultsAreNotFlagged) {
   const DeclaredFaults faults;
   int without = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -176,8 +177,8 @@ TEST(ChiSquare, WhatTheRigDeclaresAccusesNobody) {
   EXPECT_GT(without, 15);  // the control
 }
 
-// Of independent readings both ways come to one χ², where the errors are those of least squares.
-TEST(ChiSquare, WithACovarianceOfTheReadingsAlone) {
+// For independent readings, both methods give the same χ² if the errors are from least squares.
+TEST(ChiSquare, IsEqualForIndependentReadings) {
   const DeclaredFaults faults;
   const Solver solver = Solver::create(faults.rig, Model::rigid).value();
   for (const MeasuredPoint& p : faults.measure(3, nullptr, 0)) {
@@ -191,8 +192,8 @@ TEST(ChiSquare, WithACovarianceOfTheReadingsAlone) {
   }
 }
 
-// What is named is the largest residual of the points that contradict, and how many they are.
-TEST(ChiSquare, TheNoticeHasTheLargestResidual) {
+// The notice contains the largest residual of the flagged points, and their number.
+TEST(ChiSquare, NoticeHasTheLargestResidual) {
   const Rig rig = rig_of(7);
   const Solver solver = Solver::create(rig, Model::rigid).value();
   std::vector<MeasuredPoint> points = SyntheticRun{.rig = rig, .runs = 1}.measure().points;
@@ -209,14 +210,14 @@ TEST(ChiSquare, TheNoticeHasTheLargestResidual) {
   EXPECT_EQ(test::number(*found, "of"), 18);
 }
 
-// A probe is linear to 1e-4 of its range, a rectangle: 200 µm make 20 nm / √3. The reading of F may
-// be off until χ² of one degree of freedom is at its limit.
-TEST(ChiSquare, IsFlaggedFromNoiseAndLinearityOn) {
+// A probe is linear to 1e-4 of its range, with a rectangular distribution: 200 µm give 20 nm / √3.
+// The reading of F may deviate until χ² with one degree of freedom is at its limit.
+TEST(ChiSquare, FlagsAboveNoiseAndLinearity) {
   const auto solver = Solver::create(rig_of(6), Model::rigid).value();
   const Residuals residuals(solver, std::vector<double>(6, 200e-6));
   const Eigen::VectorXd still = rigid_readings(solver.fixture(), 0, Errors5{});
   const double u = std::hypot(3e-9, 20e-9 / std::sqrt(3.0));
-  // What six readings of one u leave of a change of F: its share of the one direction unseen.
+  // Part of a change of F that remains in the residuals of six readings with the same u.
   const Eigen::MatrixXd J = rigid_jacobian(solver.fixture(), 0, Errors5{});
   const Eigen::VectorXd left = Eigen::VectorXd::Unit(6, 5) - J * (J.transpose() * J).inverse() *
                                                                  J.transpose() *
@@ -234,9 +235,9 @@ TEST(ChiSquare, IsFlaggedFromNoiseAndLinearityOn) {
   }
 }
 
-// Four top probes; any three of them determine the plane. Where one is wrong in every run, each of
-// the four may be the wrong one.
-TEST(ChiSquare, NamesNobodyWhereSeveralMayBeIt) {
+// Four top probes; any three of them determine the plane. If one is wrong in every run, each of the
+// four may be wrong.
+TEST(ChiSquare, NamesNoProbeIfSeveralArePossible) {
   SteppingLog log;
   log.probes = 6;
   log.runs = 1;

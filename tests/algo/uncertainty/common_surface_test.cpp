@@ -1,5 +1,5 @@
-// The top of one square under the rigs of X and Y: EC0Y's error by surfaces that are drawn, with
-// the seed's own formulas (contributors_test.cpp), against its budget.
+// The top of one square, measured with the rigs of X and Y: the error of EC0Y for drawn surfaces,
+// by the simplified model (contributors_test.cpp), compared with its budget.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,8 +48,8 @@ double slope(const std::vector<double>& x, const std::vector<double>& y) {
   return xy / xx;
 }
 
-// EC0Y = -slope(EYX) - slope(EXY). The roll (B - C)/2l lifts the point 20 mm up: of X, EYX is l''
-// times it; of Y, whose local y is -X, EXY is -l'' times it.
+// EC0Y = -slope(EYX) - slope(EXY). The roll (B - C)/2l moves the point at a height of 20 mm. For X,
+// EYX is l'' times the roll; for Y, whose local y is -X, EXY is -l'' times it.
 double squareness_error(const test_faults::DrawnSurface& top, const std::vector<double>& travel) {
   std::vector<double> eyx, exy;
   const auto height = [&](double x, double y) { return top.height_m(x, y); };
@@ -74,7 +74,7 @@ double stated_u(double length_mm, const std::string& top_of_y) {
   return budget ? budget->u : 0;
 }
 
-TEST(CommonSurface, OfTheTopIsOneInXAndY) {
+TEST(CommonSurface, TopIsCommonToXAndY) {
   const std::vector<double> travel = SyntheticRun{}.targets_m;
   for (const double length_mm : {4.0, 30.0, 400.0}) {
     auto engine = test_faults::well_mixed(31);
@@ -87,13 +87,13 @@ TEST(CommonSurface, OfTheTopIsOneInXAndY) {
                 stated_u(length_mm, "another") / spread);
     EXPECT_NEAR(u / spread, 1, 0.06) << length_mm;
   }
-  // One twist of the surface is in both slopes with one sign: √2 if it were nothing but a twist.
+  // A twist of the surface has the same sign in both slopes; a pure twist would give the ratio √2.
   EXPECT_GT(stated_u(400, "top") / stated_u(400, "another"), 1.25);
 }
 
-// Three visits of two targets by a fixture that stands: the target travels, so that a probe looks
-// at a place of it that is the travel behind its own.
-TEST(PlaneFootprintsByHand, LieBehindTheProbesByTheMeanTravel) {
+// Three visits of two targets with a fixed fixture. The target moves, so a probe measures the place
+// of the target that lies behind the probe by the travel.
+TEST(PlaneFootprintsByHand, AreBehindTheProbesByTheMeanTravel) {
   const Rig rig = test::rig_x_with("", "",
                                    "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\nu_flatness_um = "
                                    "0.05\nflatness_length_mm = 12\n"
@@ -129,7 +129,8 @@ TEST(PlaneFootprintsByHand, LieBehindTheProbesByTheMeanTravel) {
       const auto& [point, footprint, by_height] = top.readings[3 * k + j];
       EXPECT_EQ(point, j);
       EXPECT_EQ(footprint, 2 * k + (target[j] == 7 ? 1 : 0));
-      EXPECT_NEAR(by_height[0], static_cast<double>(k + 1), 1e-12);  // it looks along the normal
+      EXPECT_NEAR(by_height[0], static_cast<double>(k + 1),
+                  1e-12);  // the probe is parallel to the normal
       EXPECT_NEAR(by_height[2], static_cast<double>(j), 1e-12);
     }
   }

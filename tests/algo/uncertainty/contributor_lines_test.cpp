@@ -1,4 +1,4 @@
-// What a budget shows of each contributor is what the rig declares, in the unit of its key.
+// The lines of a budget show each contributor as the rig declares it, in the unit of its key.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -69,7 +69,7 @@ TEST(ContributorLines, ShowWhatTheRigDeclares) {
 }
 
 // EC0Y = -slope(EXY) - slope(EYX) + corner × angle of the square.
-TEST(ContributorLines, TheSquareIsALineOfEC0Y) {
+TEST(ContributorLines, SquareIsALineOfEC0Y) {
   const Rig x = test::rig_x();
   for (const int corner : {1, -1}) {
     const SquareArtefact square{30e-6, 2e-6, corner};

@@ -1,4 +1,4 @@
-// What a declared uncertainty does to the errors, by the seed's own formulas (Eq. 8-12): with l =
+// The effect of a declared uncertainty on the errors, by the simplified model (Eq. 8-12) with l =
 // 10 mm, l'' = 20 mm: EAX = (B - C)/2l, EBX = ((B + C)/2 - A)/l, ECX = (E - D)/l, at the fixture
 // EZX = (B + C)/2, EYX = D + EAX l''.
 #include "algo/uncertainty/contributors.h"
@@ -26,12 +26,12 @@ void expect_shift(const Errors5& shift, const Errors5& expected, double toleranc
   for (std::size_t e = 0; e < 5; ++e) EXPECT_NEAR(shift[e], expected[e], tolerance) << e;
 }
 
-TEST(Contributors, NothingDeclaredIsNone) {
+TEST(Contributors, EmptyWithoutDeclarations) {
   const Rig rig = rig_x_with("", "");
   EXPECT_TRUE(of(rig, SyntheticRun{.rig = rig}.measure()).empty());
 }
 
-TEST(Contributors, ACalibrationIsTheSameAtEachPoint) {
+TEST(Contributors, CalibrationIsEqualAtEachPoint) {
   const double u = 0.1e-6;
   const struct {
     const char* probe;
@@ -45,7 +45,7 @@ TEST(Contributors, ACalibrationIsTheSameAtEachPoint) {
     SCOPED_TRACE(c.probe);
     const Rig rig = rig_x_with(c.probe, "u_calibration_um = 0.1");
     const auto all = of(rig, SyntheticRun{.rig = rig, .model = Model::simplified}.measure());
-    ASSERT_EQ(all.size(), 2u);  // the other is what the simplified model leaves out
+    ASSERT_EQ(all.size(), 2u);  // the other one is the contributor of the simplified model
     EXPECT_EQ(contributor_text(all[0].name), "probe " + std::string(c.probe) + ": calibration");
     EXPECT_DOUBLE_EQ(all[0].declared.u * all[0].to_unit, 0.1);
     const auto parts = all[0].parts();
@@ -54,8 +54,8 @@ TEST(Contributors, ACalibrationIsTheSameAtEachPoint) {
   }
 }
 
-// The target rises by 20 µm/mm: probe B reads that, and its scale error grows with it.
-TEST(Contributors, ASensitivityGoesWithTheReading) {
+// The target rises by 20 µm/mm: probe B reads this rise, and its scale error grows with it.
+TEST(Contributors, SensitivityIsProportionalToTheReading) {
   const Rig rig = rig_x_with("B", "u_sensitivity_ppm = 1000");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.truth = [](double d) { return Errors5{0, 0.02 * d, 0, 0, 0}; };
@@ -67,9 +67,9 @@ TEST(Contributors, ASensitivityGoesWithTheReading) {
   }
 }
 
-// Probe E 1 mm further along x reads l + 1 mm times the yaw: the yaw is found a tenth too large,
-// and δy at D is as it is.
-TEST(Contributors, APositionGoesWithTheAngle) {
+// Probe E, 1 mm further along x, reads l + 1 mm times the yaw. So the yaw is a tenth too large, and
+// δy at D is unchanged.
+TEST(Contributors, PositionActsWithTheAngle) {
   const Rig rig = rig_x_with("E", "u_position_mm = [1, 0, 0]");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   synthetic.truth = [](double d) { return Errors5{0, 0, 0, 0, 0.01 * d}; };
@@ -85,11 +85,11 @@ TEST(Contributors, APositionGoesWithTheAngle) {
 }
 
 // 0.36 µm/h is 0.1 nm/s.
-TEST(Contributors, ADriftGrowsWithTimeFromTheFirstPoint) {
+TEST(Contributors, DriftGrowsWithTimeFromTheFirstPoint) {
   const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 0.36\n");
   const auto run = SyntheticRun{.rig = rig, .model = Model::simplified}.measure();
   const auto all = of(rig, run);
-  ASSERT_EQ(all.size(), 6u);  // the last is what the simplified model leaves out
+  ASSERT_EQ(all.size(), 6u);  // the last one is the contributor of the simplified model
   EXPECT_EQ(contributor_text(all[3].name), "probe D: drift");
   EXPECT_NEAR(all[3].declared.u * all[3].to_unit, 0.36, 1e-12);
   const auto parts = all[3].parts();
@@ -99,20 +99,20 @@ TEST(Contributors, ADriftGrowsWithTimeFromTheFirstPoint) {
   }
 }
 
-// A fixture that is rolled by 1 mrad (about X for an X axis) reads a rise as a side step.
-TEST(Contributors, AnInstallationAngleMixesTheErrors) {
+// A fixture rolled by 1 mrad (about X for an X axis) and a target that rises.
+TEST(Contributors, InstallationRollHasNoEffectOnALevelPlane) {
   const Rig rig = rig_x_with("", "", "[installation]\nu_angle_mrad = [1, 0, 0]\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   synthetic.truth = [](double d) { return Errors5{0, 1e-3 * d, 0, 0, 0}; };
   const auto run = synthetic.measure();
   const auto parts = of(rig, run)[0].parts();
-  // Probes on a plane that stays level: their places move by 1 mrad, in a plane that only rises.
+  // The plane stays level and only rises, so moving the probes by 1 mrad over it has no effect.
   for (std::size_t j = 0; j < run.points.size(); ++j)
     for (std::size_t e = 0; e < 5; ++e) EXPECT_NEAR(parts[0][j][e], 0, 2e-10) << j << " " << e;
 }
 
-// 0 where the probe was zeroed; from there on √2 u √(1 - correlation).
-TEST(Contributors, AFlatnessCountsByWhatItChangesSinceTheZero) {
+// 0 at the zero of the probe, then √2 u √(1 - correlation).
+TEST(Contributors, FlatnessActsByItsChangeSinceTheZero) {
   const Rig rig = rig_x_with("", "",
                              "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
                              "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\nu_flatness_um = 0.05\n");
@@ -133,17 +133,17 @@ TEST(Contributors, AFlatnessCountsByWhatItChangesSinceTheZero) {
       correlation +=
           std::pow(k, -4) * std::cyl_bessel_j(0, 2 * M_PI * k * run.points[j].target_m / 0.03);
     }
-    // EYX at the fixture is what D reads.
+    // EYX at the fixture is the reading of D.
     EXPECT_NEAR(std::sqrt(square), 0.05e-6 * std::sqrt(2 * (1 - correlation / norm)), 1e-12) << j;
     EXPECT_NEAR(top, 0, 1e-12);
   }
-  // The visits of one place meet the same height.
+  // All visits of one place have the same height.
   const std::size_t targets = 9;
   for (const auto& part : parts) EXPECT_EQ(part[0], part[2 * targets]);
 }
 
-// The carriage's δy = D + roll l'' + d yaw: 1 µm of travel is 1 µm times the yaw.
-TEST(Contributors, TheEncoderCountsForEachTargetAlone) {
+// The carriage's δy is D + roll l'' + d yaw, so 1 µm of travel gives 1 µm times the yaw.
+TEST(Contributors, EncoderActsAtEachTargetSeparately) {
   const Rig rig = rig_x_with("", "", "[encoder]\nu_um = 1\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .stated = kAtCarriage};
   synthetic.truth = [](double) { return Errors5{0, 0, 0, 0, 1e-3}; };
@@ -157,20 +157,20 @@ TEST(Contributors, TheEncoderCountsForEachTargetAlone) {
     }
 }
 
-TEST(Contributors, ADirectionThatCannotBeIsRefused) {
+TEST(Contributors, RejectsAnImpossibleDirection) {
   const Rig rig = rig_x_with("D", "u_direction_mrad = 300");
   const auto found = contributors(rig, SyntheticRun{.rig = rig}.measure());
   ASSERT_FALSE(found);
   EXPECT_NE(found.error().message.find("u_direction_mrad"), std::string::npos);
 }
 
-TEST(Contributors, ARunWithoutPointsOrWithAnglesThatCannotBeIsRefused) {
+TEST(Contributors, RejectsRunsWithoutPointsOrWithWrongAngles) {
   const Rig rig = rig_x_with("", "", "[encoder]\nu_um = 1\n[drift]\nu_um_per_h = 1\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   auto run = synthetic.measure();
   EXPECT_TRUE(contributors(rig, run));
   for (double& reading : run.points[3].point.probe_m) reading = 0;
-  run.points[3].point.probe_m[4] = 3e-3;  // of E, 10 mm from D: 300 mrad of yaw
+  run.points[3].point.probe_m[4] = 3e-3;  // E is 10 mm from D: 300 mrad of yaw
   const auto turned = contributors(rig, run);
   ASSERT_FALSE(turned);
   EXPECT_NE(turned.error().message.find("at target 4"), std::string::npos);
@@ -180,9 +180,9 @@ TEST(Contributors, ARunWithoutPointsOrWithAnglesThatCannotBeIsRefused) {
   EXPECT_NE(empty.error().message.find("no points"), std::string::npos);
 }
 
-// B looks at a plane that is pitched by p, at the height s. A tilt c along the motion moves its
-// spot by c s: it reads p c s less or more. A tilt across the motion shows nothing.
-TEST(Contributors, ADirectionHasAPartAlongTheSlopeAndOneAcross) {
+// Probe B measures a plane with the pitch p at the height s. A tilt c along the motion moves its
+// spot by c s, so it reads p c s less or more. A tilt across the motion has no effect.
+TEST(Contributors, DirectionHasPartsAlongAndAcrossTheSlope) {
   const Rig rig = rig_x_with("B", "u_direction_mrad = 5");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   synthetic.truth = [](double d) { return Errors5{0, 1e-3 * d, 0, 0.05 * d, 0}; };
@@ -200,9 +200,9 @@ TEST(Contributors, ADirectionHasAPartAlongTheSlopeAndOneAcross) {
   }
 }
 
-// All probes 1 mm further along x on a plane that is pitched by p: it is lower there by p times
-// 1 mm, and pitched as before.
-TEST(Contributors, AnInstallationOffsetAlongTheMotionReadsThePitch) {
+// All probes are 1 mm further along x over a plane with the pitch p: the plane is lower there by p
+// times 1 mm, and the pitch is unchanged.
+TEST(Contributors, OffsetAlongTheMotionReadsThePitch) {
   const Rig rig = rig_x_with("", "", "[installation]\nu_offset_mm = [1, 0, 0]\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   synthetic.truth = [](double d) { return Errors5{0, 0, 0, 0.02 * d, 0}; };
@@ -214,9 +214,9 @@ TEST(Contributors, AnInstallationOffsetAlongTheMotionReadsThePitch) {
   }
 }
 
-// All probes 1 mm further along y, or z, on a target that is rolled by r: the top is higher there
-// by r times 1 mm, the side further away.
-TEST(Contributors, AnInstallationOffsetAcrossTheMotionReadsTheRoll) {
+// All probes are 1 mm further along y or z over a target with the roll r: the top is higher there
+// by r times 1 mm, the side is further away.
+TEST(Contributors, OffsetAcrossTheMotionReadsTheRoll) {
   for (const std::size_t c : {1u, 2u}) {
     const Rig rig = rig_x_with(
         "", "",
@@ -233,7 +233,7 @@ TEST(Contributors, AnInstallationOffsetAcrossTheMotionReadsTheRoll) {
   }
 }
 
-TEST(Contributors, AnInstallationAngleThatCannotBeIsRefused) {
+TEST(Contributors, RejectsAnImpossibleInstallationAngle) {
   for (const char* angles : {"[300, 0, 0]", "[0, 300, 0]", "[0, 0, 300]"}) {
     const Rig rig =
         rig_x_with("", "", std::string("[installation]\nu_angle_mrad = ") + angles + "\n");
@@ -243,8 +243,8 @@ TEST(Contributors, AnInstallationAngleThatCannotBeIsRefused) {
   }
 }
 
-// Up to 256 parts; of more targets two neighbours share one.
-TEST(Contributors, TheEncoderOfManyTargetsHasFewerParts) {
+// There are up to 256 parts; with more targets two neighbours share a part.
+TEST(Contributors, EncoderHasFewerPartsForManyTargets) {
   const Rig rig = rig_x_with("", "", "[encoder]\nu_um = 1\n");
   for (const int targets : {256, 257}) {
     SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 1};

@@ -20,10 +20,11 @@ namespace {
 
 struct CorrelatedCoverage {
   double slope_percent = 0, straightness_percent = 0;
-  double U_by_spread = 0;  // of the slope: mean U over 1.96 standard deviations
+  double U_by_spread = 0;  // mean U over 1.96 standard deviations of the slope
 };
 
-// τ in times from visit to visit; 0: white. Straight axis with a wave of 2 µm.
+// `correlation`: correlation time τ in intervals between visits; 0: white noise. The axis is
+// straight with a wave of 2 µm.
 CorrelatedCoverage correlated_coverage(int runs, double correlation, double tilt_rad,
                                        std::uint64_t seed) {
   const Rig rig = test::rig_x_with("", "");
@@ -58,7 +59,7 @@ CorrelatedCoverage correlated_coverage(int runs, double correlation, double tilt
   return {100.0 * slopes / n, 100.0 * straight / n, U / 1.96 / std::sqrt(square)};
 }
 
-// At least `percent`, but for three standard errors.
+// At least `percent`, within three standard errors.
 void expect_held(const CorrelatedCoverage& c, double percent) {
   const double three_sd = 65 / std::sqrt(test::coverage_runs(30));
   std::printf("slope %.1f %%, straightness %.1f %%, U/spread %.2f\n", c.slope_percent,
@@ -75,7 +76,8 @@ TEST(CorrelatedNoise, IntervalsOfRunsHoldTheTruth) {
     }
 }
 
-// Three runs show a tilt of the size of the noise too seldom: 88 % instead of 95 % of 1,000 logs.
+// In three runs, a tilt as large as the noise is often not visible: 88 % of 1,000 logs are covered
+// instead of 95 %.
 TEST(CorrelatedNoise, IntervalsOfRunsThatTiltMayBeTooShort) {
   for (const int runs : {3, 5})
     for (const double tilt_rad : {0.25e-6, 1e-6, 4e-6}) {
@@ -84,20 +86,21 @@ TEST(CorrelatedNoise, IntervalsOfRunsThatTiltMayBeTooShort) {
     }
 }
 
-// Three runs there and back over nine targets, one visit a second.
+// Three runs forward and back over nine targets, one visit per second.
 constexpr std::size_t kTargetsOfLog = 9, kPassesOfLog = 6;
 
 struct Log {
   std::vector<NoisyVisit> visits;
   double slope = 0;   // by least squares of the means, per target
-  double square = 0;  // sum of the residuals' squares
+  double square = 0;  // sum of the squared residuals
 };
 
 double slope_weight(std::size_t target) {
   return (static_cast<double>(target) - 4) / 60;  // Σ (i - 4)² = 60
 }
 
-// `correlation`: from visit to visit. Two-way means out, by hand: the visits are complete.
+// `correlation`: correlation of consecutive visits. The visits are complete, so the means of
+// targets and passes are subtracted directly.
 Log log_of(double correlation, double level, std::mt19937_64& engine) {
   std::normal_distribution<> normal;
   Log log;
@@ -170,7 +173,7 @@ TEST(CorrelatedNoise, UIsTheSpreadOfSlopes) {
   }
 }
 
-// The level of a pass is neither in what the residuals show nor in the variance of a figure.
+// The level of a pass is neither in the residuals nor in the variance of a figure.
 TEST(CorrelatedNoise, LeavesOutTheLevelOfAPass) {
   std::mt19937_64 engine(9);
   std::vector<NoisyVisit> visits = log_of(0.9, 0, engine).visits;

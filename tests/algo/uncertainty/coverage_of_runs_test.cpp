@@ -1,6 +1,7 @@
-// Do the stated 95 % intervals hold the truth? Runs on fixtures whose every declared contributor
-// was drawn from its distribution; points without samples (tests/daemon/measure has the whole way).
-// MDOF_COVERAGE_RUNS=2000 for figures worth quoting.
+// How often the stated 95 % intervals contain the true values. Runs on fixtures whose declared
+// contributors are all drawn from their distributions, with points without samples
+// (tests/daemon/measure tests the whole path). Use MDOF_COVERAGE_RUNS=2000 for figures worth
+// quoting.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -39,7 +40,8 @@ int wanted_runs() {
   return wanted ? std::atoi(wanted) : 0;
 }
 
-// Without the environment those whose U needs no Monte Carlo: a tenth of the time.
+// Without the environment variable, only figures whose U needs no Monte Carlo; this takes a tenth
+// of the time.
 std::vector<Figure> figures() {
   std::vector<Figure> all = errors_at_target(Axis::x, 8);
   for (const Figure& figure : figures_of_run(Axis::x))
@@ -83,8 +85,8 @@ TEST(CoverageOfRuns, StatedIntervalsHoldTheTruth) {
   }
 }
 
-// The control: faults that the rig does not declare are not covered.
-TEST(CoverageOfRuns, WhatIsNotDeclaredIsMissed) {
+// Control: faults that the rig does not declare are not covered.
+TEST(CoverageOfRuns, UndeclaredFaultsAreNotCovered) {
   const Rig faulty = declared_rig(10, 15, 20);
   Rig declared = faulty;
   for (Probe& probe : declared.probes) probe.uncertainty.calibration.u = 0;

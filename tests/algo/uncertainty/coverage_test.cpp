@@ -1,4 +1,4 @@
-// GUM annex G: values that the guide prints.
+// Values from GUM annex G.
 #include "algo/uncertainty/coverage.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // Table G.2, column 95 %.
-TEST(Coverage, FactorsOfTheGuide) {
+TEST(Coverage, MatchesTheGuide) {
   const std::pair<double, double> table[] = {
       {1, 12.71}, {2, 4.30},  {3, 3.18},  {4, 2.78},  {5, 2.57},  {6, 2.45},   {8, 2.31},
       {10, 2.23}, {15, 2.13}, {20, 2.09}, {30, 2.04}, {50, 2.01}, {100, 1.984}};
@@ -25,14 +25,14 @@ TEST(Coverage, FactorsOfTheGuide) {
   EXPECT_NEAR(coverage_factor(2.5), 3.574655, 1e-6);  // scipy.stats.t.ppf(0.975, 2.5)
 }
 
-// Two ways to one number where they meet, and another program's: scipy.stats.t.ppf(0.975, 200).
+// Two methods agree where they meet, and with scipy.stats.t.ppf(0.975, 200).
 TEST(Coverage, FewAndManyDegreesOfFreedomMeet) {
   const double below = coverage_factor(200 - 1e-6), above = coverage_factor(200);
   EXPECT_NEAR(below, above, 3e-8);
   EXPECT_NEAR(above, 1.971896, 1e-6);
 }
 
-// The root of the regularized incomplete beta function with 30 digits, by mpmath.
+// Reference: the root of the regularized incomplete beta function with 30 digits, by mpmath.
 TEST(Coverage, QuantilesOfStudentToTwelveDigits) {
   struct Quantiles {
     double freedom, two_sided, one_sided;
@@ -46,7 +46,7 @@ TEST(Coverage, QuantilesOfStudentToTwelveDigits) {
     EXPECT_NEAR(coverage_factor(q.freedom) / q.two_sided, 1, 1e-12) << q.freedom;
     EXPECT_NEAR(one_sided_factor(q.freedom) / q.one_sided, 1, 1e-12) << q.freedom;
   }
-  // By the expansion, whose fourth term is below 1 / 200^4.
+  // From the expansion, whose fourth term is below 1 / 200^4.
   const Quantiles many[] = {{200, 1.971896223633909, 1.652508100910878},
                             {250, 1.969498393421154, 1.650971489812858},
                             {1000, 1.962339080826408, 1.646378817285465},
@@ -57,14 +57,14 @@ TEST(Coverage, QuantilesOfStudentToTwelveDigits) {
   }
 }
 
-// H.1.6: end gauge calibration; the guide comes to 16 after cutting 16.7.
+// H.1.6, end gauge calibration: the guide truncates 16.7 to 16.
 TEST(Coverage, EffectiveDegreesOfFreedomOfTheGaugeBlock) {
   const std::vector<UncertaintyPart> parts = {{25, 18}, {9.7, 25.6}, {2.9, 50}, {16.6, 2}};
   const double freedom = effective_freedom(parts);
   EXPECT_EQ(std::floor(freedom), 16);
 }
 
-// G.4.2: equal parts of equal freedom add their freedoms.
+// G.4.2: equal parts with equal degrees of freedom add their degrees of freedom.
 TEST(Coverage, EqualPartsAddTheirFreedom) {
   EXPECT_NEAR(effective_freedom(std::vector<UncertaintyPart>{{3, 5}, {3, 5}}), 10, 1e-12);
   EXPECT_EQ(effective_freedom(std::vector<UncertaintyPart>{{3, kInfinite}, {3, kInfinite}}),
@@ -74,8 +74,8 @@ TEST(Coverage, EqualPartsAddTheirFreedom) {
       << "not 1e57";
 }
 
-// scipy.stats.t.ppf(0.95, ν).
-TEST(Coverage, OneSided) {
+// Reference: scipy.stats.t.ppf(0.95, ν).
+TEST(Coverage, OneSidedMatchesScipy) {
   const std::pair<double, double> table[] = {{1, 6.313752},   {2, 2.919986},        {5, 2.015048},
                                              {30, 1.697261},  {199, 1.652547},      {200, 1.652508},
                                              {1e6, 1.644855}, {kInfinite, 1.644854}};

@@ -1,4 +1,4 @@
-// ISO 14253-1:2017: what may be said of a figure with a tolerance.
+// ISO 14253-1:2017: decisions about a figure with a tolerance.
 #include "algo/uncertainty/conformity/decision.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Conformity said_of(double value) {
 }
 
 // g = 1.645 · 0.1, not U = 0.196.
-TEST(Decision, ByTheOneSidedGuardBand) {
+TEST(Decision, UsesTheOneSidedGuardBand) {
   EXPECT_EQ(said_of(0.835), Conformity::conform);
   EXPECT_EQ(said_of(-0.835), Conformity::conform);
   EXPECT_EQ(said_of(0.836), Conformity::undecided);
@@ -40,29 +40,30 @@ TEST(Decision, ByTheOneSidedGuardBand) {
   EXPECT_NE(d.reason.find("within the guard band"), std::string::npos);
 }
 
-// What fails a tolerance fails a smaller one: with u = 0.1 the guard band is two-sided below 0.24.
+// A value that does not conform to a tolerance does not conform to a smaller one. With u = 0.1 the
+// guard band is two-sided below 0.24.
 TEST(Decision, IsMonotoneInTheTolerance) {
   for (double limit = 0.4; limit > 0.001; limit -= 0.001)
     EXPECT_EQ(decision(budget_of(0.57), limit).conformity, Conformity::not_conform) << limit;
 }
 
-// What is said is true in 95 % of cases at the least, drawn about values at the edge of the rule.
-TEST(Decision, IsTrueWithTheProbabilityThatItNames) {
+// A decision is correct in at least 95 % of cases; values are drawn about the edge of the rule.
+TEST(Decision, IsCorrectWithTheStatedProbability) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0, 0.1);
-  for (const double limit : {1.0, 0.2}) {  // of the second either end counts
+  for (const double limit : {1.0, 0.2}) {  // for 0.2 both ends count
     double edge = limit;
     while (edge > 0 && decision(budget_of(edge), limit).conformity != Conformity::conform)
       edge -= 1e-4;
     int within = 0;
     constexpr int kDraws = 40'000;
     for (int i = 0; i < kDraws; ++i) within += std::abs(edge + noise(random)) <= limit ? 1 : 0;
-    const double share = static_cast<double>(within) / kDraws;  // one-sided alone: 0.90 of 0.2
+    const double share = static_cast<double>(within) / kDraws;  // one-sided alone: 0.90 for 0.2
     EXPECT_NEAR(share, 0.953, 0.007) << limit;
   }
 }
 
-TEST(Decision, AnIncompleteUDecidesNothing) {
+TEST(Decision, IsUndecidedForAnIncompleteU) {
   for (const double value : {0.0, 5.0}) {
     Budget budget = budget_of(value);
     budget.not_declared = {"u_flatness_um", "u_um_per_h"};
@@ -72,7 +73,7 @@ TEST(Decision, AnIncompleteUDecidesNothing) {
   }
 }
 
-TEST(Decision, OfARangeByUAndOfFewDegreesByStudentsT) {
+TEST(Decision, UsesUForRangesAndStudentsTForFewDegrees) {
   Budget range = budget_of(0.85);
   range.U_by_trials = true;
   EXPECT_EQ(decision(range, 1.0).conformity, Conformity::undecided);
@@ -87,7 +88,7 @@ TEST(Decision, KeepsTheLimit) {
   EXPECT_EQ(decision(budget_of(0.5), 1.25).limit, 1.25);
 }
 
-// A u of 0 or none is no uncertainty that a decision can rest on.
+// A decision needs a known u above 0.
 TEST(Decision, IsUndecidedWithoutU) {
   for (const double u : {0.0, std::nan("")}) {
     Budget budget = budget_of(0.5);
@@ -99,7 +100,7 @@ TEST(Decision, IsUndecidedWithoutU) {
   }
 }
 
-TEST(Decision, IsUndecidedOfARunThatIsNoGoodOrWasVisitedOnce) {
+TEST(Decision, IsUndecidedForPartialAndSingleRuns) {
   EXPECT_EQ(decision(budget_of(0.1), 1.0, "run 3 is partial").reason, "run 3 is partial");
   EXPECT_EQ(decision(budget_of(0.1), 1.0, "run 3 is partial").conformity, Conformity::undecided);
   Budget once = budget_of(0.1);

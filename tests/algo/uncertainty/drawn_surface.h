@@ -1,5 +1,5 @@
-// A surface as a sum of many plane waves, each of a random direction and phase: by the central
-// limit isotropic and normal. No other code of the project has it.
+// A surface as a sum of many plane waves, each of a random direction and phase; by the central
+// limit theorem it is isotropic and normal. No other code of the project uses this model.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@ namespace mdof::algo::test_faults {
 
 class DrawnSurface {
  public:
-  // Waves of the lengths L ... L/4 of the weights 1/k².
+  // Waves of the lengths L, L/2, L/3 and L/4 with the weights 1/k².
   template <class Engine>
   DrawnSurface(double u_m, double length_m, Engine& engine) {
     constexpr int kWaves = 20;  // of each length
@@ -33,7 +33,7 @@ class DrawnSurface {
     }
     return sum;
   }
-  // What a probe reads that was zeroed at d = 0 over this place.
+  // Change of the reading of a probe that was zeroed at d = 0 over this place, m.
   double above_zero_m(double first_m, double second_m, double travel_m) const {
     return height_m(first_m - travel_m, second_m) - height_m(first_m, second_m);
   }

@@ -1,6 +1,6 @@
-// A fixture whose every declared contributor is drawn from its distribution. The faults are made
-// here, by other code than the budget's: probes moved and turned in the fixture itself, flatness as
-// sums of plane waves (drawn_surface.h).
+// A fixture whose declared contributors are all drawn from their distributions. The faults are made
+// independently of the code of the budgets: probes are moved and turned in the fixture, and
+// flatness is a sum of plane waves (drawn_surface.h).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -20,7 +20,7 @@ inline constexpr const char* kOfProbes =
     "u_calibration_um = 0.05\nu_sensitivity_ppm = 1500\nu_position_mm = [0.08, 0.08, 0.08]\n"
     "u_direction_mrad = 2\n";
 
-// Behind each probe of a rig's text.
+// Adds the declared uncertainties to each probe of a rig's text.
 inline std::string with_declared_probes(std::string toml) {
   for (std::size_t at = 0; (at = toml.find("measures", at)) != std::string::npos; at += 20) {
     toml.insert(at, kOfProbes);
@@ -29,7 +29,8 @@ inline std::string with_declared_probes(std::string toml) {
   return toml;
 }
 
-// Of the installation, drift and planes; the side plane's normal is that of the rig's axis.
+// Declared uncertainties of installation, drift and planes; `side_normal` is the normal of the side
+// plane for the rig's axis.
 inline std::string of_rig(double drift_um_per_h, const char* side_normal) {
   return "[installation]\nu_angle_mrad = [2, 2, 2]\nu_offset_mm = [0.05, 0.05, 0.05]\n"
          "[drift]\nu_um_per_h = " +
@@ -39,8 +40,8 @@ inline std::string of_rig(double drift_um_per_h, const char* side_normal) {
          side_normal + "\"\nu_flatness_um = 0.02\n";
 }
 
-// The streams of neighbouring seeds of std::mt19937_64 are related: seed 2 k and 2 k + 1 gave
-// slopes of X and Y whose correlation was -0.3.
+// The streams of neighbouring seeds of std::mt19937_64 are related: seeds 2 k and 2 k + 1 gave
+// slopes of X and Y with a correlation of -0.3.
 inline std::mt19937_64 well_mixed(std::uint64_t seed) {
   std::seed_seq mixed{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
   return std::mt19937_64(mixed);
@@ -48,7 +49,7 @@ inline std::mt19937_64 well_mixed(std::uint64_t seed) {
 
 class FaultyFixture {
  public:
-  // Of what `rig` declares, all of it normal.
+  // Draws the faults that `rig` declares, all from normal distributions.
   FaultyFixture(const Rig& rig, std::uint64_t seed)
       : rig_(rig),
         nominal_(make_fixture(rig).value()),
@@ -66,17 +67,17 @@ class FaultyFixture {
   }
 
   double normal() { return normal_(engine_); }
-  // The scale errors go with the probes to another set-up.
+  // Scale errors belong to the probes, so another set-up with the same probes has the same ones.
   const std::vector<double>& gains() const { return gain_; }
   void take_gains(const std::vector<double>& gains) { gain_ = gains; }
-  // The top of the target, the first plane, is the same under a run along X and one along Y.
+  // The top of the target, the first plane, is the same for a run along X and a run along Y.
   const DrawnSurface& top() const { return surfaces_.front(); }
   void take_top_of_x(const DrawnSurface& top) {
     surfaces_.front() = top;
     top_of_x_ = true;
   }
 
-  // Of all probes, without noise; `errors`: of the carriage, local frame.
+  // Readings of all probes without noise; `errors` of the carriage in the local frame.
   std::vector<double> readings_m(double d, const Errors5& errors, double time_s) const {
     const Eigen::VectorXd exact = rigid_readings(as_is_, d, errors) - zero_;
     std::vector<double> all;
@@ -94,7 +95,7 @@ class FaultyFixture {
   }
 
  private:
-  // A Y axis' local x is +Y, its local y -X.
+  // Along Y, local x is +Y and local y is -X.
   double above_zero_m(std::size_t plane, double first_m, double second_m, double d) const {
     const DrawnSurface& surface = surfaces_[plane];
     if (plane > 0 || !top_of_x_) return surface.above_zero_m(first_m, second_m, d);
@@ -129,7 +130,7 @@ class FaultyFixture {
   bool top_of_x_ = false;
 };
 
-// At the carriage, local frame, at a travel of d metres.
+// True errors of the carriage in the local frame, at a travel of d metres.
 inline Errors5 true_errors(double d) {
   return {1.5e-6 * std::sin(90 * d) + 8e-6 * d, 1e-6 * std::cos(110 * d) - 5e-4 * d,
           40e-6 * std::sin(60 * d), 60e-6 * std::cos(50 * d), 80e-6 * std::sin(70 * d)};

@@ -17,7 +17,7 @@ MeasuredPoint point(int target, int direction, double position_m, double dy_m, d
   return p;
 }
 
-TEST(LocalSlopes, OfAParabolaAreItsDerivativeInside) {
+TEST(LocalSlopes, AreTheDerivativeOfAParabola) {
   mdof::Run run;
   for (int i = 0; i <= 8; ++i) {
     const double x = i * 5e-3;
@@ -27,13 +27,14 @@ TEST(LocalSlopes, OfAParabolaAreItsDerivativeInside) {
   ASSERT_EQ(slopes.size(), 9u);
   for (std::size_t i = 1; i < 8; ++i)
     EXPECT_NEAR(slopes[i][0], 4e-3 * static_cast<double>(i) * 5e-3, 1e-15) << i;
-  EXPECT_NEAR(slopes[0][0], 2e-3 * 5e-3, 1e-15);  // the chord of an end
+  EXPECT_NEAR(slopes[0][0], 2e-3 * 5e-3, 1e-15);  // the chord at the end
   EXPECT_NEAR(slopes[8][0], 2e-3 * 75e-3, 1e-15);
   for (const Errors5& slope : slopes) EXPECT_NEAR(slope[4], 0.1, 1e-12);
 }
 
-// By the travel of the target in M, whichever body moves and whichever way the encoder counts.
-TEST(LocalSlopes, GoWithTheTravelOfTheTarget) {
+// Slopes are over the travel of the target in M, for both moving bodies and both encoder
+// directions.
+TEST(LocalSlopes, FollowTheTravelOfTheTarget) {
   for (const bool fixture_moves : {false, true})
     for (const bool against : {false, true}) {
       mdof::Run run;
@@ -46,18 +47,18 @@ TEST(LocalSlopes, GoWithTheTravelOfTheTarget) {
     }
 }
 
-// A reversal error of 10 µm, seen at one of three targets alone, is no slope.
-TEST(LocalSlopes, AreThoseOfTheOwnApproach) {
+// A reversal error of 10 µm that is seen at only one of three targets is no slope.
+TEST(LocalSlopes, UseTheSameApproach) {
   mdof::Run run;
   for (int i = 0; i < 3; ++i) run.points.push_back(point(i + 1, 1, i * 0.01, 1e-3 * i * 0.01));
   run.points.push_back(point(2, -1, 0.01, 20e-6));
   const auto slopes = local_slopes(run);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(slopes[i][0], 1e-3, 1e-15) << i;
-  EXPECT_NEAR(slopes[3][0], 1e-3, 1e-15);  // of both approaches, as its own has one target
+  EXPECT_NEAR(slopes[3][0], 1e-3, 1e-15);  // from both approaches, because its own has one target
 }
 
-// Pairs of targets at one place, an interval that is short, and a point without errors.
-TEST(LocalSlopes, StandEqualAndUnequalPlaces) {
+// Pairs of targets at one place, a short interval, and a point without errors.
+TEST(LocalSlopes, AcceptEqualAndUnequalPositions) {
   mdof::Run run;
   const double places[] = {0, 1e-9, 0.02, 0.021, 0.06, 0.06};
   for (int i = 0; i < 6; ++i)
@@ -69,15 +70,15 @@ TEST(LocalSlopes, StandEqualAndUnequalPlaces) {
   for (const Errors5& slope : local_slopes(run)) EXPECT_NEAR(slope[0], 1e-3, 1e-5);
 }
 
-TEST(LocalSlopes, OfOnePlaceOrNoneAreZero) {
+TEST(LocalSlopes, AreZeroForOnePositionOrNone) {
   EXPECT_TRUE(local_slopes(mdof::Run()).empty());
   mdof::Run run;
   run.points = {point(1, 1, 0.01, 3e-6), point(1, -1, 0.01, 5e-6), point(2, 0, 0.01, 7e-6)};
   for (const Errors5& slope : local_slopes(run)) EXPECT_EQ(slope, Errors5{});
 }
 
-// Stops whose approach is not known.
-TEST(LocalSlopes, OfUnknownApproachesAreOfAll) {
+// Stops with unknown approach.
+TEST(LocalSlopes, UseAllPointsForUnknownApproaches) {
   mdof::Run run;
   for (int i = 0; i < 3; ++i) run.points.push_back(point(i + 1, 0, i * 0.01, 2e-3 * i * 0.01));
   for (const Errors5& slope : local_slopes(run)) EXPECT_NEAR(slope[0], 2e-3, 1e-15);

@@ -1,4 +1,5 @@
-// The uncertainty of a mean by sums of products worked by hand. Found missing by tests/mutate.
+// The uncertainty of a mean, by sums of products calculated by hand. Mutation tests (tests/mutate)
+// found these cases.
 #include "algo/uncertainty/mean_uncertainty.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@
 namespace mdof::algo {
 namespace {
 
-// `runs` times `length` readings of +1 and then of -1: the mean is 0, the sd √(n/(n - 1)).
+// Runs of `length` readings, alternately +1 and -1: the mean is 0, the sd √(n/(n - 1)).
 double u_of_runs(int length, int runs) {
   std::vector<double> x;
   for (int k = 0; k < runs; ++k)
@@ -20,39 +21,39 @@ double u_of_runs(int length, int runs) {
   return mean_uncertainty(x, std::sqrt(n / (n - 1)));
 }
 
-// Sixteen readings, four runs of four. Of 15 neighbours three differ: 9/16; of 14 at distance two
-// six: 2/16; of 13 at distance three nine: -5/16. So the first pair of lags, 25/16, counts and the
-// next does not: (2 × 25/16 - 1) / (16 - 3).
-TEST(MeanUncertainty, OfOnePairOfLags) {
+// Sixteen readings, four runs of four. Three of 15 neighbours differ: 9/16; six of 14 at distance
+// two: 2/16; nine of 13 at distance three: -5/16. So the first pair of lags, 25/16, counts and the
+// next one does not: (2 × 25/16 - 1) / (16 - 3).
+TEST(MeanUncertainty, UsesOnePairOfLags) {
   EXPECT_NEAR(u_of_runs(4, 4), std::sqrt((50 / 16.0 - 1) / 13), 1e-14);
 }
 
-// Thirty-two, four runs of eight: 1, 25/32 | 18/32, 11/32 | 4/32, -3/32, of which the last pair is
+// Thirty-two readings, four runs of eight: 1, 25/32 | 18/32, 11/32 | 4/32, -3/32. The last pair is
 // below the noise √(2/32).
-TEST(MeanUncertainty, OfTwoPairsOfLags) {
+TEST(MeanUncertainty, UsesTwoPairsOfLags) {
   EXPECT_NEAR(u_of_runs(8, 4), std::sqrt((2 * 86 / 32.0 - 1) / 25), 1e-14);
 }
 
-// Of readings that alternate the pairs sum up to less than one reading's variance: as if they
-// were independent, never less.
-TEST(MeanUncertainty, IsNeverLessThanOfIndependentReadings) {
+// For alternating readings, the sum of the pairs is below the variance of one reading. u is then
+// that of independent readings.
+TEST(MeanUncertainty, IsAtLeastThatOfIndependentReadings) {
   EXPECT_NEAR(u_of_runs(1, 16), 1 / std::sqrt(15), 1e-14);
 }
 
-TEST(MeanUncertainty, OfFewReadings) {
+TEST(MeanUncertainty, IsCorrectForFewReadings) {
   EXPECT_EQ(mean_uncertainty({}, 0), 0);
   EXPECT_EQ(mean_uncertainty(std::vector<double>{0}, 3), 0);
   EXPECT_NEAR(mean_uncertainty(std::vector<double>{1, -1}, std::sqrt(2)), 1, 1e-14);
 }
 
-// More than 256 readings are taken by means of equal length: of 1024, four together, each run of
-// sixteen readings is one of four.
-TEST(MeanUncertainty, OfManyReadingsByTheirMeans) {
+// More than 256 readings are replaced by means of equal numbers of readings. Of 1024 readings, four
+// are averaged, so each run of sixteen becomes a run of four.
+TEST(MeanUncertainty, AveragesManyReadings) {
   const double few = u_of_runs(4, 64), many = u_of_runs(16, 64);
   EXPECT_NEAR(many, few, 1e-12);
 }
 
-// The rule of mean_uncertainty.h by plain loops, of series that follow themselves.
+// The rule of mean_uncertainty.h by plain loops, for correlated series.
 double by_plain_loops(const std::vector<double>& x, double sd) {
   const std::size_t n = x.size();
   const auto covariance = [&](std::size_t lag) {
@@ -76,7 +77,7 @@ double by_plain_loops(const std::vector<double>& x, double sd) {
   return std::sqrt(std::max(of_mean, sd * sd / double(n)));
 }
 
-TEST(MeanUncertainty, IsThatOfPlainLoops) {
+TEST(MeanUncertainty, MatchesPlainLoops) {
   for (const double alike : {0.0, 0.5, 0.9, 0.99})
     for (const std::size_t n : {4u, 5u, 8u, 9u, 16u, 37u, 100u, 255u, 256u}) {
       std::vector<double> x;

@@ -1,5 +1,5 @@
-// Noise alone, drawn at each reading: do the stated intervals hold the truth of an axis that is
-// perfect, or bent; and what a drift of the level does to figures in which it cancels.
+// Random noise at each reading: how often the stated intervals contain the true values of a perfect
+// or bent axis, and the effect of a drift of the level on figures in which it cancels. Use
 // MDOF_COVERAGE_RUNS=1000 for figures worth quoting.
 #include <gtest/gtest.h>
 
@@ -35,7 +35,8 @@ Errors5 bend(double d, double height_m, double angle_rad) {
   return {height_m * s, height_m * c, angle_rad * s, angle_rad * c, angle_rad * s};
 }
 
-// Of all figures, by name: those that hold the truth of the same axis without noise.
+// For each figure, by name: the number of intervals that contain the value of the same axis without
+// noise.
 std::map<std::string, Held> held(int runs, double height_m, double angle_rad) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(test::coverage_seed(99));
@@ -73,8 +74,9 @@ TEST(NoiseOfRuns, APerfectAxisMayBePerfect) {
   }
 }
 
-// Straightness of 100 nm and 2 µm in noise of 28 nm and 16 nm at a target.
-TEST(NoiseOfRuns, ABentAxisIsAsBentAsItIs) {
+// Straightness of 100 nm and 2 µm, with noise of 28 nm (one run) and 16 nm (three runs) at a
+// target.
+TEST(NoiseOfRuns, IntervalsCoverABentAxis) {
   for (const int runs : {1, 3})
     for (const double height_m : {50e-9, 1e-6}) {
       SCOPED_TRACE(runs);
@@ -82,9 +84,9 @@ TEST(NoiseOfRuns, ABentAxisIsAsBentAsItIs) {
     }
 }
 
-// Readings that are all alike, as of a coarse converter: the range is 0, and what noise makes of it
+// All readings are equal, as with a coarse converter, so the range is 0. The range of its noise is
 // the studentized range of nine normal numbers, whose 95 % point is 4.387 (Harter, 1960).
-TEST(NoiseOfRuns, ARangeOfEqualDeviationsIsNotExact) {
+TEST(NoiseOfRuns, EqualDeviationsKeepAnUncertainty) {
   const Rig rig = test::rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
   synthetic.u_reading_m = kNoise_m;
@@ -93,28 +95,28 @@ TEST(NoiseOfRuns, ARangeOfEqualDeviationsIsNotExact) {
   const Budget yaw = budgets.of(range_figure(Axis::x, 4));
   EXPECT_EQ(yaw.value, 0);
   EXPECT_NEAR(yaw.U / u_of_mean_rad, 4.387, 0.1);
-  // The mean square of the range of nine: (2.970² + 0.808²), Tippett's.
+  // The mean square of the range of nine normal numbers is 2.970² + 0.808² (Tippett).
   EXPECT_NEAR(yaw.u / u_of_mean_rad, std::hypot(2.970, 0.808), 0.06);
   EXPECT_NEAR(yaw.coverage_factor, yaw.U / yaw.u, 1e-12);
-  synthetic.u_reading_m = 0;  // nothing is seen, and the rig declares nothing
+  synthetic.u_reading_m = 0;  // there is no noise, and the rig declares nothing
   EXPECT_TRUE(std::isnan(RunBudgets(rig, synthetic.measure()).of(range_figure(Axis::x, 4)).U));
 }
 
-// A range says no more than it must: of a form far above the noise it is ± 1.96 √2 u.
-TEST(NoiseOfRuns, ARangeFarAboveTheNoiseHasTheUncertaintyOfItsEnds) {
+// The interval of a range is not too wide: for a form far above the noise it is ± 1.96 √2 u.
+TEST(NoiseOfRuns, LargeRangeHasTheUncertaintyOfItsEnds) {
   std::mt19937_64 engine(3);
   std::normal_distribution<> normal;
   std::vector<double> changes;
   for (int i = 0; i < 3 * 20000; ++i) changes.push_back(normal(engine));
   EXPECT_NEAR(RangeTrials({0, 50, 100}, changes).U(), 1.96 * std::sqrt(2.0), 0.05);
-  // At 0 the range of three normal numbers, whose 95 % point is 3.31 (the studentized range).
+  // At 0 it is the range of three normal numbers, whose 95 % point is 3.31 (the studentized range).
   EXPECT_NEAR(RangeTrials({0, 0, 0}, changes).U(), 3.31, 0.05);
-  EXPECT_NEAR(RangeTrials({0, 1, 3}, changes).U(), 3.31, 0.05);  // which holds 0 and more
+  EXPECT_NEAR(RangeTrials({0, 1, 3}, changes).U(), 3.31, 0.05);  // the interval contains 0
 }
 
-// Only the highest point errs, 2.2 above its neighbour: cut by half of U it would fall to it, and
-// 95 % of the trials would lie within 1.64.
-TEST(NoiseOfRuns, ARangeIsNoBetterKnownThanAsMeasured) {
+// Only the highest point has an error; it is 2.2 above its neighbour. Reduced by U/2, it would fall
+// to the neighbour, and 95 % of the trials would be within 1.64.
+TEST(NoiseOfRuns, UIsAtLeastThatOfTheMeasuredRange) {
   std::mt19937_64 engine(4);
   std::normal_distribution<> normal;
   std::vector<double> changes(3 * 20000);
@@ -122,9 +124,9 @@ TEST(NoiseOfRuns, ARangeIsNoBetterKnownThanAsMeasured) {
   EXPECT_NEAR(RangeTrials({0, 97.8, 100}, changes).U(), 1.96, 0.04);
 }
 
-// Only the highest point errs, and of the true axis it is 2 above the next: where it is read nearly
-// as low as that, the trials show it higher only, and 95 % of them lie within 1.64.
-TEST(NoiseOfRuns, ASecondPointNearlyAsHighDoesNotNarrowARange) {
+// Only the highest point has an error; on the true axis it is 2 above the next point. If it is read
+// almost as low as that point, the trials can only raise it, and 95 % of them are within 1.64.
+TEST(NoiseOfRuns, SecondHighPointDoesNotNarrowARange) {
   std::mt19937_64 engine(8);
   std::normal_distribution<> normal;
   std::vector<double> changes(3 * 4000);
@@ -140,8 +142,8 @@ TEST(NoiseOfRuns, ASecondPointNearlyAsHighDoesNotNarrowARange) {
   EXPECT_NEAR(held.percent(), 95, 1.2);
 }
 
-// Probes D and E go up and down together from pass to pass: 200 nm of level, nothing of the slope.
-TEST(NoiseOfRuns, ADriftOfTheLevelIsNotInTheSlope) {
+// Probes D and E drift together from pass to pass: 200 nm of level, which do not change the slope.
+TEST(NoiseOfRuns, SlopeOmitsADriftOfTheLevel) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(5);
   std::normal_distribution<> normal;
@@ -169,19 +171,19 @@ TEST(NoiseOfRuns, ADriftOfTheLevelIsNotInTheSlope) {
   std::printf("U of the slope / true spread: %.3f\n", U_sum / spread);
   EXPECT_LT(U_sum / spread, 1.3);
   EXPECT_GT(U_sum / spread, 0.85);
-  // At a target it stays.
+  // The level contributes to the error at a target.
   EXPECT_NEAR(std::sqrt(u_error_square / error_square), 1, 0.2);
 }
 
-// Root mean square of u over that of the error.
+// Root mean square of u over the root mean square of the error.
 struct OverSpread {
   double square = 0, u_square = 0;
   void add(double error, double u) { square += error * error, u_square += u * u; }
   double ratio() const { return std::sqrt(u_square / square); }
 };
 
-// A perfect axis whose second run ends at the sixth target on the way back, and whose third run at
-// the third target. Probes D and E go up and down together, from pass to pass or from run to run.
+// A perfect axis. Its second run ends at the sixth target of the reverse pass, its third run at the
+// third target. Probes D and E drift together, from pass to pass or from run to run.
 std::map<std::string, OverSpread> over_spread_of_cut_runs(double level_m, bool of_each_pass) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(test::coverage_seed(6));
@@ -228,18 +230,18 @@ std::map<std::string, OverSpread> over_spread_of_cut_runs(double level_m, bool o
   return all;
 }
 
-// What all targets have in common cancels, whichever of them a run visited.
+// A common level of all targets of a run cancels, even if the run lacks visits.
 TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelCancelsAsOfWholeOnes) {
   for (const double level_m : {0.0, 200e-9})
     for (const auto& [name, of] : over_spread_of_cut_runs(level_m, false)) {
-      // The level itself is known by three runs, one of two where it scatters more.
+      // The level itself is known from three runs only.
       const bool has_level = name == "error EYX_um" || name.starts_with("table with slope");
       EXPECT_GT(of.ratio(), 0.95) << name << " " << level_m;
       EXPECT_LT(of.ratio(), has_level ? 1.5 : 1.25) << name << " " << level_m;
     }
 }
 
-// A level of its own of each pass does not, where a run lacks a part of one.
+// A separate level of each pass does not cancel if a run lacks a part of a pass.
 TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelOfEachPassStays) {
   for (const auto& [name, of] : over_spread_of_cut_runs(200e-9, true)) {
     EXPECT_GT(of.ratio(), 0.9) << name;
@@ -247,8 +249,9 @@ TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelOfEachPassStays) {
   }
 }
 
-// The trials of a range by plain loops: their standard deviation and their distance from the range.
-TEST(RangeTrials, FiguresOfTheTrialsByHand) {
+// The trials of a range, calculated by plain loops: their standard deviation and their distance
+// from the range.
+TEST(RangeTrials, MatchManualCalculation) {
   const std::vector<double> measured = {3, -1, 4, 0},
                             changes = {1, 0, 0, 0, 0, 2, 0, -3, -5, 1, 0, 0};
   const RangeTrials trials(measured, changes);
@@ -257,7 +260,7 @@ TEST(RangeTrials, FiguresOfTheTrialsByHand) {
   EXPECT_NEAR(trials.root_mean_square(), std::sqrt((0 + 4 + 1) / 3.0), 1e-15);
 }
 
-// Three runs that lack visits, each its own; values of the first local error by number.
+// Points of three runs, each with other missing visits; all errors are 0.
 std::vector<MeasuredPoint> uneven_points() {
   std::vector<MeasuredPoint> points;
   for (int run = 1; run <= 3; ++run)
@@ -286,8 +289,9 @@ std::map<TargetAndWay, double> means_without_drift(const std::vector<MeasuredPoi
   return sum;
 }
 
-// The means are linear in the readings: each reading moved by 1 in turn gives their covariances.
-TEST(RunShifts, PartsAreTheCovarianceOfTheMeansBesideThatOfTheirVisits) {
+// The means are linear in the readings, so moving each reading by 1 in turn gives their
+// covariances.
+TEST(RunShifts, PartsGiveTheCovarianceOfTheMeans) {
   const std::vector<MeasuredPoint> points = uneven_points();
   std::map<std::pair<TargetAndWay, TargetAndWay>, double> covariance;
   std::map<TargetAndWay, double> visits;
@@ -300,7 +304,7 @@ TEST(RunShifts, PartsAreTheCovarianceOfTheMeansBesideThatOfTheirVisits) {
     visits[{points[j].target, points[j].point.direction > 0 ? 1 : 0}] += 1;
   }
   const auto parts = parts_by_run_shifts(points);
-  EXPECT_EQ(parts.size(), 2u);  // three runs against each other
+  EXPECT_EQ(parts.size(), 2u);  // three runs relative to each other
   for (const auto& [at, expected] : covariance) {
     double found = at.first == at.second ? 1 / visits[at.first] : 0;
     for (const auto& part : parts) found += part.at(at.first) * part.at(at.second);
@@ -311,9 +315,9 @@ TEST(RunShifts, PartsAreTheCovarianceOfTheMeansBesideThatOfTheirVisits) {
   EXPECT_TRUE(parts_by_run_shifts(whole).empty());
 }
 
-// A forward pass 1 higher and the reverse pass of its run 1 lower: what the means change by. The
-// half differences of both passes are 2, 0.5, -3.5, their variance 97/12.
-TEST(RunShifts, LevelsOfPassesMoveTheMeansAsTheyAreMade) {
+// Change of the means if a forward pass is 1 higher and the reverse pass of its run 1 lower. The
+// half differences of both passes are 2, 0.5 and -3.5; their variance is 97/12.
+TEST(RunShifts, LevelsOfPassesShiftTheMeans) {
   const std::vector<MeasuredPoint> points = uneven_points();
   std::vector<MeasuredPoint> measured = points;
   const double level[3][2] = {{-1, 3}, {4, 5}, {2, -5}};
@@ -331,7 +335,8 @@ TEST(RunShifts, LevelsOfPassesMoveTheMeansAsTheyAreMade) {
     for (const auto& [at, change] : means_without_drift(moved))
       EXPECT_NEAR(levels.parts[static_cast<std::size_t>(run) - 1].at(at), change, 1e-12);
   }
-  // A visit has u 2: (1/5 + 1/5)/4, (1/3 + 1/3)/4 and (1/3 + 1/2)/4 times 4, a third of it.
+  // Visits with u = 2 contribute 4 times (1/5 + 1/5)/4, (1/3 + 1/3)/4 and (1/3 + 1/2)/4; the mean
+  // of the three is subtracted.
   EXPECT_NEAR(pass_levels({}, measured, {2}).u_half[0],
               std::sqrt(97.0 / 12 - (0.4 + 2.0 / 3 + 5.0 / 6) / 3), 1e-12);
   std::erase_if(measured, [](const MeasuredPoint& p) { return p.run != 1; });

@@ -1,7 +1,7 @@
-// What a rig declares of tilts, of curves of its probes and of the air, by the formulas of
-// algo/README.md written out: a tilt by t brings the target nearer by k r² t²/(4 gap), air of
-// another permittivity changes all gaps in proportion. With l = 10 mm, by c of the reading of B:
-// roll c/2l; of D: yaw -c/l; of A, B and C together: height c.
+// Declared uncertainties of tilts, of probe curves and of air, by the formulas of algo/README.md. A
+// tilt by t brings the target nearer by k r² t²/(4 gap); another permittivity of air changes all
+// gaps in proportion. With l = 10 mm, a change c of the reading of B changes the roll by c/2l, of D
+// the yaw by -c/l, of A, B and C together the height by c.
 #include "algo/uncertainty/physics_contributors.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ const std::string kAirThen =
     "calibration_humidity_percent = 40\n";
 const std::string kAirNow = "temperature_C = 23\npressure_kPa = 99\nhumidity_percent = 65\n";
 
-// `keys` with each probe, `of_b` with B alone.
+// `keys` are added to each probe, `of_b` to probe B only.
 Rig rig_of_physics(const std::string& keys, const std::string& of_b, const std::string& end,
                    const std::string& measures_of_b = "measures = \"+Z\"") {
   std::string toml = test::rig_x_toml();
@@ -45,7 +45,7 @@ Rig rig_of_physics(const std::string& keys, const std::string& of_b, const std::
 Errors5 tilting_axis(double d) {
   return {0, 0, 1e-3 * d / 0.04, 2e-3 * d / 0.04, 3e-3 * d / 0.04};
 }
-// Straight lines of both straightness errors, no angle.
+// Straight lines of both straightness errors, without angles.
 Errors5 rising_axis(double d) {
   return {3e-6 + 1e-4 * d, 20e-6 - 2e-4 * d, 0, 0, 0};
 }
@@ -53,7 +53,7 @@ Run run_of_physics(const Rig& rig, Errors5 (*truth)(double)) {
   return SyntheticRun{.rig = rig, .runs = 1, .truth = truth}.measure();
 }
 
-// The contributor of this name, which has to be there.
+// Returns the contributor of this name; the test fails if it is missing.
 Contributor named_contributor(const Rig& rig, const Run& run, const std::string& name) {
   auto all = contributors(rig, run).value();
   const auto found = std::find_if(all.begin(), all.end(),
@@ -72,7 +72,7 @@ void expect_shown(const Contributor& c, const char* key, double value, const cha
   EXPECT_EQ(c.unit, unit);
 }
 
-// By how much the reading of B or of D changes.
+// Change of the reading of B or of D, m.
 double of_reading_b(const Errors5& shift) {
   return shift[kEx] * 2 * kArm_m;
 }
@@ -83,7 +83,7 @@ double gap_by_hand(const Run& run, std::size_t j, std::size_t probe) {
   return kGap_m - run.points[j].point.probe_m[probe];
 }
 
-// B sees roll and pitch, D roll and yaw.
+// B measures roll and pitch, D roll and yaw.
 void expect_tilts(const Contributor& of_b, const Contributor& of_d, const Run& run, double u) {
   const auto b = of_b.parts(), d = of_d.parts();
   ASSERT_EQ(b.size(), 1u);
@@ -97,7 +97,7 @@ void expect_tilts(const Contributor& of_b, const Contributor& of_d, const Run& r
   }
 }
 
-TEST(PhysicsContributors, OfACorrectedTiltTheFactorIsNotKnown) {
+TEST(PhysicsContributors, CorrectedTiltHasTheUOfItsFactor) {
   const Rig rig =
       rig_of_physics(kGapKeys + "u_tilt_factor = 0.4\n", "", "[corrections]\ntilt = true\n");
   const mdof::Run run = run_of_physics(rig, tilting_axis);
@@ -108,7 +108,7 @@ TEST(PhysicsContributors, OfACorrectedTiltTheFactorIsNotKnown) {
   EXPECT_FALSE(has_contributor(rig, run, "probe B: linearity"));
 }
 
-TEST(PhysicsContributors, ATiltThatIsNotCorrectedCountsWhole) {
+TEST(PhysicsContributors, UncorrectedTiltCountsWhole) {
   const Rig rig =
       rig_of_physics(kGapKeys + "u_tilt_factor = 0.4\n", "", "[corrections]\ntilt = false\n");
   const mdof::Run run = run_of_physics(rig, tilting_axis);
@@ -118,14 +118,15 @@ TEST(PhysicsContributors, ATiltThatIsNotCorrectedCountsWhole) {
   expect_tilts(b, named_contributor(rig, run, "probe D: uncorrected tilt"), run, whole);
 }
 
-// B looks 20 mrad askew at its plane. Of each unit of the factor it sees the change since the zero.
+// Probe B is misaligned by 20 mrad to its plane. Each unit of the factor acts by the change since
+// the zero.
 constexpr double kAskew = 0.02;
 const std::string kCorrectedOverPlanes =
     "[corrections]\ntilt = true\n[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
     "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\n";
 struct AskewProbe {
   double gap_m, roll, pitch;
-  // Turns of the plane's normal against the probe, across the probe.
+  // Angles between the plane's normal and the probe, across the probe.
   double square() const {
     return ((roll + kAskew) * (roll + kAskew) + pitch * pitch) / (1 + kAskew * kAskew);
   }
@@ -136,7 +137,7 @@ AskewProbe askew_probe(const Run& run, std::size_t j) {
   return {gap_by_hand(run, j, kOfB), 1e-3 * part, 2e-3 * part};
 }
 
-TEST(PhysicsContributors, ATiltCountsByWhatItChangesSinceTheZero) {
+TEST(PhysicsContributors, TiltActsByItsChangeSinceTheZero) {
   const Rig rig = rig_of_physics(kGapKeys, "u_tilt_factor = 0.4\n", kCorrectedOverPlanes,
                                  "direction = [0, 0.02, 1]");
   const mdof::Run run = run_of_physics(rig, tilting_axis);
@@ -148,8 +149,8 @@ TEST(PhysicsContributors, ATiltCountsByWhatItChangesSinceTheZero) {
   }
 }
 
-// (t + c)² of a tilt c of 3 mrad in the clamp: 2 t c about each axis, and c² of both.
-TEST(PhysicsContributors, AProbeMayBeTiltedInItsClamp) {
+// A tilt c of 3 mrad in the clamp gives (t + c)²: 2 t c about each axis, and c² of both axes.
+TEST(PhysicsContributors, ProbeMayBeTiltedInItsClamp) {
   const Rig rig = rig_of_physics(kGapKeys, "u_direction_mrad = 3\n", kCorrectedOverPlanes,
                                  "direction = [0, 0.02, 1]");
   const mdof::Run run = run_of_physics(rig, tilting_axis);
@@ -162,7 +163,7 @@ TEST(PhysicsContributors, AProbeMayBeTiltedInItsClamp) {
   for (std::size_t j = 0; j < run.points.size(); ++j) {
     const AskewProbe b = askew_probe(run, j);
     const double about_x = -(b.roll + kAskew) / norm / b.gap_m + kAskew / norm / kGap_m;
-    const double about_y = -b.pitch / b.gap_m;  // across the probe, but for 2e-4 of it
+    const double about_y = -b.pitch / b.gap_m;  // across the probe, except for 2e-4 of it
     const double expected = 5 * kDisc_m2 / 4 * 2 * c * std::hypot(about_x, about_y);
     const double both = std::hypot(of_reading_b(parts[0][j]), of_reading_b(parts[1][j]));
     EXPECT_NEAR(both, expected, 0.02 * expected + 1e-15) << j;
@@ -171,9 +172,9 @@ TEST(PhysicsContributors, AProbeMayBeTiltedInItsClamp) {
   }
 }
 
-// Waves of the range and of a half, a third and a fourth of it with the weights 1, 1/4, 1/9 and
-// 1/16: at each reading the sum of squares is u².
-TEST(PhysicsContributors, WhatACurveLeavesIsWavesOverTheRange) {
+// Waves with the length of the range and of a half, a third and a fourth of it, with the weights 1,
+// 1/4, 1/9 and 1/16. At each reading the sum of squares is u².
+TEST(PhysicsContributors, LinearityIsASumOfWavesOverTheRange) {
   const Rig rig = rig_of_physics("", "u_linearity_um = 0.05\n", "");
   const mdof::Run run = run_of_physics(rig, tilting_axis);
   const Contributor found = named_contributor(rig, run, "probe B: linearity");
@@ -197,9 +198,9 @@ TEST(PhysicsContributors, WhatACurveLeavesIsWavesOverTheRange) {
   }
 }
 
-// The reading is s; the correction that was left out is a polynomial of s, of -s for a probe that
-// reads gaps, or on straight lines between pairs.
-TEST(PhysicsContributors, ACurveThatIsNotCorrectedCountsWhole) {
+// The reading is s. The omitted correction is a polynomial of s, or of -s for a probe that reads
+// gaps, or straight lines between pairs.
+TEST(PhysicsContributors, UncorrectedCurveCountsWhole) {
   const std::string off = "[corrections]\nlinearity = false\n";
   const struct {
     std::string keys;
@@ -214,7 +215,7 @@ TEST(PhysicsContributors, ACurveThatIsNotCorrectedCountsWhole) {
   for (const auto& c : cases) {
     const Rig rig = rig_of_physics("", c.keys, off);
     mdof::Run run = run_of_physics(rig, rising_axis);
-    run.points.resize(9);  // one way: the largest reading is the first alone
+    run.points.resize(9);  // one direction, so only the first reading is the largest
     const Contributor found = named_contributor(rig, run, "probe B: uncorrected linearity");
     EXPECT_FALSE(has_contributor(rig, run, "probe C: uncorrected linearity"));
     const auto parts = found.parts();
@@ -228,7 +229,8 @@ TEST(PhysicsContributors, ACurveThatIsNotCorrectedCountsWhole) {
   }
 }
 
-// ε - 1 = 2e-6 (776 p/T + 3.73e6 e/T²), p and the vapour's e in kPa by the formula of Magnus.
+// ε - 1 = 2e-6 (776 p/T + 3.73e6 e/T²), with p and the vapour pressure e in kPa; e by the formula
+// of Magnus.
 double permittivity_of_air(double t_C, double p_kPa, double humidity) {
   const double T = t_C + 273.15,
                e_kPa = humidity / 100 * 0.61094 * std::exp(17.625 * t_C / (t_C + 243.04));
@@ -246,7 +248,7 @@ struct AirState {
 };
 constexpr AirState kThen = {20, 101.325, 40}, kNow = {23, 99, 65};
 
-// All gaps are longer by `relative`: of heights and sides alike.
+// All gaps, of top and side probes, are longer by the factor `relative`.
 void expect_gaps_longer(const Contributor& c, const Run& run, double relative) {
   const auto parts = c.parts();
   ASSERT_EQ(parts.size(), 1u);
@@ -281,7 +283,7 @@ void expect_quantities_of_air(const Rig& rig, const Run& run, const AirState& sl
   }
 }
 
-TEST(PhysicsContributors, OfAirThatIsCorrectedWhatIsNotKnownOfIt) {
+TEST(PhysicsContributors, CorrectedAirHasTheUOfItsConditions) {
   const Rig rig = rig_of_physics(
       kGapKeys, "", "[corrections]\ndielectric = true\n[air]\n" + kAirThen + kAirNow + kUOfAir);
   const mdof::Run run = run_of_physics(rig, rising_axis);
@@ -289,7 +291,7 @@ TEST(PhysicsContributors, OfAirThatIsCorrectedWhatIsNotKnownOfIt) {
   expect_quantities_of_air(rig, run, kNow);
 }
 
-TEST(PhysicsContributors, AirThatIsNotCorrectedCountsWhole) {
+TEST(PhysicsContributors, UncorrectedAirCountsWhole) {
   const Rig rig = rig_of_physics(
       kGapKeys, "", "[corrections]\ndielectric = false\n[air]\n" + kAirThen + kAirNow + kUOfAir);
   const mdof::Run run = run_of_physics(rig, rising_axis);
@@ -308,14 +310,15 @@ TEST(PhysicsContributors, AirThatIsNotCorrectedCountsWhole) {
   expect_quantities_of_air(rig, run, kNow);
 }
 
-// Where the log tells the air, the rig does not know it: slopes are taken at the calibration.
-TEST(PhysicsContributors, OfAirThatTheLogTellsTheSlopesAreThoseOfTheCalibration) {
+// If the log contains the ambient conditions, the rig does not know them. The slopes are taken at
+// the conditions of the calibration.
+TEST(PhysicsContributors, AirFromTheLogHasTheSlopesOfTheCalibration) {
   const Rig rig = rig_of_physics(kGapKeys, "",
                                  "[corrections]\ndielectric = false\n[air]\n" + kAirThen + kUOfAir);
   const mdof::Run run = run_of_physics(rig, rising_axis);
   EXPECT_FALSE(has_contributor(rig, run, "air: uncorrected permittivity"));
   expect_quantities_of_air(rig, run, kThen);
-  // So it is where the log tells one quantity.
+  // The same applies if the log contains one quantity.
   const Rig partly = rig_of_physics(kGapKeys, "",
                                     "[corrections]\ndielectric = false\n[air]\n" + kAirThen +
                                         "temperature_C = 23\nhumidity_percent = 65\n" + kUOfAir);

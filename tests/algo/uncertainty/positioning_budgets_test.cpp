@@ -1,5 +1,6 @@
-// U of the parameters of ISO 230-2 of runs whose true visits are known: how often they hold the
-// parameters of those, written again here. MDOF_COVERAGE_RUNS=1000 for figures worth quoting.
+// U of the ISO 230-2 parameters of runs with known true visits: how often the intervals contain the
+// parameters of the true visits, which are calculated here separately. Use MDOF_COVERAGE_RUNS=1000
+// for figures worth quoting.
 #include "algo/uncertainty/positioning/positioning_budgets.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kYawOfCases = 4;  // ECX, of which no line is taken away
+constexpr std::size_t kYawOfCases = 4;  // ECX, of which no line is removed
 
 int runs_wanted() {
   const char* runs = std::getenv("MDOF_COVERAGE_RUNS");
@@ -60,7 +61,7 @@ struct AxisCase {
   int runs = 3;
   double form_rad = 0, reversal_rad = 0, scatter_rad = 0;  // of the axis
   double noise_m = 40e-9;
-  double gain = 0;  // standard deviation of D's, declared
+  double gain = 0;  // declared standard deviation of the gain of D
 };
 
 struct HeldParameter {
@@ -120,7 +121,7 @@ std::map<std::string, HeldParameter> held_parameters(const AxisCase& c) {
 }
 
 double least_percent() {
-  return 95 - 65 / std::sqrt(runs_wanted());  // by three standard deviations
+  return 95 - 65 / std::sqrt(runs_wanted());  // within three standard deviations
 }
 
 void expect_parameters_held(const std::map<std::string, HeldParameter>& all, double most_U) {
@@ -130,20 +131,20 @@ void expect_parameters_held(const std::map<std::string, HeldParameter>& all, dou
   }
 }
 
-TEST(PositioningBudgets, APerfectAxisMayBePerfect) {
+TEST(PositioningBudgets, CoversAPerfectAxis) {
   for (const int runs : {1, 5}) {
     SCOPED_TRACE(runs);
     expect_parameters_held(held_parameters({.runs = runs}), 1.6);
   }
 }
 
-TEST(PositioningBudgets, OfAnAxisThatScatters) {
+TEST(PositioningBudgets, CoversAnAxisThatScatters) {
   expect_parameters_held(
       held_parameters({.runs = 5, .form_rad = 200e-6, .reversal_rad = 60e-6, .scatter_rad = 20e-6}),
       1.5);
 }
 
-TEST(PositioningBudgets, OfAGainThatIsDeclared) {
+TEST(PositioningBudgets, CoversADeclaredGain) {
   const AxisCase gain{.runs = 3,
                       .form_rad = 200e-6,
                       .reversal_rad = 60e-6,
@@ -155,7 +156,7 @@ TEST(PositioningBudgets, OfAGainThatIsDeclared) {
   EXPECT_GT(all.at("R").square, std::pow(1e-6, 2));
 }
 
-TEST(PositioningBudgets, OfASingleRunThereIsNoR) {
+TEST(PositioningBudgets, HasNoRForASingleRun) {
   const Rig rig = test::rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 1};
   synthetic.truth = [](double d) { return Errors5{1e-2 * d * d, 0, 0, 0, 1e-2 * d}; };
@@ -168,8 +169,9 @@ TEST(PositioningBudgets, OfASingleRunThereIsNoR) {
       << U.covers;
 }
 
-// By hand: noise u of D and E at 10 mm gives u √2 / 10 mm of yaw at a visit.
-TEST(PositioningBudgets, TheMeanReversalIsByHand) {
+// Calculated by hand: noise u of D and E at a distance of 10 mm gives u √2 / 10 mm of yaw at a
+// visit.
+TEST(PositioningBudgets, MeanReversalMatchesManualCalculation) {
   const Rig rig = test::rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 1};
   synthetic.u_reading_m = 40e-9;
@@ -178,7 +180,7 @@ TEST(PositioningBudgets, TheMeanReversalIsByHand) {
   EXPECT_NEAR(U.B_mean, 1.96 * u_visit * std::sqrt(2.0 / 9), 0.002 * U.B_mean);
 }
 
-// M is the range of the angle that mdof budget has.
+// M is the range of the angle, as in the budgets of the run.
 TEST(PositioningBudgets, MHasTheUOfTheOtherBudgets) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 20000");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
@@ -194,8 +196,8 @@ TEST(PositioningBudgets, MHasTheUOfTheOtherBudgets) {
             budgets.of(range_figure(Axis::x, 0)).U);
 }
 
-// From one side only: its own figures.
-TEST(PositioningBudgets, OfOneSideHaveThatSide) {
+// With one direction only its parameters have a value.
+TEST(PositioningBudgets, OneDirectionHasOnlyItsParameters) {
   const Rig rig = test::rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.truth = [](double d) { return Errors5{1e-2 * d * d, 0, 0, 0, 1e-2 * d}; };
@@ -209,9 +211,9 @@ TEST(PositioningBudgets, OfOneSideHaveThatSide) {
     EXPECT_TRUE(std::isnan(none));
 }
 
-// D's scale is known to 0.1 %, and it reads 20 µm more each mm: what that makes of EYX is a slope,
-// of which straightness has nothing.
-TEST(PositioningBudgets, AnEvenSlopeIsNoneOfAStraightness) {
+// The scale of D is known to 0.1 %, and D reads 20 µm more per mm. The effect on EYX is a slope,
+// which straightness does not contain.
+TEST(PositioningBudgets, SlopeDoesNotChangeStraightness) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 1000");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
   synthetic.truth = [](double d) { return Errors5{0.02 * d, 0, 0, 0, 0}; };
@@ -226,9 +228,9 @@ TEST(PositioningBudgets, AnEvenSlopeIsNoneOfAStraightness) {
     EXPECT_LT(U, 0.01 * expected);
 }
 
-// R by its definition, and U by trying all parts of R in steps of a thousandth.
-TEST(Repeatability, ItsUncertaintyIsThatOfAllParts) {
-  // Two targets, three visits from either side; errors of 40 trials.
+// R by its definition, and U from all parts of R in steps of a thousandth.
+TEST(Repeatability, UncertaintyMatchesAnExhaustiveSearch) {
+  // Two targets with three visits in each direction; errors of 40 trials.
   const VisitGroups groups{{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}, 2};
   test::NoPattern numbers(3);
   std::vector<double> measured, errors;

@@ -1,4 +1,4 @@
-// The uncertainty of each point's errors, by the same formulas as
+// The uncertainty of the errors of each point, by the same formulas as
 // tests/algo/uncertainty/contributors_test.
 #include "algo/uncertainty/run_uncertainty.h"
 
@@ -30,7 +30,7 @@ Run without_points() {
   return {};
 }
 
-TEST(RunUncertainty, OfARigThatDeclaresNothingIsTheNoise) {
+TEST(RunUncertainty, IsTheNoiseWithoutDeclarations) {
   const Rig rig = rig_x_with("", "");
   const auto u = run_uncertainty(rig, measured(rig, 10e-9));
   EXPECT_TRUE(u.noise_only);
@@ -46,7 +46,7 @@ TEST(RunUncertainty, OfARigThatDeclaresNothingIsTheNoise) {
 }
 
 // EYX = D + l'' (B - C)/2l, and the squares of zero and noise add. Degrees of freedom by G.2b.
-TEST(RunUncertainty, WhatIsDeclaredAddsToTheNoise) {
+TEST(RunUncertainty, DeclaredUncertaintiesAddToTheNoise) {
   const double zero = 30e-9, noise = 10e-9;
   const Rig rig = rig_x_with("B", "u_calibration_um = { u = 0.03, dof = 4 }");
   const auto found = run_uncertainty(rig, measured(rig, noise));
@@ -62,11 +62,12 @@ TEST(RunUncertainty, WhatIsDeclaredAddsToTheNoise) {
                          (random2 * random2 / 99 + declared2 * declared2 / 4);
   EXPECT_NEAR(point.freedom[kEYX], freedom, 1e-4);
   EXPECT_NEAR(point.U[kEYX], coverage_factor(freedom) * point.u[kEYX], 1e-13);
-  EXPECT_EQ(point.u[kECX], point.u_random[kECX]);  // E - D: B is not in it
+  EXPECT_EQ(point.u[kECX], point.u_random[kECX]);  // E - D does not contain B
 }
 
-// Steps of the level between passes, ten times the noise: each point has their variance.
-TEST(RunUncertainty, RepeatsReplaceTheNoiseWhereTheyScatterMore) {
+// The level changes between passes by ten times the noise: each point has the variance of the
+// level.
+TEST(RunUncertainty, RepeatsReplaceSmallerNoise) {
   const Rig rig = rig_x_with("", "");
   const double steps[] = {-1, 3, 2, -2, 1, -3};  // of D and E, by pass of nine points
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
@@ -76,17 +77,18 @@ TEST(RunUncertainty, RepeatsReplaceTheNoiseWhereTheyScatterMore) {
   };
   auto run = synthetic.measure();
   const auto found = run_uncertainty(rig, run);
-  // Forward -1 2 1, reverse 3 -2 -3: squares about their means 14/3 and 62/3, of two each.
+  // Forward -1 2 1, reverse 3 -2 -3: the squares about their means are 14/3 and 62/3, with two
+  // degrees of freedom each.
   const double sd = 100e-9 * std::sqrt((14.0 + 62) / 3 / 4);
   for (const auto& point : found.points) {
     EXPECT_NEAR(point.u_random[kEYX], sd, 1e-12);
     EXPECT_NEAR(point.freedom[kEYX], 4, 1e-6);   // six passes, two means
-    EXPECT_NEAR(point.freedom[kECX], 99, 1e-6);  // E - D does not step: its noise stays
+    EXPECT_NEAR(point.freedom[kECX], 99, 1e-6);  // E - D does not change: it keeps the noise
   }
-  // A stop noisier than all repeats keeps its own.
+  // A stop with more noise than all repeats keeps its own u.
   run.points[5].errors.covariance[6 * kDy] = 1e-12;
   EXPECT_NEAR(run_uncertainty(rig, run).points[5].u_random[kEYX], 1e-6, 1e-12);
-  // One run shows nothing.
+  // A single run shows no repeats.
   synthetic.runs = 1;
   const auto single = run_uncertainty(rig, synthetic.measure());
   EXPECT_LT(single.points[5].u_random[kEYX], 50e-9);
@@ -95,8 +97,8 @@ TEST(RunUncertainty, RepeatsReplaceTheNoiseWhereTheyScatterMore) {
             "not included (in a run, no target was approached twice from the same direction)");
 }
 
-// What a drift does between the visits is declared already.
-TEST(RunUncertainty, ADeclaredDriftDoesNotCountTwice) {
+// The drift between the visits is already declared.
+TEST(RunUncertainty, DeclaredDriftDoesNotCountTwice) {
   const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 3\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.u_reading_m = 10e-9;
@@ -107,9 +109,9 @@ TEST(RunUncertainty, ADeclaredDriftDoesNotCountTwice) {
     EXPECT_LT(point.u_random[kEYX], 30e-9);  // 150 nm between visits
 }
 
-// Drifts drawn from what the rig declares: a run whose drift happens to be a large one shows it
-// between its visits, and is no more uncertain for that. Twenty times as much is not hidden.
-TEST(RunUncertainty, ADrawnDriftIsHeldByWhatIsDeclared) {
+// Drifts are drawn from the declared distribution. A large drift of a run is visible between its
+// visits, but does not increase its uncertainty. A drift of twenty times the declared one does.
+TEST(RunUncertainty, DeclaredDriftCoversADrawnDrift) {
   const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 3\n");
   constexpr double kRate_m_per_s = 3e-6 / 3600, kNoise_m = 10e-9;
   std::mt19937_64 engine(12);
@@ -141,8 +143,9 @@ TEST(RunUncertainty, ADrawnDriftIsHeldByWhatIsDeclared) {
   EXPECT_GT(found.points[50].u_random[kEYX], 1e-6);  // 3 µm between the runs
 }
 
-// The two directions of a probe are one contributor with four degrees of freedom, not two.
-TEST(RunUncertainty, PartsOfOneContributorShareItsFreedom) {
+// The two directions of a probe are one contributor with four degrees of freedom, not two
+// contributors.
+TEST(RunUncertainty, PartsOfAContributorShareItsDegreesOfFreedom) {
   const Rig rig = rig_x_with("D", "u_direction_mrad = { u = 2, dof = 4 }");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   synthetic.truth = [](double d) { return Errors5{0, 1e-3 * d, 0, 0, 2e-3 * d}; };
@@ -153,7 +156,7 @@ TEST(RunUncertainty, PartsOfOneContributorShareItsFreedom) {
   EXPECT_NEAR(last.U[kEYX], 2.776 * last.u[kEYX], 1e-3 * last.u[kEYX]);  // GUM table G.2
 }
 
-TEST(RunUncertainty, APointWithoutErrorsHasNone) {
+TEST(RunUncertainty, PointWithoutErrorsHasNoU) {
   const Rig rig = rig_x_with("B", "u_calibration_um = 0.03");
   auto run = measured(rig, 10e-9);
   run.points[3].errors.valid = false;
@@ -165,7 +168,7 @@ TEST(RunUncertainty, APointWithoutErrorsHasNone) {
   }
 }
 
-TEST(RunUncertainty, WhatCannotBeReckonedIsSaidAndTheNoiseStays) {
+TEST(RunUncertainty, ReportsImpossibleAnglesAndKeepsTheNoise) {
   const Rig rig = rig_x_with("D", "u_direction_mrad = 300");
   const auto found = run_uncertainty(rig, measured(rig, 10e-9));
   EXPECT_TRUE(found.noise_only);
@@ -173,7 +176,7 @@ TEST(RunUncertainty, WhatCannotBeReckonedIsSaidAndTheNoiseStays) {
   EXPECT_GT(found.points[0].u[kEYX], 0);
 }
 
-TEST(RunUncertainty, OfSomePointsWithTheFirstIsThatOfTheWhole) {
+TEST(RunUncertainty, PartOfARunWithItsFirstPointHasTheSameU) {
   const Rig rig =
       rig_x_with("B", "u_sensitivity_ppm = 500", "[drift]\nu_um_per_h = 1\n[encoder]\nu_um = 1\n");
   const auto run = measured(rig, 10e-9);
@@ -186,7 +189,7 @@ TEST(RunUncertainty, OfSomePointsWithTheFirstIsThatOfTheWhole) {
       EXPECT_DOUBLE_EQ(some.points[j].u[k], whole.points[j + 39].u[k]) << j << " " << k;
 }
 
-TEST(RunUncertainty, OfNoPointsIsNone) {
+TEST(RunUncertainty, IsEmptyWithoutPoints) {
   const Rig rig = rig_x_with("B", "u_sensitivity_ppm = 500");
   EXPECT_TRUE(run_uncertainty(rig, without_points()).points.empty());
 }

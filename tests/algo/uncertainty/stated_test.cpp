@@ -1,5 +1,5 @@
-// What is made at once is what is made apart; trials by blocks are those drawn one by one; the
-// sensitivity to the travel is the solver's own.
+// Uncertainties calculated together equal those calculated separately; trials in blocks equal
+// single trials; the sensitivity to the travel equals that of the solver.
 #include "algo/uncertainty/stated.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Run uneven_run(const Rig& rig) {
     return Errors5{1e-5 * std::sin(90 * d), 2e-4 * d, 1e-2 * d, -3e-2 * d, 2e-2 * d};
   };
   synthetic.u_reading_m = 5e-9;
-  // More than that from visit to visit, so that the degrees of freedom are few.
+  // The visits scatter more than u_reading_m, so the degrees of freedom are few.
   synthetic.added = [](std::size_t k, double, double, double time_s) {
     return 20e-9 * std::sin(static_cast<double>(k + 1) * time_s);
   };
@@ -45,7 +45,7 @@ Rig declared_rig() {
                     "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n");
 }
 
-TEST(Stated, AtOnceIsAsApart) {
+TEST(Stated, TogetherEqualsSeparately) {
   const Rig rig = declared_rig();
   const auto run = uneven_run(rig);
   const StatedUncertainty stated = stated_uncertainty(rig, run);
@@ -68,7 +68,7 @@ TEST(Stated, AtOnceIsAsApart) {
   }
 }
 
-TEST(Stated, WhatCannotBeReckonedIsSaidOfBoth) {
+TEST(Stated, ReportsTheErrorForPointsAndFigures) {
   const Rig rig = rig_x_with("D", "u_direction_mrad = 300");
   const StatedUncertainty stated = stated_uncertainty(rig, SyntheticRun{.rig = rig}.measure());
   EXPECT_TRUE(stated.points.noise_only);
@@ -80,7 +80,7 @@ TEST(Stated, WhatCannotBeReckonedIsSaidOfBoth) {
   EXPECT_TRUE(stated_uncertainty(rig, empty).points.points.empty());
 }
 
-TEST(Stated, ARigThatDeclaresNothingHasNoise) {
+TEST(Stated, RigWithoutDeclarationsHasNoise) {
   const Rig rig = rig_x_with("", "");
   const StatedUncertainty stated = stated_uncertainty(rig, uneven_run(rig));
   EXPECT_TRUE(stated.points.noise_only);
@@ -89,9 +89,10 @@ TEST(Stated, ARigThatDeclaresNothingHasNoise) {
   EXPECT_TRUE(stated.figures->of(figures_of_run(Axis::x)[0]).noise_only);
 }
 
-// Trial by trial with the scalar draw() and gaussian(), the parts by differences of the means: more
-// parts than are added at once, and more trials than a block.
-TEST(Stated, TrialsAreThoseOfTheScalarDraws) {
+// Expected trials are calculated one by one with the scalar draw() and gaussian(), the parts from
+// differences of the means. There are more parts than are added at once, and more trials than a
+// block.
+TEST(Stated, TrialsMatchScalarDraws) {
   const Rig rig = declared_rig();
   const auto run = uneven_run(rig);
   const auto budgets = RunBudgets::create(rig, run).value();
@@ -113,7 +114,7 @@ TEST(Stated, TrialsAreThoseOfTheScalarDraws) {
       shift(points, part);
       parts.push_back(at_target(points) - at_target(run.points));
     }
-  EXPECT_NE(parts.size() % 4, 0u);  // some are left over
+  EXPECT_NE(parts.size() % 4, 0u);  // some parts remain after the groups of four
   double noise_freedom = 0;
   for (const BudgetLine& line : budget.lines)
     if (line.key.empty()) noise_freedom = line.freedom;
@@ -130,8 +131,9 @@ TEST(Stated, TrialsAreThoseOfTheScalarDraws) {
   }
 }
 
-// By the gain, against solutions of the same readings a little further on.
-TEST(Stated, TheSensitivityToTheTravelIsTheSolversOwn) {
+// The sensitivities from the gain are compared with solutions of the same readings at a slightly
+// different travel.
+TEST(Stated, TravelSensitivityMatchesTheSolver) {
   for (const Rig& rig : {test::rig_x(), test::rig_oblique()}) {
     const auto run = uneven_run(rig);
     const Solver solver = Solver::create(rig, Model::rigid).value();
@@ -153,8 +155,8 @@ TEST(Stated, TheSensitivityToTheTravelIsTheSolversOwn) {
   }
 }
 
-// Three targets; a shift of all, and two parts that move several of them.
-TEST(TargetNoiseByHand, IsOfEachTargetOfAllAndOfItsParts) {
+// Three targets, a common shift of all, and two parts that shift several targets.
+TEST(TargetNoiseByHand, AddsTargetNoiseShiftAndParts) {
   Repeatability random;
   for (const double u : {1.0, 2.0, 5.0}) random.u.push_back({u, 0, 3 * u, 0, -u});
   random.u_shift = {0.5, 0, 0, 0, 7};

@@ -1,4 +1,5 @@
-// The stated uncertainty of a dwell's mean against the scatter of the means of many dwells.
+// The stated uncertainty of the mean of a dwell, compared with the scatter of the means of many
+// dwells.
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
@@ -17,7 +18,7 @@
 namespace mdof::algo {
 namespace {
 
-// Noise of sd 1 nm whose correlation falls by `phi` from one sample to the next.
+// Noise with an sd of 1 nm and the correlation `phi` between consecutive samples.
 struct Noise {
   explicit Noise(double correlation) : phi(correlation), state(unit(engine)) {}
   double phi;
@@ -34,13 +35,13 @@ double stated_over_true(const std::vector<Point>& points, std::size_t skip = 0) 
   double stated = 0, square = 0;
   for (std::size_t i = skip; i < points.size(); ++i) {
     stated += points[i].probe_u_m[0] * points[i].probe_u_m[0];
-    square += points[i].probe_m[0] * points[i].probe_m[0];  // the truth is 0
+    square += points[i].probe_m[0] * points[i].probe_m[0];  // the true value is 0
   }
   return std::sqrt(stated / square);
 }
 
-// An axis that goes back and forth between two stops of 0.5 s, `stops` times; one probe, that has a
-// sample of its own every `every` scans of the encoder, on a device of its own.
+// An axis that moves between two positions with stops of 0.5 s, `stops` times. The probe is on a
+// separate device and has a sample every `every` scans of the encoder.
 std::vector<Point> measure(int every, double phi, int stops) {
   constexpr double kRate_hz = 1000;
   Noise noise{phi};
@@ -80,7 +81,7 @@ TEST(Uncertainty, CountsTheSamplesOfASlowProbeOnce) {
   }
 }
 
-TEST(Uncertainty, SlowNoiseWithinADwellIsInIt) {
+TEST(Uncertainty, CoversSlowNoiseWithinADwell) {
   for (const double phi : {0.5, 0.9, 0.95}) {
     const double ratio = stated_over_true(measure(1, phi, 400), 2);
     EXPECT_GT(ratio, 0.8) << phi;
@@ -88,7 +89,7 @@ TEST(Uncertainty, SlowNoiseWithinADwellIsInIt) {
   }
 }
 
-TEST(Uncertainty, OfFewAndOfManyReadings) {
+TEST(Uncertainty, IsCorrectForFewAndManyReadings) {
   std::vector<double> scratch;
   for (const std::size_t n : {5u, 10u, 50u, 400u, 4000u}) {
     for (const double phi : {0.0, 0.5, 0.9, 0.99}) {
@@ -109,15 +110,15 @@ TEST(Uncertainty, OfFewAndOfManyReadings) {
   }
 }
 
-TEST(Uncertainty, AProbeWithHardlyAnySampleOfItsOwnIsNotUsed) {
-  const auto points = measure(90, 0, 4);  // four of its samples in a stop
+TEST(Uncertainty, DoesNotUseAProbeWithFewSamples) {
+  const auto points = measure(90, 0, 4);  // four of its samples per stop
   ASSERT_FALSE(points.empty());
   EXPECT_TRUE(std::isnan(points[1].probe_m[0]));
   EXPECT_TRUE(has_flag(points[1], Flag::slow, "A"));
 }
 
-// A coarse probe: u covers the rounding whether the reading flickers or stands.
-TEST(Uncertainty, RoundingIsInIt) {
+// A coarse probe: u covers the rounding for changing and for constant readings.
+TEST(Uncertainty, CoversRounding) {
   for (const double noise_um : {0.0, 0.002, 0.02}) {
     SteppingLog log;
     log.probe_noise_um = noise_um;
@@ -141,12 +142,13 @@ TEST(Uncertainty, RoundingIsInIt) {
       }
     }
     EXPECT_GT(std::sqrt(stated / square), 0.8) << noise_um;
-    // Between no noise and half a step the figure is a bound: some of the rounding averages out.
+    // Between no noise and half a step, u is an upper bound, because some of the rounding averages
+    // out.
     EXPECT_LT(std::sqrt(stated / square), noise_um > 0.01 ? 3.0 : 1.4) << noise_um;
   }
 }
 
-TEST(Uncertainty, NoiseThatDithersAveragesTheRoundingOut) {
+TEST(Uncertainty, LargeNoiseAveragesTheRounding) {
   SteppingLog log;
   log.probe_noise_um = 0.1;
   log.probe_step_um = 0.1;
@@ -167,8 +169,8 @@ TEST(Uncertainty, NoiseThatDithersAveragesTheRoundingOut) {
   EXPECT_LT(std::sqrt(stated / square), 1.25);
 }
 
-// Exact numbers have no step, and a ramp of equal steps is none.
-TEST(Uncertainty, ASimulationWithoutNoiseHasNoResolution) {
+// Exact numbers have no step, and a ramp of equal steps has none.
+TEST(Uncertainty, SimulationWithoutNoiseHasNoResolution) {
   Resolution ramp, exact;
   std::vector<double> x(200, 0.0), y(200, 0.0);
   for (std::size_t i = 20; i < 180; ++i) x[i] = 1e-9 * static_cast<double>(i - 19);
@@ -181,8 +183,8 @@ TEST(Uncertainty, ASimulationWithoutNoiseHasNoResolution) {
   EXPECT_DOUBLE_EQ(with_resolution(0, 0, 12e-9), 12e-9 / std::sqrt(12.0));
 }
 
-// The scatter of visits beside a change in proportion to time, by least squares of one slope and a
-// mean of each place, worked out anew.
+// The scatter of visits about a change in proportion to time, from a separate least-squares fit of
+// one slope and a mean of each place.
 struct TimedVisits {
   std::vector<MeasuredPoint> points;
   std::vector<Errors5> values;
@@ -213,7 +215,7 @@ TimedVisits timed_visits(int runs, double per_s) {
   return all;
 }
 
-// Sum of squares that places, and a slope over the time, leave.
+// Sum of squares of the residuals of places and a slope over time.
 std::vector<double> left_of_slope(const TimedVisits& all) {
   std::map<std::pair<int, int>, Eigen::Index> places;
   for (const MeasuredPoint& p : all.points)
@@ -234,7 +236,7 @@ std::vector<double> left_of_slope(const TimedVisits& all) {
   return squares;
 }
 
-TEST(SteadyScatter, IsWhatASlopeOverTheTimeLeaves) {
+TEST(SteadyScatter, IsTheResidualOfASlopeOverTime) {
   for (const double per_s : {0.0, 2.0}) {
     const TimedVisits all = timed_visits(3, per_s);
     const VisitScatter scatter(all.points);
@@ -245,8 +247,8 @@ TEST(SteadyScatter, IsWhatASlopeOverTheTimeLeaves) {
   }
 }
 
-// Without a time that goes on nothing can be taken.
-TEST(SteadyScatter, AtOneTimeIsThatOfTheVisits) {
+// Without different times no slope can be removed.
+TEST(SteadyScatter, EqualsTheVisitScatterAtOneTime) {
   TimedVisits all = timed_visits(3, 0);
   const VisitScatter scatter(all.points);
   all.time_s.assign(all.time_s.size(), 5);
@@ -254,8 +256,8 @@ TEST(SteadyScatter, AtOneTimeIsThatOfTheVisits) {
   EXPECT_EQ(scatter.of_steady(all.values, all.time_s).freedom, scatter.of(all.values).freedom);
 }
 
-// Of one degree of freedom a slope would leave none.
-TEST(SteadyScatter, OfTwoVisitsOfOnePlace) {
+// With one degree of freedom, a slope would leave none.
+TEST(SteadyScatter, HasOneDegreeOfFreedomForTwoVisits) {
   TimedVisits all = timed_visits(1, 0);
   MeasuredPoint again = all.points[2];
   again.run = 2;
@@ -266,13 +268,14 @@ TEST(SteadyScatter, OfTwoVisitsOfOnePlace) {
   const auto found = VisitScatter(all.points).of_steady(all.values, all.time_s);
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_NEAR(found.variance[k], 8, 1e-9);
-    EXPECT_EQ(found.freedom[k], 1);  // not 64/25, as passes and the rest have one together
+    EXPECT_EQ(found.freedom[k], 1);  // not 64/25, because passes and the rest have one in common
   }
 }
 
-// Runs whose own means are 2, 4 and 9 (k + 1), each the middle of its two ways, which differ by 6:
-// of the mean of both s/√3 with s² = 13, above what the ways make of it by themselves.
-TEST(TargetMeansByHand, TheMeanOfBothWaysHasTheScatterOfTheRuns) {
+// The means of the runs are 2, 4 and 9 times (k + 1), and the directions of each differ by 6. u of
+// the mean of both directions is s/√3 with s² = 13, which exceeds the value from separate
+// directions.
+TEST(TargetMeansByHand, MeanOfBothDirectionsHasTheRunScatter) {
   std::vector<MeasuredPoint> points;
   const double of_run[] = {2, 4, 9};
   for (int run = 1; run <= 3; ++run)

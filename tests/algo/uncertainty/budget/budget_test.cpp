@@ -32,8 +32,8 @@ double contribution(const Budget& b, const std::string& name) {
   return 0;
 }
 
-// A common offset cancels in straightness, slope and range; at a target it stays.
-TEST(Budget, ACommonOffsetCancelsWhereDifferencesAreTaken) {
+// A common offset cancels in straightness, slope and range, but not in the error at a target.
+TEST(Budget, CommonOffsetCancelsInDifferences) {
   const Rig rig = rig_x_with("D", "u_calibration_um = 0.1");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact};
   synthetic.truth = [](double d) { return Errors5{1e-6 * std::sin(200 * d), 0, 0, 0, 0}; };
@@ -49,9 +49,9 @@ TEST(Budget, ACommonOffsetCancelsWhereDifferencesAreTaken) {
   EXPECT_NEAR(budgets.of(error_figure(Axis::x, 4, 5)).u, 0.1e-6 / kFixture_m, 1e-9);
 }
 
-// One way, a point every 10 s and 5 mm: 1 nm/s of D is 10 nm in 5 mm, 2 µrad. There and back it
-// goes out of the slope but for what the second way begins with.
-TEST(Budget, ADriftIsASlopeOfARunThatGoesOneWay) {
+// One direction with a point every 10 s and 5 mm: a drift of D of 1 nm/s is 10 nm in 5 mm, 2 µrad.
+// Forward and back, it cancels in the slope almost completely.
+TEST(Budget, DriftIsASlopeInOneDirection) {
   const Rig rig = rig_x_with("", "", "[drift]\nu_um_per_h = 3.6\n");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
   auto run = synthetic.measure();
@@ -64,8 +64,8 @@ TEST(Budget, ADriftIsASlopeOfARunThatGoesOneWay) {
   EXPECT_NEAR(contribution(slope, "probe E: drift"), 0, 1e-10);
 }
 
-// Known by hand: the slope through m means of u each is u/√Sxx.
-TEST(Budget, NoiseOfIndependentTargets) {
+// By hand: the slope through means with the same u has the uncertainty u/√Sxx.
+TEST(Budget, NoiseOfIndependentTargetsIsCorrect) {
   const Rig rig = rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
   synthetic.u_reading_m = 10e-9;
@@ -73,12 +73,12 @@ TEST(Budget, NoiseOfIndependentTargets) {
   const Budget slope = budget(RunBudgets::create(rig, run).value(), "EYX_slope_urad");
   EXPECT_TRUE(slope.noise_only);
   ASSERT_EQ(slope.lines.size(), 1u);
-  // EYX = D + 2 (B - C)/2: u² = (1 + 1/2 · 4 ...) by hand: D 1, B and C (l''/2l = 1) each.
+  // EYX = D + (B - C) l''/2l with l''/2l = 1: D, B and C contribute u each.
   const double u_mean = 10e-9 * std::sqrt(3.0) / std::sqrt(2.0);  // of both approaches
   const double sxx = 25e-6 * 60;                                  // Σ (i - 4)² = 60
   EXPECT_NEAR(slope.u, u_mean / std::sqrt(sxx), 1e-12);
   EXPECT_EQ(slope.u, slope.u_random);
-  // Nothing was visited again: what is slower than a stop cannot be seen, and that is said.
+  // Without repeated visits, noise slower than a stop is unknown, and the text states this.
   EXPECT_NE(covers_text(slope).find("noise with periods longer than a stop is not included (in a "
                                     "run, no target was approached "
                                     "twice from the same direction)"),
@@ -89,8 +89,8 @@ TEST(Budget, NoiseOfIndependentTargets) {
       "noise and repeatability only (no uncertainties are declared)");
 }
 
-// The scatter of whole runs' slopes is what a target's own scatter cannot show.
-TEST(Budget, RunsThatTiltDifferentlyScatter) {
+// The scatter of the slopes of whole runs is not visible in the scatter at single targets.
+TEST(Budget, DifferentTiltsOfRunsScatterTheSlope) {
   const Rig rig = rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 5};
   const double tilt[] = {1e-6, -2e-6, 3e-6, 0, -2e-6};  // sd 2.1213 urad, mean 0
@@ -105,7 +105,7 @@ TEST(Budget, RunsThatTiltDifferentlyScatter) {
   EXPECT_NEAR(slope.coverage_factor, 2.7, 0.1);
 }
 
-TEST(Budget, LinesAreInOrderAndSharesAddToOne) {
+TEST(Budget, LinesAreSortedAndSharesAddToOne) {
   const Rig rig =
       rig_x_with("D", "u_calibration_um = 0.03\nu_sensitivity_ppm = 2000\nu_direction_mrad = 3",
                  "[installation]\nu_angle_mrad = [2, 2, 2]\n");
@@ -121,15 +121,14 @@ TEST(Budget, LinesAreInOrderAndSharesAddToOne) {
   }
   EXPECT_NEAR(shares, 1, 1e-12);
   EXPECT_FALSE(at.noise_only);
-  // First order and Monte Carlo agree where the model is nearly linear.
+  // First order and Monte Carlo agree for a nearly linear model.
   const BudgetTrials trials = summary_of(
       budgets.draw({error_figure(Axis::x, 0, 9)}, {.trials = 20000, .seed = 3}).front(), 3);
   EXPECT_NEAR(trials.u / at.u, 1, 0.02);
   EXPECT_NEAR((trials.high - trials.low) / 2 / at.U, 1, 0.03);
 }
 
-// JCGM 101 9.2.3: the sum of four rectangular quantities of u 1: 95 % within ±3.88, where k u is
-// 3.92.
+// Trials of a rectangular quantity with u = 1 µm end at 0.95 · √3 µm, not at 1.96 u.
 TEST(Budget, TrialsHaveTheDeclaredDistributions) {
   const std::string flat = "u_calibration_um = { u = 1, distribution = \"rectangular\" }";
   const Rig one = rig_x_with("D", flat);
@@ -141,7 +140,7 @@ TEST(Budget, TrialsHaveTheDeclaredDistributions) {
   EXPECT_NEAR(trials.high, 0.95 * std::sqrt(3.0) * 1e-6, 0.01e-6);
 }
 
-// The default fixture for Y, where local x is +Y and local y is -X.
+// The default fixture for Y, with local x = +Y and local y = -X.
 Rig rig_y(const std::string& of_D = "") {
   std::string toml = test::rig_x_toml();
   const auto at = [&](const char* from, const std::string& to) {
@@ -157,7 +156,7 @@ Rig rig_y(const std::string& of_D = "") {
   return parse_rig(toml, "rig_Y.toml").value();
 }
 
-TEST(Budget, SquarenessHasBothRunsAndTheSquare) {
+TEST(Budget, SquarenessUsesBothRunsAndTheSquare) {
   const Rig x = rig_x_with("", "", "[drift]\nu_um_per_h = 3.6\n"), y = rig_y();
   SyntheticRun along_x{.rig = x, .runs = 1}, along_y{.rig = y, .runs = 3};
   along_x.truth = [](double d) { return Errors5{3e-6 * d, 0, 0, 0, 0}; };
@@ -177,7 +176,7 @@ TEST(Budget, SquarenessHasBothRunsAndTheSquare) {
   EXPECT_NEAR((b.trials->low + b.trials->high) / 2, b.value, 0.1e-6);
 }
 
-TEST(Budget, SquarenessAndSlopesAreThoseMadeAlone) {
+TEST(Budget, SquarenessAndSlopesEqualSeparateBudgets) {
   const Rig x = rig_x_with("", "", "[drift]\nu_um_per_h = 3.6\n"), y = rig_y();
   SyntheticRun along_x{.rig = x, .runs = 1}, along_y{.rig = y, .runs = 3};
   along_x.truth = [](double d) { return Errors5{3e-6 * d, 0, 0, 0, 0}; };
@@ -191,14 +190,16 @@ TEST(Budget, SquarenessAndSlopesAreThoseMadeAlone) {
   EXPECT_EQ(all[0].value, alone.value);
   EXPECT_EQ(all[0].U, alone.U);
   EXPECT_EQ(all[1].U, budget(RunBudgets::create(x, run_x).value(), "EYX_slope_urad").U);
-  // 2 µrad of the drift of D, as above, and as much of B and of C by the roll (20 mm / 2 · 10 mm).
+  // 2 µrad from the drift of D, as above, and the same from B and from C by the roll (20 mm / 2 ·
+  // 10 mm).
   EXPECT_NEAR(all[1].u, 2e-6 * std::sqrt(3.0), 1e-10);
   EXPECT_EQ(all[2].figure, "EXY_slope_urad");
 }
 
-// D reads 3 µrad of slope along X and, turned to Y, -δx: EXY has +5. 1000 ppm of it are 3 and 5
-// nrad, of one sign, where it is the same probe; of another certificate they are independent.
-TEST(Budget, AProbeOfBothSetUpsIsOneQuantityOfTheSquareness) {
+// D reads 3 µrad of slope along X and, turned to Y, -δx: EXY has +5. 1000 ppm of them are 3 and 5
+// nrad. They have the same sign for the same probe; with different certificates they are
+// independent.
+TEST(Budget, CommonProbeIsOneQuantityOfSquareness) {
   const SquareArtefact square{.angle_error_rad = 0, .u_rad = 0, .corner = -1};
   const auto u = [&](const std::string& of_x, const std::string& of_y, std::uint64_t trials) {
     const Rig x = rig_x_with("D", of_x), y = rig_y(of_y);
@@ -213,7 +214,7 @@ TEST(Budget, AProbeOfBothSetUpsIsOneQuantityOfTheSquareness) {
   EXPECT_NEAR(contribution(same, "X and Y, probe D: sensitivity"), -8e-9, 1e-12);
   ASSERT_TRUE(same.trials);
   EXPECT_NEAR(same.trials->u / same.u, 1, 0.02);
-  // Another u in the other rig: 3 and twice 5 nrad, still of one quantity.
+  // The other rig declares another u: 3 and twice 5 nrad, still of one quantity.
   const Budget other_u = u(scale, "u_sensitivity_ppm = 2000\n", 0);
   EXPECT_NEAR(other_u.u, 13e-9, 1e-12);
   EXPECT_NEAR(contribution(other_u, "X and Y, probe D: sensitivity"), -13e-9, 1e-12);
@@ -222,9 +223,9 @@ TEST(Budget, AProbeOfBothSetUpsIsOneQuantityOfTheSquareness) {
   EXPECT_NEAR(contribution(two, "Y, probe D: sensitivity"), -5e-9, 1e-12);
 }
 
-// Four targets with a step in the first error: 0, 0, 3, 1 at 0, 10, 20 and 30 mm. Its line is 0.1 +
-// 0.6 a step, which leaves -0.1, -0.7, 1.7 and -0.9.
-TEST(Figures, OfFourTargetsByHand) {
+// Four targets with a step in the first error: 0, 0, 3, 1 at 0, 10, 20 and 30 mm. The line is 0.1 +
+// 0.6 per step and leaves -0.1, -0.7, 1.7 and -0.9.
+TEST(Figures, MatchManualCalculationForFourTargets) {
   MeanErrors means;
   const double y[] = {0, 0, 3, 1};
   for (std::size_t i = 0; i < 4; ++i) {
@@ -251,7 +252,7 @@ TEST(Figures, OfFourTargetsByHand) {
   const auto at = errors_at_target(Axis::x, 3);
   ASSERT_EQ(at.size(), 5u);
   EXPECT_EQ(at[4].of(means), -3);
-  // Against the encoder the slope has the other sign.
+  // Against the encoder, the slope has the opposite sign.
   means.sides.against_encoder = true;
   EXPECT_NEAR(slope_figure(Axis::x, 0).of(means), -60, 1e-9);
   // A line needs three targets, a range two.
@@ -268,8 +269,8 @@ TEST(Figures, OfFourTargetsByHand) {
                        "EZY_slope_urad", "EAY_range_urad", "EBY_range_urad", "ECY_range_urad"}));
 }
 
-// Trials in whole blocks and in a part of one are the same numbers.
-TEST(Budget, TrialsDoNotDependOnHowManyThereAre) {
+// Trials in whole blocks and in a part of a block have the same values.
+TEST(Budget, TrialsDoNotDependOnTheirNumber) {
   const Rig rig = rig_x_with("D", "u_calibration_um = 0.1");
   const auto budgets =
       RunBudgets::create(rig, SyntheticRun{.rig = rig, .model = Model::exact}.measure()).value();
@@ -283,8 +284,8 @@ TEST(Budget, TrialsDoNotDependOnHowManyThereAre) {
   }
 }
 
-// Of 40 trials 1 ... 40 in any order: one in forty lies below 2, and none above 40.
-TEST(Budget, SummaryOfTrialsByHand) {
+// 40 trials 1 ... 40 in any order: one of forty is below 2, and none is above 40.
+TEST(Budget, SummaryOfTrialsMatchesManualCalculation) {
   std::vector<double> trials;
   for (int i = 0; i < 40; ++i) trials.push_back(1 + (i * 7) % 40);
   const BudgetTrials summary = summary_of(trials, 9);
@@ -295,8 +296,8 @@ TEST(Budget, SummaryOfTrialsByHand) {
   EXPECT_NEAR(summary.u, std::sqrt((40 * 40 - 1) / 12.0 * 40 / 39), 1e-12);
 }
 
-// A range of each trial is highest less lowest of its deviations, and its trials say the same.
-TEST(Budget, ARangeIsDrawnAsHighestLessLowest) {
+// A range is drawn as highest minus lowest deviation of each trial; its trials give the same u.
+TEST(Budget, RangeIsDrawnAsHighestMinusLowest) {
   const Rig rig = rig_x_with("D", "u_sensitivity_ppm = 1000");
   SyntheticRun synthetic{.rig = rig, .model = Model::exact, .runs = 1};
   synthetic.truth = [](double d) { return Errors5{1e-6 * std::sin(200 * d), 0, 0, 0, 0}; };
@@ -310,9 +311,8 @@ TEST(Budget, ARangeIsDrawnAsHighestLessLowest) {
   EXPECT_NEAR(budgets.trials(straightness, {500, 4}).u / summary_of(values, 4).u, 1, 0.01);
 }
 
-// Two runs are enough to scatter: s of 1.4142 µrad over √2, with one degree of freedom. Of two runs
-// of which one lacks targets there is none to compare.
-TEST(Budget, TwoRunsScatter) {
+// Two runs are enough for a scatter: s of 1.4142 µrad over √2, with one degree of freedom.
+TEST(Budget, TwoRunsAreEnoughForAScatter) {
   const Rig rig = rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 2};
   synthetic.added = [](std::size_t k, double d, double, double time_s) {
@@ -324,9 +324,9 @@ TEST(Budget, TwoRunsScatter) {
   EXPECT_FALSE(slope.is_single_run);
 }
 
-// Runs that lack visits, with levels of their passes: parts that move several means together, and
-// parts by the passes. One run alone has all targets, so that the scatter of runs adds nothing.
-TEST(Budget, PartsOfSeveralMeansAddBySquaresAndCost) {
+// Runs with missing visits and levels of passes: parts shift several means together, and others by
+// the passes. Only one run has all targets, so the scatter of runs adds nothing.
+TEST(Budget, PartsOfSeveralMeansAddBySquares) {
   const Rig rig = rig_x_with("", "");
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
   synthetic.u_reading_m = 1e-9;

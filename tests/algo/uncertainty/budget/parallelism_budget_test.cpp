@@ -1,6 +1,6 @@
-// Budgets of parallelism, slope of B less that of A, with D's scale error: at the fixture D alone
-// reads EYX, so that a slope s has the error s times it. Errors in common to both runs add with
-// their signs.
+// Budgets of parallelism, the slope of B minus the slope of A, with a scale error of probe D. At
+// the fixture only D measures EYX, so the error of a slope s is s times the scale error. Errors
+// common to both runs add with their signs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ const BudgetLine* line_named(const Budget& budget, const std::string& name) {
   return found == budget.lines.end() ? nullptr : &*found;
 }
 
-TEST(ParallelismBudget, WhatGoesWithAProbeAddsWithItsSign) {
+TEST(ParallelismBudget, CommonProbeErrorsAddWithTheirSigns) {
   const Rig rig = test::rig_x_with("D", "u_sensitivity_ppm = 1000");
   const auto budgets =
       parallelism_budgets(rig, sloping_run(rig, 10e-6, 50e-6), rig, sloping_run(rig, 30e-6, 20e-6));
@@ -44,7 +44,7 @@ TEST(ParallelismBudget, WhatGoesWithAProbeAddsWithItsSign) {
   EXPECT_NEAR(y.u, 20e-9, 1e-12);
   EXPECT_NEAR(y.U, 1.96 * 20e-9, 0.001 * 40e-9);
   EXPECT_NEAR(line_named(z, "A and B, probe D: sensitivity")->contribution, 0, 1e-13);
-  // Noise of both runs apart, the sensitivity once.
+  // The noise of the runs is separate, the sensitivity is common.
   EXPECT_EQ(y.lines.size(), 3u);
   EXPECT_NE(line_named(y, "A, noise and repeatability"), nullptr);
   EXPECT_NE(line_named(y, "B, noise and repeatability"), nullptr);
@@ -54,8 +54,8 @@ TEST(ParallelismBudget, WhatGoesWithAProbeAddsWithItsSign) {
   EXPECT_EQ(y.not_declared.back().substr(0, 2), "B ");
 }
 
-// Two probes of two certificates, and what belongs to one set-up, are independent: squares add.
-TEST(ParallelismBudget, WhatTheRunsDoNotShareIsIndependent) {
+// Probes of two certificates and quantities of one set-up are independent: their squares add.
+TEST(ParallelismBudget, SeparateErrorsAreIndependent) {
   const Rig a = test::rig_x_with("D", "u_sensitivity_ppm = 1000\ncertificate = \"1\""),
             b = test::rig_x_with("D", "u_sensitivity_ppm = 1000\ncertificate = \"2\"");
   const auto budgets =
@@ -69,14 +69,14 @@ TEST(ParallelismBudget, WhatTheRunsDoNotShareIsIndependent) {
   EXPECT_NEAR(line_named(y, "B, probe D: sensitivity")->contribution, -40e-9, 1e-12);
   EXPECT_NEAR(y.u, 50e-9, 1e-12);
   EXPECT_EQ(y.lines.size(), 4u);
-  // The larger is the first.
+  // The largest contribution comes first.
   EXPECT_EQ(contributor_text(y.lines.front().name), "B, probe D: sensitivity");
   EXPECT_NEAR(y.lines[0].share, 0.64, 1e-6);
   EXPECT_NEAR(y.lines[1].share, 0.36, 1e-6);
 }
 
-// A rig of one run alone may declare more.
-TEST(ParallelismBudget, OfWhatOneRigDeclares) {
+// The rig of one run may declare more.
+TEST(ParallelismBudget, UsesDeclarationsOfOneRig) {
   const Rig plain = test::rig_x(),
             b = test::rig_x_with("D", "u_sensitivity_ppm = { u = 1000, dof = 4 }");
   const auto found =

@@ -1,4 +1,4 @@
-// What is 0 by rounding, by declaration, or because nobody knows it.
+// Values that are 0 by rounding, by declaration, or because they are unknown.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +13,9 @@
 namespace mdof::algo {
 namespace {
 
-// A straight axis: what is left of its line is rounding, so that first order sees rounding alone.
-TEST(Budget, ARangeOfRoundingHasTheUOfItsTrials) {
+// The axis is straight, so its deviations are rounding only, and a first-order budget contains only
+// rounding.
+TEST(Budget, RangeOfRoundingHasTheUOfItsTrials) {
   const Rig rig = test::rig_x();
   SyntheticRun synthetic{.rig = rig, .runs = 1};
   synthetic.truth = [](double d) { return Errors5{3e-6 * d, 0, 0, 0, 0}; };
@@ -27,8 +28,8 @@ TEST(Budget, ARangeOfRoundingHasTheUOfItsTrials) {
   EXPECT_LT(b.coverage_factor, 4);
 }
 
-// Not declared is named as missing; a declared 0 is known to add nothing.
-TEST(Budget, AnArtefactWithoutUIsNotOneThatDeclaresZero) {
+// An undeclared u is reported as missing; a declared 0 adds nothing.
+TEST(Budget, ArtefactWithoutUDiffersFromZeroU) {
   const Rig x = test::rig_x();
   Rig y = x;
   y.axis = Axis::y;
@@ -45,8 +46,8 @@ TEST(Budget, AnArtefactWithoutUIsNotOneThatDeclaresZero) {
   EXPECT_FALSE(lacks_u(0.4e-6));
 }
 
-// u of nothing at all is 0 only where nothing is left undeclared.
-TEST(Budget, UOfNothingIsUnknownWhereSomethingIsNotDeclared) {
+// u without contributions is 0 only if nothing is undeclared.
+TEST(Budget, ZeroUIsUnknownIfSomethingIsUndeclared) {
   Budget budget;
   budget.lines.resize(1);
   complete(budget);

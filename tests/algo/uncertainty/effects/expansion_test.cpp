@@ -1,5 +1,5 @@
-// What temperature does to the errors, against a forward model of its own: a body's matrix, and the
-// meeting of a probe's line with a face whose every place has moved.
+// The effect of temperature on the errors, compared with a separate forward model: the matrix of a
+// body, and the intersection of a probe's line with a face whose points have all moved.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -19,11 +19,11 @@ double dot(const Place& a, const Place& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Machine axes; the target at travel d with errors of an X axis.
+// In machine axes; the target is at travel d with errors of an X axis.
 struct OwnModel {
   std::vector<Place> at, along;
   std::size_t axis = 0;
-  double fixture = 0;  // its relative expansion
+  double fixture = 0;  // relative expansion of the fixture
   Place bend{};        // expansion times gradient, 1/m
 
   static Place turned_back(const Errors5& e, const Place& v) {
@@ -35,7 +35,7 @@ struct OwnModel {
     return {y[0], std::cos(a) * y[1] + std::sin(a) * y[2],
             -std::sin(a) * y[1] + std::cos(a) * y[2]};
   }
-  // The material's place before it moved by what the gradient does.
+  // Place of the material before the gradient moved it.
   Place material(const Place& now) const {
     Place r = now;
     for (int i = 0; i < 6; ++i) {
@@ -73,7 +73,7 @@ Errors5 truth(double d) {
   return {1e-6 * std::sin(90 * d), 2e-4 * d, 4e-3 * std::sin(60 * d), 5e-3 * d, -3e-3 * d};
 }
 
-// Half the difference of the errors that two forward models make.
+// Half the difference between the errors of two forward models.
 std::vector<Errors5> half_difference(const SyntheticRun& synthetic, const OwnModel& plus,
                                      const OwnModel& minus, double scale = 0, double offset_m = 0) {
   std::array<Run, 2> runs;
@@ -115,7 +115,7 @@ std::vector<PointShifts> only_parts(const SyntheticRun& synthetic, const std::st
   return all->front().parts();
 }
 
-TEST(Expansion, OfTheFixtureMovesAllProbesFromItsOrigin) {
+TEST(Expansion, FixtureExpandsAboutItsOrigin) {
   const Rig rig =
       test::rig_x_with("", "", "[temperature]\nu_fixture_K = 2\nfixture_ppm_per_K = 500\n");
   for (const StatedAt& stated : {kAtFixture, kAtCarriage}) {
@@ -129,8 +129,8 @@ TEST(Expansion, OfTheFixtureMovesAllProbesFromItsOrigin) {
   }
 }
 
-// The encoder says d, and d (1 + s) is true: the errors are those of there.
-TEST(Expansion, OfTheScaleGrowsWithTheTravel) {
+// The encoder reads d, but d (1 + s) is true, so the errors belong to the true travel.
+TEST(Expansion, ScaleErrorGrowsWithTheTravel) {
   const Rig rig = test::rig_x_with(
       "", "", "[temperature]\nscale_C = 22\nu_scale_K = 0\nscale_ppm_per_K = 500\n");
   for (const StatedAt& stated : {kAtFixture, kAtCarriage}) {
@@ -143,8 +143,9 @@ TEST(Expansion, OfTheScaleGrowsWithTheTravel) {
   }
 }
 
-// An encoder that says too little at all targets: the sum of its parts, each of one target.
-TEST(Encoder, AWrongPlaceHasTheErrorsOfAnotherPlace) {
+// The encoder reads too little at all targets: the expected shift is the sum of the parts, one for
+// each target.
+TEST(Encoder, WrongPositionHasTheErrorsOfAnotherPosition) {
   const Rig rig = test::rig_x_with("", "", "[encoder]\nu_um = 10\n");
   SyntheticRun synthetic{.rig = rig, .truth = truth};
   synthetic.targets_m.clear();
@@ -160,7 +161,7 @@ TEST(Encoder, AWrongPlaceHasTheErrorsOfAnotherPlace) {
   expect_parts(sum, half_difference(synthetic, own_x(), own_x(), 0, 10e-6), 3e-2);
 }
 
-TEST(Expansion, OfAGradientBendsTheSquare) {
+TEST(Expansion, GradientBendsTheSquare) {
   const Rig rig = test::rig_x_with("", "",
                                    "[temperature]\nu_square_gradient_K_per_m = [4, 5, 6]\n"
                                    "square_ppm_per_K = 300\nu_square_ppm_per_K = 400\n");
@@ -175,8 +176,8 @@ TEST(Expansion, OfAGradientBendsTheSquare) {
   }
 }
 
-// The Y axis' local x is Y, and its local y is -X.
-TEST(Expansion, OfAGradientIsAlongTheMachinesAxes) {
+// Along Y, local x is Y and local y is -X.
+TEST(Expansion, GradientIsAlongTheMachineAxes) {
   std::string toml = "name = \"y\"\naxis = \"Y\"\n";
   const OwnModel own{{{0, .01, 0}, {-.01, 0, 0}, {.01, 0, 0}, {-.015, 0, .02}, {-.015, .01, .02}},
                      {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {-1, 0, 0}, {-1, 0, 0}},
@@ -191,7 +192,7 @@ TEST(Expansion, OfAGradientIsAlongTheMachinesAxes) {
   toml += "[temperature]\nu_square_gradient_K_per_m = [4, 0, 6]\nsquare_ppm_per_K = 500\n";
   SyntheticRun synthetic{.rig = parse_rig(toml, "y.toml").value()};
   const auto parts = only_parts(synthetic, "square: temperature gradient");
-  ASSERT_EQ(parts.size(), 2u);  // along Y nothing is declared to be
+  ASSERT_EQ(parts.size(), 2u);  // no gradient along Y is declared
   for (std::size_t i = 0; i < 2; ++i) {
     OwnModel plus = own, minus = own;
     plus.bend[2 * i] = i == 0 ? 2e-3 : 3e-3;
@@ -200,8 +201,9 @@ TEST(Expansion, OfAGradientIsAlongTheMachinesAxes) {
   }
 }
 
-// A bow of α g D²/8 over the travel D, by beams: 11.5e-6 · 20 · 0.04²/8 = 46 nm.
-TEST(Expansion, OfAGradientIsTheBowOfABeam) {
+// A beam with this gradient has a bow of α g D²/8 over the travel D: 11.5e-6 · 20 · 0.04²/8 = 46
+// nm.
+TEST(Expansion, GradientGivesTheBowOfABeam) {
   const Rig rig = test::rig_x_with("", "",
                                    "[temperature]\nu_square_gradient_K_per_m = [0, 20, 0]\n"
                                    "square_ppm_per_K = 11.5\n");
@@ -210,8 +212,8 @@ TEST(Expansion, OfAGradientIsTheBowOfABeam) {
   EXPECT_NEAR(std::abs(p[4][kDy] - (p[0][kDy] + p[8][kDy]) / 2), 46e-9, 1e-11);
 }
 
-// The root mean square of a product, by drawing it.
-TEST(Expansion, CountsTheWholeOfWhatIsNotCorrected) {
+// The root mean square of the product, from random draws.
+TEST(Expansion, UncorrectedExpansionCountsWhole) {
   const Rig rig = test::rig_x_with("", "",
                                    "[temperature]\nscale_C = 23\nu_scale_K = 2\n"
                                    "scale_ppm_per_K = 8\nu_scale_ppm_per_K = 3\n");

@@ -1,6 +1,6 @@
-// The covariance of a surface against the closed form by the Bessel function of the standard
-// library, and against surfaces drawn as sums of many plane waves of random direction and phase,
-// read by the seed's own formulas (Eq. 8-12).
+// The covariance of a surface, compared with the closed form by the Bessel function of the standard
+// library and with surfaces that are sums of many plane waves of random direction and phase,
+// evaluated by the simplified model (Eq. 8-12).
 #include "algo/uncertainty/effects/flatness.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kU_m = 0.05e-6;
 
-TEST(Flatness, TheBesselFunctionIsThatOfTheStandardLibrary) {
+TEST(Flatness, BesselFunctionMatchesTheStandardLibrary) {
   for (double x = 0; x < 400; x += 0.0371)
     EXPECT_NEAR(one_minus_bessel_j0(x), 1 - std::cyl_bessel_j(0, x), 5e-11) << x;
   for (const double x : {1e-6, 1e-4, 1e-2})
@@ -36,8 +36,8 @@ double covariance_m2(double apart_m, double length_m) {
   return kU_m * kU_m * sum / norm;
 }
 
-// Three probes over 60 mm, the longest wave from a tenth of that to ten times.
-TEST(Flatness, IndependentPartsHaveTheCovarianceForAnyLength) {
+// Three probes over 60 mm; the longest wave is from a tenth of that to ten times as long.
+TEST(Flatness, PartsHaveTheCovarianceForAnyLength) {
   for (const double length_mm : {6.0, 20.0, 60.0, 200.0, 600.0}) {
     std::vector<Footprint> prints;
     for (const auto& [x, y] : {std::array{10e-3, 0.0}, {0.0, 10e-3}, {0.0, -10e-3}})
@@ -64,7 +64,7 @@ TEST(Flatness, IndependentPartsHaveTheCovarianceForAnyLength) {
   }
 }
 
-// Thousands of places: no more parts than the surface has, and never a smaller variance.
+// Thousands of places: the number of parts is limited, and the variance is never smaller.
 TEST(Flatness, PartsAreBoundedAndKeepTheVariance) {
   for (const double length_mm : {1.0, 30.0}) {
     std::vector<Footprint> prints;
@@ -81,7 +81,7 @@ TEST(Flatness, PartsAreBoundedAndKeepTheVariance) {
 }
 
 // Default fixture: l = 10 mm, l'' = 20 mm, l' = 15 mm; EYX = D + (B - C)/2l · l''.
-TEST(Flatness, SlopeAndPointsScatterAsSurfacesOfManyWavesDo) {
+TEST(Flatness, UOfSlopeAndPointsMatchesDrawnSurfaces) {
   const std::vector<double> targets_m = {0, 5e-3, 10e-3, 15e-3, 20e-3, 25e-3, 30e-3, 35e-3, 40e-3};
   for (const double length_mm : {4.0, 13.0, 40.0, 120.0, 400.0}) {
     SCOPED_TRACE(length_mm);
@@ -112,7 +112,7 @@ TEST(Flatness, SlopeAndPointsScatterAsSurfacesOfManyWavesDo) {
       slope_square += slope * slope / kSurfaces;
       point_square += point * point / kSurfaces;
     }
-    // Of so many surfaces, known to 1.3 %.
+    // The standard uncertainty of this number of surfaces is 1.3 %.
     EXPECT_NEAR(u_slope / std::sqrt(slope_square), 1, 0.05);
     EXPECT_NEAR(u_point / std::sqrt(point_square), 1, 0.05);
   }

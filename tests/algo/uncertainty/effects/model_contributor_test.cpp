@@ -1,4 +1,4 @@
-// What the simplified model leaves out is in the u of its runs.
+// The u of a run with the simplified model contains the error of this model.
 #include "algo/uncertainty/effects/model_contributor.h"
 
 #include <gtest/gtest.h>
@@ -27,11 +27,11 @@ Run tilting(const Rig& rig, Model model) {
   return synthetic.measure();
 }
 
-TEST(ModelContributor, HoldsTheErrorOfTheSimplifiedModel) {
+TEST(ModelContributor, CoversTheErrorOfTheSimplifiedModel) {
   const Rig rig = rig_x_with("", "");
   const auto simplified = tilting(rig, Model::simplified), truth = tilting(rig, Model::rigid);
   const RunUncertainty found = run_uncertainty(rig, simplified);
-  EXPECT_TRUE(found.noise_only);  // of what is declared: nothing
+  EXPECT_TRUE(found.noise_only);  // nothing is declared
   double most_um = 0;
   for (std::size_t j = 0; j < simplified.points.size(); ++j) {
     const auto off = [&](std::size_t e) {
@@ -39,15 +39,15 @@ TEST(ModelContributor, HoldsTheErrorOfTheSimplifiedModel) {
     };
     const auto& names = error_names(Axis::x);
     for (std::size_t k = 0; k < kErrorCount; ++k) {  // a true rotation differs by some nm more
-      const double u = std::fmax(0, found.points[j].u[k]);  // at the start nothing is seen
+      const double u = std::fmax(0, found.points[j].u[k]);  // at the start there is no error
       EXPECT_LE(std::abs(off(names[k].local)), 2 * u + 3e-9) << j << " " << names[k].name;
     }
     most_um = std::max(most_um, 1e6 * std::abs(off(names[0].local)));
   }
-  EXPECT_GT(most_um, 0.005);  // so that there is something to hold
+  EXPECT_GT(most_um, 0.005);  // the test needs a visible error
 }
 
-TEST(ModelContributor, IsALineOfTheBudgetAndOfThatModelAlone) {
+TEST(ModelContributor, IsABudgetLineOfTheSimplifiedModelOnly) {
   const Rig rig = rig_x_with("D", "u_calibration_um = 0.01");
   EXPECT_TRUE(model_contributor(rig, tilting(rig, Model::simplified), Model::simplified));
   EXPECT_FALSE(model_contributor(rig, tilting(rig, Model::exact), Model::exact));
@@ -60,7 +60,7 @@ TEST(ModelContributor, IsALineOfTheBudgetAndOfThatModelAlone) {
   EXPECT_EQ(lines_of(Model::simplified), lines_of(Model::exact) + 1);
 }
 
-// What is left out is a part of one standard uncertainty, without a key and not random.
+// The contributor is a part of one standard uncertainty, without a key and without a unit factor.
 TEST(ModelContributor, IsOneStandardUncertainty) {
   const Rig rig = rig_x_with("", "");
   const auto run = tilting(rig, Model::simplified);

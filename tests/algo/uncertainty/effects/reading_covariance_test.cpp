@@ -1,5 +1,5 @@
-// Do probes beyond five contradict each other as much as the rig declares, and no more? Surfaces as
-// sums of plane waves, and probes displaced in the fixture itself: the mean of χ² is its degrees of
+// Probes beyond five contradict each other as much as the rig declares, and no more. Surfaces are
+// sums of plane waves, and probes are displaced in the fixture: the mean of χ² is its degrees of
 // freedom.
 #include "algo/uncertainty/effects/reading_covariance.h"
 
@@ -76,10 +76,10 @@ std::vector<double> heights_m(const test_faults::DrawnSurface& top,
   return all;
 }
 
-// Waves far shorter than the probes are apart change each reading by itself, by twice their
-// variance since the zero; waves far longer are tilts and bows, which five errors explain but for
-// little.
-TEST(ReadingCovariance, OfASurfaceIsThatOfManyWavesOfAnyLength) {
+// Waves far shorter than the distances of the probes change each reading independently, by twice
+// their variance because of the zero. Waves far longer are tilts and bows, which five errors
+// explain almost completely.
+TEST(ReadingCovariance, SurfaceMatchesWavesOfAnyLength) {
   std::mt19937_64 engine(21);
   std::normal_distribution<> normal(0, kWhite_m);
   for (const double length_mm : {4.0, 30.0, 400.0}) {
@@ -100,9 +100,9 @@ TEST(ReadingCovariance, OfASurfaceIsThatOfManyWavesOfAnyLength) {
   }
 }
 
-// So a fault of the size of the flatness is seen where the surface cannot have made it, and none is
-// seen where it can.
-TEST(ReadingCovariance, FindsAFaultBesideLongWavesAndAccusesNoShortOnes) {
+// A fault as large as the flatness is found where the surface cannot cause it, and no fault is
+// found where the surface can.
+TEST(ReadingCovariance, FindsAFaultButNotTheSurface) {
   std::mt19937_64 engine(22);
   std::normal_distribution<> normal(0, kWhite_m);
   const std::vector<double> range_m(7, 200e-6);
@@ -132,11 +132,11 @@ TEST(ReadingCovariance, FindsAFaultBesideLongWavesAndAccusesNoShortOnes) {
   EXPECT_EQ(accused(400, 0.5e-6), 2000);
 }
 
-// What a calibration found of the zeros and places of F and G, each zero nearly the opposite of
-// what its place does at a tilt of 5 mrad.
+// Results of a calibration: zeros and places of F and G. Each zero almost compensates the effect of
+// its place at a tilt of 5 mrad.
 constexpr double kPlace_m = 20e-6, kTilt_rad = 5e-3, kCorrelation = 0.95;
 
-TEST(ReadingCovariance, OfACalibrationHasItsCorrelations) {
+TEST(ReadingCovariance, CalibrationKeepsItsCorrelations) {
   Rig rig = rig_of_seven(0);
   const double u_zero_m = kPlace_m * kTilt_rad;
   CalibrationRecord& record = rig.records.emplace_back();
@@ -153,7 +153,7 @@ TEST(ReadingCovariance, OfACalibrationHasItsCorrelations) {
   }
   const Solver solver = Solver::create(rig, Model::rigid).value();
   const Fixture nominal = make_fixture(rig).value();
-  // The top falls by 5 µm a millimetre along x, the side comes nearer.
+  // The top falls by 5 µm per millimetre along x, and the side comes nearer.
   const Errors5 tilted = {0, 0, 0, kTilt_rad, -kTilt_rad};
   std::mt19937_64 engine(23);
   std::normal_distribution<> normal;
@@ -181,15 +181,15 @@ TEST(ReadingCovariance, OfACalibrationHasItsCorrelations) {
   EXPECT_NEAR(all.ratio(), 1, 0.15);
 }
 
-// Each kind of quantity of a calibration by itself: twice the difference of the readings of the
-// fixture that is displaced one way and the other, each zeroed where the run begins.
-TEST(ReadingCovariance, OfEachQuantityOfACalibrationIsThatOfTheDisplacedFixture) {
+// Each kind of calibrated quantity separately: half the difference between the readings of fixtures
+// displaced in both directions, each zeroed at the start of the run.
+TEST(ReadingCovariance, CalibratedQuantitiesMatchADisplacedFixture) {
   const Errors5 carriage = {20e-6, -10e-6, 1e-3, 6e-3, -4e-3};
   constexpr double d = 12e-3, kBy = 1e-3;
   struct Named {
     const char* name;
     std::size_t probe;
-    Eigen::Index place, direction;  // -1: not of it
+    Eigen::Index place, direction;  // -1: not displaced
     double u;
   };
   for (const Named& of : {Named{"A.y", 0, 1, -1, 2e-5},
@@ -222,8 +222,8 @@ TEST(ReadingCovariance, OfEachQuantityOfACalibrationIsThatOfTheDisplacedFixture)
   }
 }
 
-// A fault that noise alone does not explain, nor waves alone, but both together do.
-TEST(ReadingCovariance, NoiseAndWhatIsDeclaredAddUp) {
+// A fault that neither noise alone nor waves alone explain, but both together do.
+TEST(ReadingCovariance, NoiseAndDeclaredUncertaintiesAdd) {
   const Rig waves = rig_of_seven(4);
   Rig exact = waves;
   for (TargetPlane& plane : exact.planes) plane.u_flatness.u = 0;
@@ -239,7 +239,7 @@ TEST(ReadingCovariance, NoiseAndWhatIsDeclaredAddUp) {
     Residuals(solver, std::vector<double>(7, 200e-6), rig, 0).test(p);
     return !p.point.flags.empty();
   };
-  // The smallest fault that is flagged, by noise alone and by waves alone, which have √2 u.
+  // The smallest fault that is flagged, with noise only and with waves only; the waves have √2 u.
   const auto least_flagged_m = [&](const Rig& rig, double noise_m) {
     double low = 1e-8, high = 1e-4;
     for (int i = 0; i < 40; ++i) {
@@ -256,8 +256,8 @@ TEST(ReadingCovariance, NoiseAndWhatIsDeclaredAddUp) {
   EXPECT_NEAR(by_both_m / std::hypot(by_noise_m, by_waves_m), 1, 0.05);
 }
 
-// What a travel that is off does to the readings, by Eq. 2-7 to first order: a reading of the top
-// goes with d times the pitch, one of the side with -d times the yaw.
+// The effect of a wrong travel on the readings, to first order of Eq. 2-7: a reading of the top
+// changes by d times the pitch, a reading of the side by -d times the yaw.
 constexpr double kPitch_rad = 200e-6, kYaw_rad = -300e-6;
 
 Eigen::MatrixXd covariance_of(const std::string& declared, double travel_m) {
@@ -278,14 +278,14 @@ void expect_by_travel(const Eigen::MatrixXd& found, double u_m) {
     }
 }
 
-TEST(EncoderCovariance, IsOfAllReadingsTogether) {
+TEST(EncoderCovariance, IsCommonToAllReadings) {
   expect_by_travel(covariance_of("[encoder]\nu_um = 20\n", 0.03), 20e-6);
   EXPECT_EQ(covariance_of("", 0.03).norm(), 0);
 }
 
-// A record that has the direction of a probe says it instead of the rig: of a probe of the top by X
-// and Y, of the side by X and Z.
-TEST(CalibratedDirections, TakeThePlaceOfTheRigs) {
+// A record with the direction of a probe replaces the direction of the rig, by X and Y for a top
+// probe and by X and Z for a side probe.
+TEST(CalibratedDirections, ReplaceTheDirectionsOfTheRig) {
   for (const auto& [id, across] : {std::pair("A", 1U), {"B", 1U}, {"D", 2U}, {"E", 2U}}) {
     const auto covariance = [id = std::string(id), across = across](const std::string& keys) {
       Rig rig = test::rig_x_with(id, keys);

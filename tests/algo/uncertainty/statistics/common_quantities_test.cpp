@@ -1,5 +1,5 @@
-// Which contributors of two set-ups are one quantity, and what one surface does to runs along
-// different axes.
+// Which contributors of two set-ups are the same quantity, and the effect of one surface on runs
+// along different axes.
 #include "algo/uncertainty/statistics/common_quantities.h"
 
 #include <gtest/gtest.h>
@@ -32,8 +32,8 @@ std::string common_name(const Rig& rig, const Contributor& contributor) {
   return list[0].common_as;
 }
 
-// Scale, linearity and tilt factor go with a probe and its certificate; a zero does not.
-TEST(CommonQuantities, OfAProbeAreThoseOfItsCertificate) {
+// Scale, linearity and tilt factor belong to a probe and its certificate; a zero does not.
+TEST(CommonQuantities, ProbeQuantitiesDependOnItsCertificate) {
   Rig rig = test::rig_x_with("", ""), other = rig;
   rig.probes[1].calibration.certificate = "K 17";
   other.probes[1].calibration.certificate = "K 18";
@@ -55,7 +55,7 @@ TEST(CommonQuantities, OfAProbeAreThoseOfItsCertificate) {
       "");
 }
 
-TEST(CommonQuantities, OfAPlaneAreItsNameNormalUncertaintyAndLength) {
+TEST(CommonQuantities, PlaneIsGivenByNameNormalUncertaintyAndLength) {
   const auto named = [](const std::string& plane, const Vec3& normal, double u, double length_m) {
     Rig rig = test::rig_x_with(
         "", "", "[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n[[plane]]\nnormal = \"+Y\"\n");
@@ -72,15 +72,15 @@ TEST(CommonQuantities, OfAPlaneAreItsNameNormalUncertaintyAndLength) {
   EXPECT_NE(top, named("top", {0, 0.1, 0.99}, 1e-7, 0.02));
   EXPECT_NE(top, named("top", {0, 0, 1}, 2e-7, 0.02));
   EXPECT_NE(top, named("top", {0, 0, 1}, 1e-7, 0.03));
-  const std::string second = named("2", {0, 0, 1}, 1e-7, 0.02);  // has no id
+  const std::string second = named("2", {0, 0, 1}, 1e-7, 0.02);  // a plane without id
   EXPECT_FALSE(second.empty());
   EXPECT_NE(second, top);
   EXPECT_EQ(named("1", {0, 0, 1}, 1e-7, 0.02), "");
 }
 
-const Eigen::Vector3d kZeroed(0.001, -0.003, 0.02);  // where the probe is at d = 0
+const Eigen::Vector3d kZeroed(0.001, -0.003, 0.02);  // position of the probe at d = 0
 
-// In M at (x, y, z); along Y the local frame has x = +Y, y = -X.
+// `places` in M (x, y, z); along Y the local frame has x = +Y, y = -X.
 Contributor over_surface(const std::vector<Eigen::Vector3d>& places, bool along_y) {
   PlaneFootprints surface{1e-7, 0.05, {}, {}, places.size()};
   for (std::size_t j = 0; j < places.size(); ++j) {
@@ -97,7 +97,7 @@ Contributor over_surface(const std::vector<Eigen::Vector3d>& places, bool along_
   return contributor;
 }
 
-TEST(CommonQuantities, OneSurfaceHasOneHeightAtAPlaceForRunsAlongXAndY) {
+TEST(CommonQuantities, SurfaceHasTheSameHeightForRunsAlongXAndY) {
   const std::vector<Eigen::Vector3d> places = {
       {0.01, 0, 0.02}, {0.02, 0.004, 0.02}, {-0.03, 0.01, 0.021}, {0.005, -0.04, 0.019}};
   std::vector<Contributor> of_a = {
@@ -117,7 +117,7 @@ TEST(CommonQuantities, OneSurfaceHasOneHeightAtAPlaceForRunsAlongXAndY) {
       largest = std::max(largest, std::abs(parts.b[0][p][j][0]));
     }
   EXPECT_GT(largest, 1e-8);
-  // The covariance is that of the places in M.
+  // The covariance equals that of the places in M.
   const FlatnessCovariance covariance(1e-7, 0.05);
   for (std::size_t i = 0; i < places.size(); ++i)
     for (std::size_t j = 0; j < places.size(); ++j) {
@@ -128,10 +128,10 @@ TEST(CommonQuantities, OneSurfaceHasOneHeightAtAPlaceForRunsAlongXAndY) {
   EXPECT_EQ(of_a[1].common_as, "top");
   EXPECT_EQ(of_b[0].common_as, "top");
   EXPECT_EQ(of_a[0].common_as, "");
-  EXPECT_EQ(parts.a[0][0][0][0], 7);  // its own
+  EXPECT_EQ(parts.a[0][0][0][0], 7);  // not common
 }
 
-TEST(CommonQuantities, TwoSurfacesHaveTheirOwnParts) {
+TEST(CommonQuantities, TwoSurfacesHaveSeparateParts) {
   std::vector<Contributor> of_a = {over_surface({{0.01, 0, 0.02}}, false)};
   std::vector<Contributor> of_b = {over_surface({{0.01, 0, 0.02}}, true)};
   of_b[0].surface_as = "another top";

@@ -1,5 +1,5 @@
-// What visits show of random errors, and the intervals of ranges and of repeatabilities, of a few
-// visits and trials worked by hand.
+// Random errors of visits, and intervals of ranges and repeatabilities, for a few visits and trials
+// calculated by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,9 +30,10 @@ MeasuredPoint visit_by_hand(int target, int run, int direction, const Errors5& n
   return p;
 }
 
-// Two runs of three targets both ways. A pass is off by s, and each target of it by d besides,
-// which sum to 0: forward s 3 and d 1, 0, -1; reverse s 5 and d 2, -1, -1; the second run the other
-// way. The targets are at 100 times their number, reverse 7 lower. Error k is k + 1 times that.
+// Two runs of three targets in both directions. Each pass deviates by s, and each target of it
+// additionally by d, whose sum is 0. The first run has s = 3 and d = 1, 0, -1 forward, s = 5 and d
+// = 2, -1, -1 reverse; the second run has the opposite signs. The means are 100 times the target
+// number, 7 lower in reverse. Error k is k + 1 times these values.
 constexpr double kShift[] = {3, 5};
 constexpr double kOff[2][3] = {{1, 0, -1}, {2, -1, -1}};
 constexpr double kSquaresOfOff = 2 * (1 + 1) + 2 * (4 + 1 + 1);  // both runs
@@ -54,8 +55,8 @@ Repeatability repeatability_by_hand(const std::vector<MeasuredPoint>& points) {
   return repeatability(x, points, target_means(x, points, Approach::both));
 }
 
-// 12 visits, 6 targets and ways, 4 passes less 2 ways: 4 degrees of freedom.
-TEST(RepeatabilityByHand, IsTheScatterThatPassesLeave) {
+// 12 visits, 6 targets and directions, 4 passes minus 2 directions: 4 degrees of freedom.
+TEST(RepeatabilityByHand, IsTheScatterWithoutThePasses) {
   const Repeatability found = repeatability_by_hand(two_runs_by_hand());
   const double variance = kSquaresOfOff / 4;
   EXPECT_NEAR(found.freedom, 4, 1e-12);
@@ -65,14 +66,14 @@ TEST(RepeatabilityByHand, IsTheScatterThatPassesLeave) {
     const auto by = static_cast<double>(k + 1);
     EXPECT_TRUE(found.by_scatter[k]);
     for (const Errors5& u : found.u) EXPECT_NEAR(u[k], by * std::sqrt(variance / 4), 1e-9);
-    // A run is off by (3 + 5)/2 or less that: 32 of one degree of freedom, less what the scatter
-    // makes of a mean of six visits; and the mean of two runs has half of it.
+    // The mean of a run deviates by ±(3 + 5)/2: a variance of 32 with one degree of freedom, minus
+    // the contribution of the scatter to a mean of six visits. The mean of two runs has half of it.
     EXPECT_NEAR(found.u_shift[k], by * std::sqrt((32 - variance / 6) / 2), 1e-9);
   }
 }
 
-// A visit without errors, or whose approach is not known, is none.
-TEST(RepeatabilityByHand, IsThatOfTheVisitsThatCount) {
+// Visits without errors or with unknown approach do not count.
+TEST(RepeatabilityByHand, IgnoresInvalidVisits) {
   auto points = two_runs_by_hand();
   const Repeatability without = repeatability_by_hand(points);
   const Errors5 far = {900, 900, 900, 900, 900};
@@ -85,8 +86,9 @@ TEST(RepeatabilityByHand, IsThatOfTheVisitsThatCount) {
   EXPECT_EQ(found.u_shift, without.u_shift);
 }
 
-// The scatter counts from 1 + 0.84 sqrt(2/4) times the noise on: variance 4 against 2.51.
-TEST(RepeatabilityByHand, CountsWhereItIsMoreThanTheNoise) {
+// The scatter counts if its variance exceeds 1 + 0.84 sqrt(2/4) times that of the noise: the
+// variance 4 exceeds a noise variance below 2.51.
+TEST(RepeatabilityByHand, ScatterCountsIfItExceedsTheNoise) {
   auto of_first = [](double noise_variance) {
     const Repeatability found = repeatability_by_hand(two_runs_by_hand(std::sqrt(noise_variance)));
     return std::pair(found.by_scatter[0], found.u[0][0]);
@@ -98,9 +100,9 @@ TEST(RepeatabilityByHand, CountsWhereItIsMoreThanTheNoise) {
   EXPECT_NEAR(of_first(9).second, 1.5, 1e-9);
 }
 
-// The visits of a noisier target have more of the scatter: variances of 1, 4 and 1 are 2 in the
-// mean.
-TEST(RepeatabilityByHand, IsSharedAsTheNoiseIs) {
+// The visits of a noisier target have a larger share of the scatter: variances of 1, 4 and 1 have
+// the mean 2.
+TEST(RepeatabilityByHand, IsSharedInProportionToTheNoise) {
   auto points = two_runs_by_hand(1e-3);
   for (MeasuredPoint& p : points)
     if (p.target == 2)
@@ -111,10 +113,10 @@ TEST(RepeatabilityByHand, IsSharedAsTheNoiseIs) {
   EXPECT_NEAR(found.u[2][0], std::sqrt(4 / 4.0 * 1 / 2), 1e-9);
 }
 
-TEST(RepeatabilityByHand, OfOneRunIsItsNoise) {
+TEST(RepeatabilityByHand, IsTheNoiseForOneRun) {
   auto points = two_runs_by_hand(0.5);
   points.resize(6);
-  points.push_back(visit_by_hand(2, 1, 0, {}));  // of no approach
+  points.push_back(visit_by_hand(2, 1, 0, {}));  // unknown approach
   const Repeatability found = repeatability_by_hand(points);
   EXPECT_EQ(found.freedom, kInfiniteFreedom);
   EXPECT_EQ(found.shift_freedom, kInfiniteFreedom);
@@ -123,8 +125,8 @@ TEST(RepeatabilityByHand, OfOneRunIsItsNoise) {
   for (const Errors5& u : found.u) EXPECT_NEAR(u[0], 0.5 / std::sqrt(2), 1e-12);
 }
 
-// Of one way only the mean at a target is of its two visits.
-TEST(RepeatabilityByHand, OfOneWay) {
+// With one direction, the mean at a target has only two visits.
+TEST(RepeatabilityByHand, IsCorrectForOneDirection) {
   std::vector<MeasuredPoint> forward;
   for (const MeasuredPoint& p : two_runs_by_hand())
     if (p.point.direction > 0) forward.push_back(p);
@@ -135,9 +137,9 @@ TEST(RepeatabilityByHand, OfOneWay) {
   EXPECT_NEAR(found.u_shift[0], std::sqrt((2 * 9 - variance / 3) / 2), 1e-9);
 }
 
-// A target that has one way in all runs takes the mean reversal of the others: its u stays that of
+// A target with one direction in all runs takes the mean reversal of the others; its u is the u of
 // its mean.
-TEST(RepeatabilityByHand, OfATargetWithOneWayAmongOthersIsTheMeans) {
+TEST(RepeatabilityByHand, OneDirectionTargetHasTheUOfItsMean) {
   std::vector<MeasuredPoint> points;
   for (const MeasuredPoint& p : two_runs_by_hand())
     if (p.target != 3 || p.point.direction > 0) points.push_back(p);
@@ -147,13 +149,13 @@ TEST(RepeatabilityByHand, OfATargetWithOneWayAmongOthersIsTheMeans) {
   EXPECT_NE(found.u[1], means[1].u);
 }
 
-// Squares about the six means: 2 (3 (9 + 25) + 2 + 6) = 220 of 6 degrees of freedom; the passes'
-// means alone 2 * 3 (9 + 25) = 204 of 2.
+// Squares about the six means: 2 (3 (9 + 25) + 2 + 6) = 220 with 6 degrees of freedom; the means of
+// the passes alone: 2 * 3 (9 + 25) = 204 with 2.
 TEST(VisitScatterByHand, PoolsVisitsAndPasses) {
   auto points = two_runs_by_hand();
   std::vector<Errors5> values;
   for (const MeasuredPoint& p : points) values.push_back(named_from_local(Axis::x, p.errors.local));
-  // Points that do not count are passed over.
+  // Points that do not count are skipped.
   points.insert(points.begin() + 4, visit_by_hand(1, 1, 0, {}));
   values.insert(values.begin() + 4, Errors5{1e6, 1e6, 1e6, 1e6, 1e6});
   const VisitScatter scatter(points);
@@ -168,7 +170,7 @@ TEST(VisitScatterByHand, PoolsVisitsAndPasses) {
   }
 }
 
-TEST(VisitScatterByHand, OfSingleVisitsIsNone) {
+TEST(VisitScatterByHand, IsZeroForSingleVisits) {
   auto points = two_runs_by_hand();
   points.resize(6);
   const VisitScatter single(points);
@@ -180,15 +182,16 @@ TEST(VisitScatterByHand, OfSingleVisitsIsNone) {
   EXPECT_FALSE(none.are_single());
 }
 
-// A target that is visited again in one run: one pass, whose mean tells nothing of passes.
-TEST(VisitScatterByHand, OfOneTargetInOneRun) {
+// A target that is visited again in one run: there is one pass, so its mean gives no information
+// about passes.
+TEST(VisitScatterByHand, IsCorrectForOneTargetInOneRun) {
   const std::vector<MeasuredPoint> points(3, visit_by_hand(1, 1, -1, {}));
   const auto pooled = VisitScatter(points).of({{1, 0, 0, 0, 0}, {2, 0, 0, 0, 0}, {6, 0, 0, 0, 0}});
   EXPECT_NEAR(pooled.variance[0], (4 + 1 + 9) / 2.0, 1e-12);
   EXPECT_NEAR(pooled.freedom[0], 2, 1e-12);
 }
 
-// Two deviations 100 apart; the second is off by 1, 2 ... n, which is what the range is off by.
+// Two deviations 100 apart; the second one changes by 1, 2 ... n, and the range by the same amount.
 TEST(RangeIntervalByHand, IsThe95PercentPointOfItsChange) {
   for (const std::size_t n : {20u, 100u}) {
     std::vector<double> changes;
@@ -196,25 +199,25 @@ TEST(RangeIntervalByHand, IsThe95PercentPointOfItsChange) {
       changes.push_back(0);
       changes.push_back(static_cast<double>(t));
     }
-    // Of n distances the one at 0.95 n from 0 on.
+    // The 95 % point of n distances, from 0 on.
     const double expected = n == 20 ? 20 : 96;
     EXPECT_NEAR(RangeTrials({0, 100}, changes).U(), expected, 1e-9);
-    // With the signs of both turned it is the same.
+    // The opposite signs give the same result.
     for (double& c : changes) c = -c;
     EXPECT_NEAR(RangeTrials({0, -100}, changes).U(), expected, 1e-9);
-    // A range below it may be none at all.
+    // A range below U may be 0.
     EXPECT_NEAR(RangeTrials({0, -7}, changes).U(), expected, 1e-9);
   }
 }
 
-// 0, 5 and 10 with the middle 6 higher and the top 1: with U/2 cut off at both ends the range is 1
-// + U/2 more than the true one, which is U where U = 2.
-TEST(RangeIntervalByHand, HoldsTheBiasOfATrueRangeThatIsSmaller) {
+// 0, 5 and 10, with errors of 6 in the middle and 1 at the top. If U/2 is cut off at both ends, the
+// range is 1 + U/2 larger than the true one, which is U for U = 2.
+TEST(RangeIntervalByHand, CoversTheBiasOfASmallerTrueRange) {
   EXPECT_NEAR(RangeTrials({0, 5, 10}, {0, 6, 1}).U(), 2, 1e-9);
   EXPECT_NEAR(RangeTrials({10, 0, 5}, {1, 0, 6}).U(), 2, 1e-9);
 }
 
-TEST(RangeIntervalByHand, SpreadOfTheTrials) {
+TEST(RangeIntervalByHand, SpreadMatchesTheTrials) {
   const RangeTrials trials({1, 4, 11}, {0, 0, -2, 0, 0, 4, 0, 0, 1});  // ranges 8, 14, 11
   EXPECT_NEAR(trials.standard_deviation(), 3, 1e-12);
   EXPECT_NEAR(trials.root_mean_square(), std::sqrt((4 + 16 + 1) / 3.0), 1e-12);
@@ -228,18 +231,18 @@ VisitGroups groups_by_hand() {
 }
 const std::vector<double> kVisitsByHand = {1, 10, 0, 2, 3, 11, 0, 4, 5, 12, 3, 6};
 
-TEST(RepeatabilityOfVisits, IsThatOfTheStandard) {
+TEST(RepeatabilityOfVisits, MatchesTheStandard) {
   const VisitGroups groups = groups_by_hand();
   const double* values = kVisitsByHand.data();
   EXPECT_NEAR(repeatability_of(groups, values, RepeatabilityOf::forward), 8, 1e-12);
   EXPECT_NEAR(repeatability_of(groups, values, RepeatabilityOf::reverse), 8, 1e-12);
   // 2 * 2 + 2 * 1 + |11 - 3| at target 1.
   EXPECT_NEAR(repeatability_of(groups, values, RepeatabilityOf::both), 14, 1e-12);
-  // Forward lower than reverse is as far.
+  // Forward lower than reverse gives the same result.
   std::vector<double> mirrored = kVisitsByHand;
   for (double& v : mirrored) v = -v;
   EXPECT_NEAR(repeatability_of(groups, mirrored.data(), RepeatabilityOf::both), 14, 1e-12);
-  // Without a reversal the larger of the two scatters is four times as much.
+  // Without a reversal, the larger scatter counts four times.
   const VisitGroups one{{0, 0, 1, 1}, 1};
   const std::vector<double> still = {0, 0, -1, 1};
   EXPECT_NEAR(repeatability_of(one, still.data(), RepeatabilityOf::both), 4 * std::sqrt(2), 1e-12);
@@ -248,7 +251,7 @@ TEST(RepeatabilityOfVisits, IsThatOfTheStandard) {
   EXPECT_EQ(repeatability_of(one, moving.data(), RepeatabilityOf::forward), 0);
 }
 
-TEST(RepeatabilityOfVisits, OfASingleVisitIsNotKnown) {
+TEST(RepeatabilityOfVisits, IsUnknownForASingleVisit) {
   const VisitGroups groups{{0, 0, 1}, 1};
   const std::vector<double> values = {0, 1, 5};
   EXPECT_TRUE(std::isnan(repeatability_of(groups, values.data(), RepeatabilityOf::forward)));
@@ -258,8 +261,8 @@ TEST(RepeatabilityOfVisits, OfASingleVisitIsNotKnown) {
   EXPECT_TRUE(std::isnan(repeatability_U(groups, values, {0, 0, 0}, RepeatabilityOf::forward)));
 }
 
-// Errors that are e times the readings make R larger by e R, whatever the true one: U = e R. Of 40
-// trials of 0.01, 0.02 ... the 39th.
+// Errors of e times the readings increase R by e R, for any true R: U = e R. The 95 % point of 40
+// trials of 0.01, 0.02 ... is the 39th.
 TEST(RepeatabilityOfVisits, UIsThe95PercentPoint) {
   const auto errors_up_to = [](double most) {
     std::vector<double> errors;
@@ -274,31 +277,30 @@ TEST(RepeatabilityOfVisits, UIsThe95PercentPoint) {
     const double U = repeatability_U(groups, kVisitsByHand, errors_up_to(0.4), of);
     EXPECT_GE(U, 0.39 * R - 1e-9);
     EXPECT_LE(U, (0.39 + 1 / 256.) * R + 1e-9);
-    // Not less than the errors make of none.
+    // U is at least as large as the errors give for R = 0.
     EXPECT_NEAR(repeatability_U(groups, kVisitsByHand, errors_up_to(1.2), of), 1.17 * R, 1e-9);
   }
 }
 
-// Errors that undo the readings by three quarters: a true part l of them is read as |l - 0.75| R.
-// From l = 0.58 on that is as far off as the interval reaches, but of the readings as they are by
-// 0.75 R.
-TEST(RepeatabilityOfVisits, UIsAtLeastThatOfTheReadings) {
+// The errors reduce the readings by three quarters: a true part l of them is read as |l - 0.75| R.
+// The interval ends at l = 0.58, but the deviation for the readings themselves is 0.75 R.
+TEST(RepeatabilityOfVisits, UIsAtLeastTheErrorOfTheReadings) {
   std::vector<double> errors;
   for (const double v : kVisitsByHand) errors.push_back(-0.75 * v);
   EXPECT_NEAR(repeatability_U(groups_by_hand(), kVisitsByHand, errors, RepeatabilityOf::both),
               0.75 * 14, 1e-9);
 }
 
-// Parts whose squares add to each covariance, as many as there are quantities, or fewer.
+// The squares of the parts add to each covariance, for as many parts as quantities or fewer.
 TEST(IndependentParts, HaveTheCovariance) {
   const double covariance[4][4] = {{4, 2, 0, -1}, {2, 5, 0, 3}, {0, 0, 0, 0}, {-1, 3, 0, 9}};
   const auto of = [&](std::size_t i, std::size_t j) { return covariance[i][j]; };
   const Eigen::MatrixXd all = independent_parts(4, of, 10);
-  EXPECT_EQ(all.cols(), 3);  // the third quantity is none
+  EXPECT_EQ(all.cols(), 3);  // the third quantity is 0
   for (Eigen::Index i = 0; i < 4; ++i)
     for (Eigen::Index j = 0; j < 4; ++j)
       EXPECT_NEAR(all.row(i).dot(all.row(j)), covariance[i][j], 1e-12) << i << j;
-  // Of fewer parts than it needs each quantity keeps its variance.
+  // With fewer parts than needed, each quantity keeps its variance.
   for (const std::size_t most : {1u, 2u}) {
     const Eigen::MatrixXd some = independent_parts(4, of, most);
     EXPECT_EQ(some.cols(), static_cast<Eigen::Index>(most));
@@ -310,7 +312,7 @@ TEST(IndependentParts, HaveTheCovariance) {
   EXPECT_EQ(independent_parts(0, of, 5).size(), 0);
 }
 
-// Two quantities that are one, and one against it: each part is their sum with its weights.
+// Each part is the weighted sum of the shifts of the quantities.
 TEST(IndependentParts, AreCombinedWithTheirShifts) {
   Eigen::MatrixXd rows(2, 2);
   rows << 1, 0, 0.5, -2;

@@ -1,5 +1,5 @@
-// The hash of a table against the bytes that its header states, put together by another program
-// (Python's struct and hashlib).
+// The hash of a table, compared with the bytes that its header states; another program (Python's
+// struct and hashlib) assembled them.
 #include "schema/compensation_table.h"
 
 #include <gtest/gtest.h>
@@ -27,12 +27,12 @@ CompensationTable table() {
   return t;
 }
 
-TEST(TableHash, IsOfTheBytesThatItsHeaderStates) {
+TEST(TableHash, MatchesTheBytesStatedInTheHeader) {
   EXPECT_EQ(table_sha256(table()),
             "83fd5c05342ee5db20b1db86a4a29127f8fd112e2cbdac5ddeebf88097615f60");
 }
 
-TEST(TableHash, IsOfWhatTheTableSaysAndNotOfItsIdOrDate) {
+TEST(TableHash, DoesNotDependOnIdAndDate) {
   CompensationTable same = table();
   same.id = 5;
   same.created_utc = "2026-11-25T00:00:00Z";
@@ -41,7 +41,7 @@ TEST(TableHash, IsOfWhatTheTableSaysAndNotOfItsIdOrDate) {
   EXPECT_EQ(table_sha256(same), table_sha256(table()));
 }
 
-// One bit of any member is seen.
+// A change of one bit in any member changes the hash.
 TEST(TableHash, DiffersWithEachMember) {
   const std::string before = table_sha256(table());
   const auto differs = [&](auto change) {

@@ -36,7 +36,7 @@ TEST(Targets, JitterStaysWithinTheEnds) {
   }
 }
 
-TEST(Targets, WhatIsNoneNamesTheKey) {
+TEST(Targets, ErrorsNameTheKey) {
   EXPECT_FALSE(check_spacing({}));
   EXPECT_STREQ(check_spacing({.from_mm = 5, .to_mm = 5})->key, "to_mm");
   EXPECT_STREQ(check_spacing({.interval_mm = 0})->key, "interval_mm");
@@ -45,7 +45,7 @@ TEST(Targets, WhatIsNoneNamesTheKey) {
   EXPECT_STREQ(check_spacing({.to_mm = std::numeric_limits<double>::quiet_NaN()})->key, "to_mm");
 }
 
-TEST(Targets, IntervalsOfWholePeriodsAreWarnedOf) {
+TEST(Targets, ReportsIntervalsOfWholePeriods) {
   EXPECT_TRUE(scale_period_notice({0, 5, 10}, 20));  // 250 periods
   EXPECT_TRUE(scale_period_notice({0, 5, 12}, 20));  // 250 and 350
   EXPECT_FALSE(scale_period_notice({0, 5.007, 10}, 20));
@@ -53,7 +53,7 @@ TEST(Targets, IntervalsOfWholePeriodsAreWarnedOf) {
   EXPECT_FALSE(scale_period_notice({0}, 20));
 }
 
-TEST(Calibrations, AnOverdueOneIsNamed) {
+TEST(Calibrations, ReportsAnOverdueCalibration) {
   Rig rig;
   rig.probes.resize(3);
   rig.probes[0].id = "A";

@@ -11,7 +11,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(BoundedQueue, WhatDoesNotFitIsCountedAndTheOldestComesFirst) {
+TEST(BoundedQueue, CountsDroppedItemsAndReturnsTheOldestFirst) {
   BoundedQueue<int> queue(2);
   EXPECT_TRUE(queue.try_push(1));
   EXPECT_TRUE(queue.try_push(2));
@@ -22,7 +22,7 @@ TEST(BoundedQueue, WhatDoesNotFitIsCountedAndTheOldestComesFirst) {
   EXPECT_EQ(queue.pop(1ms), std::nullopt);
 }
 
-TEST(BoundedQueue, ACommandGoesInWhereItIsFull) {
+TEST(BoundedQueue, PushAlwaysIgnoresTheLimit) {
   BoundedQueue<int> queue(1);
   queue.push_always(1);
   queue.push_always(2);
@@ -34,7 +34,7 @@ TEST(BoundedQueue, ACommandGoesInWhereItIsFull) {
   EXPECT_TRUE(all.empty());
 }
 
-TEST(BoundedQueue, WhatCannotBePushedInTimeStaysTheCallers) {
+TEST(BoundedQueue, PushForKeepsTheItemAfterATimeout) {
   BoundedQueue<std::unique_ptr<int>> queue(1);
   auto first = std::make_unique<int>(1), second = std::make_unique<int>(2);
   EXPECT_TRUE(queue.push_for(first, 0ms));
@@ -43,7 +43,7 @@ TEST(BoundedQueue, WhatCannotBePushedInTimeStaysTheCallers) {
   EXPECT_EQ(queue.dropped(), 0u);
 }
 
-TEST(BoundedQueue, ClosedItGivesWhatIsInsideAndTakesNothing) {
+TEST(BoundedQueue, ClosedQueueReturnsItsItemsAndAcceptsNone) {
   BoundedQueue<int> queue(4);
   queue.push(1);
   queue.close();
@@ -56,7 +56,7 @@ TEST(BoundedQueue, ClosedItGivesWhatIsInsideAndTakesNothing) {
   EXPECT_TRUE(queue.closed_and_empty());
 }
 
-TEST(BoundedQueue, WhoWaitsForRoomOrForAnItemIsWokenAndByCloseToo) {
+TEST(BoundedQueue, PushPopAndCloseWakeWaitingThreads) {
   BoundedQueue<int> queue(1);
   std::vector<int> got;
   std::thread reader([&] {

@@ -20,7 +20,7 @@ class TextFile : public testing::Test {
       std::filesystem::temp_directory_path() / ("mdof_text_" + std::to_string(::getpid()));
 };
 
-TEST_F(TextFile, IsReadToItsLastByteAndTakesNoMoreMemoryThanItHas) {
+TEST_F(TextFile, IsReadCompletelyWithLittleMemory) {
   for (const std::size_t bytes : {0, 1, 16 * 1024, 16 * 1024 + 1, 100'000}) {
     std::string sent(bytes, 'x');
     for (std::size_t i = 0; i < bytes; i += 7) sent[i] = static_cast<char>(i);
@@ -32,7 +32,7 @@ TEST_F(TextFile, IsReadToItsLastByteAndTakesNoMoreMemoryThanItHas) {
   }
 }
 
-TEST_F(TextFile, AsLongAsTheLimitIsReadAndALongerOneRefusedByName) {
+TEST_F(TextFile, RejectsAFileOverTheLimit) {
   write(std::string(40'000, 'x'));
   EXPECT_EQ(read_text_file(file_, 40'000)->size(), 40'000u);
   for (const std::size_t limit : {39'999, 20'000, 0}) {
@@ -43,7 +43,7 @@ TEST_F(TextFile, AsLongAsTheLimitIsReadAndALongerOneRefusedByName) {
   }
 }
 
-TEST_F(TextFile, ThatIsNoneIsRefusedByName) {
+TEST_F(TextFile, RejectsMissingFilesAndFolders) {
   const auto absent = read_text_file(file_);
   ASSERT_FALSE(absent);
   EXPECT_NE(absent.error().message.find("No such file"), std::string::npos)
@@ -53,7 +53,7 @@ TEST_F(TextFile, ThatIsNoneIsRefusedByName) {
   EXPECT_NE(folder.error().message.find("is a folder"), std::string::npos);
 }
 
-TEST_F(TextFile, APipeOrADeviceIsRefusedAndNotWaitedFor) {
+TEST_F(TextFile, RejectsPipesAndDevicesWithoutWaiting) {
   ASSERT_EQ(::mkfifo(file_.c_str(), 0600), 0);
   for (const std::filesystem::path& path : {file_, std::filesystem::path("/dev/zero")}) {
     const auto refused = read_text_file(path);

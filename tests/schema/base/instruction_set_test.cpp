@@ -24,7 +24,7 @@ class InstructionSetAskedFor : public testing::Test {
   const std::string before_ = was_set_ ? of_environment_ : "";
 };
 
-TEST_F(InstructionSetAskedFor, MayBeEachThatTheProcessorHas) {
+TEST_F(InstructionSetAskedFor, AcceptsEachSetOfTheProcessor) {
   ASSERT_EQ(available_instruction_sets().front(), InstructionSet::baseline);
   for (const InstructionSet set : available_instruction_sets()) {
     ::setenv("MDOF_INSTRUCTION_SET", to_string(set), 1);
@@ -34,7 +34,7 @@ TEST_F(InstructionSetAskedFor, MayBeEachThatTheProcessorHas) {
   EXPECT_TRUE(check_instruction_set());
 }
 
-TEST_F(InstructionSetAskedFor, IsRefusedByItsNameOtherwise) {
+TEST_F(InstructionSetAskedFor, RejectsUnknownSetsByName) {
   ::setenv("MDOF_INSTRUCTION_SET", "avx9", 1);
   const Status checked = check_instruction_set();
   ASSERT_FALSE(checked);

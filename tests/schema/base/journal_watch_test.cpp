@@ -32,7 +32,7 @@ class WatchedJournal : public testing::Test {
     db.watch_journal();
     return db;
   }
-  // What an acknowledged insert left, once a program like this one was killed.
+  // Inserts a row in a transaction; success is the acknowledgement.
   static Status insert(Connection& db) {
     MDOF_TRY(Transaction transaction, Transaction::begin(db));
     MDOF_CHECK(db.execute("INSERT INTO t VALUES (1)"));
@@ -42,7 +42,7 @@ class WatchedJournal : public testing::Test {
     auto db = Connection::open(file_, OpenMode::read_write);
     return db ? db->integer("SELECT count(*) FROM t").value_or(-1) : -1;
   }
-  // Exit code of a child that does it and is then killed, in effect.
+  // Exit status of a child that does the work and exits without cleanup, as if it were killed.
   static int in_child(const std::function<bool()>& work) {
     const pid_t child = fork();
     if (child == 0) _exit(work() ? 0 : 1);
@@ -53,11 +53,11 @@ class WatchedJournal : public testing::Test {
   fs::path folder_, file_, wal_, shm_;
 };
 
-TEST_F(WatchedJournal, WhatIsInAWalWithoutANameIsKept) {
+TEST_F(WatchedJournal, KeepsTheContentOfARemovedOrReplacedWal) {
   const std::function<void()> spoils[] = {
       [this] { fs::remove(wal_); },
       [this] {
-        fs::copy_file(wal_, folder_ / "old");  // it would be applied over what came later
+        fs::copy_file(wal_, folder_ / "old");  // the old WAL would be applied over later changes
         fs::rename(folder_ / "old", wal_);
       },
       [this] { fs::remove(shm_); },
@@ -93,7 +93,7 @@ TEST_F(WatchedJournal, WhatIsInAWalWithoutANameIsKept) {
   }
 }
 
-TEST_F(WatchedJournal, ACutWalIsAFaultForGood) {
+TEST_F(WatchedJournal, TruncatedWalIsAPermanentFault) {
   auto db = writer();
   ASSERT_TRUE(insert(db));
   fs::resize_file(wal_, 0);
@@ -103,7 +103,7 @@ TEST_F(WatchedJournal, ACutWalIsAFaultForGood) {
   EXPECT_FALSE(insert(db));
 }
 
-TEST_F(WatchedJournal, AnotherProgramsCheckpointIsNoFault) {
+TEST_F(WatchedJournal, CheckpointOfAnotherProgramIsNoFault) {
   auto db = writer();
   for (int i = 0; i < 3; ++i) {
     ASSERT_TRUE(insert(db));
@@ -118,8 +118,8 @@ TEST_F(WatchedJournal, AnotherProgramsCheckpointIsNoFault) {
   }
 }
 
-// Also where it is cut to less than all: the rest of the index is not believed.
-TEST_F(WatchedJournal, ACutShmEndsNoProcessThatSaysSo) {
+// The file is truncated to 0 or to 4096 bytes; the rest of the index is not used.
+TEST_F(WatchedJournal, ProcessSurvivesATruncatedShm) {
   for (const std::uintmax_t bytes : {std::uintmax_t{0}, std::uintmax_t{4096}}) {
     const fs::path file = folder_ / std::to_string(bytes);
     const int status = in_child([&] {
@@ -133,7 +133,7 @@ TEST_F(WatchedJournal, ACutShmEndsNoProcessThatSaysSo) {
         return false;
       fs::resize_file(file.string() + "-shm", bytes);
       const auto read = reader->integer("SELECT count(*) FROM u WHERE length(x) = 4000");
-      if (read && *read != 1500) return false;  // an error, or the truth
+      if (read && *read != 1500) return false;  // an error or the correct number
       return !insert(db) && db.journal_fault().find("-shm was cut short") != std::string::npos;
     });
     EXPECT_EQ(status, 0) << "cut to " << bytes;
@@ -146,8 +146,9 @@ TEST_F(WatchedJournal, ACutShmEndsNoProcessThatSaysSo) {
   }
 }
 
-// In the midst of reading: an index that is empty would give the pages of before.
-TEST_F(WatchedJournal, ACutShmGivesNoReaderAnOlderPage) {
+// The file is truncated during a read transaction: with an empty index, SQLite would return older
+// pages.
+TEST_F(WatchedJournal, TruncatedShmGivesNoOlderPages) {
   const int status = in_child([&] {
     survive_cut_shm();
     auto db = writer();

@@ -17,23 +17,23 @@ std::string page(const std::vector<std::size_t>& lengths, std::size_t max_bytes,
   return json.end_array().take();
 }
 
-TEST(JsonPage, HoldsAsManyItemsAsFit) {
+TEST(JsonPage, ContainsAsManyItemsAsFit) {
   std::size_t taken = 0;
   EXPECT_EQ(page({1, 2, 3}, 100, taken), R"(["x","xx","xxx"])");
   EXPECT_EQ(taken, 3u);
-  // ["x","xx" has nine bytes, and the third item five.
+  // ["x","xx" has nine bytes, the third item has five.
   EXPECT_EQ(page({1, 2, 3}, 14, taken), R"(["x","xx","xxx"])");
   EXPECT_EQ(page({1, 2, 3}, 13, taken), R"(["x","xx"])");
   EXPECT_EQ(taken, 2u);
 }
 
-TEST(JsonPage, EndsWithTheFirstThatDoesNotFit) {
+TEST(JsonPage, EndsBeforeTheFirstItemThatDoesNotFit) {
   std::size_t taken = 0;
   EXPECT_EQ(page({1, 50, 1}, 20, taken), R"(["x"])");
   EXPECT_EQ(taken, 1u);
 }
 
-TEST(JsonPage, TheFirstItemIsAlwaysTakenSoThatAClientGetsOn) {
+TEST(JsonPage, AlwaysContainsTheFirstItem) {
   std::size_t taken = 0;
   EXPECT_EQ(page({30, 1}, 10, taken), "[\"" + std::string(30, 'x') + "\"]");
   EXPECT_EQ(taken, 1u);

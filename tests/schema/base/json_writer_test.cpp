@@ -16,7 +16,7 @@ std::string string_value(std::string_view text) {
   return JsonWriter().value(text).take();
 }
 
-TEST(JsonWriter, PutsCommasWhereTheyBelong) {
+TEST(JsonWriter, PutsCommasBetweenMembers) {
   JsonWriter json;
   json.begin_object().field("a", 1).key("b").begin_array().value(1.5).value(true).null();
   json.begin_object().end_object().begin_array().end_array().end_array();
@@ -48,7 +48,7 @@ TEST(JsonWriter, WritesDoublesThatReadBackToTheSameBits) {
   }
 }
 
-TEST(JsonWriter, WritesNullForWhatIsNoNumber) {
+TEST(JsonWriter, WritesNullForNonFiniteNumbers) {
   JsonWriter json;
   json.begin_array()
       .value(double{NAN})
@@ -58,13 +58,13 @@ TEST(JsonWriter, WritesNullForWhatIsNoNumber) {
   EXPECT_EQ(json.text(), "[null,null,null]");
 }
 
-TEST(JsonWriter, EscapesWhatMustBeEscaped) {
+TEST(JsonWriter, EscapesSpecialCharacters) {
   EXPECT_EQ(string_value("a\"b\\c\n\r\t\x01\x1f/"), R"("a\"b\\c\n\r\t\u0001\u001f/")");
   EXPECT_EQ(string_value(std::string_view("\0", 1)), R"("\u0000")");
   EXPECT_EQ(JsonWriter().begin_object().field("k\"", 1).end_object().take(), R"({"k\"":1})");
 }
 
-TEST(JsonWriter, KeepsUtf8AsItIs) {
+TEST(JsonWriter, KeepsUtf8) {
   for (const char* text : {"µm", "€", "\xf0\x9f\x94\xa7", "\xed\x9f\xbf", "\xf4\x8f\xbf\xbf"})
     EXPECT_EQ(string_value(text), '"' + std::string(text) + '"');
 }
@@ -80,7 +80,7 @@ TEST(JsonWriter, ReplacesBytesThatAreNotUtf8) {
   EXPECT_EQ(string_value("\xf4\x90\x80\x80"), '"' + bad + bad + bad + bad + '"');  // > U+10FFFF
 }
 
-TEST(JsonWriter, TakesJsonAsItIs) {
+TEST(JsonWriter, InsertsRawJsonUnchanged) {
   JsonWriter json;
   json.begin_object().key("a").raw("[1, 2]").field("b", 2).end_object();
   EXPECT_EQ(json.take(), R"({"a":[1, 2],"b":2})");

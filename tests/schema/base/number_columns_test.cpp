@@ -18,7 +18,7 @@
 namespace mdof {
 namespace {
 
-// Text of rows of two columns, the first of which is looked at, with other text around it.
+// Text of rows with two columns, with other text around it; the tests read the first column.
 class Rows {
  public:
   explicit Rows(const std::vector<std::string>& fields, const std::string& line_end = "\n")
@@ -74,7 +74,7 @@ void expect_as_baseline(const Rows& rows) {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// What std::from_chars makes of a whole field; NaN where that is no finite number.
+// Value of a whole field by std::from_chars; NaN if it is no finite number.
 double from_chars(const std::string& field) {
   double x = kNaN;
   const char* const end = field.data() + field.size();
@@ -84,7 +84,7 @@ double from_chars(const std::string& field) {
   return error == std::errc::invalid_argument || !std::isfinite(x) ? kNaN : x;
 }
 
-// Reads as far as there are numbers, and past each that is none.
+// Reads up to each field that is no number, and continues after it.
 void expect_as_from_chars(const Rows& rows) {
   std::vector<double> expected;
   for (std::size_t j = 0; j < rows.size(); ++j) expected.push_back(from_chars(rows.field(j)));
@@ -128,24 +128,24 @@ std::vector<std::string> many(std::size_t n, const auto& make) {
   return fields;
 }
 
-TEST(NumberColumns, ReadsShortNumbersAsFromChars) {
+TEST(NumberColumns, ReadsShortNumbersLikeFromChars) {
   RandomFields random;
   expect_as_from_chars(Rows(many(40'003, [&] { return random.number(5, 8); })));
 }
 
-TEST(NumberColumns, ReadsLongNumbersAsFromChars) {
+TEST(NumberColumns, ReadsLongNumbersLikeFromChars) {
   RandomFields random;
   expect_as_from_chars(Rows(many(40'003, [&] { return random.number(8, 22); })));
 }
 
-TEST(NumberColumns, MixesShortAndLong) {
+TEST(NumberColumns, ReadsMixedShortAndLongNumbers) {
   RandomFields random;
   const auto make = [&] { return random.below(20) ? random.number(3, 6) : random.number(9, 17); };
   expect_as_from_chars(Rows(many(40'003, make)));
 }
 
-// Halves between two doubles, and their neighbours in the last digit: 2^53 + 1, times powers of two
-// and five, so that the decimal text ends exactly on the half.
+// Values halfway between two doubles, and their neighbours in the last digit: 2^53 + 1, times
+// powers of two and five, so that the decimal text ends exactly at the half.
 TEST(NumberColumns, RoundsHalvesToEven) {
   std::vector<std::string> fields;
   for (const std::uint64_t half :
@@ -163,14 +163,14 @@ TEST(NumberColumns, RoundsHalvesToEven) {
   expect_as_from_chars(Rows(fields));
 }
 
-// A cell as files have them, or as somebody who means ill writes them; without a stop in it.
+// A cell as in usual files, or as an attacker would write it; without a stop byte.
 std::string hostile_cell(RandomFields& random) {
   switch (random.below(16)) {
     case 0:
       return random.number(1, 17) + "e-" +
-             random.digits(1 + random.below(3));  // to denormals, to 0
+             random.digits(1 + random.below(3));  // down to denormals and 0
     case 1:
-      return random.number(18, 3) + "E" + random.digits(1 + random.below(3));  // to infinity
+      return random.number(18, 3) + "E" + random.digits(1 + random.below(3));  // up to infinity
     case 2:
       return std::string(random.below(28), '0') + random.digits(random.below(20));
     case 3:
@@ -180,7 +180,7 @@ std::string hostile_cell(RandomFields& random) {
     case 5:
       return std::array{
           "nan", "-inf", "inf", "NaN", "", "-", ".", "-.", "--1", "1e"}[random.below(10)];
-    case 6: {  // one byte of a good one is another
+    case 6: {  // one byte of a valid number is changed
       std::string text = random.number(4, 14);
       text[random.below(text.size())] = "./-0:e9;_\x7f"[random.below(10)];
       return text;
@@ -192,7 +192,7 @@ std::string hostile_cell(RandomFields& random) {
   }
 }
 
-TEST(NumberColumns, ReadsAMillionHostileCellsAsFromChars) {
+TEST(NumberColumns, ReadsAMillionHostileCellsLikeFromChars) {
   RandomFields random;
   for (int round = 0; round < 100; ++round) {
     const auto cell = [&] {
@@ -204,8 +204,8 @@ TEST(NumberColumns, ReadsAMillionHostileCellsAsFromChars) {
   }
 }
 
-// Shortest text of any double: all exponents, denormals, 1 to 17 digits.
-TEST(NumberColumns, ReadsDoublesOfAnyBitsBack) {
+// Shortest texts of random doubles: all exponents, denormals, 1 to 17 digits.
+TEST(NumberColumns, ReadsTextsOfRandomDoubles) {
   RandomFields random;
   const auto cell = [&] {
     const auto x = std::bit_cast<double>(random.below(~std::uint64_t{0}));
@@ -219,7 +219,7 @@ TEST(NumberColumns, ReadsDoublesOfAnyBitsBack) {
   expect_as_from_chars(Rows(many(200'003, cell)));
 }
 
-TEST(NumberColumns, TakesTheEdges) {
+TEST(NumberColumns, ReadsEdgeCases) {
   expect_as_from_chars(Rows({"0",
                              "-0",
                              "0.0",
@@ -246,8 +246,8 @@ TEST(NumberColumns, TakesTheEdges) {
                              "1"}));
 }
 
-// As long as what is looked at, and longer.
-TEST(NumberColumns, TakesAPointBeforeAllDigits) {
+// Texts shorter and longer than the part that is read at once.
+TEST(NumberColumns, AcceptsAPointBeforeAllDigits) {
   for (std::size_t size = 2; size < 40; ++size) {
     const std::string digits(size - 1, '0');
     expect_as_from_chars(Rows(std::vector<std::string>(24, "." + digits.substr(1) + "7")));
@@ -255,8 +255,9 @@ TEST(NumberColumns, TakesAPointBeforeAllDigits) {
   }
 }
 
-// One odd field in any place of a group must not hide, nor spoil its neighbours.
-TEST(NumberColumns, StopsBeforeWhatIsNoNumber) {
+// A field that is no number, at any place of a group, must be found and must not change its
+// neighbours.
+TEST(NumberColumns, StopsBeforeAFieldThatIsNoNumber) {
   for (const char* odd :
        {"",      "-",        ".",     "-.",   "--1",
         "1-",    "1-2",      "1.2.3", "1/2",  "0x10",
@@ -268,7 +269,7 @@ TEST(NumberColumns, StopsBeforeWhatIsNoNumber) {
       fields[at] = odd;
       const Rows rows(fields);
       expect_as_baseline(rows);
-      if (std::string(odd).starts_with("1234567890")) continue;  // a number, if a long one
+      if (std::string(odd).starts_with("1234567890")) continue;  // a number, although a long one
       EXPECT_EQ(read_all(rows, InstructionSet::baseline).size(), at) << odd;
     }
   }

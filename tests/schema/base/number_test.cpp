@@ -22,8 +22,8 @@ std::uint64_t bits(double x) {
   return std::bit_cast<std::uint64_t>(x);
 }
 
-// The fast scanner may refuse, but what it takes must be the whole text and the right number, with
-// anything around it.
+// The fast scanner may reject a text. If it accepts a text, it must use the whole text and give the
+// correct number, with any bytes around the text.
 bool expect_scan_agrees(const std::string& text, bool is_number, double expected) {
   bool understood = false;
   for (const char around : {'7', '.', '-', ',', '\xff'}) {
@@ -45,7 +45,7 @@ void expect_as_from_chars(const std::string& text, bool must_scan = false) {
   const char* const end = begin + text.size();
   const auto [after, error] = std::from_chars(begin, end, expected);
   ASSERT_EQ(parse_double(begin, end, got), after) << text;
-  if (error == std::errc::result_out_of_range) {  // std leaves the value alone, ours is ±inf or ±0
+  if (error == std::errc::result_out_of_range) {  // std keeps the value, ours is ±inf or ±0
     ASSERT_TRUE(std::isinf(got) || got == 0) << text;
     return;
   }
@@ -64,7 +64,7 @@ void expect_as_printf(double x) {
   ASSERT_STREQ(got, expected);
 }
 
-// The same text as one number at a time, whatever stands beside it.
+// Each text equals that of a single number, for any neighbours.
 void expect_as_one_by_one(const std::vector<double>& x) {
   for (const InstructionSet set : available_instruction_sets()) {
     SCOPED_TRACE(to_string(set));
@@ -104,13 +104,13 @@ std::string printed(const char* format, double x) {
   return text;
 }
 
-TEST(ParseDouble, AgreesWithTheStandardOnPlainNumbersOfAnyLength) {
+TEST(ParseDouble, MatchesFromCharsForNumbersOfAnyLength) {
   Random random;
   for (int i = 0; i < 1'000'000; ++i)
     expect_as_from_chars(random.number(1 + random.below(10), random.below(22)));
 }
 
-TEST(ParseDouble, AgreesWithTheStandardOnRandomBitsPrinted) {
+TEST(ParseDouble, MatchesFromCharsForRandomBits) {
   Random random;
   for (int i = 0; i < 500'000; ++i) {
     const double x = random.any_bits();
@@ -118,7 +118,7 @@ TEST(ParseDouble, AgreesWithTheStandardOnRandomBitsPrinted) {
   }
 }
 
-TEST(ParseDouble, AgreesWithTheStandardOnExponents) {
+TEST(ParseDouble, MatchesFromCharsForExponents) {
   Random random;
   for (int i = 0; i < 500'000; ++i)
     expect_as_from_chars(random.number(1 + random.below(3), random.below(25)) +
@@ -128,7 +128,7 @@ TEST(ParseDouble, AgreesWithTheStandardOnExponents) {
 
 TEST(ParseDouble, RoundsHalfwayCasesToEven) {
   Random random;
-  for (int i = 0; i < 50'000; ++i) {  // exactly between two doubles, and a hair beside it
+  for (int i = 0; i < 50'000; ++i) {  // exactly between two doubles, and slightly beside
     const std::uint64_t odd =
         (std::uint64_t{1} << 53) + 2 * random.below(std::uint64_t{1} << 52) + 1;
     const std::string text = std::to_string(odd);
@@ -183,7 +183,7 @@ TEST(ParseDouble, ReadsSubnormalsAndLimits) {
 }
 
 #ifdef __SSE2__
-TEST(ScanNumber, UnderstandsWhatLogsAreMadeOf) {
+TEST(ScanNumber, ReadsNumbersOfLogs) {
   Random random;
   for (int i = 0; i < 500'000; ++i) {
     expect_as_from_chars(printed("%.6f", random.uniform(-100, 100)), true);
@@ -194,7 +194,7 @@ TEST(ScanNumber, UnderstandsWhatLogsAreMadeOf) {
 }
 #endif
 
-TEST(ScanNumber, RefusesWhatIsNoNumber) {
+TEST(ScanNumber, RejectsTextsThatAreNoNumber) {
   Random random;
   const std::string alphabet =
       "0123456789012345678901234567890123456789..--+eE ,;:/\n\x7f\x80\xb0x";
@@ -210,7 +210,7 @@ TEST(ScanNumber, RefusesWhatIsNoNumber) {
   }
 }
 
-TEST(ParseDouble, GivesNothingWhereNoNumberBegins) {
+TEST(ParseDouble, ReturnsNullWithoutANumber) {
   for (const std::string text :
        {"", "-", ".", "-.", "abc", " 1", "+1", ",", "e5", "--1", "\n", "-,5"}) {
     double x = 1;
@@ -218,18 +218,18 @@ TEST(ParseDouble, GivesNothingWhereNoNumberBegins) {
   }
 }
 
-TEST(WriteDouble17, IsPrintfForRandomBits) {
+TEST(WriteDouble17, MatchesPrintfForRandomBits) {
   Random random;
   for (int i = 0; i < 1'000'000; ++i) expect_as_printf(random.any_bits());
 }
 
-TEST(WriteDouble17, IsPrintfForMeasuredValues) {
+TEST(WriteDouble17, MatchesPrintfForMeasuredValues) {
   Random random;
   for (double scale = 1e-12; scale < 1e12; scale *= 10)
     for (int i = 0; i < 100'000; ++i) expect_as_printf(random.uniform(-scale, scale));
 }
 
-TEST(WriteDouble17, IsPrintfForShortDecimalsAndIntegers) {
+TEST(WriteDouble17, MatchesPrintfForShortDecimalsAndIntegers) {
   Random random;
   for (int i = 0; i < 500'000; ++i) {
     const double n = static_cast<double>(random.below(100'000'000));
@@ -237,7 +237,7 @@ TEST(WriteDouble17, IsPrintfForShortDecimalsAndIntegers) {
   }
 }
 
-TEST(WriteDouble17, IsPrintfAroundPowersOfTwoAndTen) {
+TEST(WriteDouble17, MatchesPrintfAroundPowersOfTwoAndTen) {
   for (int e = -1074; e <= 1023; ++e)
     for (double x : {std::ldexp(1, e), std::ldexp(3, e - 1), std::ldexp(5, e - 2)})
       for (double y : {x, std::nextafter(x, 0), std::nextafter(x, 1e308)}) expect_as_printf(y);
@@ -249,7 +249,7 @@ TEST(WriteDouble17, IsPrintfAroundPowersOfTwoAndTen) {
 }
 
 TEST(WriteDouble17,
-     IsPrintfForTies) {  // 18 digits that end in 5: odd multiples of small powers of 2
+     MatchesPrintfForTies) {  // 18 digits that end in 5: odd multiples of small powers of 2
   Random random;
   for (int e = -60; e <= -1; ++e)
     for (int i = 0; i < 2'000; ++i)
@@ -257,11 +257,11 @@ TEST(WriteDouble17,
           std::ldexp(static_cast<double>(2 * random.below(std::uint64_t{1} << 52) + 1), e));
 }
 
-TEST(WriteDouble17, WritesZeroAndWhatIsNoNumber) {
+TEST(WriteDouble17, WritesZeroAndNonFiniteNumbers) {
   for (double x : {0.0, -0.0, double{INFINITY}, -double{INFINITY}}) expect_as_printf(x);
 }
 
-TEST(WriteDoubles17, AgreesWithOneByOne) {
+TEST(WriteDoubles17, EqualsSingleNumbers) {
   Random random;
   std::vector<double> x;
   for (int i = 0; i < 300'003; ++i) {

@@ -7,7 +7,7 @@
 namespace mdof {
 namespace {
 
-TEST(PlainNumber, IsWrittenAsPeopleWriteIt) {
+TEST(PlainNumber, IsWrittenInReadableForm) {
   const std::pair<double, const char*> cases[] = {
       {5000, "5000"},     {4999.6, "5000"},           {200, "200"},        {0.25, "0.25"},
       {12.3456, "12.35"}, {-0.0001234, "-0.0001234"}, {123456, "123456"},  {1, "1"},

@@ -9,7 +9,7 @@ namespace mdof {
 namespace {
 
 // Random123, tests/kat_vectors: zeros, ones, digits of pi.
-TEST(Random, PhiloxGivesThePublishedAnswers) {
+TEST(Random, PhiloxMatchesThePublishedAnswers) {
   EXPECT_EQ(philox({0, 0, 0, 0}, 0), (Philox{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
   EXPECT_EQ(philox({~0u, ~0u, ~0u, ~0u}, ~0ull),
             (Philox{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd}));
@@ -17,7 +17,7 @@ TEST(Random, PhiloxGivesThePublishedAnswers) {
             (Philox{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
-TEST(Random, SineIsWithinARoundingOfTheLibrary) {
+TEST(Random, SineMatchesTheLibraryToRounding) {
   for (int i = -100'000; i <= 100'000; ++i) {
     const double turns = i * 3.7e-5;
     EXPECT_NEAR(sine_of_turns(turns), std::sin(2 * M_PI * turns), 3e-15) << turns;
@@ -38,8 +38,8 @@ TEST(Random, GaussianInvertsTheDistributionOutToEightSigma) {
   EXPECT_LT(uniform(~0u, ~0u), 1);
 }
 
-// Of any length, out to both ends.
-TEST(Random, GaussiansAreTheBitsOfOneAfterTheOther) {
+// Arrays of different lengths, with values near both ends.
+TEST(Random, ArrayOfGaussiansEqualsSingleGaussians) {
   for (const std::size_t n : {0u, 1u, 63u, 64u, 65u, 20'001u}) {
     std::vector<double> p(n);
     for (std::size_t i = 0; i < n; ++i) {

@@ -1,4 +1,4 @@
-// Units of the D-SI format, by hand.
+// Units of the D-SI format; expected values by hand.
 #include "schema/dcc/si_unit.h"
 
 #include <gtest/gtest.h>
@@ -14,20 +14,20 @@ void expect(const char* text, double factor, int metre, int volt) {
   EXPECT_EQ(unit->volt, volt) << text;
 }
 
-TEST(SiUnit, PrefixesQuotientsAndPowers) {
+TEST(SiUnit, ReadsPrefixesQuotientsAndPowers) {
   expect("\\metre", 1, 1, 0);
   expect(" \\micro\\metre ", 1e-6, 1, 0);
   expect("\\volt", 1, 0, 1);
   expect("\\volt\\per\\micro\\metre", 1e6, -1, 1);
   expect("\\milli\\volt\\per\\micro\\metre", 1e3, -1, 1);
-  expect("\\per\\metre\\volt", 1, -1, 1);  // \per is of the unit behind it alone
+  expect("\\per\\metre\\volt", 1, -1, 1);  // \per applies only to the unit after it
   expect("\\volt\\metre\\tothe{-1}", 1, -1, 1);
   expect("\\volt\\milli\\metre\\tothe{-1}", 1e3, -1, 1);
   expect("\\micro\\metre\\per\\volt", 1e-6, 1, -1);
   expect("\\centi\\metre\\tothe{2}", 1e-4, 2, 0);
 }
 
-TEST(SiUnit, WhatIsNeitherLengthNorVoltageIsNone) {
+TEST(SiUnit, RejectsOtherUnits) {
   for (const char* text :
        {"", "\\", "metre", "\\kelvin", "\\one", "\\volt\\per\\kelvin", "\\per", "\\micro",
         "\\micro\\per\\metre", "\\metre\\tothe", "\\metre\\tothe{}", "\\metre\\tothe{x}",

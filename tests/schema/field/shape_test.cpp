@@ -31,23 +31,23 @@ TEST(FieldNames, AreFoundByTheirGroups) {
     EXPECT_FALSE(find_field(unknown)) << unknown;
 }
 
-TEST(FieldNames, AnUncertaintyIsThatOfAnotherRow) {
+TEST(FieldNames, UncertaintyRefersToAnotherRow) {
   const auto u = find_field("u_random_EC0Y_urad");
   ASSERT_TRUE(u);
   EXPECT_EQ(u->row->name, "u_random_{field}");
   EXPECT_NE(u->meaning.find("EC0Y_urad"), std::string::npos) << u->meaning;
-  EXPECT_EQ(find_field("u_covers")->row->name, "u_covers");  // a row of its own
+  EXPECT_EQ(find_field("u_covers")->row->name, "u_covers");  // has its own row
 }
 
-TEST(FieldNames, TheirRegularExpressionsMatchAsTheyDo) {
+TEST(FieldNames, RegularExpressionsMatchTheirFields) {
   const std::regex error(regex_of("u_E{linear}{axis}_um"));
   EXPECT_TRUE(std::regex_match("u_EYX_um", error));
   EXPECT_FALSE(std::regex_match("u_ECX_um", error));
   EXPECT_FALSE(std::regex_match("EYX_um", error));
 }
 
-// Written by hand from the rules of JSON Schema.
-TEST(Shape, IsASchemaOfItsMembers) {
+// Expected texts written by hand from the rules of JSON Schema.
+TEST(Shape, HasASchemaOfItsMembers) {
   EXPECT_EQ(
       json_schema("{active, scans_lost?}"),
       R"({"type":"object","properties":{"active":{"type":"boolean","description":"the table is active"},)"
@@ -60,7 +60,7 @@ TEST(Shape, IsASchemaOfItsMembers) {
             R"({"type":"object","additionalProperties":{"type":"number"}})");
 }
 
-TEST(Shape, AFamilyIsAPatternOfWhichOneIsThere) {
+TEST(Shape, FamilyIsAPatternThatNeedsOneMember) {
   const std::string schema = json_schema("{run_{small}, active}");
   EXPECT_NE(schema.find(R"("patternProperties":{"^run_(x|y|z)$":)"), std::string::npos) << schema;
   EXPECT_NE(schema.find(R"("minProperties":2)"), std::string::npos) << schema;
@@ -78,7 +78,7 @@ TEST(Shape, NamedMembersMayBeAbsent) {
   EXPECT_EQ(json_schema("{...covers?}").find("required"), std::string::npos);
 }
 
-TEST(ShapeDeathTest, ANameWithoutARowIsABug) {
+TEST(ShapeDeathTest, RejectsANameWithoutARow) {
   EXPECT_DEATH(json_schema("{speed_um_per_h}"), "");
   EXPECT_DEATH(json_schema("{active"), "");
   EXPECT_DEATH(json_schema("{active, active}"), "");

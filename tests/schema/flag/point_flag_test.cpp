@@ -5,8 +5,8 @@
 namespace mdof {
 namespace {
 
-// What databases contain: a flag that is renamed would make their runs unreadable.
-TEST(PointFlag, HasTheNameThatDatabasesContain) {
+// Names stored in databases: runs with a renamed flag could not be read.
+TEST(PointFlag, HasTheNameStoredInDatabases) {
   const std::vector<std::string> stored = {
       "approach_assumed", "creep",       "frozen:A",      "gap",
       "gap_closed:?",     "interrupted", "jump",          "lost:B",
@@ -26,7 +26,7 @@ TEST(PointFlag, HasTheNameThatDatabasesContain) {
   EXPECT_EQ(to_string({{Flag::lost, "B"}, {Flag::gap}}), "lost:B gap");
 }
 
-TEST(PointFlag, OfNoSuchNameIsRefused) {
+TEST(PointFlag, RejectsUnknownNames) {
   for (const char* text : {"", "lst:A", "LOST:A", ":A", "gap "}) {
     const auto flag = point_flag_from(text);
     ASSERT_FALSE(flag) << text;

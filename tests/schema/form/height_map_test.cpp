@@ -1,4 +1,4 @@
-// Height maps from text and from instruments' files, and what is no map.
+// Height maps from text and from files of instruments, and texts that are no map.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -26,7 +26,7 @@ std::string error_of(const std::string& text, std::optional<XyzUnits> units = {}
   return map ? "" : map.error().message;
 }
 
-TEST(HeightMapCsv, RowsInAnyOrderWithHoles) {
+TEST(HeightMapCsv, AcceptsRowsInAnyOrderWithHoles) {
   const auto map = read(
       "# made by hand\n"
       "z_um,other,x_mm,y_mm\r\n"
@@ -47,8 +47,8 @@ TEST(HeightMapCsv, RowsInAnyOrderWithHoles) {
   EXPECT_EQ(map->measured(), 3u);
 }
 
-// A size that is said too small, or of a file whose other rows are shorter, costs no point.
-TEST(HeightMapCsv, TheSizeOfTheFileIsOnlyAHint) {
+// No point is lost if the stated size is too small, or if the other rows of the file are shorter.
+TEST(HeightMapCsv, FileSizeIsOnlyAHint) {
   std::string text = "x_mm,y_mm,z_um\n";
   for (int i = 0; i < 1000; ++i)
     text += std::to_string(i) + ",0,1\n" + std::to_string(i) + ",1,2\n";
@@ -64,8 +64,8 @@ TEST(HeightMapCsv, TheSizeOfTheFileIsOnlyAHint) {
   }
 }
 
-// Three decimals of a pitch of two thirds, and 300 columns missing in the middle.
-TEST(HeightMapCsv, RoundedPlaces) {
+// Positions with three decimals at a pitch of 2/3 mm; 300 columns in the middle are missing.
+TEST(HeightMapCsv, AcceptsRoundedPositions) {
   std::string text = "x_mm,y_mm,z_um\n";
   for (int j = 0; j < 3; ++j)
     for (int i = 0; i < 450; ++i) {
@@ -82,7 +82,7 @@ TEST(HeightMapCsv, RoundedPlaces) {
   EXPECT_TRUE(std::isnan(map->at(200, 1)));
 }
 
-TEST(HeightMapCsv, WhatIsWrongIsNamed) {
+TEST(HeightMapCsv, ErrorsNameTheLine) {
   const std::string head = "x_mm,y_mm,z_um\n";
   const std::pair<std::string, const char*> bad[] = {
       {"", "is empty"},
@@ -106,7 +106,7 @@ TEST(HeightMapCsv, WhatIsWrongIsNamed) {
   EXPECT_NE(error_of(scattered).find("grid"), std::string::npos) << error_of(scattered);
 }
 
-TEST(HeightMapXyz, UnitsAndBlanks) {
+TEST(HeightMapXyz, AcceptsUnitsAndBlanks) {
   const std::string text = " 0 0 1\n\t1  0 2\n+1.0e0 1 nan\n";
   const auto as_csv = read(text);
   ASSERT_TRUE(as_csv) << as_csv.error().message;
@@ -126,7 +126,7 @@ TEST(HeightMapXyz, UnitsAndBlanks) {
             std::string::npos);
 }
 
-TEST(HeightMapCsv, IsReadBackAsItWasWritten) {
+TEST(HeightMapCsv, IsReadAsItWasWritten) {
   SurfaceMap map{"m", -0.1475, 0.01, 0.66e-3, 0.5e-3, 3, 2, {}, {}};
   map.z_m = {1e-6, SurfaceMap::kMissing, 0.123456789e-6, -3e-9, 0, 2e-3};
   std::string text;
@@ -153,8 +153,8 @@ std::string data(const std::string& name) {
   return text.str();
 }
 
-// The example of the standard: 7 x 4 points, 1 um apart.
-TEST(Sdf, ExampleOfTheStandard) {
+// Example of the standard: 7 x 4 points, 1 um apart.
+TEST(Sdf, ReadsTheExampleOfTheStandard) {
   const std::string text = data("sdf-1.sdf");
   ASSERT_TRUE(is_sdf(text));
   const auto map = parse_sdf(text, "sdf-1.sdf");
@@ -169,7 +169,7 @@ TEST(Sdf, ExampleOfTheStandard) {
   EXPECT_NEAR(map->at(0, 3), 0.97986e-6, 1e-18);
 }
 
-TEST(Sdf, BadPointsAndOtherDialects) {
+TEST(Sdf, ReadsBadPointsAndOtherDialects) {
   const std::string header =
       "NumPoints = 3\r\nNumProfiles = 2 ; rows\r\nXscale = 2e-6\r\nYscale=4e-6\r\n"
       "Zscale = 1.0E-9\r\nZresolution = -1\r\nCompression = 0\r\nDataType = 3\r\nCheckType = 0\r\n";
@@ -198,7 +198,7 @@ TEST(Sdf, BadPointsAndOtherDialects) {
   EXPECT_NE(error("aISO-1.0\nNumPoints = 9\n*\n1\n").find("no NumProfiles"), std::string::npos);
 }
 
-// A MetroPro file of two by two pixels.
+// A MetroPro file with two by two pixels.
 std::string zygo(int phase_res, int sign, const std::vector<std::int32_t>& phase) {
   std::string bytes(834 + 6, '\0');
   const auto put = [&](std::size_t at, std::uint32_t value, int size) {
@@ -227,7 +227,7 @@ std::string zygo(int phase_res, int sign, const std::vector<std::int32_t>& phase
   return bytes;
 }
 
-TEST(ZygoDat, PhaseToHeights) {
+TEST(ZygoDat, ConvertsPhaseToHeights) {
   const double counts[] = {4096, 32768, 131072};
   for (int res = 0; res < 3; ++res) {
     const std::string bytes = zygo(res, 0, {1000, -2000, 2147483640, 0});

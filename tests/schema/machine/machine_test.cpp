@@ -67,8 +67,8 @@ TEST(MachineToml, IsRead) {
   EXPECT_DOUBLE_EQ(read->tool_m[2], 0.12);
 }
 
-// Fixed frames stand where they say, on the side of the link before.
-TEST(MachineToml, FramesThatAreNoAxes) {
+// A fixed frame is after its link, on the side of this link.
+TEST(MachineToml, ReadsFixedFramesInTheirOrder) {
   const auto frame = [](const char* id, const char* after) {
     return "[[frame]]\nid = \"" + std::string(id) + "\"\nafter = \"" + after +
            "\"\nholds_at_mm = [0, 0, 0]\n";
@@ -96,7 +96,7 @@ acts_on = [{error = "EX(rod)", factor = -1},
            {error = "EC0Y", factor_per_deg = 3, of = "C"}]
 )toml";
 
-TEST(MachineToml, ABodyThatGoesWithAnAxisAndASource) {
+TEST(MachineToml, ReadsAMovingBodyAndASource) {
   const auto read = parse_machine(kMachine + kRod + kScrew, "m.toml");
   ASSERT_TRUE(read) << read.error().message;
   const auto* rod = read->find("rod");
@@ -119,8 +119,8 @@ TEST(MachineToml, ABodyThatGoesWithAnAxisAndASource) {
   EXPECT_NEAR(screw.acts_on[2].factor_per_position, 3e-6 * 180 / 3.141592653589793, 1e-18);
 }
 
-// Table 1 has six part errors of each of 14 joints.
-TEST(MachineToml, TheCoPlanarMachineHas84PartErrors) {
+// Table 1 has six part errors for each of 14 joints.
+TEST(MachineToml, CoPlanarMachineHas84PartErrors) {
   const auto read = parse_machine(co_planar_machine(), "co-planar");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->frames.size() * kBodyErrors, 84u);
@@ -130,7 +130,7 @@ TEST(MachineToml, TheCoPlanarMachineHas84PartErrors) {
 struct Bad {
   const char *from, *to, *says;
 };
-TEST(MachineToml, WhatIsWrongIsNamed) {
+TEST(MachineToml, ErrorsNameTheInvalidKey) {
   const Bad all[] = {
       {"point = \"moving\"\nrange", "range", "point"},
       {"point = \"moving\"\nrange", "point = \"still\"\nrange", "standing"},
@@ -176,7 +176,7 @@ TEST(MachineToml, WhatIsWrongIsNamed) {
   }
 }
 
-TEST(MachineToml, NamesRowsOfTheDatabase) {
+TEST(MachineToml, ReadsNumbersOfStoredRows) {
   const auto named = [](const std::string& root, const std::string& of_axis) {
     return parse_machine(root +
                              "name = \"m\"\nmachine = {chain = \"w-b-X-t\"}\n[[axis]]\nid = \"X\"\n"

@@ -28,13 +28,13 @@ TEST(Notice, EachCodeIsFoundByItsName) {
   EXPECT_FALSE(notice_code_from(""));
 }
 
-TEST(Notice, InheritedOnesNameTheirSources) {
+TEST(Notice, InheritedNoticesNameTheirSources) {
   Notice stepped = notice(NoticeCode::probe_stepped, "E", {{"step_um", 0.5}, {"time_s", 2}});
   EXPECT_EQ(shown(inherited("of two", inherited("run 3", stepped))),
             "of two: run 3: probe_stepped E step_um=0.5 time_s=2");
 }
 
-TEST(Notice, OfManyAlikeTenAndTheirNumber) {
+TEST(Notice, ListsTenOfManyAndTheirNumber) {
   const Notice one = notice(NoticeCode::visit_missing, "",
                             {{"run", 1}, {"approach", "forward"}, {"targets", "target 3"}});
   for (const std::size_t n : {0u, 10u, 11u, 40u}) {
@@ -62,15 +62,15 @@ TEST(NoticeJson, IsReadAsItWasWritten) {
             R"("shift_mm":5}])");
 }
 
-TEST(NoticeJson, AMissingNumberIsNull) {
+TEST(NoticeJson, MissingNumberIsNull) {
   const auto read = read_notices(
       notices_json({notice(NoticeCode::travel_too_long, "", {{"travel_m", std::nan("")}})}));
   ASSERT_TRUE(read);
   EXPECT_TRUE(std::isnan(test::number(read->at(0), "travel_m")));
 }
 
-// Databases and recordings of older versions have sentences, with the severity as first word.
-TEST(NoticeJson, ASentenceIsReadWithItsSeverity) {
+// Databases and recordings of older versions contain sentences; the first word may be the severity.
+TEST(NoticeJson, ReadsASentenceWithItsSeverity) {
   const auto read = read_notices(
       R"(["interrupted","information: the axis was parked","invalid: x","no information: y"])");
   ASSERT_TRUE(read);
@@ -83,14 +83,14 @@ TEST(NoticeJson, ASentenceIsReadWithItsSeverity) {
   EXPECT_EQ(read->at(3).severity, Severity::doubtful);
 }
 
-TEST(NoticeJson, ACodeOfANewerVersionKeepsItsNameAndStaysDoubtful) {
+TEST(NoticeJson, UnknownCodeKeepsItsNameAndIsDoubtful) {
   const auto read = read_notices(R"([{"code":"new_thing","severity":"information","x_mm":1}])");
   ASSERT_TRUE(read);
   EXPECT_EQ(shown(*read), "legacy words=new_thing\n");
   EXPECT_EQ(read->at(0).severity, Severity::doubtful);
 }
 
-TEST(NoticeJson, WhatIsNoNoticeIsAnError) {
+TEST(NoticeJson, RejectsOtherJson) {
   for (const char* text : {"", "{}", "[1]", "[null]", "[{}]", R"([{"code":1}])", "[[]]", "[",
                            R"([{"code":"cycle_unknown","x":[1]}])"})
     EXPECT_FALSE(read_notices(text)) << text;

@@ -25,7 +25,7 @@ Plausibility example() {
   return p;
 }
 
-TEST(PlausibilityJson, ComesBackAsItWas) {
+TEST(PlausibilityJson, IsReadAsItWasWritten) {
   const std::string json = plausibility_json(example());
   const auto back = read_plausibility_json(json);
   ASSERT_TRUE(back) << back.error().message;
@@ -33,8 +33,9 @@ TEST(PlausibilityJson, ComesBackAsItWas) {
   EXPECT_TRUE(std::isnan(back->probes[1].sd_m));
 }
 
-// Each member in turn under another name: none is taken for a 0. Sums are written for people.
-TEST(PlausibilityJson, AMemberThatIsMissingIsNamed) {
+// Each member in turn gets another name: a missing member is not read as 0. Sums are only for
+// readers.
+TEST(PlausibilityJson, ReportsAMissingMember) {
   const std::string json = plausibility_json(example());
   const std::regex key(R"re("([A-Za-z_]+)":)re");
   int members = 0;
@@ -52,7 +53,7 @@ TEST(PlausibilityJson, AMemberThatIsMissingIsNamed) {
   EXPECT_GE(members, 25);
 }
 
-TEST(PlausibilityJson, WhatIsOfAnotherKindIsNamed) {
+TEST(PlausibilityJson, RejectsMembersOfAnotherType) {
   const std::string json = plausibility_json(example());
   const std::pair<const char*, const char*> changes[] = {
       {"\"runs\":2", "\"runs\":4294967298"},

@@ -1,6 +1,6 @@
-// Chunks of a recording. Most of what a fuzzer makes would fail the checksum of the zstd frame, so
-// the input is also taken as what is in the frame; what is decoded must encode to what decodes
-// alike.
+// Chunks of a recording. Most inputs of a fuzzer would fail the checksum of the zstd frame, so the
+// input is also used as the content of the frame. A decoded block must encode to bytes that decode
+// to the same block.
 #include <zstd.h>
 
 #include <cstddef>

@@ -27,7 +27,7 @@ std::vector<std::int64_t> random_times(Random& random, std::size_t n) {
   return times;
 }
 
-// Any bits at all: NaN payloads, infinities, denormals and -0.0 among them.
+// Random bits: NaN payloads, infinities, denormals and -0.0 are included.
 std::vector<double> random_values(Random& random, std::size_t n) {
   const bool any_bits = below(random, 2);
   std::vector<double> values;
@@ -78,7 +78,7 @@ void expect_same(const SampleBlock& a, const SampleBlock& b) {
   for (std::size_t c = 0; c < a.value.size(); ++c) EXPECT_TRUE(same_bits(a.value[c], b.value[c]));
 }
 
-// What every user of a block relies on, whatever bytes it came from.
+// The invariants that all users of a block need, for any input bytes.
 bool sound(const SampleBlock& block) {
   for (std::size_t i = 1; i < block.scans(); ++i)
     if (block.time_ns[i] <= block.time_ns[i - 1]) return false;
@@ -91,7 +91,7 @@ bool sound(const SampleBlock& block) {
   return true;
 }
 
-// A whole chunk around raw bytes of one's own making.
+// A complete chunk with the given raw bytes.
 std::string chunk_of(const std::string& raw, std::size_t claimed) {
   std::string out = "MDC1";
   for (int k = 0; k < 4; ++k) out.push_back(static_cast<char>(claimed >> (8 * k)));
@@ -112,7 +112,7 @@ std::string unpacked(const std::string& chunk) {
 
 TEST(Chunk, RoundTripsAnyBlockToTheSameBits) {
   Random random(1);
-  SampleBlock back;  // reused, as a reader does
+  SampleBlock back;  // reused, as in a reader
   for (int i = 0; i < 2000; ++i) {
     const SampleBlock block = random_block(random);
     const auto bytes = encode_chunk(block);
@@ -131,13 +131,13 @@ TEST(Chunk, KeepsTimesAtTheEndsOfTheirRange) {
   expect_same(block, back);
 }
 
-TEST(Chunk, PacksRegularTimeStampsToNextToNothing) {
+TEST(Chunk, PacksRegularTimeStampsIntoFewBytes) {
   SampleBlock block;
   for (std::int64_t i = 0; i < 8000; ++i) block.time_ns.push_back(kNsPerS + 250'000 * i);
   EXPECT_LT(encode_chunk(block)->size(), 100u);
 }
 
-TEST(Chunk, RefusesTimesThatDoNotIncrease) {
+TEST(Chunk, RejectsTimesThatDoNotIncrease) {
   SampleBlock block;
   block.device = "probes";
   block.time_ns = {1, 2, 2};
@@ -146,7 +146,7 @@ TEST(Chunk, RefusesTimesThatDoNotIncrease) {
   EXPECT_NE(bytes.error().message.find("probes"), std::string::npos);
 }
 
-TEST(Chunk, RefusesABlockOverTheLimit) {
+TEST(Chunk, RejectsABlockOverTheLimit) {
   SampleBlock block;
   block.channels.resize(1);
   block.value.resize(1);
@@ -156,7 +156,7 @@ TEST(Chunk, RefusesABlockOverTheLimit) {
   EXPECT_FALSE(encode_chunk(block));
 }
 
-TEST(Chunk, NoticesEveryFlippedBit) {
+TEST(Chunk, DetectsEveryFlippedBit) {
   Random random(2);
   SampleBlock block = random_block(random), back;
   while (block.scans() < 50 || block.channels.empty()) block = random_block(random);
@@ -165,13 +165,13 @@ TEST(Chunk, NoticesEveryFlippedBit) {
     std::string flipped = bytes;
     flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
     if (decode_chunk(flipped, back)) {
-      // A bit of the frame that means nothing may change: the samples must not.
+      // An unused bit of the frame may change, but the samples must be equal.
       expect_same(block, back);
     }
   }
 }
 
-TEST(Chunk, NoticesEveryCut) {
+TEST(Chunk, DetectsEveryTruncation) {
   Random random(3);
   SampleBlock back;
   const std::string bytes = *encode_chunk(random_block(random));
@@ -179,8 +179,8 @@ TEST(Chunk, NoticesEveryCut) {
     EXPECT_FALSE(decode_chunk(std::string_view(bytes).substr(0, size), back)) << size;
 }
 
-// Below the checksum: mutated bytes in a frame that zstd finds whole.
-TEST(Chunk, TenThousandMutatedPayloadsDoNoHarm) {
+// Below the checksum: mutated bytes in a frame that is valid for zstd.
+TEST(Chunk, MutatedPayloadsAreRejectedOrValid) {
   Random random(4);
   SampleBlock back;
   int refused = 0;
@@ -198,10 +198,10 @@ TEST(Chunk, TenThousandMutatedPayloadsDoNoHarm) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, 3000);  // or the mutations did not reach anything
+  EXPECT_GT(refused, 3000);  // otherwise the mutations had no effect
 }
 
-TEST(Chunk, TenThousandMutatedFramesDoNoHarm) {
+TEST(Chunk, MutatedFramesAreRejectedOrValid) {
   Random random(5);
   SampleBlock back;
   for (int i = 0; i < 10000; ++i) {
@@ -214,24 +214,24 @@ TEST(Chunk, TenThousandMutatedFramesDoNoHarm) {
   }
 }
 
-TEST(Chunk, AZipBombIsRefusedBeforeItIsUnpacked) {
+TEST(Chunk, RejectsAZipBombBeforeUnpacking) {
   const std::string zeros(kMaxChunkBytes * 8, '\0');
   SampleBlock back;
-  EXPECT_FALSE(decode_chunk(chunk_of(zeros), back));        // honest about its size
-  EXPECT_FALSE(decode_chunk(chunk_of(zeros, 1000), back));  // and not
+  EXPECT_FALSE(decode_chunk(chunk_of(zeros), back));        // the size in the header is correct
+  EXPECT_FALSE(decode_chunk(chunk_of(zeros, 1000), back));  // the size in the header is too small
 }
 
-TEST(Chunk, HugeCountsAreRefusedAndCostNothing) {
+TEST(Chunk, RejectsHugeCounts) {
   SampleBlock back;
   const std::string huge = "\xff\xff\xff\xff\xff\xff\xff\xff\x7f";
   const std::string none(1, '\0');
   EXPECT_FALSE(decode_chunk(chunk_of(huge), back));                       // device name
   EXPECT_FALSE(decode_chunk(chunk_of(none + huge), back));                // channels
   EXPECT_FALSE(decode_chunk(chunk_of(none + none + none + huge), back));  // scans
-  EXPECT_FALSE(decode_chunk(chunk_of(std::string(20, '\xff')), back));    // an endless varint
+  EXPECT_FALSE(decode_chunk(chunk_of(std::string(20, '\xff')), back));    // a varint without end
 }
 
-TEST(Chunk, BytesAfterTheEndAreRefused) {
+TEST(Chunk, RejectsBytesAfterTheEnd) {
   SampleBlock back;
   const std::string raw = unpacked(*encode_chunk({}));
   EXPECT_TRUE(decode_chunk(chunk_of(raw), back));

@@ -19,8 +19,8 @@ namespace {
 struct Parsed {
   std::vector<SampleBlock> blocks;
   std::vector<std::string> bad_lines;
-  Notices missing;    // columns
-  std::string error;  // empty: none
+  Notices missing;    // of columns
+  std::string error;  // empty: no error
 
   std::vector<std::int64_t> times() const {
     std::vector<std::int64_t> all;
@@ -35,7 +35,7 @@ struct Parsed {
   }
 };
 
-// Gives `text` to the parser in pieces of at most `piece` bytes, each in memory of its own.
+// Passes `text` to the parser in pieces of at most `piece` bytes, each in separate memory.
 Parsed parse(std::string text, CsvLimits limits = {}, CsvKind kind = CsvKind::probe_log,
              std::size_t piece = 1'000'000) {
   Parsed result;
@@ -85,7 +85,7 @@ TEST(CsvRowParser, ReadsRowsIntoColumns) {
   EXPECT_EQ(p.blocks[0].lost, 0u);
 }
 
-TEST(CsvRowParser, ReadsCarriageReturnsAlsoMixed) {
+TEST(CsvRowParser, ReadsMixedCarriageReturns) {
   const Parsed p =
       parse("time_s,encoder_mm,A_um\r\n0,1.0,2.0\r\n1,1.0,2.0\r\n2,1.0,2.0\n3,1.0,2.5\r\n");
   ASSERT_EQ(p.error, "");
@@ -141,7 +141,7 @@ TEST(CsvRowParser, ReportsAndSkipsBadLines) {
 
 const std::string kTwoProbes = "time_s,encoder_mm,A_um,B_um\n";
 
-TEST(CsvRowParser, TakesAnEmptyFieldOrNanForAMissingValue) {
+TEST(CsvRowParser, TreatsAnEmptyFieldAndNanAsMissing) {
   const Parsed p = parse(kTwoProbes +
                          "0,1.0,,2.0\n1,1.0,nan,2.0\n2,1.0,3.0,NaN\n3,1.0,-nan,\n4,1.0, ,2.0\n"
                          "5,1.0,4.0,5.0\n6,1.0,4.0,\r\n");
@@ -155,13 +155,13 @@ TEST(CsvRowParser, TakesAnEmptyFieldOrNanForAMissingValue) {
     EXPECT_EQ(p.blocks[0].quality_at(1, row), a_missing[row] ? Quality::missing : Quality::good);
     EXPECT_EQ(p.blocks[0].quality_at(2, row), b_missing[row] ? Quality::missing : Quality::good);
   }
-  EXPECT_TRUE(p.blocks[0].quality[0].empty());  // of the encoder: nothing is marked
+  EXPECT_TRUE(p.blocks[0].quality[0].empty());  // no value of the encoder is marked
   EXPECT_EQ(test::shown(p.missing),
             "log_values_missing x.csv: column A_um missing=4 rows=7 first=at 0.000 s\n"
             "log_values_missing x.csv: column B_um missing=3 rows=7 first=at 2.000 s\n");
 }
 
-TEST(CsvRowParser, SkipsALineWithoutAPlaceOrATime) {
+TEST(CsvRowParser, SkipsALineWithoutPositionOrTime) {
   const Parsed p =
       parse(kTwoProbes + "0,1.0,2.0,2.0\n1,,2.0,2.0\n,1.0,2.0,2.0\n3,nan,,2.0\n4,1.0,2.0,2.0\n");
   ASSERT_EQ(p.error, "");
@@ -173,8 +173,8 @@ TEST(CsvRowParser, SkipsALineWithoutAPlaceOrATime) {
   EXPECT_EQ(test::shown(p.missing), "") << "a line that is skipped has no missing values";
 }
 
-// A probe that is lost for good, and every other pattern in batches of 256 rows.
-TEST(CsvRowParser, FindsEachMissingValueOfManyInItsPlace) {
+// A probe that is permanently lost, and all other patterns in batches of 256 rows.
+TEST(CsvRowParser, FindsEachMissingValueInItsRow) {
   std::string text = kTwoProbes;
   std::mt19937_64 random(3);
   std::vector<bool> missing;
@@ -210,14 +210,14 @@ TEST(CsvRowParser, CountsSkippedLinesAsLostBeforeTheNextBlock) {
   EXPECT_EQ(p.blocks[1].scans(), 1u);
 }
 
-TEST(CsvRowParser, DoesNotMindBlankLinesAtTheEnd) {
+TEST(CsvRowParser, AcceptsBlankLinesAtTheEnd) {
   const Parsed p = parse(kHeader + "0,1,2\n\n\r\n  \n\n", {.bad_lines = 0});
   EXPECT_EQ(p.error, "");
   EXPECT_TRUE(p.bad_lines.empty());
   EXPECT_EQ(p.times().size(), 1u);
 }
 
-TEST(CsvRowParser, BoundsEmptyLinesThatFollowOneAnother) {
+TEST(CsvRowParser, LimitsConsecutiveEmptyLines) {
   const CsvLimits limits{.blank_bytes = 10};
   const std::string row = "0,1,2\n", next = "1,1,2\n";
   EXPECT_EQ(parse(kHeader + row + "\n\r\n\n \r\n\n \n", limits).error, "");  // 10 bytes
@@ -228,7 +228,7 @@ TEST(CsvRowParser, BoundsEmptyLinesThatFollowOneAnother) {
                         {"x.csv:3: ", "more than 10 bytes of empty lines", "record"});
 }
 
-TEST(CsvRowParser, CountsEmptyLinesAnewAfterEachRow) {
+TEST(CsvRowParser, RestartsTheCountOfEmptyLinesAfterEachRow) {
   std::string text = kHeader;
   for (int i = 0; i < 20; ++i) text += std::to_string(i) + ",1,2\n\n\n\n\n";
   const Parsed p = parse(text, {.bad_lines = 100, .blank_bytes = 4});
@@ -245,7 +245,7 @@ TEST(CsvRowParser, GivesUpAfterTheStatedNumberOfBadLines) {
   expect_contains(parse(text, {.bad_lines = 0}).error, {"x.csv:3: ", "repair"});
 }
 
-TEST(CsvRowParser, RefusesTimeThatDoesNotGrow) {
+TEST(CsvRowParser, RejectsTimeThatDoesNotIncrease) {
   expect_contains(parse(kHeader + "0,1,2\n1,1,2\n0.5,1,2\n").error,
                   {"x.csv:4: ", "time_s", "backwards"});
   expect_contains(parse(kHeader + "0,1,2\n1,1,2\n1.0,1,2\n").error,
@@ -256,11 +256,11 @@ TEST(CsvRowParser, RecognisesADecimalComma) {
   expect_contains(parse(kHeader + "0,000,1,500,2,250\n").error, {"x.csv:2: ", "decimal comma"});
   expect_contains(parse(kHeader + "0,000;1,500;2,250\n").error, {"x.csv:2: "});
   expect_contains(parse(kHeader + "0.000;1.500;2.250\n").error, {"x.csv:2: ", "semicolon"});
-  // two lines run together are a bad line only
+  // two joined lines are only a bad line
   EXPECT_EQ(parse(kHeader + "0.1,1.0,2.00.2,1.0,2.0\n0.3,1.0,2.0\n").bad_lines.size(), 1u);
 }
 
-TEST(CsvRowParser, RefusesAFileWithoutAGoodRow) {
+TEST(CsvRowParser, RejectsAFileWithoutAValidRow) {
   expect_contains(parse(kHeader).error, {"x.csv", "no rows"});
   expect_contains(parse(kHeader + "\n\n").error, {"x.csv", "no rows"});
   expect_contains(parse(kHeader + "a,b,c\n").error, {"no valid row", "x.csv:2: ", "\"a\""});
@@ -275,7 +275,7 @@ TEST(CsvRowParser, NumbersTheRowsOfAFramesFile) {
   EXPECT_EQ(p.column(0), (std::vector<double>{5, 4, 4}));
 }
 
-// A log with every kind of field and line end, and now and then a bad line.
+// A log with every kind of field and line end, and some bad lines.
 std::string wild_log(int rows) {
   std::mt19937_64 random(7);
   std::string text = "# c\nA_um,time_s,encoder_mm,B_um\n";
@@ -297,7 +297,7 @@ std::string wild_log(int rows) {
   return text;
 }
 
-// NaN is to be equal to itself.
+// Bits, so that NaN is equal to itself.
 std::vector<std::uint64_t> bits(const std::vector<std::vector<double>>& columns) {
   std::vector<std::uint64_t> all;
   for (const auto& column : columns)
@@ -305,7 +305,7 @@ std::vector<std::uint64_t> bits(const std::vector<std::vector<double>>& columns)
   return all;
 }
 
-TEST(CsvRowParser, GivesTheSameBlocksHoweverTheTextIsCut) {
+TEST(CsvRowParser, GivesTheSameBlocksForAnyCut) {
   const std::string text = wild_log(3000);
   const CsvLimits limits{.bad_lines = 1000, .scans_per_block = 100};
   const Parsed whole = parse(text, limits);

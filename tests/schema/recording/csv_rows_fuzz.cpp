@@ -1,4 +1,4 @@
-// CSV rows of any kind, given whole and again cut anywhere: the same rows and the same complaints.
+// CSV rows of any kind, as a whole and cut anywhere, give the same rows and the same errors.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

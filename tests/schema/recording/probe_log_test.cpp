@@ -39,7 +39,7 @@ TEST(ProbeLogHeader, ReadsCommentsChannelsAndUnits) {
   EXPECT_EQ(header->bytes, 52u);
 }
 
-TEST(ProbeLogHeader, TakesColumnsInAnyOrderAndKeepsOthers) {
+TEST(ProbeLogHeader, AcceptsColumnsInAnyOrderAndKeepsOthers) {
   const auto header = log_header("E_um,temperature_C,time_s,humidity_percent,note,encoder_mm\n");
   ASSERT_TRUE(header) << header.error().message;
   EXPECT_EQ(header->time_column, 2);
@@ -63,7 +63,7 @@ TEST(ProbeLogHeader, NeedsNoTimeInAFramesFile) {
   EXPECT_TRUE(parse_csv_header("time_s,encoder_mm,A_um\n", CsvKind::frames, "x.csv"));
 }
 
-TEST(ProbeLogHeader, ATableHasAnyColumnsAndNoTime) {
+TEST(ProbeLogHeader, TableHasAnyColumnsAndNoTime) {
   const auto header = parse_csv_header("time_s,run,deviation_um\n", CsvKind::table, "x.csv");
   ASSERT_TRUE(header);
   EXPECT_EQ(header->time_column, -1);
@@ -73,7 +73,7 @@ TEST(ProbeLogHeader, ATableHasAnyColumnsAndNoTime) {
             std::string::npos);
 }
 
-TEST(ProbeLogHeader, NamesWhatIsMissing) {
+TEST(ProbeLogHeader, ReportsMissingColumns) {
   expect_error("", {"empty"});
   expect_error("# only\n# comments\n", {"no header"});
   expect_error("\n\n", {"no header"});
@@ -83,7 +83,7 @@ TEST(ProbeLogHeader, NamesWhatIsMissing) {
   expect_error("0.0,1.0,2.0\n0.1,1.0,2.0\n", {"header", "numbers"});
 }
 
-TEST(ProbeLogHeader, NamesTheColumnThatIsWrong) {
+TEST(ProbeLogHeader, ReportsTheWrongColumn) {
   expect_error("time_s,encoder_mm,A_um,B_um,A_um\n", {"column 5", "A_um", "twice"});
   expect_error("time_s,encoder_mm,A_um,A_V\n", {"column 4", "A_V", "twice", "A_um"});
   expect_error("time_s,time_s,encoder_mm,A_um\n", {"column 2", "twice"});
@@ -92,19 +92,19 @@ TEST(ProbeLogHeader, NamesTheColumnThatIsWrong) {
   expect_error("time_s,encoder_mm,_um\n", {"column 3"});
 }
 
-TEST(ProbeLogHeader, TakesThePositionInAnyUnitOfLengthThatIsNamed) {
+TEST(ProbeLogHeader, AcceptsThePositionInAnyNamedUnitOfLength) {
   for (const auto& [name, unit] :
        {std::pair{"encoder_um", Unit::um},
         {"encoder_mm", Unit::mm},
         {"encoder_m", Unit::metre},
-        {"encoder_V", Unit::volt}}) {  // the rig says whether it has a scale
+        {"encoder_V", Unit::volt}}) {  // the rig decides whether there is a scale
     const auto header = log_header("time_s," + std::string(name) + ",A_um\n");
     ASSERT_TRUE(header) << header.error().message;
     EXPECT_EQ(header->channels[0], (Channel{"encoder", unit})) << name;
   }
 }
 
-TEST(ProbeLogHeader, RefusesTimeAndPositionInAnyOtherUnitByName) {
+TEST(ProbeLogHeader, RejectsTimeAndPositionInOtherUnits) {
   for (const char* name : {"encoder", "encoder_mV", "encoder_nm", "encoder_counts", "encoder_C",
                            "encoder_urad", "encoder_s", "encoder_in"})
     expect_error("time_s," + std::string(name) + ",A_um\n",
@@ -113,7 +113,7 @@ TEST(ProbeLogHeader, RefusesTimeAndPositionInAnyOtherUnitByName) {
     expect_error(std::string(name) + ",encoder_mm,A_um\n",
                  {"column 1 \"" + std::string(name) + "\"", "time_s", "seconds"});
   expect_error("time_s,encoder_mm,A_m\n", {"column 3", "A_m", "to um"});
-  // Both say what they mean, though neither is in its place.
+  // Both columns have a clear meaning, but neither has the required name.
   expect_error("t_s,encoder_mm,A_um\n", {"time_s", "t_s"});
   EXPECT_TRUE(log_header("time_s,encoder_mm,A_um,timer,encoders\n"));
 }

@@ -11,7 +11,7 @@ RunOptions of(const std::string& json) {
   return run_options(run);
 }
 
-TEST(RunOptions, AreReadWhereverTheMembersStand) {
+TEST(RunOptions, AreReadInAnyOrderOfMembers) {
   const RunOptions options =
       of(R"({"model": "rigid", "on_the_fly": {"interval_mm": 1}, "remove_drift": true})");
   EXPECT_TRUE(options.remove_drift);
@@ -23,7 +23,7 @@ TEST(RunOptions, AreReadWhereverTheMembersStand) {
   EXPECT_EQ(of(R"({"imported":{"travel":"+"}})").imported.against_command, false);
 }
 
-TEST(RunOptions, OfOtherTextsAreThoseOfAnOlderVersion) {
+TEST(RunOptions, OtherTextsGiveTheDefaults) {
   for (const char* text : {"", "{", "[]", "{}", R"({"remove_drift": "yes"})",
                            R"({"imported":{"about":["\"sense\":\"body\"", "\"travel\":\"-\""]}})",
                            R"({"note":{"remove_drift":true}})"}) {

@@ -59,7 +59,7 @@ Rig with_record(const std::string& of_B = "", const std::string& last = "") {
   return rig.value_or(Rig());
 }
 
-TEST(CalibratedRig, TakesWhatTheRecordFoundAndKeepsTheRest) {
+TEST(CalibratedRig, TakesTheRecordAndKeepsTheRest) {
   const Rig plain = test::rig_x(), rig = with_record();
   EXPECT_EQ(rig.probes[0].position_m, plain.probes[0].position_m);
   EXPECT_NEAR(rig.probes[1].position_m[0], 1.0 / 3e4, 1e-19) << "to the last bits";
@@ -79,8 +79,8 @@ TEST(CalibratedRig, TakesWhatTheRecordFoundAndKeepsTheRest) {
   EXPECT_TRUE(calibration_notices("no rig with a [[calibration_record]]").empty());
 }
 
-// The target is square to the nominal one.
-TEST(CalibratedRig, KeepsTheNominalDirectionWhereTheRecordFoundAnother) {
+// The target is perpendicular to the nominal direction.
+TEST(CalibratedRig, KeepsTheNominalDirection) {
   CalibrationRecord record = mounting();
   record.probes[0].direction = Vec3{2e-4, -1e-4, 1};
   const std::string text = record_text(record);
@@ -91,7 +91,7 @@ TEST(CalibratedRig, KeepsTheNominalDirectionWhereTheRecordFoundAnother) {
   EXPECT_EQ(*rig->probes[0].nominal_direction, test::rig_x().probes[0].direction);
 }
 
-TEST(CalibratedRig, KeepsTheCovariancesOfWhatItTakes) {
+TEST(CalibratedRig, KeepsCovariancesOfRecordedQuantities) {
   const auto covariance = [](const Rig& rig) { return rig.records.at(0).covariance; };
   const auto all = covariance(with_record());
   EXPECT_EQ(all.of, mounting().covariance.of);
@@ -99,14 +99,14 @@ TEST(CalibratedRig, KeepsTheCovariancesOfWhatItTakes) {
     for (std::size_t j = 0; j < 3; ++j)
       EXPECT_NEAR(all.m2.at(i).at(j), mounting().covariance.m2[i][j], 1e-27) << i << j;
   EXPECT_EQ(with_record().probes[1].uncertainty.sensitivity.freedom, 7);
-  // A zero whose uncertainty the rig declares is known by other means.
+  // A zero whose uncertainty the rig declares is independent of the record.
   const auto declared = covariance(with_record("u_calibration_um = 0.5\n"));
   EXPECT_EQ(declared.of, (std::vector<std::string>{"B.x", "B.y"}));
   ASSERT_EQ(declared.m2.size(), 2U);
   EXPECT_EQ(declared.m2[1].size(), 2U);
 }
 
-TEST(CalibratedRig, ACovarianceThatIsNoneIsRefused) {
+TEST(CalibratedRig, RejectsAnInvalidCovariance) {
   for (const auto& m2 : {std::vector<std::vector<double>>{{1e-12, 2e-12}, {2e-12, 1e-12}},
                          {{1e-12, 0}, {1e-13, 1e-12}},
                          {{1e-12}, {1e-12}}}) {
@@ -119,7 +119,7 @@ TEST(CalibratedRig, ACovarianceThatIsNoneIsRefused) {
   }
 }
 
-TEST(CalibratedRig, UncertaintiesBelongToWhatWasReplaced) {
+TEST(CalibratedRig, UncertaintiesFollowTheReplacedValues) {
   const Rig rig = with_record("u_position_mm = 0.05\nu_calibration_um = 0.5\n",
                               "[installation]\nu_offset_mm = 0.4\n");
   EXPECT_NEAR(rig.probes[1].uncertainty.position.u[1], 2e-6, 1e-18);
@@ -127,8 +127,7 @@ TEST(CalibratedRig, UncertaintiesBelongToWhatWasReplaced) {
   EXPECT_NEAR(rig.uncertainty.installation_offset.u[1], 0.4e-3, 1e-18) << "declared";
 }
 
-// A correction is of the raw reading: with another offset it is found at another t = raw - offset.
-// A declared 0 is a declaration as any other.
+// A declared 0 is a declaration.
 TEST(CalibratedRig, KeepsWhatTheRigDeclaresAsZero) {
   const Rig rig = with_record("u_calibration_um = 0\n", "[installation]\nu_offset_mm = 0\n");
   EXPECT_EQ(rig.probes[1].uncertainty.calibration.u, 0);
@@ -137,7 +136,8 @@ TEST(CalibratedRig, KeepsWhatTheRigDeclaresAsZero) {
   EXPECT_TRUE(rig.uncertainty.installation_offset.known());
 }
 
-TEST(CalibratedRig, ALinearityMovesWithTheOffset) {
+// A correction refers to the raw reading: with another offset it is at another t = raw - offset.
+TEST(CalibratedRig, LinearityMovesWithTheOffset) {
   const Rig table = with_record("offset_um = 1\nlinearity = [[-50, 0.2], [50, -0.1]]\n");
   EXPECT_EQ(table.probes[1].calibration.linearity[0], (std::array<double, 2>{-51.5, 0.2}));
   EXPECT_EQ(table.probes[1].calibration.linearity[1], (std::array<double, 2>{48.5, -0.1}));
@@ -150,11 +150,11 @@ TEST(CalibratedRig, ALinearityMovesWithTheOffset) {
                 p({0.5, 0.01, 0.002, -0.0001}, raw - 1), 1e-12);
 }
 
-TEST(CalibratedRig, KnowsWhereAProbeWasCalibrated) {
+TEST(CalibratedRig, HasTheCalibratedRangeOfAProbe) {
   CalibrationRecord record = mounting();
   record.probes[0].linearity = {{-50, 0.2}, {50, -0.1}};
   record.probes[0].calibrated_um = {-12.5, 1.0 / 3};
-  record.probes[2].linearity = {{-50, 0.2}, {50, -0.1}};  // by an older version
+  record.probes[2].linearity = {{-50, 0.2}, {50, -0.1}};  // from an older version
   const auto with = [](const std::string& text) {
     return parse_rig(rig_text() + text.substr(text.find(kRecordHead)), "rig.toml");
   };
@@ -169,8 +169,8 @@ TEST(CalibratedRig, KnowsWhereAProbeWasCalibrated) {
   EXPECT_NE(refused.error().message.find("calibrated_um"), std::string::npos);
 }
 
-// A later mounting finds another zero: the same raw readings are then at another t.
-TEST(CalibratedRig, ACalibratedStretchMovesWithTheOffset) {
+// A later mounting record has another zero, so the same raw readings are at another t.
+TEST(CalibratedRig, CalibratedRangeMovesWithTheOffset) {
   CalibrationRecord sensitivity = mounting();
   sensitivity.kind = "sensitivity";
   sensitivity.probes = {CalibratedProbe{}};
@@ -187,8 +187,8 @@ TEST(CalibratedRig, ACalibratedStretchMovesWithTheOffset) {
   EXPECT_EQ(rig->probes[1].calibration.calibrated_um, (std::array{-22.5, 27.5}));
 }
 
-// The 1e-6 limits of chi-square: 38.26 for 6 degrees of freedom (tables), 1 in a million.
-TEST(CalibratedRig, AMountingThatDoesNotExplainItsReadingsIsDoubtful) {
+// The limits of chi-square for a probability of 1e-6: 38.26 for 6 degrees of freedom (tables).
+TEST(CalibratedRig, ReportsAMountingThatDoesNotFitItsReadings) {
   const auto said = [](double chi_square, std::int64_t freedom) {
     CalibrationRecord record = mounting();
     record.chi_square = chi_square;
@@ -207,7 +207,7 @@ TEST(CalibratedRig, AMountingThatDoesNotExplainItsReadingsIsDoubtful) {
   EXPECT_EQ(said(1e300, std::numeric_limits<std::int64_t>::max()).size(), 2U);
 }
 
-// What a laboratory's certificate states. The record's table is of the record's own offset.
+// The certificate of a laboratory. The table of the record refers to the offset of the record.
 TEST(CalibratedRig, TakesACertificate) {
   CalibrationRecord record;
   record.kind = "sensitivity";
@@ -250,7 +250,7 @@ TEST(CalibratedRig, TakesACertificate) {
       << reversed.error().message;
 }
 
-TEST(CalibratedRig, OutOfDateIsAWarning) {
+TEST(CalibratedRig, ReportsAnExpiredRecord) {
   const Rig rig = with_record();
   EXPECT_TRUE(overdue_calibrations(rig, "2027-11-02T23:59:59Z").empty());
   const auto overdue = overdue_calibrations(rig, "2027-11-03T00:00:00Z");
@@ -259,7 +259,7 @@ TEST(CalibratedRig, OutOfDateIsAWarning) {
   EXPECT_NE(test::shown(overdue[0]).find(" kind=mounting"), std::string::npos);
 }
 
-TEST(CalibratedRig, ATextWithoutItsRecordOrWithAChangedOneIsRefused) {
+TEST(CalibratedRig, RejectsMissingAndChangedRecords) {
   const auto says = [](const std::string& text, const char* what) {
     const auto rig = parse_rig(text, "rig.toml");
     ASSERT_FALSE(rig) << what;
@@ -282,7 +282,7 @@ TEST(CalibratedRig, ATextWithoutItsRecordOrWithAChangedOneIsRefused) {
        "the record contains the probes A, B, C, D");
 }
 
-TEST(CalibratedRig, IsLoadedWithTheFilesItNames) {
+TEST(CalibratedRig, LoadsTheNamedRecordFiles) {
   const auto folder = std::filesystem::temp_directory_path() / "mdof_calibrated_rig_test";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "rig.toml") << rig_text();
@@ -290,7 +290,7 @@ TEST(CalibratedRig, IsLoadedWithTheFilesItNames) {
   const auto text = load_rig_text(folder / "rig.toml");
   ASSERT_TRUE(text) << text.error().message;
   EXPECT_EQ(*text, rig_text() + record_part());
-  // What has its records behind it needs no file.
+  // A text that already contains its records needs no file.
   std::ofstream(folder / "whole.toml") << *text;
   std::filesystem::remove(folder / "m.toml");
   EXPECT_EQ(load_rig_text(folder / "whole.toml").value_or(""), *text);
@@ -300,7 +300,7 @@ TEST(CalibratedRig, IsLoadedWithTheFilesItNames) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(CalibrationRecord, PartsOfATextEndWhereTheNextBegins) {
+TEST(CalibrationRecord, PartsEndWhereTheNextBegins) {
   const std::string one = record_part();
   const std::string both = "name = \"x\"\n" + one + one;
   const auto parts = record_parts(both);
@@ -311,7 +311,7 @@ TEST(CalibrationRecord, PartsOfATextEndWhereTheNextBegins) {
   EXPECT_TRUE(record_parts("name = 1\n").empty());
 }
 
-TEST(CalibratedRig, SaysHowManyRecordsAndHowLargeOnesItTakes) {
+TEST(CalibratedRig, LimitsNumberAndSizeOfRecords) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("mdof_records_" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);

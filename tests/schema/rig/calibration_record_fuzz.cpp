@@ -1,5 +1,5 @@
-// Calibration records: the input is what a record says, and its hash is made to fit. Behind a rig
-// it is read or refused with a reason; one that was read is written, and read again.
+// Calibration records: the input is the body of a record with a matching hash. After a rig, it is
+// read or rejected with a reason; a record that was read is written and read again.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,4 +1,5 @@
-// Rigs as TOML: read or refused with a reason; one that was read is read again alike.
+// Rigs as TOML: each text is read or rejected with a reason; a rig that was read is read again with
+// the same result.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

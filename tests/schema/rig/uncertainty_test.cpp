@@ -10,7 +10,7 @@
 namespace mdof {
 namespace {
 
-// The default rig with `keys` in the table of probe A and `end` behind it.
+// The default rig with `keys` in the table of probe A and `end` after the text.
 Result<Rig> rig(const std::string& keys, const std::string& end = "") {
   std::string toml = test::rig_x_toml();
   toml.insert(toml.find('\n', toml.find("id = \"A\"")) + 1, keys + "\n");
@@ -23,7 +23,7 @@ std::string refusal(const std::string& keys, const std::string& end = "") {
   return parsed ? "" : parsed.error().message;
 }
 
-TEST(RigUncertainty, EachKeyIsReadInItsUnit) {
+TEST(RigUncertainty, ReadsEachKeyInItsUnit) {
   const auto parsed = rig(
       "u_calibration_um = 0.05\nu_sensitivity_ppm = 200\nu_position_mm = [0.1, 0.2, 0.3]\n"
       "u_direction_mrad = 2",
@@ -48,7 +48,7 @@ TEST(RigUncertainty, EachKeyIsReadInItsUnit) {
   EXPECT_DOUBLE_EQ(parsed->planes[0].u_flatness.u, 0.03e-6);
   EXPECT_DOUBLE_EQ(parsed->planes[0].flatness_length_m, 0.012);
   EXPECT_DOUBLE_EQ(parsed->planes[1].flatness_length_m, 0.030);
-  // One plane and the other probes lack theirs.
+  // One plane and the other probes do not declare these uncertainties.
   EXPECT_EQ(
       parsed->undeclared_uncertainties(),
       (std::vector<std::string>{"u_calibration_um", "u_sensitivity_ppm", "u_position_mm",
@@ -57,7 +57,7 @@ TEST(RigUncertainty, EachKeyIsReadInItsUnit) {
   EXPECT_EQ(rig("")->undeclared_uncertainties().size(), 12u);
 }
 
-// GUM 4.3.7 and 4.3.9: u = a/√3 and a/√6; the arcsine has a/√2.
+// GUM 4.3.7 and 4.3.9: u = a/√3 and a/√6; the arcsine distribution has a/√2.
 TEST(RigUncertainty, LimitsBecomeAStandardUncertainty) {
   const auto u = [](const std::string& table) {
     return rig("u_calibration_um = " + table)->probes[0].uncertainty.calibration;
@@ -75,7 +75,7 @@ TEST(RigUncertainty, LimitsBecomeAStandardUncertainty) {
   EXPECT_DOUBLE_EQ(three->probes[0].uncertainty.position.component(2).u, 3e-3);
 }
 
-TEST(RigUncertainty, WhatCannotBeIsRefusedWithItsPlace) {
+TEST(RigUncertainty, ErrorsStateThePlaceOfInvalidValues) {
   const struct {
     const char *keys, *says;
   } cases[] = {
@@ -112,9 +112,9 @@ TEST(RigUncertainty, WhatCannotBeIsRefusedWithItsPlace) {
             std::string::npos);
 }
 
-// To look for a key is not to read it: a key that nobody reads is refused, and one that is only
-// looked for is the hint to who misspelt it.
-TEST(TomlTable, AKeyThatIsOnlyLookedForIsNotKnown) {
+// has() does not read a key: a key that is never read is rejected, and a key that was only checked
+// with has() is the suggestion for a misspelt one.
+TEST(TomlTable, KeyCheckedWithHasIsNotRead) {
   auto there = TomlTable::parse("drift = 1\n", "f.toml").value();
   EXPECT_TRUE(there.has("drift"));
   const Status unread = there.finish();

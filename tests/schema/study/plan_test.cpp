@@ -1,4 +1,4 @@
-// Plans as files: what is read, and what is said about every kind of bad one.
+// Plans as files: valid plans, and the error for each kind of invalid plan.
 #include "schema/study/plan.h"
 
 #include <gtest/gtest.h>
@@ -30,14 +30,14 @@ const PlannedQuantity& quantity_of(const StudyPlan& plan, const std::string& nam
   return plan.quantities.front();
 }
 
-TEST(StudyPlan, TheExamplesAreRead) {
+TEST(StudyPlan, ReadsTheExamples) {
   for (const char* file : {"simulation_1", "mounting", "squareness", "whole_run"}) {
     const auto plan = load_study_plan(kFolder + file + ".toml");
     EXPECT_TRUE(plan) << plan.error().message;
   }
 }
 
-TEST(StudyPlan, AFullPlanIsReadAsItStands) {
+TEST(StudyPlan, ReadsACompletePlan) {
   const auto plan = load_study_plan(kFolder + "mounting.toml").value();
   EXPECT_EQ(plan.name, "mounting of the five-probe fixture");
   EXPECT_EQ(plan.rig.probes.size(), 5U);
@@ -69,7 +69,7 @@ TEST(StudyPlan, AFullPlanIsReadAsItStands) {
   EXPECT_DOUBLE_EQ(plan.fixture_per_K, 23e-6);
 }
 
-TEST(StudyPlan, WithoutTruthItIsThatOfThePaper) {
+TEST(StudyPlan, DefaultTruthIsThatOfThePaper) {
   const auto plan = parse_study_plan(kHead, kFolder + "plan.toml").value();
   EXPECT_EQ(quantity_of(plan, "travel_mm").distribution.high, 60);
   EXPECT_EQ(quantity_of(plan, "truth.EYX_um").distribution.low, -50);
@@ -77,7 +77,7 @@ TEST(StudyPlan, WithoutTruthItIsThatOfThePaper) {
   EXPECT_EQ(plan.outputs.size(), 5U);
 }
 
-TEST(StudyPlan, EveryNameIsOneThatTheRigKnows) {
+TEST(StudyPlan, EveryNameResolvesForTheRig) {
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
   for (const std::string& name : quantity_names(rig)) {
     const auto targets = resolve_quantity(name, rig);
@@ -87,7 +87,7 @@ TEST(StudyPlan, EveryNameIsOneThatTheRigKnows) {
 }
 
 // Each bin has a histogram for each output and thread.
-TEST(StudyPlan, TwoHundredBinsAreTheMost) {
+TEST(StudyPlan, AcceptsUpToTwoHundredBins) {
   const auto plan = parse_study_plan(kHead + "[bins]\ncount = 200\n", kFolder + "plan.toml");
   ASSERT_TRUE(plan) << plan.error().message;
   EXPECT_EQ(plan->bins, 200U);
@@ -97,14 +97,14 @@ struct Bad {
   std::string text, says;
 };
 
-// Else its address is part of the test's name.
+// Without this function the address of the object is part of the test's name.
 void PrintTo(const Bad& bad, std::ostream* out) {
   *out << bad.says;
 }
 
 class BadPlan : public testing::TestWithParam<Bad> {};
 
-TEST_P(BadPlan, IsRefusedWithPlaceAndRemedy) {
+TEST_P(BadPlan, IsRejectedWithPlaceAndRemedy) {
   const std::string error = error_of(GetParam().text);
   EXPECT_NE(error.find("plan.toml"), std::string::npos) << error;
   EXPECT_NE(error.find(GetParam().says), std::string::npos) << error;
@@ -208,11 +208,11 @@ class SampleFile : public testing::Test {
       testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
 };
 
-TEST_F(SampleFile, IsOneColumnWithCommentsAndPerhapsAHeading) {
+TEST_F(SampleFile, IsOneColumnWithCommentsAndOptionalHeading) {
   EXPECT_EQ(load("# air\nK\n 3\r\n\n-1.5\n2e0").value(), (std::vector<double>{-1.5, 2, 3}));
 }
 
-TEST_F(SampleFile, SaysWhatIsWrong) {
+TEST_F(SampleFile, ErrorsStateTheFault) {
   EXPECT_NE(load("").error().message.find("0 values"), std::string::npos);
   EXPECT_NE(load("5\n").error().message.find("1 values"), std::string::npos);
   EXPECT_NE(load("K\n5\n6,7\n").error().message.find(":3: \"6,7\""), std::string::npos);

@@ -1,4 +1,5 @@
-// Plans of studies as TOML: read or refused with a reason. The rig of a plan is a file beside it.
+// Plans of studies as TOML: each text is read or rejected with a reason. The rig of a plan is
+// another file.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>

@@ -1,5 +1,4 @@
-// The hash of a volumetric table has all that the table says, and its nodes are in the order
-// stated.
+// The hash of a volumetric table contains all its statements, and its nodes have the stated order.
 #include "schema/volumetric/volumetric_table.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +27,7 @@ VolumetricTable small_table() {
   return t;
 }
 
-TEST(VolumetricTable, XRunsFastestThenYThenZ) {
+TEST(VolumetricTable, NodesAreOrderedByXThenYThenZ) {
   const VolumetricTable t = small_table();
   ASSERT_EQ(t.nodes(), 6u);
   EXPECT_EQ(t.command_at(0), (Vec3{0, 0, 0.03}));
@@ -38,7 +37,7 @@ TEST(VolumetricTable, XRunsFastestThenYThenZ) {
   for (std::size_t node = 0; node < 6; ++node) EXPECT_EQ(t.node(node % 3, node / 3, 0), node);
 }
 
-TEST(VolumetricTable, EveryStatementIsInItsHash) {
+TEST(VolumetricTable, HashContainsEveryStatement) {
   const std::vector<std::function<void(VolumetricTable&)>> changes = {
       [](auto& t) { t.name = "other"; },
       [](auto& t) { t.machine = parse_chain("w-X-b-Y-Z-t").value(); },
@@ -83,17 +82,17 @@ TEST(VolumetricTable, EveryStatementIsInItsHash) {
   }
   EXPECT_EQ(hashes.size(), changes.size() + 1);
   VolumetricTable stored = small_table();
-  stored.id = 7, stored.created_utc = "now";  // which the store adds
+  stored.id = 7, stored.created_utc = "now";  // the store adds these
   EXPECT_TRUE(hashes.contains(volumetric_sha256(stored)));
 }
 
-TEST(VolumetricTable, ANodeIsItsCommandsItsCorrectionsAndTheirUInMicrometres) {
+TEST(VolumetricTable, NodeHasCommandsCorrectionsAndU) {
   JsonWriter json;
   write_volumetric_node(json, small_table(), 4, false);
   EXPECT_EQ(json.take(), "[10,50,30,4,2,-3,0.01,0.08,0.03]");
 }
 
-TEST(VolumetricTable, ItsUHasTwoPartsWhereTheyAreKnown) {
+TEST(VolumetricTable, UHasTwoPartsIfTheyAreKnown) {
   VolumetricTable t = small_table();
   JsonWriter unknown;
   write_volumetric_node(unknown, t, 4, true);
@@ -107,7 +106,7 @@ TEST(VolumetricTable, ItsUHasTwoPartsWhereTheyAreKnown) {
   EXPECT_NE(covers_text(t).find("u_common"), std::string::npos);
 }
 
-TEST(VolumetricTable, ItsWordsSayWhatUDoesNotHave) {
+TEST(VolumetricTable, TextStatesWhatUDoesNotInclude) {
   VolumetricTable t = small_table();
   EXPECT_EQ(covers_text(t).find("noise"), std::string::npos);
   t.noise_only = NoiseOnly::some;

@@ -27,7 +27,7 @@ class Output : public testing::Test {
   void make(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  // Name and text of all that is there.
+  // Names and texts of all files of the folder.
   std::map<std::string, std::string> found() const {
     std::map<std::string, std::string> files;
     for (const auto& entry : fs::directory_iterator(folder_)) {
@@ -41,7 +41,7 @@ class Output : public testing::Test {
   fs::path folder_;
 };
 
-TEST_F(Output, AppearsWhenAllIsWritten) {
+TEST_F(Output, AppearsAfterEverythingIsWritten) {
   make("old", "before");
   fs::permissions(folder_ / "old", fs::perms(0640));
   {
@@ -57,7 +57,7 @@ TEST_F(Output, AppearsWhenAllIsWritten) {
   EXPECT_EQ(fs::status(folder_ / "old").permissions(), fs::perms(0640));
 }
 
-TEST_F(Output, LeavesNothingBehindWhereItIsNotPublished) {
+TEST_F(Output, LeavesNoFileIfNotPublished) {
   make("old", "before");
   {
     OutputFiles files(Existing::replace);
@@ -67,7 +67,7 @@ TEST_F(Output, LeavesNothingBehindWhereItIsNotPublished) {
   EXPECT_EQ(found(), (Files{{"old", "before"}}));
 }
 
-TEST_F(Output, IsRefusedWhereAFileIsThere) {
+TEST_F(Output, RejectsAnExistingFile) {
   make("old", "before");
   const auto refused = write_file(folder_ / "old", "after", Existing::refuse);
   ASSERT_FALSE(refused);
@@ -77,8 +77,8 @@ TEST_F(Output, IsRefusedWhereAFileIsThere) {
   EXPECT_EQ(found()["made"], "new");
 }
 
-// Also one that came after the look.
-TEST_F(Output, ADatabaseALogOrARecordingIsNotReplaced) {
+// This includes a file that appears after the check.
+TEST_F(Output, DoesNotReplaceDatabasesLogsAndRecordings) {
   using namespace std::string_literals;
   const Files valuable = {{"database", "SQLite format 3\0 and pages"s},
                           {"write-ahead log", "\x37\x7f\x06\x82\0\x2d\xe2\x18"s},
@@ -101,7 +101,7 @@ TEST_F(Output, ADatabaseALogOrARecordingIsNotReplaced) {
   EXPECT_TRUE(write_file(folder_ / "log.csv", "\xc2\xb5m,b\n", Existing::replace));
 }
 
-TEST_F(Output, AFileThatCameMeanwhileIsNotReplaced) {
+TEST_F(Output, DoesNotReplaceAFileCreatedMeanwhile) {
   OutputFiles files(Existing::refuse);
   ASSERT_TRUE(files.add(folder_ / "a") && files.add(folder_ / "b"));
   make("b", "somebody's");
@@ -113,20 +113,20 @@ TEST_F(Output, AFileThatCameMeanwhileIsNotReplaced) {
   EXPECT_EQ(found().count("a"), 0u);
 }
 
-TEST_F(Output, AllOrNoneIsReplaced) {
+TEST_F(Output, ReplacesAllFilesOrNone) {
   make("a", "old a");
   make("b", "old b");
   {
     OutputFiles files(Existing::replace);
     const auto a = files.add(folder_ / "a"), b = files.add(folder_ / "b");
     ASSERT_TRUE(a && b && files.write(*a, "new a") && files.write(*b, "new b"));
-    fs::remove(folder_ / "b");  // somebody else's doing
+    fs::remove(folder_ / "b");  // done by another program
     ASSERT_FALSE(files.publish());
   }
   EXPECT_EQ(found(), (Files{{"a", "old a"}}));
 }
 
-TEST_F(Output, ASymbolicLinkIsNotWrittenThrough) {
+TEST_F(Output, DoesNotFollowSymbolicLinks) {
   make("target", "before");
   fs::create_symlink("target", folder_ / "link");
   fs::create_symlink("nowhere", folder_ / "dangling");
@@ -139,7 +139,7 @@ TEST_F(Output, ASymbolicLinkIsNotWrittenThrough) {
   EXPECT_FALSE(fs::exists(folder_ / "nowhere"));
 }
 
-TEST_F(Output, ADeviceIsWrittenDirectly) {
+TEST_F(Output, WritesDirectlyToADevice) {
   EXPECT_TRUE(write_file("/dev/null", "text", Existing::replace));
   const auto full = write_file("/dev/full", "text", Existing::replace);
   ASSERT_FALSE(full);
@@ -148,7 +148,7 @@ TEST_F(Output, ADeviceIsWrittenDirectly) {
             std::string::npos);
 }
 
-TEST_F(Output, NothingIsChangedWhereThereIsNoRoom) {
+TEST_F(Output, ChangesNothingWithoutSpace) {
   make("old", "before");
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -163,7 +163,7 @@ TEST_F(Output, NothingIsChangedWhereThereIsNoRoom) {
   EXPECT_EQ(found(), (Files{{"old", "before"}}));
 }
 
-TEST_F(Output, AFolderThatIsNotThereIsNamed) {
+TEST_F(Output, ReportsAMissingFolder) {
   const auto refused = write_file(folder_ / "no" / "file", "text", Existing::replace);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("no/file: cannot be written: No such file"),

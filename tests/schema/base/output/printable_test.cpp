@@ -5,7 +5,7 @@
 namespace mdof {
 namespace {
 
-TEST(Printable, TextForPeopleStaysAsItIs) {
+TEST(Printable, KeepsReadableText) {
   for (const char* const text :
        {"", "two\nlines\tand a tab", "5 µm ± 0.1 µrad", "工具机", "🙂", "é"}) {
     EXPECT_TRUE(is_printable(text)) << text;
@@ -13,7 +13,7 @@ TEST(Printable, TextForPeopleStaysAsItIs) {
   }
 }
 
-TEST(Printable, WhatATerminalTakesAsACommandIsOneQuestionMarkACharacter) {
+TEST(Printable, ReplacesEachControlCharacter) {
   const std::pair<std::string, std::string> rows[] = {
       {"a\x1b]0;title\x07z", "a?]0;title?z"},
       {"\x1b[2J", "?[2J"},
@@ -35,7 +35,7 @@ TEST(Printable, WhatATerminalTakesAsACommandIsOneQuestionMarkACharacter) {
   }
 }
 
-TEST(Printable, BytesThatAreNoUtf8AreMarkedOneByOne) {
+TEST(Printable, ReplacesEachInvalidByte) {
   const std::pair<std::string, std::string> rows[] = {
       {"\x9b", "?"},           {"\xfc", "?"},
       {"µ\xb5µ", "µ?µ"},       {"\xc2", "?"},
@@ -47,7 +47,7 @@ TEST(Printable, BytesThatAreNoUtf8AreMarkedOneByOne) {
   for (const auto& [text, clean] : rows) EXPECT_EQ(printable(text), clean);
 }
 
-TEST(Printable, AJsonDocumentSaysWhatItSaid) {
+TEST(Printable, EscapesWithinJson) {
   EXPECT_EQ(printable_json("{\"a\":\"µ\x7f\xc2\x9b\xe2\x80\xae\xff\"}"),
             "{\"a\":\"µ\\u007f\\u009b\\u202e\\ufffd\"}");
 }

@@ -18,8 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A text that was gone when the statement ran put foreign bytes into a table's chain.
-TEST(Sqlite, KeepsACopyOfAText) {
+// Without the copy, a text that was gone when the statement ran put other bytes into a table's
+// chain.
+TEST(Sqlite, CopiesBoundTexts) {
   auto connection = Connection::open(":memory:", OpenMode::create);
   ASSERT_TRUE(connection) << connection.error().message;
   ASSERT_TRUE(connection->execute("CREATE TABLE t (x TEXT)"));
@@ -47,12 +48,12 @@ class ForeignDatabase : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // By a program that is killed after it.
+  // Runs `sql` in a process that exits without closing the database.
   void leave(const std::string& sql) const {
     const pid_t child = fork();
     if (child == 0) {
       auto db = Connection::open(file_, OpenMode::read_write);
-      _exit(db && db->execute(sql) ? 0 : 1);  // without a word to SQLite
+      _exit(db && db->execute(sql) ? 0 : 1);  // without closing the database
     }
     int status = -1;
     waitpid(child, &status, 0);
@@ -65,7 +66,7 @@ class ForeignDatabase : public testing::Test {
         "WHERE i < 500) INSERT INTO half SELECT zeroblob(2000) FROM n");
     ASSERT_GT(fs::file_size(file_.string() + "-journal"), 0u);
   }
-  // As SQLite writes it for a transaction over several databases.
+  // Appends the name of a super-journal, as SQLite does for a transaction over several databases.
   void name_super_journal(const fs::path& victim) const {
     const std::string name = victim.string();
     std::uint32_t sum = 0;
@@ -80,7 +81,7 @@ class ForeignDatabase : public testing::Test {
     put(sum);
     journal << std::string("\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8);
   }
-  // Every file of the folder with its bytes.
+  // All files of the folder with their bytes.
   std::map<std::string, std::string> contents() const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::directory_iterator(folder_)) {
@@ -96,7 +97,7 @@ class ForeignDatabase : public testing::Test {
   fs::path folder_, file_;
 };
 
-TEST_F(ForeignDatabase, NoFileIsDeletedThatAJournalNames) {
+TEST_F(ForeignDatabase, DoesNotDeleteAFileNamedInAJournal) {
   leave_half_written();
   const fs::path victim = folder_ / "victim";
   std::ofstream(victim) << "the only copy";
@@ -110,7 +111,8 @@ TEST_F(ForeignDatabase, NoFileIsDeletedThatAJournalNames) {
     EXPECT_NE(opened.error().message.find("names a super-journal"), std::string::npos);
     EXPECT_EQ(contents(), before);
   }
-  // As one that comes between the check and the opening.
+  // The journal may appear between the check and the opening: SQLite itself must not delete the
+  // file either.
   sqlite3* database = nullptr;
   ASSERT_EQ(sqlite3_open(file_.c_str(), &database), SQLITE_OK);
   (void)sqlite3_exec(database, "SELECT count(*) FROM t", nullptr, nullptr, nullptr);
@@ -118,7 +120,7 @@ TEST_F(ForeignDatabase, NoFileIsDeletedThatAJournalNames) {
   EXPECT_TRUE(fs::exists(victim));
 }
 
-TEST_F(ForeignDatabase, IsReadWithoutAByteWritten) {
+TEST_F(ForeignDatabase, IsReadWithoutWriting) {
   const struct {
     const char* sql;  // empty: a half-written transaction with its -journal
     std::int64_t sum;
@@ -144,8 +146,8 @@ TEST_F(ForeignDatabase, IsReadWithoutAByteWritten) {
   }
 }
 
-// A writer and checkpoints at full speed beside it: each copy is one moment's, whole.
-TEST_F(ForeignDatabase, IsCopiedWholeWhileItsProgramWrites) {
+// A writer and its checkpoints run at full speed; each copy is a complete state of one moment.
+TEST_F(ForeignDatabase, CopiesAreConsistentDuringWrites) {
   int ready[2];
   ASSERT_EQ(pipe(ready), 0);
   const pid_t child = fork();
@@ -184,7 +186,7 @@ TEST_F(ForeignDatabase, IsCopiedWholeWhileItsProgramWrites) {
   waitpid(child, nullptr, 0);
 }
 
-TEST_F(ForeignDatabase, WhatThisProcessHasOpenForWritingIsKnownByAnyName) {
+TEST_F(ForeignDatabase, FilesOpenForWritingAreKnownByAnyName) {
   EXPECT_FALSE(is_open_for_writing(file_));
   auto db = Connection::open(file_, OpenMode::read_write);
   ASSERT_TRUE(db->execute("PRAGMA journal_mode = WAL; INSERT INTO t VALUES (10)"));
@@ -197,7 +199,7 @@ TEST_F(ForeignDatabase, WhatThisProcessHasOpenForWritingIsKnownByAnyName) {
   EXPECT_FALSE(is_open_for_writing(folder_ / "absent"));
 }
 
-// Whether another process finds SQLite's lock of a reader on the file.
+// Whether SQLite's reader lock on the file is visible to another process.
 bool is_locked(const fs::path& file) {
   const pid_t child = fork();
   if (child == 0) {
@@ -213,7 +215,7 @@ bool is_locked(const fs::path& file) {
   return status == 0;
 }
 
-TEST_F(ForeignDatabase, NoNameOfTheOwnFileDropsItsLocks) {
+TEST_F(ForeignDatabase, OtherNamesOfAFileKeepItsLocks) {
   auto own = Connection::open(file_, OpenMode::read_write);
   ASSERT_TRUE(own->execute("PRAGMA journal_mode = WAL; INSERT INTO t VALUES (10)"));
   const fs::path foreign = folder_ / "foreign";
@@ -231,11 +233,11 @@ TEST_F(ForeignDatabase, NoNameOfTheOwnFileDropsItsLocks) {
     EXPECT_EQ(errno, EBUSY) << name;
   }
   EXPECT_TRUE(is_locked(file_));
-  ::close(::open(file_.c_str(), O_RDONLY));  // the fault itself
+  ::close(::open(file_.c_str(), O_RDONLY));  // the fault that open_foreign() prevents
   EXPECT_FALSE(is_locked(file_));
 }
 
-TEST(OpenForeign, NeverWaitsForAFifo) {
+TEST(OpenForeign, DoesNotWaitForAFifo) {
   std::string name = (fs::temp_directory_path() / "mdof-fifo-XXXXXX").string();
   ASSERT_TRUE(mkdtemp(name.data()));
   const fs::path fifo = fs::path(name) / "fifo", link = fs::path(name) / "link";

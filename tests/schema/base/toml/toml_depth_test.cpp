@@ -18,8 +18,8 @@ std::string refusal(const std::string& text) {
   return table ? "" : table.error().message;
 }
 
-// Each of these ran the stack over, in the parser or when its tree was taken down.
-TEST(TomlDepth, IsBoundedBeforeAnythingIsBuilt) {
+// Each of these texts caused a stack overflow, in the parser or when its tree was destroyed.
+TEST(TomlDepth, IsLimitedBeforeParsing) {
   const std::string path = repeated("a.", 40'000) + "a";
   for (const std::string& deep :
        {path + " = 1", "[" + path + "]", "[[" + path + "]]", "a = {" + path + " = 1}",
@@ -33,7 +33,7 @@ TEST(TomlDepth, IsBoundedBeforeAnythingIsBuilt) {
         << deep.substr(0, 40);
 }
 
-TEST(TomlDepth, IsCountedToTheLastLevel) {
+TEST(TomlDepth, IsCountedExactly) {
   EXPECT_EQ(refusal(repeated("a.", 32) + "a = 1"), "");
   EXPECT_NE(refusal(repeated("a.", 33) + "a = 1"), "");
   EXPECT_EQ(refusal("a = " + repeated("[", 32) + repeated("]", 32)), "");
@@ -42,8 +42,9 @@ TEST(TomlDepth, IsCountedToTheLastLevel) {
   EXPECT_EQ(toml_line_deeper_than("a.b.c = {d.e = [1]}", 4), 1U);
 }
 
-// Dots and brackets of texts, comments and numbers are no levels, however many there are.
-TEST(TomlDepth, IsOfKeysAndBracketsAlone) {
+// Dots and brackets in strings, comments and numbers are not counted as levels, regardless of their
+// number.
+TEST(TomlDepth, CountsOnlyKeysAndBrackets) {
   const std::string dots = repeated(".", 100), brackets = repeated("[{", 100);
   for (const std::string& flat :
        {"# " + dots + brackets + "\na = 1", "a = \"" + dots + brackets + R"(\"[[\\")",
@@ -54,8 +55,8 @@ TEST(TomlDepth, IsOfKeysAndBracketsAlone) {
     EXPECT_EQ(refusal(flat), "") << flat.substr(0, 40);
 }
 
-// Found by fuzzing: a text of several lines without its closing quotes ended the program.
-TEST(TomlDepth, ATextWithoutEndIsRefused) {
+// Found by fuzzing: a multi-line string without closing quotes terminated the program.
+TEST(TomlDepth, RejectsAnUnterminatedString) {
   for (const char* open : {"t = \"\"\"", "t = '''", "t = '''x", "t = \"\"\"x\\", "t = '''x''",
                            "t = \"x\\", "t = \"", "t = '", "'''", "\"\"\"\"", "t = [\"\"\"a\n"}) {
     EXPECT_EQ(toml_line_deeper_than(open, 32), std::nullopt) << open;
@@ -63,8 +64,8 @@ TEST(TomlDepth, ATextWithoutEndIsRefused) {
   }
 }
 
-// A text cannot hide what follows it.
-TEST(TomlDepth, IsSeenAfterTexts) {
+// A string does not hide the text after it.
+TEST(TomlDepth, IsCountedAfterStrings) {
   const std::string deep = "\n" + repeated("a.", 40) + "a = 1";
   for (const char* before :
        {"t = \"\"", "t = ''", "t = \"a\\\"b\"", "t = 'a\\'", "t = \"\"\"\"\"\"",

@@ -1,4 +1,4 @@
-// Several readers of one table: each knows some of its keys.
+// Several readers of one table: each reads some of its keys.
 #include <gtest/gtest.h>
 
 #include "schema/base/toml/toml_reader.h"
@@ -17,13 +17,13 @@ std::string after(const std::vector<const char*>& keys_of_second) {
   return finished ? "" : finished.error().message;
 }
 
-TEST(TomlTables, AreKnownToAllWhoAsk) {
+TEST(TomlTables, KeysReadByAnyReaderAreKnown) {
   EXPECT_EQ(after({"id"}), "");
   EXPECT_NE(after({}).find("mdofd.toml:2: channel[1].id: unknown key"), std::string::npos)
       << after({});
 }
 
-TEST(TomlTables, AreInTheirOrderForBoth) {
+TEST(TomlTables, HaveTheSameOrderForEachReader) {
   auto root = TomlTable::parse(kText, "mdofd.toml").value();
   for (int reader = 0; reader < 2; ++reader) {
     auto tables = root.tables("channel");

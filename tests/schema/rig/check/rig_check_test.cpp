@@ -1,5 +1,5 @@
-// What a wrong unit makes of a rig, key by key: each is found with its line, and right rigs,
-// however small, are left alone.
+// Wrong units in a rig, key by key: each one is reported with its line. Correct rigs, also small
+// ones, have no findings.
 #include "schema/rig/check/rig_check.h"
 #include "tests/shown.h"
 
@@ -57,8 +57,9 @@ void expect_right(const std::string& text) {
   EXPECT_EQ(test::shown(doubtful_values(*rig)), "");
 }
 
-// Two alike among more than a rig can have: the number is what is told, before any are compared.
-TEST(RigCheck, AThousandProbesAreTheMost) {
+// The rig has more probes than allowed and two equal probes: the number is checked before probes
+// are compared.
+TEST(RigCheck, RejectsMoreThanAThousandProbes) {
   std::string text = kRig;
   for (int i = 0; i < 999; ++i)
     text +=
@@ -66,9 +67,10 @@ TEST(RigCheck, AThousandProbesAreTheMost) {
   expect_refused(text, {"the rig has 1001 probes, but at most 1000"});
 }
 
-TEST(RigCheck, LeavesRightRigsAlone) {
+TEST(RigCheck, AcceptsCorrectRigs) {
   expect_right(kRig);
-  expect_right(with("[10, 0, 0]", "[1.5, 0, 0]", with("[0, 10, 0]", "[0, 1.5, 0]")));  // tiny
+  expect_right(
+      with("[10, 0, 0]", "[1.5, 0, 0]", with("[0, 10, 0]", "[0, 1.5, 0]")));  // a small rig
   expect_right(with("[10, 0, 0]", "[200, 0, 0]", with("[0, 10, 0]", "[0, 200, 100]")));
   for (const char* range : {"range_um = 10", "range_um = 50", "range_um = 12700"})
     expect_right(with("range_um = 200", range));
@@ -82,8 +84,8 @@ TEST(RigCheck, LeavesRightRigsAlone) {
                "flatness_second_mm = [0, 9]\nflatness_um = [[0, 1], [2, 0.5]]\n");
 }
 
-TEST(RigCheck, PositionsInOtherUnits) {
-  // 12 m, as in µm; and 10 mm, as in m
+TEST(RigCheck, ReportsPositionsInOtherUnits) {
+  // 12 m, as if in µm; and 10 mm, as if in m
   expect_refused(with("[10, 0, 0]", "[12000, 0, 0]"),
                  {"r.toml:6: ", "position_mm", "\"A\"", "1.2e+04 mm", "mm, not um"});
   expect_refused(with("[0, 10, 0]", "[0, -501, 0]"), {"r.toml:12: ", "position_mm", "\"B\""});
@@ -95,7 +97,7 @@ TEST(RigCheck, PositionsInOtherUnits) {
                 {"position_mm", "0.7071"});
 }
 
-TEST(RigCheck, RangesInOtherUnits) {
+TEST(RigCheck, ReportsRangesInOtherUnits) {
   for (const char* range : {"0.2", "2e5", "2e6", "200e3", "2e-4"})
     expect_refused(with("range_um = 200", "range_um = " + std::string(range)),
                    {"r.toml:14: ", "range_um", "\"B\"", "um, not mm or nm"});
@@ -103,7 +105,7 @@ TEST(RigCheck, RangesInOtherUnits) {
   expect_warned(with("range_um = 200", "range_um = 50e3"), {"r.toml:14: ", "range_um"});
 }
 
-TEST(RigCheck, TheDelayOfAnAmplifierIsInMicroseconds) {
+TEST(RigCheck, AmplifierDelayIsInMicroseconds) {
   const Result<Rig> rig = parse_rig(kRig + "delay_us = 8000\n", "r.toml");
   ASSERT_TRUE(rig) << rig.error().message;
   EXPECT_EQ(rig->probes[0].delay_s, 0);
@@ -112,7 +114,7 @@ TEST(RigCheck, TheDelayOfAnAmplifierIsInMicroseconds) {
     expect_refused(kRig + "delay_us = " + wrong + "\n", {"r.toml:15: ", "delay_us"});
 }
 
-TEST(RigCheck, CalibrationsInOtherUnits) {
+TEST(RigCheck, ReportsCalibrationsInOtherUnits) {
   expect_refused(kRig + "um_per_V = 0.01\n", {"r.toml:15: ", "um_per_V", "2e+04 V"});
   expect_refused(kRig + "um_per_V = 1e6\n", {"r.toml:15: ", "um_per_V"});
   expect_warned(kRig + "um_per_V = 0.5\n", {"r.toml:15: ", "um_per_V", "400 V"});
@@ -123,7 +125,7 @@ TEST(RigCheck, CalibrationsInOtherUnits) {
   expect_warned(kRig + "linearity = [[-100, 30], [100, -10]]\n", {"r.toml:15: ", "linearity"});
 }
 
-TEST(RigCheck, TargetsInOtherUnits) {
+TEST(RigCheck, ReportsTargetsInOtherUnits) {
   expect_refused("artefact_angle_error_urad = 1.5708e6\n" + kRig,
                  {"r.toml:1: ", "artefact_angle_error_urad", "90 degrees"});
   expect_warned("artefact_angle_error_urad = 2e4\n" + kRig, {"artefact_angle_error_urad"});

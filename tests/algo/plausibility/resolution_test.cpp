@@ -36,7 +36,7 @@ TEST(Resolution, IsAStepThatOccursThreeTimes) {
   EXPECT_EQ(step_of({1, 1.02, 1.06}), 0);
 }
 
-// Of few steps, three quarters must agree; of sixteen or more steps, an eighth must agree.
+// Three quarters of few steps must agree; with sixteen or more steps, an eighth must agree.
 TEST(Resolution, NeedsMostOfFewSteps) {
   EXPECT_EQ(step_of(repeated(1, 6, {2, 4})), 1);
   EXPECT_EQ(step_of(repeated(1, 5, {2, 4, 8})), 0);

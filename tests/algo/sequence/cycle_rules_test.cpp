@@ -41,7 +41,7 @@ TEST(CycleRule, AllowsThreeRepeatedVisitsInAShortRun) {
 
 TEST(CycleRule, AllowsThreeOfTwentyInALongRun) {
   EXPECT_TRUE(by_passes(over_and_back(3, 7)));  // 7 of 49
-  // The first two visits are in order, three are not.
+  // Three visits are out of order: the repeated visits of 4, 5 and 6.
   EXPECT_TRUE(by_passes({1, 2, 3, 4, 4, 5, 5, 6, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
   auto more = over_and_back(3, 7);
   more.insert(more.begin(), 1);

@@ -68,7 +68,7 @@ bool is_target(const Visited& place, int forward, int reverse) {
 TEST(OddStops, TargetNeedsSixTenthsOfTheVisits) {
   EXPECT_TRUE(is_target({3, 3, 3}, 5, 5));   // 6 of 10 visits: a target at any distance
   EXPECT_FALSE(is_target({3, 3, 2}, 5, 5));  // 3 mm from the next target
-  EXPECT_FALSE(is_target({3, 6, 0}, 5, 5));  // from one side only
+  EXPECT_FALSE(is_target({3, 6, 0}, 5, 5));  // visited from one side only
   EXPECT_TRUE(is_target({3, 3, 0}, 5, 0));
   EXPECT_FALSE(is_target({3, 2, 0}, 5, 0));
   EXPECT_TRUE(is_target({3, 0, 3}, 0, 5));

@@ -142,7 +142,8 @@ TEST(UnevenVisits, UncertaintyOfEveryTargetContainsTheDrift) {
   const mdof::Run run = cut_run(2, [](const Visit& v) { return v.run < 2 || v.target < 10; });
   for (const auto approach : {Approach::forward, Approach::reverse, Approach::both})
     for (const TargetMean& mean : target_means({Axis::x, {}}, run.points, approach))
-      EXPECT_NEAR(mean.u[0], 1.5 * kDrift_m, 1e-12) << to_string(approach);  // of 1 and 4, s/√2
+      EXPECT_NEAR(mean.u[0], 1.5 * kDrift_m, 1e-12)
+          << to_string(approach);  // mean of 1 and 4: s/√2
 }
 
 TEST(UnevenVisits, TableOfRunsWithOtherTargetsHasNoStep) {

@@ -1,5 +1,5 @@
-// Correlated noise, drawn by a recursion of the test at each visit: whether the stated intervals
-// contain the truth. MDOF_COVERAGE_RUNS=1000 for figures worth quoting.
+// The test draws correlated noise at each visit by a recursion: how often the stated intervals
+// contain the true values. Use MDOF_COVERAGE_RUNS=1000 for figures worth quoting.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -41,7 +41,7 @@ CorrelatedCoverage correlated_coverage(int runs, double correlation, double tilt
   for (int i = 0; i < n; ++i) {
     std::array<double, 5> state{};
     for (double& x : state) x = normal(engine);
-    std::vector<double> tilt;  // of each run
+    std::vector<double> tilt;  // tilt of each run
     for (int r = 0; r < runs; ++r) tilt.push_back(tilt_rad / 20e-9 * normal(engine));
     synthetic.added = [&](std::size_t k, double d, double, double time_s) {
       const double of_run = tilt[static_cast<std::size_t>((time_s - 5) / 180)] * d;

@@ -74,7 +74,7 @@ Coverage coverage_of(const Rig& declared, const Rig& faulty, int trials) {
 
 TEST(CoverageOfRuns, StatedIntervalsHoldTheTruth) {
   const int runs = wanted_runs() > 0 ? wanted_runs() : 150;
-  const double three_sd = 65 / std::sqrt(runs);  // of the share of so many trials, in %
+  const double three_sd = 65 / std::sqrt(runs);  // for the share of this number of trials, %
   for (const auto& [l_mm, h_mm, z_mm] :
        {std::array{10.0, 15.0, 20.0}, std::array{25.0, 8.0, 12.0}}) {
     const Rig rig = declared_rig(l_mm, h_mm, z_mm);

@@ -13,7 +13,7 @@ class DrawnSurface {
   // Waves of the lengths L, L/2, L/3 and L/4 with the weights 1/k².
   template <class Engine>
   DrawnSurface(double u_m, double length_m, Engine& engine) {
-    constexpr int kWaves = 20;  // of each length
+    constexpr int kWaves = 20;  // number of waves of each length
     const double norm = 1 + 1 / 16.0 + 1 / 81.0 + 1 / 256.0;
     std::normal_distribution<> normal;
     std::uniform_real_distribution<> uniform;

@@ -20,7 +20,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kYawOfCases = 4;  // ECX, of which no line is removed
+constexpr std::size_t kYawOfCases = 4;  // ECX; no line is removed from it
 
 int runs_wanted() {
   const char* runs = std::getenv("MDOF_COVERAGE_RUNS");
@@ -59,7 +59,7 @@ ParameterValues parameters(const TrueVisits& visits) {
 
 struct AxisCase {
   int runs = 3;
-  double form_rad = 0, reversal_rad = 0, scatter_rad = 0;  // of the axis
+  double form_rad = 0, reversal_rad = 0, scatter_rad = 0;  // of the yaw of the axis
   double noise_m = 40e-9;
   double gain = 0;  // declared standard deviation of the gain of D
 };

@@ -69,7 +69,7 @@ TEST(RunUncertainty, DeclaredUncertaintiesAddToTheNoise) {
 // level.
 TEST(RunUncertainty, RepeatsReplaceSmallerNoise) {
   const Rig rig = rig_x_with("", "");
-  const double steps[] = {-1, 3, 2, -2, 1, -3};  // of D and E, by pass of nine points
+  const double steps[] = {-1, 3, 2, -2, 1, -3};  // level of D and E, by pass of nine points
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   synthetic.u_reading_m = 10e-9;
   synthetic.added = [&](std::size_t k, double, double, double time_s) {

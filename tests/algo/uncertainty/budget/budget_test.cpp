@@ -74,7 +74,7 @@ TEST(Budget, NoiseOfIndependentTargetsIsCorrect) {
   EXPECT_TRUE(slope.noise_only);
   ASSERT_EQ(slope.lines.size(), 1u);
   // EYX = D + (B - C) l''/2l with l''/2l = 1: D, B and C contribute u each.
-  const double u_mean = 10e-9 * std::sqrt(3.0) / std::sqrt(2.0);  // of both approaches
+  const double u_mean = 10e-9 * std::sqrt(3.0) / std::sqrt(2.0);  // mean of both approaches
   const double sxx = 25e-6 * 60;                                  // Σ (i - 4)² = 60
   EXPECT_NEAR(slope.u, u_mean / std::sqrt(sxx), 1e-12);
   EXPECT_EQ(slope.u, slope.u_random);

@@ -25,7 +25,7 @@
 namespace mdof::daemon {
 namespace {
 
-// A thread that has not come round for so long keeps the watchdog from being fed.
+// If a thread does not report for this time, the watchdog is no longer notified.
 constexpr std::chrono::seconds kThreadDeadline{8};
 
 std::string recorded_json(std::int64_t run, std::int64_t seq) {
@@ -75,7 +75,8 @@ rpc::ServerOptions server_options(const RpcAccess& access) {
 
 }  // namespace
 
-// Destroyed from the bottom up: stations stop, the server closes, the keeper writes what waits.
+// The destructor stops the stations, closes the database and lets the storekeeper write its pending
+// data. The members are then destroyed in reverse order (server, service, event loop).
 struct App::Parts {
   explicit Parts(Config c)
       : config(std::move(c)),
@@ -104,7 +105,7 @@ struct App::Parts {
     replayer.reset();
     query.reset();
     stations.clear();
-    reader.reset();  // before the writer, which then leaves one plain file
+    reader.reset();  // before the writer, which then leaves a single database file
     keeper.reset();
   }
   Status open_store();
@@ -160,7 +161,7 @@ Status App::Parts::open_store() {
   return {};
 }
 
-// While the database could not be written, it may have been opened as one that never changes.
+// While the database was not writable, it may have been opened as immutable.
 void App::Parts::read_anew() {
   auto opened = store::Store::open(config.database, store::Access::read_only);
   if (opened) *reader = std::move(*opened);
@@ -188,7 +189,7 @@ void App::Parts::start_stations() {
   }
 }
 
-// Where somebody said last that the axis stood. What is damaged counts for nothing.
+// The axis position that a user set last. Damaged entries are ignored.
 std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
   auto last = reader->last_datum(axis);
   if (last) return std::move(*last);
@@ -199,7 +200,8 @@ std::optional<DatumSetting> App::Parts::last_datum(Axis axis) {
   return std::nullopt;
 }
 
-// A message that cannot be sent is counted, which clients see, and the journal says why.
+// A message that cannot be sent is counted (clients see the count), and the journal gives the
+// cause.
 void App::Parts::report(const char* topic, const std::string& json, std::string_view of) {
   const Status reported = service.publish(topic, json, of);
   if (reported) return;
@@ -232,7 +234,7 @@ Status App::Parts::listen() {
   };
   methods->clients = [this] { return service.clients(); };
   MDOF_TRY(methods->generation, reader->generation());
-  // Never back, though what raised it is lost.
+  // The generation never decreases, even if the activation that raised it was lost.
   methods->generation =
       std::max(methods->generation, store::read_announced_head(config.database).generation);
   add_all_methods(table, *methods);
@@ -261,7 +263,7 @@ Status App::Parts::serve_page() {
   return {};
 }
 
-// The watchdog is fed by the work: this loop turned, and every thread came round in time.
+// The watchdog is notified only if this loop runs and every thread has reported in time.
 void App::Parts::watch() {
   loop.call_every(std::chrono::milliseconds(50), [this] {
     const auto wanted = service.wanted_every(kLiveTopic);
@@ -299,19 +301,21 @@ void App::Parts::watch_clock() {
   report(kRunTopic, clock_json(step_s));
 }
 
-// A signal that comes while the parts are still made waits for the loop, which then ends at once.
+// A signal during start-up is kept until the loop runs; the loop then ends at once.
 void App::Parts::handle_signals() {
   std::vector<int> signals{SIGTERM, SIGINT};
   struct sigaction hang_up {};
   ::sigaction(SIGHUP, nullptr, &hang_up);
-  if (hang_up.sa_handler != SIG_IGN) signals.push_back(SIGHUP);  // ignored: as under nohup
+  if (hang_up.sa_handler != SIG_IGN)
+    signals.push_back(SIGHUP);  // a signal that is ignored (nohup)
+                                // stays ignored
   loop.on_signal(signals, [this](int) {
     systemd::notify_stopping("stopping");
     loop.stop();
   });
 }
 
-// Where udev cannot be watched, a lost device is opened again only after its pause.
+// If udev cannot be watched, a lost device is opened again only after its waiting time.
 void App::Parts::watch_hotplug() {
   auto watched = Hotplug::watch();
   if (!watched) {

@@ -1,4 +1,4 @@
-// The daemon put together: owns every part, in start-up order.
+// The application object of mdofd. It owns all parts and creates them in start-up order.
 #pragma once
 
 #include <memory>
@@ -10,10 +10,10 @@ namespace mdof::daemon {
 
 class App {
  public:
-  // Opens the database, the socket and the devices. Errors as theirs.
+  // Opens the database, the sockets and the devices. Returns the errors of these parts.
   static Result<std::unique_ptr<App>> create(Config config);
   ~App();
-  // Serves until SIGTERM, SIGINT or SIGHUP. Runs under way end as aborted.
+  // Serves until SIGTERM, SIGINT or SIGHUP. Unfinished runs then end as aborted.
   void run();
 
  private:

@@ -1,4 +1,4 @@
-// Entries of the history: who does something, made now, and as text and JSON.
+// Entries of the history: the acting user, the time of the action, and both as text and JSON.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ HistoryEntry action_now(std::string name, Actor by);
 
 // "uid 1000 (anna) gid 1000 pid 4711"
 std::string actor_text(const Actor& actor);
-// {"deed", "of": "run", "id", "utc", "uid", "gid", "pid", "user"}, and "detail" where it has one
+// {"deed", "of": "run", "id", "utc", "uid", "gid", "pid", "user"}; "detail" if the entry has one
 std::string action_json(const HistoryEntry& action);
 void write_actions(JsonWriter& json, const std::vector<HistoryEntry>& actions);  // an array
 

@@ -1,4 +1,4 @@
-// [http] of mdofd.toml: where the web page is served, and to whom.
+// [http] of mdofd.toml: the address of the web page and the hosts that may request it.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,22 @@
 
 namespace mdof::daemon {
 
-// Beside the database, unless another is named.
+// Default name of the token file, in the folder of the database.
 inline constexpr const char* kTokenFile = "http.token";
 
 struct HttpAccess {
   std::string address = "127.0.0.1";  // or ::1
   std::uint16_t port = 8080;          // 0: any
   std::filesystem::path token_file;
-  std::vector<std::string> hosts = {};  // "name:port", beside localhost
-  // For messages: where in the configuration they are, or would be.
+  std::vector<std::string> hosts = {};  // "name:port", accepted in addition to localhost
+  // For messages: the places of these values in the configuration, also if they are absent.
   std::string listen_key, token_key;
 };
 
-// Of this machine, so that it needs no encryption: "127.0.0.1:8080", "localhost:8080",
-// "[::1]:8080"; "": by default. Error: usage.
+// Parses a local address, so that no encryption is needed: "127.0.0.1:8080", "localhost:8080",
+// "[::1]:8080"; "" gives the default. Error: usage.
 Result<HttpAccess> http_at(const std::string& address);
-// `folder` has the token file, if no other is named. Nothing: no [http].
+// `folder` contains the token file if the table names no other. Returns nullopt without [http].
 std::optional<HttpAccess> read_http(TomlTable& root, const std::filesystem::path& folder);
 
 std::string http_url(const HttpAccess& http, std::uint16_t port);

@@ -31,12 +31,15 @@ void set_ending_signals(void (*handler)(int)) {
   for (const int signal : kEndingSignals) {
     struct sigaction now {};
     ::sigaction(signal, nullptr, &now);
-    if (now.sa_handler != SIG_IGN) std::signal(signal, handler);  // ignored: as under nohup
+    if (now.sa_handler != SIG_IGN)
+      std::signal(signal, handler);  // a signal that is ignored
+                                     // (nohup) stays ignored
   }
 }
 
-// Before anything else: until the event loop takes these signals (App::create) nothing is open that
-// has to be closed, so that one who asks for the end gets it at once, and as a success.
+// Runs before main(): nothing that must be closed is open until the event loop handles these
+// signals (App::create). A stop request before that therefore ends the process at once, with
+// success.
 [[gnu::constructor(101)]] void end_on_early_signals() {
   set_ending_signals(end_at_once);
 }
@@ -46,7 +49,7 @@ int failed(const mdof::Error& error) {
   return error.code == mdof::ErrorCode::io ? 4 : error.code == mdof::ErrorCode::usage ? 2 : 3;
 }
 
-// --http turns the web page on, or moves it.
+// --http enables the web page or changes its address.
 mdof::Status serve_page(const std::string& address, mdof::daemon::Config& config) {
   MDOF_TRY(auto http, mdof::daemon::http_at(address));
   if (config.http) {
@@ -89,7 +92,8 @@ int run(const Options& options) {
   if (!app) return failed(app.error());
   (*app)->run();
   app->reset();
-  // A thread still waits for a file whose file system does not answer, and would use what goes now.
+  // A thread still waits for a file whose file system does not respond. It would use objects that
+  // the normal exit destroys.
   if (mdof::daemon::Replayer::was_left_behind()) std::_Exit(0);
   return 0;
 }
@@ -122,7 +126,7 @@ int main(int argc, char** argv) try {
   }
   options.serves_page = http->count() > 0;
   if (options.check_only)
-    set_ending_signals(SIG_DFL);  // a check that was cut off has found nothing sound
+    set_ending_signals(SIG_DFL);  // an interrupted check must not end with success
   return run(options);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "mdofd: %s\n", e.what());

@@ -14,7 +14,7 @@ const char* environment(const char* name) {
   return value && *value ? value : nullptr;
 }
 
-// systemd may give several folders, separated by colons; the first is ours.
+// systemd may give several folders, separated by colons; mdofd uses the first.
 std::filesystem::path first_of(const std::string& list) {
   return list.substr(0, list.find(':'));
 }

@@ -1,4 +1,4 @@
-// Where state and the socket are unless an option or the environment says otherwise.
+// Default paths of the state and the socket. An option or the environment can override them.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@ Result<std::filesystem::path> default_database();
 // $RUNTIME_DIRECTORY/mdof.sock, else $XDG_RUNTIME_DIR/mdof.sock, else /run/mdof/mdof.sock.
 std::string default_socket();
 
-// Now, for people and file names: "2026-11-21T08:15:30.123Z".
+// The present time, for people and file names: "2026-11-21T08:15:30.123Z".
 std::string utc_now();
 
 }  // namespace mdof::daemon

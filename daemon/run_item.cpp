@@ -13,14 +13,14 @@ namespace {
 constexpr std::size_t kNoteBytes = 1024;
 constexpr std::size_t kNoticeBytes = 1024, kNoticesBytes = 8 * 1024;
 
-// At a place where no character of UTF-8 is cut in two.
+// Cuts between characters of UTF-8, never within one.
 std::string cut(const std::string& text, std::size_t bytes) {
   if (text.size() <= bytes) return text;
   while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;
   return text.substr(0, bytes) + " ... (cut)";
 }
 
-// Of all options what the signs of an imported run hang on; "" of another run.
+// The options of an imported run that determine the signs of its errors; "" for other runs.
 std::string sense_of_imported(const RunHeader& header) {
   if (!is_imported(header)) return "";
   const ImportedSense stated = run_options(header).imported;
@@ -62,14 +62,14 @@ std::string header_item(const RunHeader& header, std::optional<std::int64_t> sup
     json.end_object();
     return json.take();
   };
-  constexpr std::size_t kMostBytes = 16 * 1024;  // so that a page is never one run's alone
+  constexpr std::size_t kMostBytes = 16 * 1024;  // so that a page always contains several runs
   std::string whole = item(header, false);
   return whole.size() <= kMostBytes ? whole : item(shortened(header), true);
 }
 
 namespace {
 
-// The run that has the result in the end: what supersedes a run may be superseded itself.
+// The run at the end of a chain of superseding runs.
 Result<std::optional<std::int64_t>> last_that_supersedes(store::Store& store, std::int64_t run) {
   std::optional<std::int64_t> last;
   for (;;) {

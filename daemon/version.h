@@ -2,7 +2,7 @@
 
 namespace mdof::daemon {
 
-// Set by the build from the project's version; goes into every result's provenance.
+// The build sets it from the project's version. The provenance of every result contains it.
 extern const char* const kVersion;
 
 }  // namespace mdof::daemon

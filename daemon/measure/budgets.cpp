@@ -22,10 +22,11 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kMostCost = 250'000;  // a second; 11 targets and all declared: 2,000
+constexpr std::size_t kMostCost = 250'000;  // about one second; 11 targets with all declarations
+                                            // cost 2,000
 
-// The target whose mean position is nearest. Beyond the ends, by more than half of the largest
-// interval, there is none.
+// The target with the nearest mean position. Error: `at_m` is outside the targets by more than half
+// of the largest interval.
 Result<algo::TargetMean> target_near(const algo::RunBudgets& run, std::int64_t id, double at_m) {
   const auto& targets = run.means().targets;  // ascending
   if (targets.empty())
@@ -56,7 +57,7 @@ Result<std::vector<algo::Figure>> chosen_figures(std::vector<algo::Figure> all,
   return fail(ErrorCode::usage, "figure \"" + name + "\" is unknown; give one of: " + names);
 }
 
-// A run whose rig cannot be had.
+// For a run whose rig cannot be read.
 RunUncertainty noise_of(const Run& run, const Error& error) {
   Rig nothing_declared;
   nothing_declared.axis = run.header.axis;
@@ -140,7 +141,6 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
 
 Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessRequest& request,
                                         const algo::TrialsRequest& trials) {
-  // Whatever keeps the two from having a squareness is stated here.
   MDOF_TRY(const RunsOfSquareness of, runs_of_squareness(store, request));
   MDOF_TRY(Budget budget,
            algo::squareness_budget(of.rig_a, of.a, of.rig_b, of.b, of.fitted.artefact, trials));
@@ -158,7 +158,7 @@ struct FoundSetUp {
   bool simulated = false;
 };
 
-// Its square taken to be true.
+// The set-up with the assumption that the square has no angle error.
 Result<FoundSetUp> square_set_up(store::Store& store, SquarenessRequest request) {
   request.given = {0.0, 0.0};
   MDOF_TRY(const RunsOfSquareness of, runs_of_squareness(store, request));

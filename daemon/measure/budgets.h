@@ -1,4 +1,4 @@
-// Uncertainty budgets of stored runs, made when they are asked for: what is stored stays as it is.
+// Uncertainty budgets of stored runs, calculated on request. The stored data do not change.
 #pragma once
 
 #include <cstdint>
@@ -20,16 +20,17 @@
 
 namespace mdof::daemon {
 
-// Of the points of a run as it states them, with the run's own rig.
+// Uncertainty of the points of a run at its stated point, with the run's own rig.
 RunUncertainty uncertainty_of(const Run& run);
-// Of some of its points, the first among them, without the run's repeatability.
+// Uncertainty of some points of a run. `part` must contain the first point. Repeatability of the
+// run is not included.
 RunUncertainty uncertainty_of_stops(const Run& part);
 
-// Of the figures that the run has; left out, with the reason, where they cannot be made or would
-// take long: mdof budget RUN makes them however long it takes.
+// Budgets of the figures of the run. The result is empty and gives the reason if the budgets cannot
+// be calculated or would take long; `mdof budget RUN` calculates them in any case.
 StatedFigures figure_budgets(const Run& run);
 
-// Both at once, for half the price.
+// Both of the above, calculated together at half the cost.
 struct StatedRun {
   RunUncertainty points;
   StatedFigures figures;
@@ -39,27 +40,27 @@ StatedRun stated_run(const Run& run);
 struct RunBudgetsRequest {
   std::int64_t run = 0;
   Reference reference = Reference::fixture;
-  std::string figure;          // only this one, "EYX_straightness_um"; empty: all
-  std::optional<double> at_m;  // of the errors ("EYX_um") at the target nearest to this position
+  std::string figure;          // the only wanted figure, "EYX_straightness_um"; empty: all figures
+  std::optional<double> at_m;  // errors ("EYX_um") at the target nearest to this position
   algo::TrialsRequest trials;
 };
 struct FoundBudgets {
   StatedAt stated;
-  std::optional<double> at_m;  // the target that was taken
+  std::optional<double> at_m;  // position of the target that was used
   std::vector<Budget> budgets;
   Notices notices;  // of the runs
   bool simulated = false;
 };
-// Errors: no such run, one without errors, a figure that it does not have.
+// Errors: unknown run; run without error values; figure that the run does not have.
 Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& request);
 
-// Of EC0Y, as fit_squareness() makes it; nothing is stored.
+// Budget of EC0Y as fit_squareness() calculates it. Nothing is stored.
 Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessRequest& request,
                                         const algo::TrialsRequest& trials);
 
-// Squareness of two set-ups of the same square, which was turned over in between; nothing is
-// stored. What the rigs say of its angle is not used. Errors: as of algo::square_reversal(), and
-// those of each set-up.
+// Squareness from two set-ups of the same square, which was turned over between them. Nothing is
+// stored. The angle of the square in the rigs is not used. Errors: those of algo::square_reversal()
+// and those of each set-up.
 struct FoundSquareReversal {
   SquareReversal found;
   std::vector<std::string> not_declared;  // keys of the rigs
@@ -71,20 +72,20 @@ Result<FoundSquareReversal> square_reversal(store::Store& store, const Squarenes
 
 struct ParallelismRequest {
   std::int64_t run_a = 0, run_b = 0;
-  bool partial = false;  // take partial runs as well
+  bool partial = false;  // also use partial runs
 };
 struct FoundParallelism {
   Parallelism parallelism;
   Notices notices;  // of the runs
 };
-// With its budgets; nothing is stored. Errors: those of algo::parallelism() and of rigs that are
-// not to be had.
+// Parallelism with its budgets. Nothing is stored. Errors: those of algo::parallelism(), and rigs
+// that cannot be read.
 Result<FoundParallelism> find_parallelism(store::Store& store, const ParallelismRequest& request);
 
-// What `mdof parallelism --json` and the RPC say of it.
+// The document of `mdof parallelism --json` and the RPC.
 std::string parallelism_json(const FoundParallelism& found);
 
-// What `mdof budget --json` and the RPC say of them; `decision` as of write_budgets().
+// The document of `mdof budget --json` and the RPC; `decision` as in write_budgets().
 std::string budgets_json(const FoundBudgets& found,
                          const std::optional<Decision>& decision = std::nullopt);
 

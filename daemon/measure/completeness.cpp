@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kTargetsNamed = 6;
 
-// Solved points of a target.
+// Number of solved points of a target.
 struct Visits {
   int forward = 0, reverse = 0;
 };
@@ -46,7 +46,7 @@ std::string visits_text(const Visits& missing) {
   return text;
 }
 
-// The reason that most of the unsolved points give.
+// The most frequent reason of the unsolved points.
 std::string commonest_reason(const std::vector<MeasuredPoint>& points) {
   std::map<std::string, int> count;
   for (const MeasuredPoint& p : points)

@@ -1,4 +1,4 @@
-// Is a run what was asked for? One judgement for live runs, replays and the command line.
+// Decides whether a run is complete, in the same way for live runs, replays and the command line.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace mdof::daemon {
 
-// Each target has been measured and solved as often as was asked for, from both sides. False where
-// nobody said how often.
+// Whether each target has at least `repeats` solved points from both sides. False if `repeats` is
+// 0.
 bool all_measured(const std::vector<double>& targets_m, int repeats,
                   const std::vector<MeasuredPoint>& points);
 
-// What makes the run a partial one; empty: it is complete.
-//   targets and repeats: points that are missing, or could not be solved, by target and approach
-//   targets alone:       targets that were never measured
-//   always:              most of the points could not be solved
+// Reasons why the run is partial; empty if it is complete.
+//  targets and repeats: points that are missing or could not be solved, by target and approach
+//  targets alone:       targets that were never measured
+//  always:              most of the points could not be solved
 Notices missing_notices(const std::vector<double>& targets_m, int repeats,
                         const std::vector<MeasuredPoint>& points);
 

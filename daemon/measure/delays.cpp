@@ -10,15 +10,15 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr double kMost_us = 10e6;  // ten seconds: an average of more is no reading of an axis
-constexpr int kDigits = 9;         // so that what is asked for is enough
+constexpr double kMost_us = 10e6;  // ten seconds; a longer average is useless for measuring an axis
+constexpr int kDigits = 9;         // enough digits so that the suggested value is sufficient
 
 double of(const ChannelDelays& delays, const std::string& id) {
   const auto found = delays.find(id);
   return found == delays.end() ? 0 : found->second;
 }
 
-// "": it is one of the rig's.
+// "": the id is a channel of the rig.
 std::string delay_problem(const std::string& id, const Rig& rig) {
   std::vector<std::string> known = {kEncoderChannel};
   for (const Probe& probe : rig.probes) known.push_back(probe.id);

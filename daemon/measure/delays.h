@@ -1,6 +1,6 @@
-// `delay_us` of a rig's probes (their amplifiers' filters) and of a device's channels (its filter,
-// their place in a scan): what readings come later than their time stamps say, and what of it
-// alignment takes out. A probe that has both has their sum.
+// `delay_us` of the probes of a rig (filters of their amplifiers) and of the channels of a device
+// (filter, place in a scan): by how much readings are later than their time stamps, and the part of
+// it that alignment removes. The delays of a probe and its channel add up.
 #pragma once
 
 #include <map>
@@ -14,22 +14,22 @@ namespace mdof::daemon {
 
 using ChannelDelays = std::map<std::string, double>;  // s, by id; absent: 0
 
-// Adds those of a device's `channel` tables. Rejects one that is negative, not finite or longer
-// than `settle_s`, as a stop would then begin with readings of the way to it; and one of no channel
-// of the rig.
+// Adds the delays of a device's `channel` tables. Rejects a delay that is negative, not finite or
+// longer than `settle_s` (a stop would then begin with readings from before it), and the delay of a
+// channel that the rig does not have.
 void read_delays(TomlTable& device, const Rig& rig, double settle_s, ChannelDelays& delays);
 
-// Frames are on the encoder's time line: each probe is taken earlier by what it comes later than
-// the encoder. A late reading contains motion from after its instant: so much is left out at
-// the end of each stop. Delays that are all the same leave the scans as they are.
+// Moves each probe earlier by its delay relative to the encoder, so that frames are on the
+// encoder's time line. A late reading contains motion from after its time stamp; the end of each
+// stop is shortened accordingly. Equal delays do not change the scans.
 PipelineOptions with_delays(PipelineOptions options, const Rig& rig, const ChannelDelays& delays);
 
-// For a replay: `options` with the delays of `rig` instead of those of `recorded`, which they have
-// in them already (no rig: none).
+// For a replay: replaces the delays of `recorded`, which `options` already contain, by the delays
+// of `rig`. A default `recorded` has no delays.
 PipelineOptions with_delays_of(const Rig& rig, const Rig& recorded, PipelineOptions options);
 
-// Error: stops are given less time to settle than the channels' filters need (`leave_s` of the same
-// options). Says what to set.
+// Error: settle_s is shorter than the filters of the channels need (`leave_s` of the same options).
+// The message states which key to set.
 Status check_settling(const PipelineOptions& options);
 
 }  // namespace mdof::daemon

@@ -1,4 +1,4 @@
-// What a run does about drift once it is measured.
+// Treats the drift of a measured run.
 #pragma once
 
 #include "schema/rig/rig.h"
@@ -6,10 +6,10 @@
 
 namespace mdof::daemon {
 
-// Before its figures are made; the points are stated at the fixture. Takes a significant drift from
-// the errors where that is asked for (`remove`), and says what was taken, or why nothing was, in a
-// notice of the run. More drift than the rig allows is a doubtful one, also where it is removed:
-// what is left of a large drift is larger.
+// Call it before the figures are calculated, with the points stated at the fixture. Removes a
+// significant drift from the errors if `remove` is set; a notice states the removed drift, or why
+// nothing was removed. Drift beyond the limit of the rig makes the run doubtful even if it is
+// removed, because the remainder of a large drift is larger.
 void treat_drift(const Rig& rig, bool remove, Run& run);
 
 }  // namespace mdof::daemon

@@ -63,7 +63,7 @@ Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t
 
 namespace {
 
-// Of a table of these runs: theirs, and what one run alone does not show.
+// Notices of a table of these runs: those of the runs, and those that only all runs together show.
 Result<Notices> table_notices(const std::vector<Run>& runs) {
   Notices notices = algo::inherited_notices(algo::all_of(runs));
   if (runs.size() < 2) return notices;
@@ -73,9 +73,10 @@ Result<Notices> table_notices(const std::vector<Run>& runs) {
 }
 
 constexpr std::size_t kMostRuns = 64;
-constexpr std::int64_t kMostPoints = 200'000;  // all in memory at once: some 150 MB
+constexpr std::int64_t kMostPoints = 200'000;  // all are in memory at the same time, about 150 MB
 
-// Before any point is read: what would be refused in the end, or could not be held.
+// Before any point is read: rejects runs that the table would reject later or that need too much
+// memory.
 Status check_table_runs(store::Store& store, const std::vector<std::int64_t>& runs) {
   if (runs.size() > kMostRuns)
     return fail(ErrorCode::usage,
@@ -109,7 +110,7 @@ Status store_table(store::Store& store, CompensationTable& table,
 
 namespace {
 
-// Of imported runs: the first is one.
+// For imported runs; the caller has checked that the first run is imported.
 Result<BuiltTable> build_positioning(store::Store& store, const TableRequest& request) {
   std::vector<Run> runs;
   for (const std::int64_t id : request.runs) {
@@ -201,8 +202,9 @@ Result<store::Activation> activate_checked(store::Store& store, const Activation
   return done;
 }
 
-// A run that was measured while a table was active shows what this table left, if the controller
-// applied it: a table of this run in its place would bring the corrected errors back.
+// If a run was measured while a table was active and the controller applied it, the run shows the
+// remaining errors. A table of this run in place of the active one would bring the corrected errors
+// back.
 Status check_measured_without(store::Store& store, const CompensationTable& table,
                               const store::ActiveTable& active, const Consent& consent) {
   if (consent.despite_warnings) return {};

@@ -1,5 +1,5 @@
-// What probes read on a fixture: the rigid model, handed to whatever simulates a machine, as
-// drivers know no mathematics of the fixture.
+// The probe readings of a fixture by the rigid model. Simulated machines get this function as a
+// parameter, because drivers do not depend on the mathematics of the fixture.
 #pragma once
 
 #include "drivers/simulator/machine.h"

@@ -16,9 +16,10 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kAlwaysWhole = 256;  // stops; fewer are recognised anew with each
+constexpr std::size_t kAlwaysWhole = 256;  // with fewer stops every new stop restarts the
+                                           // recognition
 
-// The last instant of `frames`, into `newest`.
+// Copies the last instant of `frames` into `newest`.
 void keep_last(const FrameBlock& frames, FrameBlock& newest) {
   const std::size_t last = frames.size() - 1;
   newest.time_ns.assign(1, frames.time_ns[last]);
@@ -99,13 +100,13 @@ const std::vector<MeasuredPoint>& Pipeline::points() {
   return sequence_.points;
 }
 
-// Drift counts from the first stop.
+// Drift begins at the first stop.
 algo::Residuals Pipeline::residuals() const {
   return {solver_, probe_ranges_m(rig_), rig_, found_.empty() ? 0 : found_.front().begin_ns};
 }
 
-// A long run grows by one point at a time: only the new point is put in its place and solved. The
-// whole sequence is recognised again whenever it has grown by a quarter, and at the end.
+// In a long run only the new point is sorted and solved. The whole sequence is recognised again
+// whenever it has grown by a quarter, and at the end.
 void Pipeline::take_new_points() {
   const algo::Residuals residuals = this->residuals();
   std::vector<Point> fresh(found_.begin() + static_cast<std::ptrdiff_t>(taken_), found_.end());
@@ -124,8 +125,8 @@ void Pipeline::take_new_points() {
   }
 }
 
-// The sequence is simply recognised and solved anew, but only when somebody asks: a replay of a
-// long log asks once.
+// Recognises and solves the whole sequence, but only on request: the replay of a long log requests
+// it once.
 void Pipeline::take_points() {
   taken_ = found_.size();
   dwell_.mark(found_);
@@ -184,7 +185,7 @@ Status Pipeline::explain_nothing() const {
                    Remedy::stop_longer);
 }
 
-// A probe without a value is an error where the others are too few to do without it.
+// A probe without values is an error if the other probes are too few to solve a point.
 Status Pipeline::judge_dead_probes(Notices& notices) const {
   const bool needed = std::none_of(sequence_.points.begin(), sequence_.points.end(),
                                    [](const MeasuredPoint& p) { return p.errors.valid; });
@@ -196,7 +197,7 @@ Status Pipeline::judge_dead_probes(Notices& notices) const {
     const std::string& id = rig_.probes[k].id;
     if (const auto slow = too_slow.find(id); slow != too_slow.end()) {
       if (needed) return bad_input(words::text(slow->second));
-      continue;  // reported with the others
+      continue;  // reported with the other slow channels
     }
     const bool frozen = algo::has_flag(found_.front(), Flag::frozen, id);
     const bool saturated = algo::has_flag(found_.front(), Flag::saturated, id);
@@ -205,14 +206,14 @@ Status Pipeline::judge_dead_probes(Notices& notices) const {
                                       {{"range_um", to_um(rig_.probes[k].range_m)}})
                              : notice(NoticeCode::probe_dead, id);
     if (needed) return bad_input(words::text(why));
-    if (why.code != NoticeCode::probe_saturated)  // probe_beyond_range says it of every run
+    if (why.code != NoticeCode::probe_saturated)  // every run gets probe_beyond_range
       notices.push_back(std::move(why));
   }
   return {};
 }
 
-// An axis that moves all the time turns at the ends of its travel, and stands there long enough to
-// be taken for a stop.
+// An axis that moves all the time reverses at the ends of its travel; its rest there can be long
+// enough to look like a stop.
 std::optional<Notice> Pipeline::never_stops() const {
   const auto& targets_m = sequence_.targets_m;
   if (!options_.sequence.targets_m.empty() || targets_m.size() > 2) return std::nullopt;

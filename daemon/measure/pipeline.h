@@ -1,5 +1,6 @@
-// Raw blocks of one axis -> a run: calibrate, align, find dwells, solve, put in sequence, evaluate.
-// The one path for live measuring, replay and the command line, so that all give the same bits.
+// Raw blocks of one axis -> a run: calibrate, align, find dwells, solve, sort, evaluate. Live
+// measurement, replay and the command line all use this class, so that their results are
+// bit-identical.
 #pragma once
 
 #include <cstdint>
@@ -20,35 +21,34 @@ namespace mdof::daemon {
 // Thread-bound.
 class Pipeline : RunBuilder {
  public:
-  // Refuses a rig that cannot see the five errors, or that the model does not fit.
+  // Rejects a rig that cannot determine the five errors or does not fit the model.
   static Result<Pipeline> create(const Rig& rig, const PipelineOptions& options);
 
-  // Uses the block up. Error: it cannot be calibrated, or its time goes backwards. Scans of the
-  // encoder that are known to be lost for longer than a window of the dwells hide what the axis
-  // did.
+  // Consumes the block. Error: it cannot be calibrated, or its time decreases. If encoder scans are
+  // lost for longer than a dwell window, a dwell ends at the last scan before the loss.
   Status push(SampleBlock& raw);
 
-  // The points complete so far, in sequence, solved, stated at the fixture. Targets are as far as
-  // known until finish().
+  // The complete points so far: sorted, solved, stated at the fixture. The targets are provisional
+  // until finish().
   const std::vector<MeasuredPoint>& points();
-  // The stops that are none of these points, as far as known.
+  // The stops so far that are not among these points.
   const std::vector<StopLeftOut>& left_out() const { return sequence_.left_out; }
-  // The newest instant, calibrated, for the live view; size 0 before the first.
+  // The newest calibrated instant, for the live view; size 0 before the first.
   const FrameBlock& newest() const { return newest_; }
-  // Called with the instants of each push, calibrated, before dwells are looked for.
+  // Called with the calibrated instants of each push, before dwells are searched.
   void watch(std::function<void(const FrameBlock&)> watcher) { watcher_ = std::move(watcher); }
   bool still() const { return dwell_.still(); }
   bool is_full() const { return found_.size() >= options_.most_stops; }
   std::optional<std::string> waiting_for() const { return aligner_.waiting_for(); }
-  // The errors of the target at one instant, stated at the fixture.
+  // The target's errors at one instant, stated at the fixture.
   AxisErrors solve_at(double encoder_m, const std::vector<double>& readings_m,
                       const std::vector<double>& u_m) const;
   const algo::Solver& solver() const { return solver_; }
 
-  // End of the data. Fills points, figures, scans and notices of a run, and its state: complete,
-  // or partial (completeness.h); the header's identity and provenance are the caller's. Error:
-  // nothing was measured, with the reason: the encoder stood still, no dwell was long enough, a
-  // probe was at the end of its range throughout.
+  // Ends the data. Fills points, figures, scans and notices of a run, and its state: complete or
+  // partial (completeness.h). The caller sets the header's identity and provenance. Error: nothing
+  // was measured; the message states the cause (the encoder did not move, no dwell was long enough,
+  // or a probe was always at the end of its range).
   Result<Run> finish();
 
  private:
@@ -69,14 +69,14 @@ class Pipeline : RunBuilder {
   algo::DwellDetector dwell_;
   FrameBlock newest_;
   std::function<void(const FrameBlock&)> watcher_;
-  std::vector<Point> found_;  // as averaged, not corrected
-  std::size_t beyond_ = 0;    // stops behind most_stops
-  std::size_t taken_ = 0;     // of found_: those that sequence_ was made of
+  std::vector<Point> found_;  // averaged, not corrected
+  std::size_t beyond_ = 0;    // stops after most_stops
+  std::size_t taken_ = 0;     // number of stops of found_ in sequence_
   algo::Sequence sequence_;
-  std::optional<algo::SequenceTail> tail_;  // goes on from it
-  std::size_t whole_at_ = 0;                // of found_: then the whole is recognised again
-  std::optional<std::int64_t> begin_ns_, encoder_ns_;  // of the encoder's first and last scan
-  std::size_t unplaced_ = 0;                           // of found_
+  std::optional<algo::SequenceTail> tail_;  // continues sequence_ by single points
+  std::size_t whole_at_ = 0;  // size of found_ at which the whole sequence is recognised again
+  std::optional<std::int64_t> begin_ns_, encoder_ns_;  // first and last scan of the encoder
+  std::size_t unplaced_ = 0;  // number of stops of found_ without a position
 };
 
 }  // namespace mdof::daemon

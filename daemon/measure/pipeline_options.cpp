@@ -16,13 +16,13 @@ void write_by_channel(JsonWriter& json, const char* key,
   json.end_object();
 }
 
-// In mm; up to a kilometre to the picometre, so that it is the same once read again.
+// In mm, rounded to the picometre below one kilometre, so that reading it gives the same number.
 double offset_mm(const EncoderDatum& datum) {
   const double whole_mm = to_mm(datum.offset_m);
   return std::abs(whole_mm) < 1e6 ? std::round(whole_mm * 1e9) / 1e9 : whole_mm;
 }
 
-// An encoder that knows its positions by itself has no datum to write.
+// An absolute encoder has no datum to write.
 void write_datum(JsonWriter& json, const EncoderDatum& datum) {
   if (datum == EncoderDatum()) return;
   json.key("encoder_datum")
@@ -61,7 +61,7 @@ std::string PipelineOptions::json() const {
 
 std::string PipelineOptions::settings_json() const {
   PipelineOptions o = *this;
-  o.align.interval_s.clear();  // of devices, as measured
+  o.align.interval_s.clear();  // of the measured devices
   o.sequence.targets_m.clear();
   o.repeats = 0;
   o.datum = {};

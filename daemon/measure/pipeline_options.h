@@ -1,4 +1,4 @@
-// How a run is found in samples: all that a replay can be asked for beside its rig.
+// Options for finding a run in samples: everything that a replay accepts besides its rig.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace mdof::daemon {
 
-// A run holds no more stops, whose points take some 4 KB of memory each.
+// Limit of the stops of a run. A point takes about 4 KB of memory.
 inline constexpr std::size_t kMostStops = 50'000;
 
 struct PipelineOptions {
@@ -22,16 +22,16 @@ struct PipelineOptions {
   algo::AlignOptions align;
   algo::DwellOptions dwell;
   algo::SequenceOptions sequence;
-  double stale_s = 0.5;       // an instant older than this is not shown as good
+  double stale_s = 0.5;       // an older instant is not shown as good
   bool keep_points = true;    // false: for a view without a run
-  int repeats = 0;            // a run was asked for so many, both ways; 0: until stopped
-  bool remove_drift = false;  // of the errors, where it is significant (algo/drift)
-  std::optional<algo::OnTheFlyOptions> on_the_fly;  // replays only: dwells are not looked for
-  EncoderDatum datum;                   // of the positions that are pushed: they have it in them
-  std::size_t most_stops = kMostStops;  // later ones are counted and left out
+  int repeats = 0;            // requested repeats from both sides; 0: until stopped
+  bool remove_drift = false;  // remove significant drift from the errors (algo/drift)
+  std::optional<algo::OnTheFlyOptions> on_the_fly;  // for replays; dwells are then not searched
+  EncoderDatum datum;                   // datum that the pushed positions already contain
+  std::size_t most_stops = kMostStops;  // further stops are counted and left out
 
   std::string json() const;  // for the provenance
-  // Of that what the configuration gives: not the devices' rates, the targets and the datum.
+  // The part of json() that the configuration gives: without the devices' rates, targets and datum.
   std::string settings_json() const;
 };
 

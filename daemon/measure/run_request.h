@@ -1,4 +1,4 @@
-// A run as it was asked for.
+// The request for a run.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@ namespace mdof::daemon {
 struct CutOffRun {
   std::int64_t id = 0;
   std::filesystem::path recording;
-  EncoderDatum datum = {};    // of its positions
-  std::string settings = {};  // as of PipelineOptions::settings_json()
+  EncoderDatum datum = {};    // datum of its positions
+  std::string settings = {};  // as from PipelineOptions::settings_json()
 };
 
 struct RunRequest {
   std::string note;
-  std::vector<double> targets_m;     // empty: recognised
-  int repeats = 0;                   // 0: until stopped; else complete after so many, both ways
-  Notices notices;                   // to be kept with the run
-  std::optional<CutOffRun> resumes;  // goes on from there
-  std::optional<HistoryEntry> action = std::nullopt;  // who asks for it
+  std::vector<double> targets_m;                      // empty: targets are recognised
+  int repeats = 0;                                    // from both sides; 0: until stopped
+  Notices notices;                                    // stored with the run
+  std::optional<CutOffRun> resumes;                   // the run that this run continues
+  std::optional<HistoryEntry> action = std::nullopt;  // the requesting user
 };
 
 }  // namespace mdof::daemon

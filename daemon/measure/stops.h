@@ -1,4 +1,4 @@
-// A recorded log -> the stops of its axis, without solving anything: what a calibration takes.
+// A recorded log -> the stops of its axis, not solved. Calibrations use them.
 #pragma once
 
 #include <string>
@@ -13,16 +13,16 @@
 namespace mdof::daemon {
 
 struct LogStops {
-  std::vector<Point> stops;  // probes in the order of the rig; those not to be used are NaN
-  std::vector<Unit> units;   // in which the log has the probes
+  std::vector<Point> stops;  // probes in the order of the rig; unusable readings are NaN
+  std::vector<Unit> units;   // units of the probes in the log
   std::string sha256;        // of the log
-  std::string started_utc;   // of a recording, else empty
+  std::string started_utc;   // of a recording, otherwise empty
   Notices notices;
 };
 
-// The log is of `axis`, which need not be the rig's. A reading that spiked, stepped, froze or was
-// at the end of its range is not to be used. Errors: those of the driver; a log of another axis, or
-// without a column of the encoder or of one of the rig's probes; no stop long enough.
+// The log is of `axis`, which may differ from the rig's axis. A reading is unusable if its probe
+// has made a step, is frozen or was at the end of its range. Errors: those of the driver; a log of
+// another axis; a missing column of the encoder or of a probe; no stop that is long enough.
 Result<LogStops> read_stops(const std::string& log, Axis axis, const Rig& rig);
 
 }  // namespace mdof::daemon

@@ -1,5 +1,5 @@
 // The analysis of a stored run: straightness by each reference line, angles, figures with their
-// uncertainty, and drift. Made on reading.
+// uncertainty, and drift. It is calculated on request and not stored.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace mdof::daemon {
 
-// Document of `mdof show --figures --json` and run.analyse, for the run as it is stated. Error
-// (bad_input): an imported run.
+// The document of `mdof show --figures --json` and run.analyse, for the run at its stated point.
+// Error (bad_input): an imported run.
 Result<std::string> analysis_document(store::Store& store, const Run& run);
 
 }  // namespace mdof::daemon

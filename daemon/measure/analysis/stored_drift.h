@@ -1,4 +1,4 @@
-// The drift of a stored run, made on reading: what is stored, and its hash, is as it was.
+// The drift of a stored run, calculated on request. The stored run and its hash do not change.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 
 namespace mdof::daemon {
 
-// At the fixture, wherever `run` is stated.
+// Drift at the fixture, whatever the stated point of `run` is.
 struct DriftOfStored {
   algo::RunDrift found;
-  std::vector<StraightnessFigure> without;  // figures without it, where it can be removed
+  std::vector<StraightnessFigure> without;  // figures without the drift, if it can be removed
 };
 DriftOfStored drift_of(const Run& run);
 
-// `probes`: their ids in the order of the rig.
+// `probes`: the probe ids in the order of the rig.
 void write_drift(JsonWriter& json, const Run& run, const std::vector<std::string>& probes,
                  const DriftOfStored& drift);
 

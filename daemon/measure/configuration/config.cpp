@@ -51,7 +51,7 @@ Status read_store(TomlTable& root, Config& config) {
   return {};
 }
 
-// An existing group of this machine.
+// The id of an existing group of this computer.
 std::optional<gid_t> group_of(TomlTable& table, const char* key) {
   if (!table.has(key)) return std::nullopt;
   const std::string name = table.string(key);
@@ -104,7 +104,7 @@ void read_rpc(TomlTable& root, Config& config) {
   config.tcp_port = static_cast<std::uint16_t>(port);
 }
 
-// Whether the configuration says how long a gap is.
+// Returns whether the configuration gives the length of a gap.
 bool read_measure(TomlTable& root, PipelineOptions& m) {
   auto table = root.table("measure");
   if (!table) return false;
@@ -129,7 +129,7 @@ bool read_measure(TomlTable& root, PipelineOptions& m) {
   return table->has("max_gap_s");
 }
 
-// The rig must be one that the model can solve: said now, not at the first run.
+// Rejects a rig that the model cannot solve now, not at the first run.
 Result<Rig> read_rig(TomlTable& table, const std::filesystem::path& base, Model model) {
   const std::string name = table.string("rig");
   if (name.empty()) return Rig{};  // the table has kept its own error
@@ -146,7 +146,7 @@ std::vector<TomlTable> device_tables(TomlTable& axis) {
   return one;
 }
 
-// A recorded simulation stays one; a log of another axis is refused.
+// Takes over whether the log is simulated. Error: a log of another axis.
 Status check_log(drivers::DriverSpec& device, const Rig& rig) {
   MDOF_TRY(ReplayLog log, ReplayLog::open(device.source_path));
   MDOF_CHECK(check_axis(device.source_path, log.comments(), rig));
@@ -154,8 +154,8 @@ Status check_log(drivers::DriverSpec& device, const Rig& rig) {
   return {};
 }
 
-// That the rig can make lengths of what the device gives, as far as that is known before it is
-// opened: volts need a scale.
+// Checks that the rig can convert the units of the device to lengths (volts need a scale), as far
+// as the units are known before the device is opened.
 Status check_units(const TomlTable& table, const drivers::DriverSpec& device, const Rig& rig) {
   if (!device.live || device.simulated) return {};
   MDOF_TRY(const auto driver, device.make());
@@ -185,7 +185,7 @@ Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem:
   return device;
 }
 
-// Where readings are interpolated, each device must sample often enough to be of any use.
+// If readings are interpolated, each device must sample often enough.
 Status check_rates(const TomlTable& table, const AxisConfig& axis, const Config& config) {
   const auto options = with_delays(config.measure, axis.rig, axis.delays);
   if (axis.devices.size() < 2 && options.align.delay_s.empty()) return {};
@@ -197,7 +197,7 @@ Status check_rates(const TomlTable& table, const AxisConfig& axis, const Config&
   return {};
 }
 
-// Among the devices of an axis each channel has one source, and a replay stands alone.
+// Each channel must have one source among the devices of an axis. A replay must be the only device.
 Status check_together(TomlTable& table, const AxisConfig& axis) {
   std::map<std::string, std::string> source;
   for (const auto& device : axis.devices) {
@@ -246,7 +246,7 @@ Status check_names(TomlTable& table, const AxisConfig& axis, const Config& confi
   return {};
 }
 
-// One machine: of the rig or of the configuration; where both say it they must agree.
+// Uses the machine of the rig or of the configuration. If both give one, they must be equal.
 void take_machine(TomlTable& table, const Chain& machine, Rig& rig) {
   if (!machine.known()) return;
   const std::string axis(1, letter(rig.axis));
@@ -280,7 +280,7 @@ Result<std::vector<AxisTables>> read_axes(TomlTable& root, const std::filesystem
   return axes;
 }
 
-// `later`: the axes after it.
+// `later`: the axes after this one.
 Status read_axis(AxisTables tables, const std::filesystem::path& base,
                  std::vector<AxisTables>& later, Config& config) {
   TomlTable& table = tables.table;

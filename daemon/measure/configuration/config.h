@@ -1,4 +1,4 @@
-// mdofd.toml: one validated struct before anything is opened.
+// Reads mdofd.toml into one validated struct, before any device or file is opened.
 #pragma once
 
 #include <sys/types.h>
@@ -21,22 +21,22 @@ namespace mdof::daemon {
 
 struct AxisConfig {
   Rig rig;
-  // Live ones that together give the rig's channels, or one replay.
+  // Either live devices that together provide all channels of the rig, or one replay.
   std::vector<drivers::DriverSpec> devices;
   ChannelDelays delays = {};
 
   bool live() const { return devices.front().live; }
   bool recorded() const { return devices.front().recorded; }
-  bool simulated() const;  // any of them is
+  bool simulated() const;  // whether any device is simulated
 };
 
-// The keys of [rpc] that say who may connect.
+// The keys of [rpc] that limit who may connect.
 struct RpcAccess {
   std::size_t connections = 64, connections_of_user = 32;
-  std::chrono::seconds idle{600};      // without a subscription; 0: for ever
-  std::optional<gid_t> cnc_group;      // one connection is kept for its members
-  std::optional<gid_t> approve_group;  // whose members alone may activate a table
-  std::string approvers;               // its name
+  std::chrono::seconds idle{600};      // limit for a connection without a subscription; 0: no limit
+  std::optional<gid_t> cnc_group;      // one connection is reserved for members of this group
+  std::optional<gid_t> approve_group;  // only members of this group may activate a table
+  std::string approvers;               // name of approve_group
 };
 
 struct Config {
@@ -44,22 +44,23 @@ struct Config {
   store::Durability durability = store::Durability::full;
   std::chrono::milliseconds commit_interval{50};
   std::string socket;
-  std::optional<std::uint16_t> tcp_port;  // loopback; off unless configured
+  std::optional<std::uint16_t> tcp_port;  // on the loopback interface; off by default
   RpcAccess access;
-  std::optional<HttpAccess> http;  // the web page; off unless configured
+  std::optional<HttpAccess> http;  // the web page; off by default
   PipelineOptions measure;
-  bool gap_given = false;  // measure.align.max_gap_s; else it follows the devices' rates
-  Chain machine;           // [machine]; may be not known
+  bool gap_given = false;  // measure.align.max_gap_s is given; otherwise the gap follows the
+                           // sampling rates
+  Chain machine;           // [machine]; may be unknown
   std::vector<AxisConfig> axes;
-  std::string text;  // the TOML itself: provenance
-  // For messages: the file, and where in it the paths are, or would be.
+  std::string text;  // the TOML text, for the provenance
+  // For messages: the file, and the places of the paths in it, also if they are absent.
   std::string source, database_key, recordings_key, socket_key;
 };
 
-// [measure] of a configuration that mdofd has accepted. Error: it is no TOML.
+// [measure] of a configuration that mdofd has accepted. Error: the text is not TOML.
 Result<PipelineOptions> measure_options(const std::string& configuration);
 
-// Errors name file, line and key; unknown keys the nearest known one.
+// Errors state file, line and key; an unknown key also the nearest known key.
 Result<Config> load_config(const std::filesystem::path& file);
 
 }  // namespace mdof::daemon

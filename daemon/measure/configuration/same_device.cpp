@@ -5,7 +5,7 @@
 namespace mdof::daemon {
 namespace {
 
-// Of its own, as the table gives them.
+// The ids of the channels that the table itself gives.
 std::vector<std::string> given(TomlTable& device) {
   std::vector<std::string> ids;
   for (TomlTable& channel : device.tables("channel")) ids.push_back(channel.string("id"));
@@ -35,7 +35,8 @@ Result<Source> source_of(TomlTable& table, const std::vector<AxisConfig>& above)
                    "\"; devices above: " + (known.empty() ? "none" : known));
 }
 
-// Whose samples can go to two axes: of hardware, with channels that are known before it is open.
+// Error: the samples of the device cannot serve two axes. Only hardware whose channels are known
+// before it is opened can.
 Status check_source(const TomlTable& table, const drivers::DriverSpec& device) {
   if (device.live && device.recorded && !device.simulated && !device.part.empty()) return {};
   return bad_input(table.where("same_as") + ": \"" + device.name + "\" (" + device.driver +

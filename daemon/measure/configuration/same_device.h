@@ -1,12 +1,12 @@
-// `same_as`: a device of an [[axis]] above that this axis has, too. One fixture goes from axis to
-// axis with its probes; each axis has an encoder of its own.
+// `same_as` declares that an axis also uses a device of an [[axis]] above it. One fixture with its
+// probes moves from axis to axis, but each axis has its own encoder.
 //
 //   [axis.device]
 //   same_as = "t7"
 //   channel = [{ id = "encoder", input = "DIO2", um_per_count = 0.5 }]
 //
-// What is given is this axis' alone. What is not given, of the probes that its rig has, is as
-// above.
+// Channels that the table gives belong to this axis alone. The other probes of its rig have the
+// same channels as in the axis above.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@
 
 namespace mdof::daemon {
 
-// The [[axis]] of a configuration before its devices are read.
+// One [[axis]] of a configuration whose devices are not yet read.
 struct AxisTables {
   TomlTable table;
   Rig rig;
@@ -27,16 +27,16 @@ struct AxisTables {
 
 bool is_same_as(TomlTable& device);
 
-// Of the axes that come later: those that have the device `name` as well.
+// The later axes that also use the device `name`.
 std::vector<drivers::FurtherAxis> further_axes(const std::string& name,
                                                std::vector<AxisTables>& later);
 
-// Leaves to the axis of `device`, which gives channels of further axes beside its own, its part.
-// Error: its driver cannot give those, or not at the same time.
+// Restricts the device to the channels of its first axis, if it also samples channels of further
+// axes. Error: the driver cannot sample the further channels, or not at the same time.
 Status leave_part(drivers::DriverSpec& device, std::vector<drivers::FurtherAxis>& further);
 
-// The device that `table` names, of `above`, as `axis` has it; adds the delays of its channels.
-// Errors: there is none such, or it is not one that can be had twice.
+// The device that `table` names, found in `above`, with the channels of `axis`. Adds the delays of
+// its channels. Errors: unknown device; device that cannot serve two axes.
 Result<drivers::DriverSpec> read_same_as(TomlTable& table, const std::vector<AxisConfig>& above,
                                          double settle_s, AxisConfig& axis);
 

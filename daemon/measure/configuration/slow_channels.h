@@ -1,4 +1,4 @@
-// Channels of devices that sample more slowly than a gap is long: which, and what cannot work.
+// Channels whose sampling interval is longer than the gap of the aligner.
 #pragma once
 
 #include <string>
@@ -10,12 +10,13 @@
 
 namespace mdof::daemon {
 
-// With the intervals of those channels whose devices state a rate so low that `align` needs them.
+// `align` with the sampling intervals of those channels whose gap they make longer.
 algo::AlignOptions with_intervals(algo::AlignOptions align,
                                   const std::vector<drivers::DeviceInfo>& devices);
 
-// Error: a device of an axis with several can give nothing but missing values, since it samples
-// less often than a gap that was asked for (`gap_given`) or than the lag bound. Says what to set.
+// Error: all values of the device would be missing, because its sampling interval exceeds the
+// requested gap (`gap_given`) or half of the lag bound. The message states which key to set. Call
+// it if readings are interpolated.
 Status check_rate(const drivers::DeviceInfo& device, const algo::AlignOptions& align,
                   bool gap_given);
 

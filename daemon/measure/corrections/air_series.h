@@ -1,5 +1,5 @@
-// The air over a run: columns temperature_C, pressure_kPa and humidity_percent of a log, or
-// channels of those names.
+// Ambient conditions during a run, from the columns temperature_C, pressure_kPa and
+// humidity_percent of a log or the channels with these names.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@
 
 namespace mdof::daemon {
 
-// Thread-bound. What a rig declares of the run takes the place of a column.
+// Thread-bound. A value that the rig declares replaces the column.
 class AirSeries {
  public:
   explicit AirSeries(const DeclaredAir& declared) : declared_(declared) {}
 
-  // Raw, as the device gives it. Cells without a value are passed over.
+  // `raw`: as the device gives it. Cells without a value are skipped.
   void push(const SampleBlock& raw);
-  // Linear between the means of each second, held before the first and after the last. Nothing
-  // where a quantity was neither declared nor read.
+  // Linear between the means of each second; constant before the first and after the last mean.
+  // Returns nullopt if a quantity was neither declared nor read.
   std::optional<Air> at(std::int64_t time_ns) const;
 
  private:
@@ -37,7 +37,7 @@ class AirSeries {
   std::array<std::vector<Second>, kAirQuantities> read_;
 };
 
-// The channel of a quantity.
+// Whether the channel contains this quantity.
 bool is_channel_of(const Channel& channel, std::size_t quantity);
 
 }  // namespace mdof::daemon

@@ -17,14 +17,14 @@ bool tilts_everywhere(const RigPhysics& physics) {
                      [](const ProbePhysics& p) { return p.tilts(); });
 }
 
-// The channel of the first such flag.
+// The channel of the first flag of this kind.
 std::optional<std::string> channel_of(const Point& point, Flag flag) {
   for (const PointFlag& of : point.flags)
     if (of.flag == flag) return of.channel;
   return std::nullopt;
 }
 
-// Which of `before` became points of the run.
+// The points of `before` that became points of the run.
 std::vector<const Point*> kept(const std::vector<Point>& before, const Run& run) {
   std::set<std::int64_t> begins_ns;
   for (const MeasuredPoint& p : run.points) begins_ns.insert(p.point.begin_ns);
@@ -34,7 +34,8 @@ std::vector<const Point*> kept(const std::vector<Point>& before, const Run& run)
   return points;
 }
 
-// c(t) of a displacement that has it in it, or (`in_it` false) not yet; along `measures`, m.
+// c(t) along `measures`, m, at a displacement that includes c(t) (`in_it`) or does not yet include
+// it.
 double linearity_of(const Calibration& c, double displacement_m, bool in_it) {
   const double sign = c.reads_gap ? -1 : 1;
   const double t_um = sign * to_um(displacement_m);
@@ -155,7 +156,7 @@ void PointCorrections::report(const algo::Solver& solver, const std::vector<Poin
   report_failures(run);
 }
 
-// At the first and the last point, since it may change.
+// States the conditions at the first and the last point, because they may change.
 void PointCorrections::report_air(Run& run) const {
   if (!known_.dielectric || run.points.empty()) return;
   const auto first = air_at(run.points.front().point), last = air_at(run.points.back().point);
@@ -184,7 +185,7 @@ void PointCorrections::report_failures(Run& run) const {
     run.header.notices.push_back(notice(NoticeCode::air_unknown, "", {{"points", without_air}}));
 }
 
-// The solver only knows that a reading is not there.
+// The flags give the cause, because the solver only knows that a reading is missing.
 std::string cause_of(const Point& point) {
   if (const auto frozen = channel_of(point, Flag::frozen))
     return "probe " + *frozen + " no longer changes; ";

@@ -1,6 +1,5 @@
-// What a rig says of its probes' physics (schema/rig/effects/physics.h), applied to the points of a
-// run: after they were averaged, before they are solved. A rig that says nothing leaves all as it
-// is.
+// Applies the probe physics that a rig declares (schema/rig/effects/physics.h) to the points of a
+// run, after averaging and before solving. Without declarations the points do not change.
 #pragma once
 
 #include <array>
@@ -18,7 +17,7 @@
 
 namespace mdof::daemon {
 
-// The largest change of a reading, and of which probe.
+// The largest change of a reading, and its probe.
 struct LargestChange {
   double size_m = 0;
   std::string probe;
@@ -33,13 +32,13 @@ class PointCorrections {
  public:
   explicit PointCorrections(Rig rig);
 
-  void push(const SampleBlock& raw);  // for the air in it
-  // Readings of these points, in the order of the rig. One that cannot be corrected becomes NaN,
-  // and the point is flagged "gap_closed:A" or "no_air".
+  void push(const SampleBlock& raw);  // reads the ambient conditions
+  // Corrects the readings of these points (in the order of the rig). A reading that cannot be
+  // corrected becomes NaN, and the point gets the flag "gap_closed:A" or "no_air".
   void apply(const algo::Solver& solver, std::vector<Point>& points) const;
-  // Of a run whose points were corrected: by how much at most, what is left in though it is
-  // known, and points that could not be corrected. `before`: these points and
-  // others as they were averaged.
+  // Adds notices to a run whose points were corrected: the largest change, known effects that are
+  // not corrected, and points that could not be corrected. `before`: averaged points before the
+  // correction, which may include points outside the run.
   void report(const algo::Solver& solver, const std::vector<Point>& before, Run& run) const;
 
  private:
@@ -55,11 +54,11 @@ class PointCorrections {
   void report_failures(Run& run) const;
 
   Rig rig_;
-  algo::WhichCorrections asked_, known_;  // known_: could be made
+  algo::WhichCorrections asked_, known_;  // known_: corrections that could be made
   std::optional<AirSeries> air_;
 };
 
-// Why a point has no errors, before what follows from it: "probe A no longer changes: ".
+// Why a point has no errors, as the beginning of a sentence: "probe A no longer changes; ".
 std::string cause_of(const Point& point);
 
 }  // namespace mdof::daemon

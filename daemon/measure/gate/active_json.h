@@ -1,4 +1,4 @@
-// Whether a table is active, as every document says it.
+// The members of every document that state whether a table is active.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace mdof::daemon {
 
-// Members of an open object; `generation` 0: it is not active.
+// Members of an open object; `generation` is 0 if the table is not active.
 inline void write_active(JsonWriter& json, std::int64_t generation) {
   json.field("active", generation > 0).field("generation", generation);
 }

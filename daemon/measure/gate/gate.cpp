@@ -33,7 +33,7 @@ std::string name_of(const Judged& judged, Language language) {
   return judged.name;
 }
 
-// The first that says so; null: none does.
+// The first invalid notice, or nullptr.
 const Notice* invalid_notice(const Notices& notices) {
   const auto found = std::find_if(notices.begin(), notices.end(),
                                   [](const Notice& n) { return n.severity == Severity::invalid; });
@@ -158,7 +158,7 @@ std::vector<std::string> marks_of(const Judged& judged, Language language) {
     marks.push_back(doubtful + (german ? "und " : "and ") + std::to_string(more) +
                     (german ? (more == 1 ? " weiterer Hinweis" : " weitere Hinweise")
                             : (more == 1 ? " more notice" : " more notices")));
-  for (std::string& mark : marks)  // what it quotes is no line of its own
+  for (std::string& mark : marks)  // quoted text must not begin a new line
     for (char& c : mark)
       if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
   return marks;

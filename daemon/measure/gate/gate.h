@@ -1,6 +1,6 @@
-// What keeps runs and their results from where only their numbers are seen: a controller, a rig.
-// One rule for activation, export, import and separation: simulated and doubtful data pass when
-// they are asked for, invalid data do not pass.
+// Protects readers that see only the numbers of a run or a result (a controller, a rig). The same
+// rule holds for activation, export, import and separation: simulated and doubtful data pass only
+// on request; invalid data never pass.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace mdof::daemon {
 
-// What was asked for: --simulated, --despite-warnings.
+// The requested exceptions: --simulated, --despite-warnings.
 struct Consent {
   bool simulated = false, despite_warnings = false;
 };
@@ -23,35 +23,37 @@ struct Consent {
 enum class JudgedKind { run, table, squareness, separation, file };
 struct Judged {
   JudgedKind kind = JudgedKind::table;
-  std::string name;  // its number or file; empty: there is one alone
+  std::string name;  // its number or file; empty: it is the only one
   bool simulated = false;
-  Notices doubtful;  // doubtful and invalid ones
+  Notices doubtful;  // notices that are doubtful or invalid
 };
 
-// Without the information among them.
+// Removes notices that are information only.
 Notices without_information(Notices notices);
-// The same, and a missing datum is doubtful: a controller would apply the errors at another place.
+// As without_information(). A missing datum becomes doubtful, because a controller would apply the
+// errors at wrong positions.
 Notices doubtful_notices(Notices notices);
-// The same of the notices of these runs, and which are partial.
+// As above for the notices of these runs; partial runs are added.
 Notices doubtful_notices(const std::vector<Run>& runs);
-// Which of these runs another one supersedes.
+// Notices for those runs that another run supersedes.
 Result<Notices> superseded_notices(store::Store& store, const std::vector<std::int64_t>& runs);
-// Of a stored table: what is doubtful of its runs, and what they show only together.
+// For a stored table: doubtful notices of its runs, and those that only all runs together show.
 Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& table);
 Result<Judged> judged_table(store::Store& store, const CompensationTable& table);
 
-// Any of its notices says that its numbers are wrong.
+// Whether a notice states that the numbers of the run are wrong.
 bool is_invalid(const RunHeader& run);
-// By the one approach that the run has; "": by both, or by unknown ones.
+// The only approach of the run; "" if it has both approaches or unknown ones.
 const char* only_approach(const Run& run);
-// Why no conformity is decided of its figures, without a full stop; empty: it can be. Invalid,
-// incomplete, superseded, of one approach or with targets of one.
+// Why conformity of its figures cannot be decided, without a full stop; empty if it can. Reasons:
+// the run is invalid, incomplete or superseded, has readings that never change (notice
+// probes_dead), or a measured run lacks an approach at some targets.
 std::string against_decision(store::Store& store, const Run& run);
 
-// `consequence`: "it is not activated". Error (conflict) with the first notice and what to ask
-// with.
+// `consequence`: "it is not activated". Error (conflict): states the first notice and the option
+// that allows it.
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence);
-// What a file of it says, one line each: SIMULATED, DOUBTFUL.
+// Marks of a file, one line each: SIMULATED, DOUBTFUL.
 std::vector<std::string> marks_of(const Judged& judged,
                                   words::Language language = words::Language::english);
 std::vector<std::string> marks_of(const Run& run,

@@ -45,7 +45,7 @@ void write_list(JsonWriter& json, const char* key, const std::vector<std::string
   json.end_array();
 }
 
-// How many of each list fit; at least one.
+// The number of entries of each list that fit; at least one.
 std::size_t entries_that_fit(const std::vector<std::string>& a, const std::vector<std::string>& b,
                              std::size_t most_bytes) {
   const std::size_t longest = std::max(a.size(), b.size());

@@ -66,11 +66,11 @@ MeasuredPoint point_of(const ImportedReading& r, const std::vector<double>& targ
   return p;
 }
 
-// Millimetres taken for micrometres look like this.
+// If all deviations are smaller, they are probably millimetres read as micrometres.
 constexpr double kSmallest_m = 0.1e-6;
 
-// A deviation as long as the way between two targets is one in another unit, as are all if none is
-// above a tenth of a micrometre.
+// The unit is probably wrong if a deviation is as large as the interval between two targets, or if
+// no deviation exceeds 0.1 µm.
 Notices import_notices(const ImportedSeries& series, const ImportedError& error,
                        const std::vector<double>& targets) {
   double largest = 0, step = std::numeric_limits<double>::infinity();
@@ -86,7 +86,7 @@ Notices import_notices(const ImportedSeries& series, const ImportedError& error,
                  {{"deviation_um", to_um(largest)}, {"interval_mm", to_mm(step)}})};
 }
 
-// Each reading by itself; slopes between the means of targets, as a table would have them.
+// Checks each reading, and the slopes between target means, as for a table.
 Status check_readings(const ImportedSeries& series, const ImportRequest& request,
                       const ImportedError& error, const std::vector<double>& targets) {
   for (const ImportedReading& r : series.readings)
@@ -108,7 +108,7 @@ Status check_readings(const ImportedSeries& series, const ImportRequest& request
   return {};
 }
 
-// Of a deviation, m or rad.
+// Standard uncertainty of a deviation, m or rad.
 Result<std::optional<double>> standard_uncertainty(const ImportRequest& request,
                                                    const ImportedError& error) {
   if (error.angle ? request.u_um : request.u_urad)

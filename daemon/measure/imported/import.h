@@ -1,4 +1,5 @@
-// What another instrument measured, as a run: a file that is read once and kept by name and hash.
+// Imports the measurement of another instrument as a run. The file is read once; its name and hash
+// are kept.
 #pragma once
 
 #include <optional>
@@ -13,27 +14,28 @@ namespace mdof::daemon {
 
 struct ImportRequest {
   std::string file;
-  int opened = -1;  // its descriptor where it is open already
+  int opened = -1;  // descriptor if the file is open already
   Axis axis = Axis::x;
   std::string error;   // "EXX"; empty: the positioning of the axis
-  std::string format;  // as of read_imported_file(); empty: by what the file contains
+  std::string format;  // as in read_imported_file(); empty: by the content of the file
   std::optional<double> u_um, u_urad;  // standard uncertainty of a deviation, common to all
+                                       // deviations
   std::string note;
-  // Of positioning alone: the sense of its deviations (the command's where it is not given, as ISO
-  // 230-2 and the formats define them), and the travel of the axis, "-" where its body goes along -
-  // as the command grows.
+  // For positioning only: the sense of the deviations (default: the sense of the command, as in ISO
+  // 230-2 and the file formats), and the travel of the axis: "-" (true) if the body moves towards -
+  // while the command increases.
   std::optional<PositioningSense> sense;
   std::optional<bool> against_command;
   algo::TableLimits limits = {};
-  bool despite_warnings = false;  // also a doubtful file
+  bool despite_warnings = false;  // also import a doubtful file
 };
 
-// Complete, not stored. Errors: those of imported_error() and read_imported_file(); an uncertainty
-// that is negative, not finite or in the other unit; deviations beyond the limits, or means of
-// targets whose slope is; a doubtful file (gate.h).
+// The result is a complete run, not yet stored. Errors: those of imported_error() and
+// read_imported_file(); an uncertainty that is negative, not finite or of the wrong unit;
+// deviations, or slopes between target means, beyond the limits; a doubtful file (gate.h).
 Result<Run> imported_run(const ImportRequest& request);
 
-// What `mdof import --json` and run.import say of a run that was imported and stored.
+// The document of `mdof import --json` and run.import for an imported, stored run.
 std::string import_document(const RunHeader& header, std::size_t readings);
 
 }  // namespace mdof::daemon

@@ -1,4 +1,4 @@
-// What is stated of a stored run that was imported.
+// Notices, coverage and document of a stored, imported run.
 #pragma once
 
 #include <string>
@@ -11,17 +11,18 @@
 
 namespace mdof::daemon {
 
-// For the table of this run alone, to compare it with the other: its deviations as they stand where
-// both state one sense and neither is against the command, otherwise as each run states its sense.
+// The request for a table of this run alone, to compare it with `other`. If both runs state the
+// same sense and neither is against the command, the deviations stay as they are; otherwise each
+// run's sense is used.
 TableRequest table_of_imported(const Run& run, const Run& other);
 
-// With what its readings alone show: no approach, one reading a target.
+// Adds notices about the readings: no approach, one reading a target.
 Run with_positioning_notices(Run run);
-// What u of its readings covers.
+// What u of the readings includes.
 Covers covers_of_readings(const Run& run);
 
-// What `mdof show` and run.get give of it, as run_document() of other runs; `header`: the run's, or
-// a shorter one.
+// The document of `mdof show` and run.get for an imported run, like run_document() for other runs.
+// `header`: the run's header or a shortened one.
 std::string imported_document(const Run& run, const RunHeader& header, const StatedFigures& figures,
                               const std::string& result_sha256,
                               const std::vector<HistoryEntry>& actions, bool with_points);

@@ -16,14 +16,14 @@
 namespace mdof::daemon {
 namespace {
 
-// Of the readings of a target by one approach.
+// Mean of the readings of one target by one approach.
 struct ReadingsMean {
   int target = 0;
   double value = 0, u_random = kNaN, freedom = 0;
 };
 
-// NaN: the repeatability is not known. Readings that are equal show only that their spread is below
-// the resolution of the instrument, which the file does not say.
+// NaN: the repeatability is unknown. Equal readings only show that their spread is smaller than the
+// resolution of the instrument, which the file does not state.
 double u_of_mean(const std::vector<double>& readings, double mean) {
   const auto [low, high] = std::minmax_element(readings.begin(), readings.end());
   if (*low == *high) return kNaN;
@@ -47,7 +47,7 @@ std::vector<ReadingsMean> means_of(const Run& run, int direction) {
   return means;
 }
 
-// NaN: not declared at import; 0 is a declaration.
+// NaN: the import did not declare an uncertainty; 0 is a declaration.
 double declared_u(const Run& run) {
   double largest = kNaN;
   for (const MeasuredPoint& p : run.points) largest = std::fmax(largest, u_of_deviation(p));
@@ -92,7 +92,7 @@ Budget range_of(const std::string& figure, const std::vector<ReadingsMean>& mean
   return budget;
 }
 
-// Both have the same targets.
+// Both approaches have the same targets.
 Budget reversal_of(const std::string& figure, const std::vector<ReadingsMean>& forward,
                    const std::vector<ReadingsMean>& reverse) {
   std::size_t largest = 0;
@@ -118,7 +118,7 @@ void add_figures(const Run& run, StatedFigures& stated) {
   const std::string name = positioning_name(run.header.axis);
   const double u = declared_u(run);
   const auto forward = means_of(run, 1), reverse = means_of(run, -1);
-  std::map<int, int> approaches;  // by target
+  std::map<int, int> approaches;  // number of approaches by target
   for (const auto* means : {&forward, &reverse})
     for (const ReadingsMean& mean : *means) ++approaches[mean.target];
   if (forward.size() == approaches.size() && reverse.size() == approaches.size()) {

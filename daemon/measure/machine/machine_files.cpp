@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{64} << 20;
 
-// µm and µrad to m and rad: the same power of ten.
+// µm to m, or µrad to rad: the factor is the same.
 std::vector<double> from_key_unit(const std::vector<double>& values) {
   std::vector<double> si;
   for (const double v : values) si.push_back(from_um(v));
@@ -32,18 +32,18 @@ std::string position_column(const MachineFrame& frame) {
   return std::string("position_") + position_unit(frame);
 }
 
-// An error of a linear axis along itself.
+// Whether the error is that of a linear axis along itself.
 bool is_positioning(const MachineFrame& frame, std::size_t k) {
   return frame.kind == FrameKind::linear && k == frame.direction;
 }
 
-// A standard uncertainty of MACHINE.toml holds where the file has none.
+// If the file has no standard uncertainty, that of MACHINE.toml holds.
 Status complete(ErrorFunction& f, std::size_t k, const std::string& where) {
   if (f.u.size() == 1 && f.position.size() != 1) f.u.assign(f.position.size(), f.u.front());
   return check_function(f, k, where);
 }
 
-// What was opened, under the name that its reader knows; its hash as a line.
+// An opened file: its name in MACHINE.toml, its path, and the comment line with its hash.
 struct OpenedFile {
   std::string name, path, line;
 
@@ -65,8 +65,8 @@ Result<OpenedFile> open_named(const FindFile& find, const std::string& name) {
   return file;
 }
 
-// What the file says of the sense of its error along the axis, if it has this. A file that does not
-// say it is refused where the two senses differ.
+// Reads the sense of the error along the axis, if the file has this error. A file without a sense
+// is rejected if the two senses differ.
 Status take_sense(MachineFrame& frame, const drivers::CsvTable& csv,
                   const std::vector<double>& sense) {
   const std::string name = csv.source + ":" + std::to_string(csv.header_line) + ": " +
@@ -112,8 +112,8 @@ Status read_own_file(Machine& machine, MachineFrame& frame, std::size_t k,
   return complete(f, k, csv.source + ": " + error_name(frame, k));
 }
 
-// Up to six columns an error. The file may lack any error, but not all of them: a column without a
-// value is not there, and an error that was approached from one side is the same of both.
+// Up to six columns for each error. The file may lack some errors, but not all. A column without
+// values counts as missing. An error with one approach has the same values for the other approach.
 Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string& path) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < kBodyErrors; ++k) {

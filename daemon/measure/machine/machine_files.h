@@ -1,4 +1,4 @@
-// Tables in files that MACHINE.toml names (schema/machine/README.md).
+// Reads the table files that MACHINE.toml names (schema/machine/README.md).
 #pragma once
 
 #include <functional>
@@ -11,14 +11,14 @@ namespace mdof::daemon {
 
 bool names_files(const Machine& machine);
 
-// What to open for a name as MACHINE.toml has it.
+// The path to open for a file name in MACHINE.toml.
 using FindFile = std::function<Result<std::string>(const std::string& name)>;
 
-// Reads them into the machine. Gives a comment line for each, "# x.csv: sha256 …": with it the
-// stored description says which numbers were in the file. Errors name file, line, column.
+// Reads the files into the machine. Returns a comment line for each file, "# x.csv: sha256 …", so
+// that the stored description proves the file's content. Errors state file, line and column.
 Result<std::string> read_machine_files(Machine& machine, const FindFile& find);
 
-// Those that stand beside MACHINE.toml.
+// Finds files in the folder of MACHINE.toml.
 FindFile files_beside(const std::string& machine_file);
 
 }  // namespace mdof::daemon

@@ -32,7 +32,7 @@ Status take(MachineFrame& frame, std::size_t k, ErrorFunction function) {
   return {};
 }
 
-// Where a description differs from the rigs of a table, a sign would be wrong.
+// If the description differs from the rigs of a table, signs would be wrong.
 Status check_set_up(const Machine& machine, const MachineFrame& frame,
                     const CompensationTable& table) {
   const std::string of = axis_of(frame);
@@ -55,7 +55,7 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
   return {};
 }
 
-// How the straightness of an axis that probes measured is stated.
+// Reference point and slope of the straightness of an axis that was measured with probes.
 struct StatedStraightness {
   std::string axis;
   StatedAt at = kAtFixture;
@@ -63,7 +63,7 @@ struct StatedStraightness {
 };
 using StatedAxes = std::vector<StatedStraightness>;
 
-// Where the squareness of the axis has to be: at the point of its table.
+// The point at which the squareness of the axis must be stated: the point of its table.
 Result<StatedAt> point_of_slope(const MachineFrame& frame, const StatedAxes& stated) {
   StatedAt at = kAtFixture;
   for (const StatedStraightness& s : stated) {
@@ -78,7 +78,7 @@ Result<StatedAt> point_of_slope(const MachineFrame& frame, const StatedAxes& sta
   return at;
 }
 
-// The tables of five errors of a machine.
+// The tables of five errors that a machine uses.
 struct TakenTables {
   std::vector<MachineFrame*> frames;
   std::vector<algo::BuiltFrom> built_from;
@@ -86,8 +86,8 @@ struct TakenTables {
   Notices doubtful;
 };
 
-// The covariance of its errors, by the runs that it was built from, with the angles 0 where the
-// axis stood when the others were measured.
+// Sets the covariance of the table's errors from the runs of the table. The angles are 0 at the
+// position of the axis during the measurement of the other axes.
 Status take_covariance(store::Store& store, MachineFrame& frame, const CompensationTable& table,
                        double zero_m, TakenTables& taken) {
   algo::BuiltFrom of{{}, {}, {}, {table.slope_removed, true, table.stated, table.machine, zero_m}};
@@ -100,7 +100,7 @@ Status take_covariance(store::Store& store, MachineFrame& frame, const Compensat
   MDOF_TRY(of.table, algo::build_table(of.runs, of.options));
   const auto all = algo::error_covariances(of.table, of.rigs, of.runs, of.options);
   if (!all || of.table.position_m != table.position_m) {
-    // As what the rigs declare: building the table has said why.
+    // The notices of the table state the cause.
     for (std::size_t k = 3; k < kBodyErrors; ++k) bound_angle_u(frame.error[k], zero_m);
     return {};
   }
@@ -110,10 +110,10 @@ Status take_covariance(store::Store& store, MachineFrame& frame, const Compensat
   return {};
 }
 
-// What the probes of several axes share.
+// Adds the quantities that the probes of several axes share.
 void take_shared(const TakenTables& taken) {
   const auto parts = algo::shared_quantities(taken.built_from);
-  if (!parts) return;  // as what the rigs declare: building the table has said why
+  if (!parts) return;  // the notices of the table state the cause
   for (const algo::SharedQuantity& part : *parts)
     for (std::size_t t = 0; t < taken.frames.size(); ++t)
       add_shared(*taken.frames[t], taken.built_from[t].table, contributor_text(part.name),
@@ -133,7 +133,8 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
     std::vector<double> u;
     for (std::size_t i = 0; i < noise.size(); ++i)
       u.push_back(std::fmax(table.u_of_positioning(true, i), table.u_of_positioning(false, i)));
-    // Its errors are those of the place in the controller's coordinates; the body's are along +.
+    // The table contains errors in the controller's coordinates; errors of the body are positive
+    // along +.
     const double body = frame.against_command ? -1 : 1;
     ErrorFunction function = function_of(table.position_m, scaled(along.forward, body),
                                          scaled(along.reverse, body), u, noise);
@@ -167,7 +168,7 @@ void add_new(const std::vector<std::int64_t>& from, std::vector<std::int64_t>& t
     if (std::find(to.begin(), to.end(), id) == to.end()) to.push_back(id);
 }
 
-// The newest run of five errors that has ended, and the newest imported positioning.
+// The newest finished run of five errors and the newest imported positioning.
 Result<std::vector<std::int64_t>> latest_runs(store::Store& store, const MachineFrame& frame) {
   const auto axis = axis_from(frame.id);
   std::optional<std::int64_t> measured, positioning;
@@ -198,7 +199,7 @@ Status take_runs(store::Store& store, Machine& machine, MachineFrame& frame, Sto
   if (frame.runs.latest) {
     MDOF_TRY(ids, latest_runs(store, frame));
   }
-  // Imported positioning and measured runs are tables of their own.
+  // Imported positioning and measured runs need separate tables.
   TableRequest measured, imported;
   measured.reference = Reference::fixture;
   imported.against_command = frame.against_command;
@@ -239,7 +240,7 @@ bool has(const std::vector<std::int64_t>& ids, std::int64_t id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-// The newest squareness that the predicate accepts; nullopt where there is none.
+// The newest squareness that the predicate accepts, or nullopt.
 template <class Predicate>
 Result<std::optional<Squareness>> newest_squareness(store::Store& store, Predicate accepts) {
   for (std::int64_t offset = 0;; offset += kPage) {
@@ -255,7 +256,8 @@ std::string no_axes(AxisPair axes) {
          " and a run of axis " + letter(axes.b);
 }
 
-// The newest of each two axes, of runs that the axes name; of a machine without runs of any.
+// The newest squareness of each pair of axes, from runs that the axes name. If no axis names runs,
+// from any runs.
 Result<std::vector<Squareness>> latest_squareness(store::Store& store, const Machine& machine,
                                                   const std::vector<std::int64_t>& runs) {
   std::vector<Squareness> all;
@@ -301,7 +303,8 @@ Status take_squareness(store::Store& store, Machine& machine, const Squareness& 
                        const StatedAxes& stated, StoredErrors& all) {
   MDOF_TRY(MachineFrame* const a, frame_of(machine, stored.axes, stored.axes.a));
   MDOF_TRY(MachineFrame* const b, frame_of(machine, stored.axes, stored.axes.b));
-  const std::size_t about = 6 - a->direction - b->direction;  // of the six: A, B, C of the third
+  const std::size_t about = 6 - a->direction - b->direction;  // index among the six errors: A, B or
+                                                              // C of the third axis
   if (a->location[about].value || b->location[about].value)
     return bad_input("squareness of the machine: " +
                      with_unit(location_name(b->location[about].value ? *b : *a, about), about) +
@@ -344,7 +347,7 @@ Status take_squareness(store::Store& store, Machine& machine, const StatedAxes& 
   return {};
 }
 
-// A slope that a table kept is the squareness that a key of an axis gives: it would count twice.
+// A slope in a table is the squareness that a key of an axis also gives; it would count twice.
 Status check_slopes(const Machine& machine, const StatedAxes& stated) {
   for (const StatedStraightness& s : stated) {
     if (s.slope_removed) continue;

@@ -1,4 +1,4 @@
-// Runs, tables and the squareness of the database as the measured errors of a machine.
+// Uses runs, tables and squareness of the database as the measured errors of a machine.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,25 @@
 namespace mdof::daemon {
 
 struct StoredErrors {
-  std::vector<std::int64_t> runs;  // that the errors come from, through tables as well
+  std::vector<std::int64_t> runs;  // source runs of the errors, also through tables
   Notices notices;                 // of the tables that were built
-  Notices doubtful;                // what of all of them keeps a controller from them
+  Notices doubtful;                // those notices that prevent the use by a controller
 };
 
-// Takes what the description names (runs, tables, squareness) into its errors.
+// Reads the runs, tables and squareness that the description names into its errors.
 //
-// Measured runs of an axis give their mean, stated at the fixture: there the squareness is stated,
-// too, so that the slope that a table has lost is the one that the squareness has. It holds at
-// holds_at_mm of the axis. Imported runs of the axis give its positioning: what they hold is the
-// place in the controller's coordinates, whose error is the body's with the sign of the axis'
-// travel.
+// Measured runs of an axis give their mean, stated at the fixture. The squareness is stated there,
+// too: the slope that is removed from a table is then the slope in the squareness. The errors hold
+// at the point holds_at_mm of the axis. Imported runs of the axis give its positioning. They
+// contain the error of the position in the controller's coordinates; the error of the body has the
+// sign of the axis' travel.
 //
-// Errors: a row that is not there, of another axis, of another chain, travel or moving side than
-// the description says; an error that the description has too; a table whose straightness has its
-// slope beside a squareness that has it again, or that is stated elsewhere than the squareness.
+// Errors: a missing row; a row of another axis, chain, travel or moving side than in the
+// description; an error that the description gives, too; a table that keeps its straightness slope
+// although a squareness contains it, or that has another reference point than the squareness.
 Result<StoredErrors> take_stored_errors(store::Store& store, Machine& machine);
 
-// The squareness of this number; without one the newest of two axes. Error: not_found.
+// The squareness with this id; without an id the newest of the two axes. Error: not_found.
 Result<Squareness> find_squareness(store::Store& store, std::optional<std::int64_t> id,
                                    AxisPair latest_of = {});
 

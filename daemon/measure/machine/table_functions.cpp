@@ -129,7 +129,7 @@ void add_shared(MachineFrame& frame, const CompensationTable& table, const std::
       if (all.has[of[k]]) at[of[k]] = by_row[row][k];
     for (std::size_t k = 0; k < kBodyErrors; ++k)
       for (std::size_t l = 0; l < kBodyErrors; ++l) all.declared[row][k][l] -= at[k] * at[l];
-    for (std::size_t k = 0; k < kBodyErrors; ++k)  // below 0: rounding
+    for (std::size_t k = 0; k < kBodyErrors; ++k)  // rounding can give values below 0
       all.declared[row][k][k] = std::fmax(all.declared[row][k][k], 0);
   }
 }

@@ -17,7 +17,7 @@
 namespace mdof::daemon {
 namespace {
 
-// Less is nothing: a corrected command is rounded as much.
+// Smaller steps are irrelevant, because a corrected command is rounded to this step.
 constexpr double kStepOfTables_m = 1e-9;
 
 std::string names_of(const std::vector<std::string>& names) {
@@ -26,9 +26,9 @@ std::string names_of(const std::vector<std::string>& names) {
   return text;
 }
 
-// What the table leaves of one command: because of the approaches, and between its nodes. Doubtful
-// where the self-test of an export would refuse both together; then the larger, and the other if it
-// is too large by itself.
+// Notices on the residual error of one command, from the two approaches and from interpolation
+// between nodes. A notice is doubtful if the self-test of an export would reject the sum of both
+// errors: then the larger one, and the other one if it alone is too large.
 Notices left_notices(const VolumetricTable& table, std::size_t k) {
   const std::string command(1, "XYZ"[k]);
   const double reversal = table.reversal_m[k], between = table.interpolation_m[k];
@@ -55,7 +55,8 @@ Notices left_notices(const VolumetricTable& table, std::size_t k) {
   return left;
 }
 
-// "Z", "0.866 X + 0.5 Z": a direction; its sense says nothing, so its first number is positive.
+// Text of a direction: "Z", "0.866 X + 0.5 Z". Its sense is irrelevant, so the first number is
+// positive.
 std::string direction_text(const Eigen::Vector3d& d) {
   std::string text;
   double sense = 0;
@@ -69,9 +70,10 @@ std::string direction_text(const Eigen::Vector3d& d) {
   return text;
 }
 
-// A direction of the work in which no axis moves the tool, because where the rotary axes stand two
-// linear axes are parallel. Doubtful as what stays of one command, by the same limit. A machine
-// that has no third axis is no surprise: what stays is stated, as of every table.
+// A direction of the work in which no axis moves the tool, because two linear axes are parallel at
+// the positions of the rotary axes. The notice is doubtful by the same limit as for one command. It
+// is expected if the machine has no third axis; the residual error is then stated as for every
+// table.
 Notices fixed_direction(const VolumetricTable& table) {
   double largest = 0;
   for (std::size_t k = 0; k < 3; ++k)
@@ -95,7 +97,7 @@ Notices fixed_direction(const VolumetricTable& table) {
                   {"limit_um", to_um(limit)}})};
 }
 
-// What the table itself says of its errors.
+// Notices of the table on its own errors.
 Notices own_notices(const VolumetricTable& table) {
   Notices own;
   if (!table.not_measured.empty())
@@ -117,10 +119,11 @@ Result<std::vector<Run>> runs_of(store::Store& store, const VolumetricTable& tab
   return runs;
 }
 
-// Axes whose targets were all approached from one side, and not from that of the table: the errors
-// of that side stand for those of the other, so a reversal error is not in the table.
+// Axes whose targets were all approached from one side. The errors of this side are then used for
+// the other side, too, so that the table contains no reversal error.
 Notices one_sided(const VolumetricTable& table, const std::vector<Run>& runs) {
-  std::map<std::pair<Axis, bool>, std::set<std::string>> seen;  // positioning is measured apart
+  std::map<std::pair<Axis, bool>, std::set<std::string>> seen;  // positioning is a separate
+                                                                // measurement
   for (const Run& run : runs)
     for (const MeasuredPoint& p : run.points)
       if (p.point.direction != 0)

@@ -1,5 +1,5 @@
-// Volumetric tables: what the command line and the daemon make of a machine and the database, in
-// one way.
+// Calculates volumetric tables from a machine and the database, in the same way for the command
+// line and the daemon.
 #pragma once
 
 #include <optional>
@@ -16,13 +16,13 @@ namespace mdof::daemon {
 
 struct VolumetricTableRequest {
   Machine machine;
-  std::string description;  // its MACHINE.toml
+  std::string description;  // text of MACHINE.toml
   algo::VolumetricRequest grid;
 };
 struct BuiltVolumetric {
   VolumetricTable table;
   Notices notices;
-  Notices doubtful;  // what of these keeps it from a controller
+  Notices doubtful;  // those notices that prevent the use by a controller
 };
 // Errors: those of take_stored_errors() and algo::build_volumetric().
 Result<BuiltVolumetric> calculate_volumetric(store::Store& store,
@@ -33,11 +33,11 @@ Status store_volumetric(store::Store& store, VolumetricTable& table,
 Result<Notices> doubtful_notices(store::Store& store, const VolumetricTable& table);
 Result<Judged> judged_table(store::Store& store, const VolumetricTable& table);
 
-// Of activating it. Refuses what check_gate() refuses, and any while a table of an axis is active:
-// a controller that applies both corrects twice.
+// Checks before activation. Rejects what check_gate() rejects, and every table while a table of an
+// axis is active, because a controller that applies both corrects twice.
 Result<store::Marks> check_volumetric_activation(store::Store& store, std::int64_t table,
                                                  const Consent& consent);
-// The same of a table of an axis. Error (conflict): a volumetric table is active.
+// The check for a table of an axis. Error (conflict): a volumetric table is active.
 Status check_no_volumetric(store::Store& store);
 
 }  // namespace mdof::daemon

@@ -1,4 +1,4 @@
-// The errors of one point, and what of a rig those who make points ask for.
+// Solves one point, and lists the probe properties that creators of points need.
 #pragma once
 
 #include <string>
@@ -15,7 +15,8 @@ namespace mdof::daemon {
 std::vector<std::string> probe_ids(const Rig& rig);
 std::vector<double> probe_ranges_m(const Rig& rig);
 
-// Stated at the fixture. A point without errors says why, the cause in its flags first.
+// States the errors at the fixture. A point without errors gets the reason, which begins with the
+// cause in its flags.
 void solve_point(const algo::Solver& solver, const Rig& rig, const algo::Residuals& residuals,
                  MeasuredPoint& p);
 

@@ -1,6 +1,5 @@
-// What is alike for a run that dwells (pipeline.h) and one on the fly (replay/on_the_fly_run.h):
-// raw blocks become frames, and solved points become a run. They differ in how they find the
-// points.
+// Common part of a run with dwells (pipeline.h) and a run on the fly (replay/on_the_fly_run.h): raw
+// blocks become frames, and solved points become a run. The two differ in how they find points.
 #pragma once
 
 #include <cstdint>
@@ -24,16 +23,16 @@
 
 namespace mdof::daemon {
 
-// Points that were found and solved, stated at the fixture.
+// Solved points, stated at the fixture.
 struct SolvedPoints {
   algo::Sequence sequence;
   const std::vector<Point>& as_read;  // averaged, not corrected
   const algo::DwellDetector::Summary& summary;
   double least_dwell_s = 0;
   const algo::Residuals& residuals;
-  std::vector<double> targets_m;  // that a complete run has
-  // By where they stand among the run's: first; behind what the run looks like; behind what its
-  // points were corrected by; last, where the run is partial for this.
+  std::vector<double> targets_m;  // targets of a complete run
+  // Notices by their place in the run's list: at the beginning; after the notices on the run's
+  // signals; after those on corrections; at the end, as reasons why the run is partial.
   Notices first = {}, of_signals = {}, of_points = {}, partial = {};
 };
 
@@ -42,10 +41,10 @@ class RunBuilder {
  protected:
   RunBuilder(Rig rig, PipelineOptions options, algo::Solver solver);
 
-  // Uses the block up; frames that became complete are in frames_. Error: it cannot be calibrated,
-  // or its time goes backwards.
+  // Consumes the block; the completed frames are in frames_. Error: the block cannot be calibrated,
+  // or its time decreases.
   Status take(SampleBlock& raw);
-  // Points, figures, scans and notices of a run, and its state.
+  // Fills points, figures, scans, notices and state of a run.
   Run build(SolvedPoints points) const;
 
   Rig rig_;

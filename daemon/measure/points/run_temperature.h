@@ -1,4 +1,4 @@
-// The temperature of a run: of the column or channel "temperature" in °C, where there is one.
+// Temperature of a run, from the column or channel "temperature" in °C, if there is one.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace mdof::daemon {
 
 class RunTemperature {
  public:
-  void push(const SampleBlock& raw);  // cells without a value are passed over
+  void push(const SampleBlock& raw);  // cells without a value are skipped
   std::optional<Temperature> of_run() const;
 
  private:
-  Temperature sum_;  // mean_C: the sum of
+  Temperature sum_;  // mean_C contains the sum until of_run() divides it
   std::uint64_t n_ = 0;
 };
 

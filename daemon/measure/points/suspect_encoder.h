@@ -1,5 +1,5 @@
-// When the encoder was suspect: where it was without power its datum is lost, and a point that was
-// measured then has no place.
+// The times at which the encoder was suspect. An encoder that was without power has lost its datum,
+// so points that were measured then have no position.
 #pragma once
 
 #include <cstdint>
@@ -14,17 +14,17 @@ namespace mdof::daemon {
 
 class SuspectEncoder {
  public:
-  // A stretch that is shorter, such as a single late reading, is forgotten: it spoils no point.
+  // A shorter stretch, such as a single late reading, is ignored.
   explicit SuspectEncoder(double shortest_s) : shortest_s_(shortest_s) {}
 
-  // Raw, as the device gives it.
+  // `raw`: as the device gives it.
   void push(const SampleBlock& raw);
 
-  // It was suspect from the point's beginning to its end; at some time between them.
+  // Whether the encoder was suspect for all of the point; for any part of it.
   bool covers(const Point& point) const;
   bool touches(const Point& point) const;
-  // That so many points cannot be placed. `from_s`: the first of them, since the beginning of the
-  // log.
+  // The notice that this number of points has no position. `from_s`: time of the first one since
+  // the beginning of the log.
   Notice left_out(std::size_t points, double from_s) const;
 
  private:

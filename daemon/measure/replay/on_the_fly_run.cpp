@@ -39,7 +39,7 @@ Status OnTheFlyRun::check_room() {
                    Remedy::larger_interval);
 }
 
-// Unlike a stop, a bin has its place from each of its scans.
+// The position of a bin depends on each of its scans; that of a stop does not.
 Status OnTheFlyRun::leave_suspect_out(algo::Sequence& sequence, Notices& notices) const {
   auto& points = sequence.points;
   const auto suspect = [this](const MeasuredPoint& p) { return suspect_.touches(p.point); };

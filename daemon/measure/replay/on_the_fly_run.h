@@ -1,4 +1,4 @@
-// Raw blocks of one axis that moves all the time -> a run: what Pipeline does where it dwells.
+// Raw blocks of one axis that moves all the time -> a run. Pipeline does the same for dwells.
 #pragma once
 
 #include <cstddef>
@@ -13,25 +13,26 @@ namespace mdof::daemon {
 // Thread-bound.
 class OnTheFlyRun : RunBuilder {
  public:
-  // `options` have on_the_fly, which check_on_the_fly() accepts. Error: Pipeline's.
+  // `options` contain on_the_fly, accepted by check_on_the_fly(). Errors: those of Pipeline.
   static Result<OnTheFlyRun> create(const Rig& rig, const PipelineOptions& options);
 
-  // Uses the block up. Error: Pipeline's, a pass that is too long, or more points than a run holds.
+  // Consumes the block. Errors: those of Pipeline; a pass that is too long; more points than a run
+  // may have.
   Status push(SampleBlock& raw);
-  // End of the data, as Pipeline::finish(). Error: no bin was passed at a steady speed with scans
-  // enough, or none could be solved, with the reason.
+  // Ends the data, like Pipeline::finish(). Error: no bin was passed at a constant speed with
+  // enough scans, or no bin could be solved; the message states the reason.
   Result<Run> finish();
 
  private:
   OnTheFlyRun(Rig rig, PipelineOptions options, algo::Solver solver);
   Status check_room();
-  // Points while the encoder was suspect. Error: there are no others.
+  // Removes points during which the encoder was suspect. Error: no others are left.
   Status leave_suspect_out(algo::Sequence& sequence, Notices& notices) const;
   void correct(algo::Sequence& sequence) const;
   Status solve(algo::Sequence& sequence, const algo::Residuals& residuals) const;
 
   algo::OnTheFly fly_;
-  std::size_t passes_seen_ = 0, points_ = 0;  // of fly_
+  std::size_t passes_seen_ = 0, points_ = 0;  // counts in fly_
   std::optional<std::int64_t> begin_ns_;
 };
 

@@ -16,7 +16,7 @@ namespace mdof::daemon {
 namespace {
 
 constexpr double kShortStep_s = 0.1, kWindowsOfLog = 12;
-constexpr double kMostTravel_m = 50e-6;  // of the means: more is an axis that moved
+constexpr double kMostTravel_m = 50e-6;  // if the means differ by more, the axis moved
 constexpr std::chrono::milliseconds kParkedTimeout{1000};
 
 // Sums of a channel over short steps of time.
@@ -33,7 +33,7 @@ class Steps {
     n_[step] += 1;
   }
   std::size_t size() const { return sum_.size(); }
-  // Means over `together` steps each; NaN where there is no reading.
+  // Means over `together` steps each; NaN without readings.
   std::vector<double> means(std::size_t together, std::size_t count) const {
     std::vector<double> out;
     for (std::size_t k = 0; k < count; ++k) {
@@ -130,7 +130,7 @@ Status check_parked(const std::string& path, const std::vector<double>& encoder_
                    Remedy::park_axis);
 }
 
-// The five errors of each step, of the body that moves.
+// Calculates the five errors of the moving body at each step.
 void add_errors(const algo::Solver& solver, const Rig& rig, const std::vector<double>& encoder_m,
                 algo::ParkedReadings& readings) {
   const std::size_t probes = readings.series.size();
@@ -178,8 +178,8 @@ Result<ParkedLog> read_parked_log(const ParkedRequest& request, const ProgressCa
   parked.notices = log.notices();
   const double per_step =
       request.window_s.value_or(parked.length_s / kWindowsOfLog) / algo::kStepsOfWindow;
-  // Down, so that a twelfth of a log fits in it twelve times. Of a window that is longer than the
-  // log there is none, however long it is.
+  // Rounded down, so that a log contains a twelfth of itself twelve times. The upper limit exceeds
+  // the log, so that a window longer than the log gives no window.
   const auto together =
       static_cast<std::size_t>(std::clamp(std::floor(per_step / kShortStep_s + 1e-9), 1.0,
                                           static_cast<double>(reader.encoder.size() + 1)));

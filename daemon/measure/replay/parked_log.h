@@ -1,5 +1,5 @@
-// A log of a parked axis -> the means of its readings over equal steps of time: what the warm-up
-// test (algo/drift/warm_up.h) takes.
+// A log of a parked axis -> means of its readings over equal time steps, the input of the warm-up
+// test (algo/drift/warm_up.h).
 #pragma once
 
 #include <optional>
@@ -16,26 +16,27 @@ namespace mdof::daemon {
 
 struct ParkedRequest {
   std::string log;                   // a file, or "-"
-  std::string rig_text, rig_source;  // source empty: the log's own
-  // Most that the readings of a probe and the two straightness errors may drift; none: the rig's
-  // [drift] limit_um_per_h, and where it has none, they have none.
+  std::string rig_text, rig_source;  // empty source: the rig of the log
+  // Drift limit for the readings of the probes and the two straightness errors. Default: the rig's
+  // [drift] limit_um_per_h; without it there is no limit.
   std::optional<double> limit_m_per_s;
-  std::optional<double> angle_limit_rad_per_s;  // likewise of the angles; none: they have none
-  std::optional<double> window_s;               // none: a twelfth of the log
+  std::optional<double> angle_limit_rad_per_s;  // likewise for the angles; default: no limit
+  std::optional<double> window_s;               // default: a twelfth of the log
 };
 
 struct ParkedLog {
   Axis axis = Axis::x;
   double position_m = 0, length_s = 0;
-  std::optional<double> limit_m_per_s;  // that holds
+  std::optional<double> limit_m_per_s;  // the limit that is used
   bool simulated = false;
-  bool declares = false;          // the rig, an uncertainty
-  std::size_t probes = 0;         // the first series; the rest are the five errors
-  algo::ParkedReadings readings;  // of the body that moves, at the fixture
+  bool declares = false;   // whether the rig declares an uncertainty
+  std::size_t probes = 0;  // number of the first series that are probes; the others are the five
+                           // errors
+  algo::ParkedReadings readings;  // of the moving body, at the fixture
   Notices notices;
 };
 
-// Errors: as replay(); the axis moved; the log is too short for one window.
+// Errors: those of replay(); the axis moved; the log is shorter than one window.
 Result<ParkedLog> read_parked_log(const ParkedRequest& request,
                                   const ProgressCallback& progress = {});
 

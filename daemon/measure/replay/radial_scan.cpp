@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kScanTimeout{1000};
 constexpr std::int64_t kMostGap_ns =
-    50'000'000;  // of an encoder or angle, across which it is known
+    50'000'000;  // longest gap that is interpolated, of an encoder or angle
 constexpr std::size_t kMostScanPoints = 50'000'000;
 constexpr double kDefaultPixels = 100, kTurn_deg = 360;
 
@@ -36,7 +36,7 @@ struct Series {
     time_ns.push_back(t);
     value.push_back(x);
   }
-  // Linear; NaN outside, and in a gap.
+  // Linear interpolation; NaN outside the series and in a gap.
   double at(std::int64_t t) const {
     const auto after = std::lower_bound(time_ns.begin(), time_ns.end(), t);
     if (after == time_ns.end()) return kNaN;
@@ -47,7 +47,7 @@ struct Series {
         static_cast<double>(t - time_ns[i - 1]) / static_cast<double>(time_ns[i] - time_ns[i - 1]);
     return value[i - 1] + part * (value[i] - value[i - 1]);
   }
-  // An angle goes on over 360 degrees, so that there is a middle between 359 and 1.
+  // Makes an angle continuous over 360 degrees, so that interpolation between 359 and 1 works.
   void unwind() {
     for (std::size_t i = 1; i < value.size(); ++i)
       value[i] = value[i - 1] + std::remainder(value[i] - value[i - 1], kTurn_deg);
@@ -114,7 +114,7 @@ Result<Columns> read_columns(const RunHeader& run, const Rig& rig, const RigScan
   return columns;
 }
 
-// What the scanning probe reads of the motion alone, at the targets of its run.
+// Readings that the axis motion alone causes at the scanning probe, at the targets of its run.
 struct Motion {
   std::vector<double> position_m, reading_m;
   double u_m = 0;  // RMS over the targets
@@ -129,7 +129,7 @@ struct Motion {
   }
 };
 
-// The rig with the scanning probe alone, before a plane across it.
+// The rig with the scanning probe alone and without planes.
 Rig with_scanning_probe(Rig rig, const RigScan& scan) {
   rig.planes.clear();
   rig.probes.assign(1, {});
@@ -139,7 +139,8 @@ Rig with_scanning_probe(Rig rig, const RigScan& scan) {
   return rig;
 }
 
-// Of the reading, by the covariance of the five errors: the reading is linear in them.
+// Variance of the reading from the covariance of the five errors. The reading is linear in the
+// errors.
 double reading_variance(const drivers::ForwardModel& model, double travel_m,
                         const AxisErrors& errors) {
   std::array<double, 5> slope{};
@@ -208,7 +209,7 @@ void add_points(const Columns& columns, const Motion& motion, const Rig& rig, co
       ++out.beyond_targets;
       continue;
     }
-    // The target goes to +: the probe is then towards - of its axis.
+    // If the target moves towards +, the probe is on the - side of the spindle's axis.
     const double rho_m = centre_m - rig.sides.target_travel_m(encoder_m);
     const double angle = scan.sense * angle_deg * std::numbers::pi / 180;
     points.x_m.push_back(rho_m * std::cos(angle));

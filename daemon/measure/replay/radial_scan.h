@@ -1,4 +1,4 @@
-// Runs whose rig has a [scan] (schema/rig/scan.h) -> a height map of the part that was scanned.
+// Runs whose rig has a [scan] (schema/rig/scan.h) -> a height map of the scanned part.
 #pragma once
 
 #include <cstdint>
@@ -15,27 +15,26 @@ namespace mdof::daemon {
 struct RadialScan {
   SurfaceMap map;
   double pixel_m = 0;
-  std::size_t points = 0;  // heights that were taken
-  std::size_t beyond_targets =
-      0;  // left out: before the first target of the run or behind its last
-  std::size_t without_height = 0;  // left out: the probe, the encoder or the angle gave none
-  double motion_pv_m = 0;  // what the motion of the axis had in the readings, and was taken out
-  // Standard uncertainty of a height: by the scatter of the heights around it, RMS over the map;
-  // and by the errors of the axis that were taken out, RMS over the targets of the run that has
-  // most.
+  std::size_t points = 0;          // number of used heights
+  std::size_t beyond_targets = 0;  // left out: before the first or after the last target of the run
+  std::size_t without_height = 0;  // left out: no value of the probe, the encoder or the angle
+  double motion_pv_m = 0;  // peak to valley of the axis motion in the readings, which was removed
+  // Standard uncertainty of a height: from the scatter of the heights around it, RMS over the map;
+  // and from the removed errors of the axis, RMS over the targets of the run with the largest
+  // value.
   double u_noise_m = 0, u_motion_m = 0;
   bool simulated = false;
 };
 
-// Each reading of the probe less what the five errors of its own run make it read there, by the
-// rigid model, and linear between the targets: a height of the part. It stands at
-// x = rho cos(angle), y = -rho sin(angle); x is along the axis at the angle 0, z along `measures`,
-// rho how far the probe is from the spindle's axis towards x. Encoder, angle and probe of
-// different devices are brought together in time, linearly.
+// The height is the probe reading minus the reading that the five errors of its own run cause
+// there, by the rigid model and linear between the targets. Its position is x = rho cos(angle), y =
+// -rho sin(angle); x is along the axis at the angle 0, z along `measures`, and rho is the distance
+// of the probe from the spindle's axis towards x. Encoder, angle and probe of different devices are
+// interpolated linearly in time.
 //
-// `pixel_m`: none: a hundredth of the diameter. Errors: a run without [scan], or with fewer than
-// two targets; its log is not there any more or has changed, has no such column, or one in another
-// unit; those of algo::scan_map().
+// `pixel_m`: default is a hundredth of the diameter. Errors: a run without [scan] or with fewer
+// than two targets; a log that is missing, has changed, lacks a column or has it in another unit;
+// those of algo::scan_map().
 Result<RadialScan> radial_scan(store::Store& store, const std::vector<std::int64_t>& runs,
                                std::optional<double> pixel_m);
 

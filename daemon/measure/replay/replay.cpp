@@ -43,7 +43,7 @@ Status check_unit(const std::string& source, const std::vector<Channel>& channel
   return {};
 }
 
-// An encoder in volts gives no position unless the rig has its scale.
+// An encoder in volts gives no position unless the rig declares its scale.
 Status check_encoder(const std::string& source, const std::vector<Channel>& channels,
                      const Rig& rig) {
   for (const Channel& c : channels) {
@@ -56,7 +56,8 @@ Status check_encoder(const std::string& source, const std::vector<Channel>& chan
   return {};
 }
 
-// What a correction of the air needs and the rig leaves to the log.
+// Checks that the log has the ambient quantities that a correction needs and the rig does not
+// declare.
 Status check_air(const std::string& source, const std::vector<Channel>& channels, const Rig& rig) {
   const auto columns = columns_of_air(rig);
   for (std::size_t q = 0; q < kAirQuantities; ++q) {
@@ -73,7 +74,7 @@ Status check_air(const std::string& source, const std::vector<Channel>& channels
   return {};
 }
 
-// "X" of "axis: X"; empty where no comment says it.
+// "X" from "axis: X"; empty if no comment states the axis.
 std::string stated_axis(const std::vector<std::string>& comments) {
   constexpr std::string_view kKey = "axis:";
   for (const std::string& comment : comments) {

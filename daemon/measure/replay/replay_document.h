@@ -1,4 +1,4 @@
-// A replayed run as the command line and the RPC give it.
+// The document of a replayed run, for the command line and the RPC.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace mdof::daemon {
 
-// With its points, as `mdof replay --json` prints it.
+// With the points, as `mdof replay --json` prints it.
 std::string replay_document(const Run& run, const StatedRun& stated);
-// The same without the points, as it fits into a reply; of a run that is longer all the same the
-// note, the notices and the options are cut.
+// Without the points, so that it fits into a reply. If it is still too long, the note, the notices
+// and the options are shortened.
 std::string replay_reply(const Run& run, const StatedRun& stated);
 
 }  // namespace mdof::daemon

@@ -1,5 +1,5 @@
-// The options of a replay that are a number or a switch: one description for the command line
-// ("--settle-s"), the RPC ("settle_s"), their bounds and their help.
+// The numeric and boolean options of a replay. The command line ("--settle-s") and the RPC
+// ("settle_s") share this list, the ranges and the help.
 #pragma once
 
 #include <string>
@@ -16,24 +16,24 @@ struct ReplayOption {
     each_run,
     dwells,
     motion
-  };  // dwells: not of a run on the fly; motion: of that alone
+  };  // dwells: only runs with dwells; motion: only runs on the fly
   using Number = std::optional<double> ReplayRequest::*;
   using Switch = bool ReplayRequest::*;
 
-  const char* name;  // of the RPC, with its unit
+  const char* name;  // RPC name, with its unit
   std::variant<Number, Switch> member;
-  Range range;  // of a number
+  Range range;  // range of a number
   Of of;
-  const char* meaning;  // with the default in brackets
+  const char* meaning;  // help text, with the default in brackets
 
   std::string command_line_name() const;  // "--settle-s"
 };
 
-// In the order in which they are shown.
+// In the order of the help.
 const std::vector<ReplayOption>& replay_options();
 
-// Error (usage): a number that is not finite or outside its range, or an option that is not of such
-// a run, by its name.
+// Error (usage): a number that is not finite or out of range, or an option that does not apply to
+// this kind of run. The message names the option.
 Status check_replay_options(const ReplayRequest& request);
 
 }  // namespace mdof::daemon

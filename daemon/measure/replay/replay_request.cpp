@@ -12,7 +12,7 @@
 namespace mdof::daemon {
 namespace {
 
-// What comes over the RPC was not checked by the command line.
+// The command line does not check requests of the RPC.
 Status check_request(const ReplayRequest& request) {
   MDOF_CHECK(check_replay_options(request));
   Model model{};
@@ -26,7 +26,7 @@ Status check_request(const ReplayRequest& request) {
   return {};
 }
 
-// Targets of the run, given now or recorded, are kept unless an interval is asked for.
+// Keeps the given or recorded targets of the run unless an interval is requested.
 Status ask_on_the_fly(const ReplayRequest& request, PipelineOptions& options) {
   if (!request.on_the_fly) return {};
   algo::OnTheFlyOptions& to = options.on_the_fly.emplace();
@@ -63,7 +63,7 @@ Result<PipelineOptions> options_of(const ReplayRequest& request, const ReplayLog
   return options;
 }
 
-// With the delays of a rig that is given instead of the recorded one, or beside a CSV log.
+// Sets the delays of the given rig, which replaces a recorded rig or belongs to a CSV log.
 Result<PipelineOptions> delayed(PipelineOptions options, const ReplayRequest& request,
                                 const ReplayLog& log, const Rig& rig) {
   const std::string recorded = log.rig_text();
@@ -72,7 +72,7 @@ Result<PipelineOptions> delayed(PipelineOptions options, const ReplayRequest& re
     MDOF_TRY(before, parse_rig(recorded, request.log + " (its rig)"));
   }
   options = with_delays_of(rig, before, std::move(options));
-  if (options.on_the_fly) return options;  // which has no stops to settle in
+  if (options.on_the_fly) return options;  // without stops there is no settling time
   if (auto settles = check_settling(options); !settles) {
     settles.error().code = ErrorCode::usage;
     return tl::unexpected(std::move(settles.error()));

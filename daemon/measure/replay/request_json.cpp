@@ -15,18 +15,18 @@ namespace {
 
 using simdjson::dom::element;
 
-constexpr double kMostDelay_s = 10;  // as delays.cpp takes it
+constexpr double kMostDelay_s = 10;  // as in delays.cpp
 
-// Members of an object, each into its place; the first that is of another kind is the error. One
-// that is absent, or null, leaves its place as it is.
+// Reads the members of an object into variables; the first member of another type is the error. An
+// absent or null member does not change its variable.
 class Members {
  public:
-  // `path`: of the object, with a dot behind it, for messages.
+  // `path`: path of the object, with a dot at its end, for messages.
   explicit Members(element object, std::string path = "")
       : object_(object), path_(std::move(path)) {}
 
-  // Once all have been taken: one that nobody asked for says what cannot be done, and of two of the
-  // same name one would be dropped. Both are errors.
+  // Call it after all members were taken. Error: an unknown member, because its effect is unknown;
+  // a repeated member, because one of the two would be ignored.
   Status done() {
     std::set<std::string_view> seen;
     for (const auto member : object_.get_object()) {
@@ -96,12 +96,12 @@ double seconds(double x_s) {
   return x_s;
 }
 
-// An object with a number for each channel.
+// Reads an object with one number for each channel.
 void read_by_channel(Members& members, const char* key, std::map<std::string, double>& to,
                      bool (*good)(double)) {
   const auto found = members.object(key);
   simdjson::dom::object channels;
-  if (!found || found->get(channels)) return;  // it is one
+  if (!found || found->get(channels)) return;  // object() has checked that it is an object
   to.clear();
   for (const auto member : channels) {
     double x = 0;
@@ -147,14 +147,14 @@ void read_targets(Members& members, PipelineOptions& options) {
     return true;
   });
   members.take_not_negative("target_window_mm", options.sequence.target_window_m, from_mm);
-  // Runs of older versions do not say it: until stopped.
+  // Runs of older versions have no such member: they ran until stopped.
   std::int64_t repeats = options.repeats;
   members.take("repeats", repeats);
   if (repeats < 0 || repeats > std::numeric_limits<int>::max()) members.reject("repeats");
   options.repeats = static_cast<int>(repeats);
 }
 
-// Its kind is never left out: without it the rest would be that of an absolute encoder.
+// The kind is always required: without it the datum would look like that of an absolute encoder.
 Status read_datum(element object, EncoderDatum& datum) {
   Members members(object, "options.encoder_datum.");
   datum = {};
@@ -226,7 +226,7 @@ Result<AskedFor> read_request_json(const std::string& text, const PipelineOption
   MDOF_TRY(const element root, parsed(parser, text));
   Members members(root);
   members.take("note", asked.note);
-  for (const char* key : {"warnings", "notices"}) {  // sentences, as recordings had before
+  for (const char* key : {"warnings", "notices"}) {  // "warnings": sentences in older recordings
     const auto list = members.find(key);
     if (!list) continue;
     auto notices = read_notices(simdjson::minify(*list));

@@ -1,5 +1,5 @@
-// What was asked of a run, as the header of its recording keeps it: with it a replay makes the same
-// run again, to the bit and with no option given.
+// The request of a run, as stored in the header of its recording. With it a replay without options
+// gives the same run, bit-identical.
 #pragma once
 
 #include <string>
@@ -13,19 +13,19 @@ namespace mdof::daemon {
 
 struct AskedFor {
   std::string note;
-  Notices notices;  // known when the run began, to be kept with it
+  Notices notices;  // known at the start of the run, stored with it
   PipelineOptions options;
 };
 
 // {"note", "notices", "options": as PipelineOptions::json()}
 std::string request_json(const AskedFor& asked);
 
-// What the text does not say stays as in `base`; an empty text says nothing. Error: it is none, or
-// has a member that cannot be read, is not known or is there twice, which is named: what a run was
-// measured with is understood whole or not at all.
+// Members that the text lacks stay as in `base`; an empty text changes nothing. Error: the text is
+// not JSON, or has a member that is unreadable, unknown or repeated (the message names it). The
+// text must be understood completely, because a replay depends on all of it.
 Result<AskedFor> read_request_json(const std::string& text, const PipelineOptions& base);
 
-// The same of PipelineOptions::json(), which the provenance of a run has.
+// The same for PipelineOptions::json(), which is in the provenance of a run.
 Result<PipelineOptions> read_options_json(const std::string& text, const PipelineOptions& base);
 
 }  // namespace mdof::daemon

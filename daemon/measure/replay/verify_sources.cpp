@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t kPage = 500;
 
-// A file with the hash that it had, and the runs that were made from it.
+// A file with its stored hash, and the runs that were made from it.
 using Source = std::pair<std::string, std::string>;  // path, sha256
 using Sources = std::map<Source, std::vector<std::int64_t>>;
 
@@ -32,7 +32,7 @@ std::string runs_text(const std::vector<std::int64_t>& runs) {
                                : text + " and " + std::to_string(runs.size() - kNamed) + " more";
 }
 
-// Error: it cannot be read.
+// Error: the file cannot be read.
 Result<std::string> sha256_of_file(const std::string& path) {
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   const int file = sqlite::open_foreign(path, 0);
@@ -50,7 +50,7 @@ Result<std::string> sha256_of_file(const std::string& path) {
   return io_error(path + ": cannot be read: " + std::strerror(error));
 }
 
-// Error: it cannot be read, or is damaged.
+// Error: the recording cannot be read or is damaged.
 Result<std::string> sha256_of_recording(const std::string& path) {
   drivers::RecordingLog log("recording", path);
   MDOF_CHECK(log.open());

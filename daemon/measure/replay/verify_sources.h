@@ -1,4 +1,4 @@
-// Are the recordings and logs that the runs of a database were made from still what they were?
+// Checks that the source recordings and logs of all stored runs still exist and are unchanged.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@
 namespace mdof::daemon {
 
 struct SourceCheck {
-  std::vector<std::string> findings;  // one sentence for each file that is gone or another
-  Notices notices;                    // what cannot be checked, and why: nothing is wrong with it
+  std::vector<std::string> findings;  // one sentence for each file that is missing or has changed
+  Notices notices;  // files that cannot be checked, with the reason; these are no findings
 };
 
-// Reads every file once, to its end, in pieces. Errors: as of a database that is read.
+// Reads every file once, completely, in pieces. Errors: those of reading the database.
 Result<SourceCheck> verify_sources(store::Store& store);
 
 }  // namespace mdof::daemon

@@ -27,7 +27,7 @@ double change_of(const ComparedValue& value) {
   return value.after - value.before;
 }
 
-// Of both approaches, or of the one that both runs have.
+// Mean change of both approaches, or of the only approach that both runs have.
 double mean_change(const ComparedPoint& point, std::size_t error) {
   const double forward = change_of(point.side[kForward][error]),
                reverse = change_of(point.side[kReverse][error]);

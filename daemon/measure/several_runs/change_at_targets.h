@@ -1,4 +1,5 @@
-// By how much a figure's errors changed at the targets, where its size need not have.
+// The change of a figure's errors at the targets. It can be large although the size of the figure
+// is the same.
 #pragma once
 
 #include "daemon/measure/several_runs/compared_points.h"
@@ -6,10 +7,10 @@
 
 namespace mdof::daemon {
 
-// m or rad. Of a straightness and a range: the highest minus the lowest change of the error at the
-// targets (of straightness about its own least-squares line), so that a shape that turned round
-// has twice its size; of B the largest change of the reversal; of a slope its own change, with its
-// sign taken. NaN: no target has a value in both runs.
+// In m or rad. Straightness and ranges: the highest minus the lowest change of the error at the
+// targets (for straightness about the least-squares line of the changes), so that an inverted shape
+// gives twice its size. B: the largest change of the reversal. Slopes: the absolute change of the
+// signed slope. NaN: no target has a value in both runs.
 double change_at_targets(const Budget& before, const Budget& after, const ComparedPoints& compared);
 
 }  // namespace mdof::daemon

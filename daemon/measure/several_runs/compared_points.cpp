@@ -31,10 +31,10 @@ double at_row(const std::vector<double>& values, std::size_t row, double none) {
   return values.empty() ? none : values[row];
 }
 
-// Readings of each target and approach; those that do not say theirs are of both.
+// Number of readings by target and approach. Readings without an approach count for both.
 struct Counts {
   std::vector<double> forward, reverse;  // [row]
-  bool no_reversal = false;              // an imported run with readings that do not say theirs
+  bool no_reversal = false;              // an imported run that has readings without an approach
 };
 
 Counts counts_of(const TabledRun& of) {
@@ -67,7 +67,7 @@ double expanded(double u, std::initializer_list<algo::UncertaintyPart> parts) {
   return std::isnan(u) ? kNaN : u * algo::coverage_factor(algo::effective_freedom(parts));
 }
 
-// The value and its U, of each of kComparedSides.
+// The value and its U for each of kComparedSides.
 std::array<std::pair<double, double>, 3> sides_at(const TabledRun& of, const Counts& counts,
                                                   std::size_t error, std::size_t row) {
   const ApproachMean f = mean_at(of, counts, error, row, 1),

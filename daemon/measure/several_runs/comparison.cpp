@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kSameEnd_m = 1e-4;
 
-// What both runs share adds where the sign has changed, so that u is the sum of both.
+// Effects that both runs share add if the sign has changed, so that u is the sum of both u.
 void add_shared(Budget& change, double u_before, double u_after) {
   const double freedom = change.freedom, k = change.coverage_factor;
   BudgetLine shared;
@@ -34,7 +34,7 @@ void add_shared(Budget& change, double u_before, double u_after) {
   shared.contribution = std::sqrt(2 * u_before * u_after);
   change.lines.push_back(shared);
   algo::complete(change);
-  change.freedom = freedom;  // that of the runs
+  change.freedom = freedom;  // degrees of freedom of the two runs
   change.coverage_factor = k;
   change.U = k * change.u;
 }
@@ -68,7 +68,7 @@ ComparedFigure compared(const Budget& before, const Budget& after) {
   }
   algo::complete(change);
   if (before.value * after.value < 0) add_shared(change, before.u, after.u);
-  // A range of noisy means is biased upwards, which first order does not know.
+  // A range of noisy means is biased upwards; the first-order calculation does not include this.
   if (before.U_by_trials || after.U_by_trials) {
     change.U = std::max(change.U, std::hypot(before.U, after.U));
     change.U_by_trials = true;
@@ -89,13 +89,13 @@ std::pair<double, double> travel_of(const Run& run) {
   return ends;
 }
 
-// The time of its measurement is known; of other runs started_utc is that of the evaluation.
+// Whether started_utc is the time of the measurement; otherwise it is that of the evaluation.
 bool has_time(const RunHeader& header) {
   const std::string& kind = header.provenance.recording_kind;
   return kind == "live" || kind == "recording";
 }
 
-// What a figure depends on and need not be the same in both, and whether they were exchanged.
+// Differences that influence the figures, and a notice if the runs are in reverse order.
 Notices differences(const Run& before, const Run& after) {
   Notices found;
   const std::string &began = before.header.started_utc, &other = after.header.started_utc;
@@ -119,7 +119,7 @@ Notices differences(const Run& before, const Run& after) {
   return found;
 }
 
-// Without a figure that both have there is nothing to compare.
+// Error: no figure exists in both runs.
 Status add_figures(Comparison& found, const std::vector<Budget>& before,
                    const std::vector<Budget>& after) {
   for (const Budget& budget : before)
@@ -138,7 +138,7 @@ void add_change_at_targets(Comparison& found) {
   }
 }
 
-// Both are positioning that was imported.
+// Error: a run that is not imported, or is of another error than positioning.
 Status check_positioning(const Run& before, const Run& after) {
   for (const Run* run : {&before, &after}) {
     const std::string name = "run " + std::to_string(run->header.id);
@@ -179,7 +179,7 @@ Result<Comparison> compare_positioning(store::Store& store, const Run& before, c
   return found;
 }
 
-// A table of each run; the comparison stands without them.
+// Calculates a table of each run. The comparison is valid without these tables.
 void add_points(store::Store& store, const Run& before, const Run& after, Reference reference,
                 Comparison& found) {
   TableRequest request;

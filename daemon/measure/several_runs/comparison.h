@@ -1,4 +1,4 @@
-// The figures of an axis before and after something was done to it, as a compensation: what it did.
+// Compares the figures of an axis before and after an action on it, such as a compensation.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@ enum class Effect {
   reduced,
   increased,
   not_shown,  // the change is within its U
-  changed,    // that of the size is, but not that at the targets
-  unknown,    // its U is not known
+  changed,    // the size did not change by more than its U, but the errors at the targets did
+  unknown,    // U of the change is unknown
 };
 const char* to_string(Effect effect);  // "reduced", "increased", "not shown", "changed", "unknown"
 
 struct ComparedFigure {
   Budget before, after;
-  // value: |after| - |before|, so that a reduction is negative whatever the sign of a slope is. The
-  // two runs are taken as independent: what they share (a probe's gain, the mounting) cancels, so
-  // that u is too large rather than too small. Where the sign has changed it adds, and u is the
-  // sum.
+  // value: |after| - |before|; a reduction is negative whatever the sign of a slope. The two runs
+  // are assumed to be independent. Effects that they share (gain of a probe, mounting) cancel in
+  // the change, so that u is too large rather than too small. If the sign of the figure changed,
+  // shared effects add, and u is the sum of both u.
   Budget change;
-  // change_at_targets(); more than both U together is more than noise makes of it by chance.
+  // From change_at_targets(). A value above the sum of both U is not explained by noise.
   double at_targets = kNaN;
   Effect effect = Effect::not_shown;
 };
@@ -39,23 +39,23 @@ struct Comparison {
   std::int64_t before = 0, after = 0;
   Axis axis = Axis::x;
   StatedAt stated;
-  std::vector<ComparedFigure> figures;  // those that both have
-  Notices differences;                  // of the two runs, beside what was done
+  std::vector<ComparedFigure> figures;  // figures that both runs have
+  Notices differences;                  // between the two runs, besides the action
   Notices notices;                      // of the runs
   bool simulated = false;
-  bool is_imported = false;  // positioning: `stated` is of no rig
+  bool is_imported = false;  // positioning: `stated` has no meaning
   ComparedPoints points;
-  std::string why_no_points;  // empty: they are there
+  std::string why_no_points;  // empty if `points` exist
 };
-// Two runs of the five probes, or two imported ones of positioning. Errors: those of run_budgets();
-// one run twice; runs of two axes; one imported and one not, or another error than positioning; no
-// figure that both have.
+// Compares two runs of the five probes, or two imported runs of positioning. Errors: those of
+// run_budgets(); the same run twice; runs of two axes; an imported and a measured run; an imported
+// run of another error than positioning; no common figure.
 Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& request);
 
-// What u of its changes covers.
+// What u of the changes includes.
 Covers covers(const Comparison& comparison);
 
-// What `mdof compare --json` and the RPC say of it.
+// The document of `mdof compare --json` and the RPC.
 std::string comparison_json(const Comparison& comparison);
 
 }  // namespace mdof::daemon

@@ -26,7 +26,7 @@ std::string figure_of(AxisPair axes) {
   return std::string(squareness_name(axes)) + "_urad";
 }
 
-// What two runs must have alike to be in one chart.
+// Runs of one chart must agree in this text.
 std::string kind_of(const RunHeader& run) {
   const RunOptions options = run_options(run);
   return run.provenance.model + (options.remove_drift ? " without drift " : " ") +
@@ -49,13 +49,13 @@ bool earlier(const RunHeader& a, const RunHeader& b) {
 }
 
 struct Chosen {
-  std::vector<RunHeader> runs;  // in time
+  std::vector<RunHeader> runs;  // in order of time
   std::vector<std::string> left_out;
   Notices notices;
 };
 
-// That of the newest run. Where it has too few values for a chart, the newest kind of the same rig
-// that has enough: one run on the fly, or with another model, hides no chart.
+// The newest run. If its kind has too few values for a chart, the newest run of the same rig whose
+// kind has enough: a single run on the fly or with another model does not remove the chart.
 const RunHeader& newest_of_chart(const std::vector<RunHeader>& runs) {
   std::map<std::string, std::size_t> count;
   for (const RunHeader& run : runs) ++count[kind_of(run)];
@@ -66,7 +66,7 @@ const RunHeader& newest_of_chart(const std::vector<RunHeader>& runs) {
   return runs.back();
 }
 
-// Of one kind, unless they are to be mixed.
+// Keeps the runs of one kind, unless `mixed` is set.
 void choose_kind(Chosen& chosen, bool mixed) {
   if (chosen.runs.empty()) return;
   const RunHeader newest_of_kind = newest_of_chart(chosen.runs);
@@ -97,7 +97,8 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
     for (const RunHeader& run : page) {
       MDOF_TRY(const auto by, store.superseded_by(run.id));
       std::string recording = run.provenance.recording_sha256;
-      if (!recording.empty() && !mixed) recording += kind_of(run);  // one run a recording and chart
+      // One run per recording and kind.
+      if (!recording.empty() && !mixed) recording += kind_of(run);
       if (is_imported(run))
         imported.push_back(run.id);
       else if (by)
@@ -130,7 +131,7 @@ void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& 
                const Budget& budget, bool u_is_known) {
   trend.values.push_back({std::move(runs), started_utc, budget.value,
                           u_is_known ? budget.u : std::nan(""), budget.u_random});
-  // What one value lacks, the chart lacks.
+  // The chart does not include a contribution that one value does not include.
   const bool is_first = trend.values.size() == 1;
   if (is_first || budget.noise_only) trend.u_covers = covers(budget);
   const NoiseOnly own = noise_only_if(budget.noise_only);
@@ -141,7 +142,7 @@ void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& 
       trend.u_not_declared.push_back(key);
 }
 
-// Of all wanted figures at once: a run is read once.
+// Adds the values of all wanted figures, so that the run is read once.
 Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>& trends,
                const std::vector<algo::Figure>& figures) {
   MDOF_TRY(const Run run, run_stated_at(store, header.id, Reference::fixture));
@@ -181,7 +182,7 @@ Status add_axis(store::Store& store, Axis axis, const TrendRequest& request,
   return {};
 }
 
-// Of two runs that may both be in a chart, the newest fit of each two.
+// Uses the newest fit of each pair of runs that a chart may contain.
 Status add_squareness(store::Store& store, AxisPair axes, const TrendRequest& request,
                       std::vector<Trend>& out) {
   MDOF_TRY(const Chosen a, choose(store, axes.a, request.mixed));

@@ -17,34 +17,37 @@
 namespace mdof::daemon {
 
 struct TrendRequest {
-  std::optional<Axis> axis;  // all figures of its runs; none: EC0Y, and those of every axis
-  std::string figure;        // only this one: "EYX_straightness_um", "EC0Y_urad"; empty: all
-  std::size_t baseline = 0;  // as of algo::control_chart()
-  bool mixed = false;        // take the runs of other rigs and models as well
+  std::optional<Axis> axis;  // all figures of the runs of this axis; nullopt: EC0Y and the figures
+                             // of every axis
+  std::string figure;  // the only wanted figure: "EYX_straightness_um", "EC0Y_urad"; empty: all
+  std::size_t baseline = 0;  // as in algo::control_chart()
+  bool mixed = false;        // also use runs of other rigs and models
 };
 
 struct TrendValue {
-  std::vector<std::int64_t> runs;  // one, or the two of a squareness
-  std::string started_utc;         // of the last of them
-  // SI. u: combined, NaN where it cannot be made; u_random: of it noise and repeatability, by which
-  // the chart judges, for what rigs declare is alike in all runs.
+  std::vector<std::int64_t> runs;  // one, or two for a squareness
+  std::string started_utc;         // of the last run
+  // SI units. u: combined, NaN if it cannot be calculated. u_random: the part of noise and
+  // repeatability. The chart uses u_random, because declared uncertainties are the same in all
+  // runs.
   double value = 0, u = 0, u_random = 0;
 };
 struct Trend {
   std::string figure;
-  std::size_t baseline = 0;           // as it was asked for
-  std::vector<TrendValue> values;     // in time
-  std::optional<algo::Chart> chart;   // none: too few values
-  std::vector<std::string> left_out;  // sentences: which runs, and why
+  std::size_t baseline = 0;           // as requested
+  std::vector<TrendValue> values;     // in order of time
+  std::optional<algo::Chart> chart;   // nullopt: too few values
+  std::vector<std::string> left_out;  // sentences: the runs that were left out, with the reason
   Notices notices;                    // what is mixed
-  // Of u of the newest value, as of its budget.
+  // What u includes, from the budget of the newest value with noise only, otherwise of the first.
   Covers u_covers;
   NoiseOnly noise_only = NoiseOnly::none;  // of all values
   std::vector<std::string> u_not_declared;
 };
 
-// At the fixture. Complete, measured runs that nothing supersedes, of one recording the newest, of
-// the rig and model of the newest of them; what else there is, is named. Errors: no such figure.
+// Values are at the fixture. Uses complete, measured runs that are not superseded: the newest run
+// of each recording, with the rig and model of the newest such run. Other runs are listed in
+// left_out. Errors: unknown figure.
 Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& request);
 
 }  // namespace mdof::daemon

@@ -1,4 +1,4 @@
-// A figure over the stored runs as JSON, for the command line and run.trend.
+// Trends of figures as JSON, for the command line and run.trend.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +10,10 @@
 
 namespace mdof::daemon {
 
-// "outside", "8 on one side", or empty: what value i says by the rules of the chart.
+// "outside", "8 on one side" or empty: the signal of value i by the rules of the chart.
 std::string trend_signal(const algo::Chart& chart, std::size_t i);
 
-// The members of a figure's object, in the unit of its name; null where there are no limits.
+// The members of a figure's object, in the unit of the figure's name; limits are null if unknown.
 void write_trend(JsonWriter& json, const Trend& trend);
 
 std::string trends_json(const std::vector<Trend>& trends);

@@ -120,7 +120,7 @@ std::string status(const Methods& m) {
   return json.take();
 }
 
-// A parameter of the other kind of table would be ignored, and its sender misled.
+// Rejects parameters of the other kind of table. Ignoring them would mislead the sender.
 Status refuse(const Params& params, std::initializer_list<const char*> keys, const char* why) {
   for (const char* key : keys)
     if (params.has(key)) return fail(ErrorCode::usage, std::string(key) + why);
@@ -162,12 +162,12 @@ Result<std::string> grid(const Methods& m, const Params& params) {
 void write_values(JsonWriter& json, const char* key, Axis axis, const Errors5& values) {
   json.key(key).begin_object();
   for (std::size_t k = 0; k < 5; ++k)
-    json.field(error_names(axis)[k].key, to_key_unit(values[k]) + 0.0);  // -0 is 0
+    json.field(error_names(axis)[k].key, to_key_unit(values[k]) + 0.0);  // converts -0 to 0
   json.end_object();
 }
 
-// null without a chain; a component that no axis of the chain can correct is null. Why, is said
-// once for each reason.
+// null without a chain; a component that no axis of the chain can correct is null. Each reason is
+// stated once.
 void write_correction(JsonWriter& json, const CompensationTable& table, const Errors5& error) {
   const CorrectionSigns signs =
       correction_signs(table.machine, table.axis, table.sides, table.stated.reference);
@@ -212,7 +212,7 @@ Result<std::string> at(const Methods& m, const Params& params) {
   const double position_mm = params.number("position_mm");
   const CompensationTable& table = active->table;
   algo::TableValue value = algo::table_at(table, from_mm(position_mm), side);
-  if (!value.inside) {  // the value of another position or approach, whose u does not hold here
+  if (!value.inside) {  // value of another position or approach; its u does not hold here
     value.u.fill(std::nan(""));
     value.u_interpolation.fill(std::nan(""));
   }

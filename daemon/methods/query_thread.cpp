@@ -10,7 +10,7 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr int kQueryNiceness = 10;  // after everything that measures
+constexpr int kQueryNiceness = 10;  // lower priority than the measurement
 constexpr std::chrono::milliseconds kEntry{1};
 
 }  // namespace
@@ -48,7 +48,8 @@ void QueryThread::answer(rpc::Reply reply, Work work) {
   if (!served_) deliver();
 }
 
-// Before there is another client, so that there are never more than are connected.
+// Removes disconnected clients before a new one is added, so that the map never has more clients
+// than connections.
 void QueryThread::admit(const Key& client) {
   order_.remove_if([](const Key& key) { return key.expired(); });
   std::erase_if(clients_, [this](const auto& entry) {
@@ -56,10 +57,11 @@ void QueryThread::admit(const Key& client) {
         served_ && !served_->owner_before(entry.first) && !entry.first.owner_before(*served_);
     return entry.first.expired() && !served;
   });
-  order_.charge(clients_[client].share, kEntry);  // who comes anew each time is not first each time
+  order_.charge(clients_[client].share, kEntry);  // a client that reconnects for each call does not
+                                                  // always come first
 }
 
-// A client waits for a turn as long as it has calls, also while the thread has one of them.
+// A client keeps its turn while it has calls, also while the thread works on one of them.
 void QueryThread::deliver() {
   while (!order_.empty()) {
     const Key key = order_.take();
@@ -84,14 +86,14 @@ void QueryThread::done(Cost cost, std::string damage) {
   const Key key = *std::exchange(served_, std::nullopt);
   Client& client = clients_.at(key);
   order_.charge(client.share, cost);
-  client.calls.pop_front();  // what is left of it after it was passed on
+  client.calls.pop_front();  // the moved-from call
   if (!client.calls.empty()) order_.add(key, client.share);
   deliver();
 }
 
 void QueryThread::work() {
   start_thread_as("query");
-  // Linux: of this thread alone.
+  // On Linux this changes the priority of this thread only.
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kQueryNiceness);
   for (;;) {
     std::unique_lock lock(mutex_);

@@ -1,5 +1,5 @@
-// Answers the calls that read the database or calculate for long, on the thread "query": the event
-// loop goes on meanwhile, whatever they cost.
+// Answers calls that read the database or calculate for a long time, on the thread "query", so that
+// they do not block the event loop.
 #pragma once
 
 #include <chrono>
@@ -24,25 +24,25 @@
 
 namespace mdof::daemon {
 
-// Clients take turns, one call a turn: next is the client that has used the least of the thread.
-// The calls of a client that has gone are dropped. What waits is kept on the loop and handed to the
-// thread one by one: the thread comes after everything that measures, so that the loop must not
-// wait for a lock that it holds.
+// Serves one call at a time; the next call is that of the client that has used the least time of
+// the thread. Calls of disconnected clients are dropped. Pending calls stay on the event loop, and
+// the thread gets them one by one: the thread has a lower priority than the measurement, so the
+// event loop must not wait for a lock that the thread holds.
 class QueryThread {
  public:
-  // `store`: a read-only connection to `database`, from then on the thread's own.
+  // `store`: a read-only connection to `database`. The thread owns it from here on.
   QueryThread(std::shared_ptr<rpc::Executor> loop, std::filesystem::path database,
               store::Store store);
-  ~QueryThread();  // ends the call under way; the others get no answer
+  ~QueryThread();  // finishes the present call; the others get no answer
 
-  // Thread-bound from here on: the loop.
+  // Thread-bound from here on: call it on the event loop.
   using Work = std::function<Result<std::string>(store::Store&)>;
-  // `conflict` at once where too many calls of the client wait already.
+  // Replies with `conflict` at once if the client has too many pending calls.
   void answer(rpc::Reply reply, Work work);
-  // The connection is made anew before the next call.
+  // The thread opens the database again before the next call.
   void open_again() { open_again_ = true; }
   std::uint64_t refused() const { return refused_; }
-  // What SQLite said of a damaged file in a call since this was last asked; empty: nothing.
+  // The SQLite message on a damaged file in a call since the last query; empty: no damage.
   std::string take_damage() { return std::exchange(damage_, {}); }
 
  private:
@@ -61,7 +61,7 @@ class QueryThread {
   void admit(const Key& client);
   void deliver();
   void done(Cost cost, std::string damage);
-  // Of the thread:
+  // On the thread "query":
   void work();
   void serve(Call call);
 
@@ -69,17 +69,18 @@ class QueryThread {
 
   const std::shared_ptr<rpc::Executor> loop_;
   const std::filesystem::path database_;
-  // Of the loop:
+  // On the event loop:
   std::map<Key, Client, std::owner_less<>> clients_;
   FairOrder<Key> order_;
-  std::optional<Key> served_;  // whose call the thread has
+  std::optional<Key> served_;  // client of the present call
   bool open_again_ = false;
   std::uint64_t refused_ = 0;
   std::string damage_;
-  const std::shared_ptr<QueryThread*> self_;  // for the thread's messages, which may come too late
+  const std::shared_ptr<QueryThread*> self_;  // for messages of the thread, which may arrive after
+                                              // the destruction
 
-  store::Store store_;  // of the thread
-  std::mutex mutex_;    // guards the next two
+  store::Store store_;  // used by the thread
+  std::mutex mutex_;    // protects next_ and stopping_
   std::condition_variable handed_over_;
   std::optional<Call> next_;
   bool stopping_ = false;

@@ -34,12 +34,12 @@ using rpc::ParamType;
 using rpc::Reply;
 
 constexpr std::int64_t kMaxPointsPage = 100;
-constexpr std::size_t kMaxVisits = 1500;  // numbers of n_ij in one reply
+constexpr std::size_t kMaxVisits = 1500;  // maximum count of n_ij in one reply
 constexpr std::int64_t kMaxRunsPage = 100;
-constexpr std::int64_t kMaxRunPoints = 100'000;  // all of them make the figures; some 0.3 s
-constexpr std::size_t kMaxTargets = 1500;        // the reply names them all, and a line holds them
+constexpr std::int64_t kMaxRunPoints = 100'000;  // the figures need all points; about 0.3 s
+constexpr std::size_t kMaxTargets = 1500;        // the reply lists all of them in one line
 
-// A list, or even intervals.
+// Reads a list of targets, or equal intervals.
 Result<std::vector<double>> read_targets(const Params& params) {
   if (!params.has("from_mm") && !params.has("to_mm") && !params.has("interval_mm")) {
     for (const char* key : {"jitter_mm", "seed"})
@@ -79,7 +79,8 @@ Result<RunRequest> read_run_request(const Params& params) {
     if (!request.targets_m.empty() && from_mm(target_mm) <= request.targets_m.back()) {
       return fail(ErrorCode::usage, "targets_mm must be in ascending order");
     }
-    request.targets_m.push_back(from_mm(target_mm) + 0.0);  // -0 is 0, as a replay reads it
+    request.targets_m.push_back(from_mm(target_mm) + 0.0);  // converts -0 to 0, as a replay reads
+                                                            // it
   }
   if (request.repeats > 0 && request.targets_m.empty()) {
     return fail(ErrorCode::usage,
@@ -90,7 +91,7 @@ Result<RunRequest> read_run_request(const Params& params) {
   return request;
 }
 
-// Where there are several clocks, those whose drift is not known yet.
+// Notices on devices whose clock drift is not yet known, if there are several clocks.
 Notices unsettled_clocks(const Station& station) {
   const auto devices = station.devices();
   Notices found;
@@ -101,7 +102,7 @@ Notices unsettled_clocks(const Station& station) {
   return found;
 }
 
-// What was wrong before the run began; what comes after it is added at its end.
+// Notices on trouble before the start of the run. Trouble during the run is added at its end.
 Notices standing_trouble(const Station& station) {
   Notices found;
   for (const auto& device : station.devices())
@@ -111,7 +112,7 @@ Notices standing_trouble(const Station& station) {
   return found;
 }
 
-// What devices are set to do to their readings, such as filters.
+// Notices on settings of devices that change their readings, such as filters.
 Notices settings_of_devices(const Station& station) {
   Notices found;
   for (const auto& device : station.devices())
@@ -120,14 +121,14 @@ Notices settings_of_devices(const Station& station) {
   return found;
 }
 
-// What is asked of a run that has ended, but whose end is not stored yet.
+// Error: the run has ended, but its end is not yet stored.
 Status check_end_is_stored(const Methods& m, std::int64_t run) {
   const std::string why = m.keeper.why_open(run);
   if (why.empty()) return {};
   return fail(ErrorCode::conflict, "run " + std::to_string(run) + " has ended; " + why);
 }
 
-// The probes of a device that several axes have are at one of them at a time.
+// Error: several axes share the probes, and another axis uses them in a run.
 Status check_probes_free(const Methods& m, const Station& station) {
   for (const auto& other : m.stations) {
     const std::int64_t run = other->run();
@@ -147,11 +148,11 @@ Status check_probes_free(const Methods& m, const Station& station) {
 
 void begin_run(const Methods& m, Station& station, RunRequest request, Reply reply) {
   if (auto free = check_probes_free(m, station); !free) return reply(tl::unexpected(free.error()));
-  // A run that goes on has some already.
+  // A resumed run has some of these notices already.
   append_new(request.notices, standing_trouble(station));
   append_new(request.notices, unsettled_clocks(station));
   append_new(request.notices, settings_of_devices(station));
-  // The run has its datum among its options, and takes no notice of it from here.
+  // The stored run has its datum among its options, so that it does not need this notice.
   RunRequest told = request;
   if (auto missing = station.encoder().notice) told.notices.push_back(std::move(*missing));
   auto done = answer_with_run(std::move(reply), station.config().rig.axis, told);
@@ -186,7 +187,7 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
   const std::int64_t id = params.integer("run");
   if (auto free = check_end_is_stored(m, id); !free) return reply(tl::unexpected(free.error()));
   for (auto& station : m.stations) {
-    if (id < 1 || station->run() != id) continue;  // 0: it has none, -1: about to begin
+    if (id < 1 || station->run() != id) continue;  // 0: no run; -1: a run is about to begin
     const bool abort = params.boolean("abort");
     return station->stop_run(abort, action_of(params, abort ? "run.abort" : "run.stop"),
                              answer_with_end(m, std::move(reply), station->config().rig.axis));
@@ -195,7 +196,7 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
                                        " is not under way; server.info lists the runs under way"));
 }
 
-// A run that is stored as open though nobody measures it says so, and why.
+// A run that is stored as open although it is not measured gets the state `ended` and the reason.
 void explain(const Methods& m, RunHeader& header) {
   if (header.state != RunState::open) return;
   std::string why = m.keeper.why_open(header.id);
@@ -217,7 +218,8 @@ Result<QueryThread::Work> list_runs(Methods& m, const Params& params) {
   };
 }
 
-// Other clients wait for it: of a long run no figure has its uncertainty.
+// Limits the time of a call, because other clients wait: a long run has no figures with
+// uncertainty.
 StatedRun stated_in_a_call(const Run& run) {
   constexpr std::size_t kMostStated = 5'000;  // some 0.2 s; 110 points: 0.02 s
   if (run.points.size() <= kMostStated) return stated_run(run);

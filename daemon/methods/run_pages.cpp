@@ -14,9 +14,10 @@ namespace mdof::daemon {
 
 namespace {
 
-constexpr std::size_t kAfterFirst = 1;  // points_stated_at() gives the run's first before them
+constexpr std::size_t kAfterFirst = 1;  // points_stated_at() returns the run's first point before
+                                        // the page
 
-// Of what points_stated_at() gives.
+// `run`: as from points_stated_at().
 std::string imported_page(const Run& run, std::int64_t total, std::int64_t offset) {
   const std::string key = error_of_imported(run.header).key();
   JsonWriter json;

@@ -14,8 +14,8 @@
 
 namespace mdof::daemon {
 
-// On the thread "query". u of a point needs all points of its run, so that of the run last asked
-// for is kept.
+// Runs on the thread "query". u of a point needs all points of its run, so u of the run of the last
+// call is kept.
 class RunPages {
  public:
   Result<std::string> points(store::Store& store, std::int64_t id, rpc::ListPage page,

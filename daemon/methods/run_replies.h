@@ -25,7 +25,7 @@ inline std::string run_reply(std::int64_t id, Axis axis, const RunRequest& reque
   return json.take();
 }
 
-// Answers a station's callback, which comes on another thread.
+// Answers the callback of a station, which runs on another thread.
 inline RunDone answer_with_run(rpc::Reply reply, Axis axis, const RunRequest& request) {
   auto shared = std::make_shared<rpc::Reply>(std::move(reply));
   return [shared, axis, request](const Result<std::int64_t>& id) {
@@ -33,7 +33,8 @@ inline RunDone answer_with_run(rpc::Reply reply, Axis axis, const RunRequest& re
   };
 }
 
-// What came of it, as the database has it. What cannot be read is null: the run has ended.
+// The reply for a run that has ended, from the database. Unreadable members are null, because the
+// run has ended in any case.
 inline std::string ended_reply(store::Store& reader, std::int64_t id, Axis axis) {
   auto stored = reader.run_header(id);
   JsonWriter json;
@@ -51,7 +52,7 @@ inline std::string ended_reply(store::Store& reader, std::int64_t id, Axis axis)
   return json.take();
 }
 
-// Read on the loop, once the end is stored.
+// Reads the run on the event loop, after its end was stored.
 inline RunDone answer_with_end(Methods& m, rpc::Reply reply, Axis axis) {
   auto shared = std::make_shared<rpc::Reply>(std::move(reply));
   return [&m, shared, axis](const Result<std::int64_t>& id) {

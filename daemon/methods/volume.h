@@ -1,4 +1,4 @@
-// The part of compensation.* that is of the volumetric table. Private header of methods/.
+// The methods compensation.* for volumetric tables. Private header of methods/.
 #pragma once
 
 #include "daemon/methods/methods.h"
@@ -6,10 +6,10 @@
 
 namespace mdof::daemon {
 
-// As many as a page may have; its bytes may be fewer.
+// Maximum number of nodes in a page; the limit of bytes may allow fewer.
 inline constexpr std::int64_t kMaxNodesPage = 1000;
 
-// Of activate and deactivate; nothing: not asked for.
+// Parameter of activate and deactivate; nullopt if not given.
 std::optional<std::int64_t> expected_generation_of(const rpc::Params& params);
 // {"axis": "volume"}
 bool is_volume(const rpc::Params& params);

@@ -1,5 +1,5 @@
-// Labels of charts and reports in each language that they are written in: one row a label in
-// phrases.inc. Pure.
+// Labels of charts and reports in each supported language: one row of phrases.inc for each label.
+// Pure.
 #pragma once
 
 #include <initializer_list>
@@ -13,7 +13,7 @@ namespace mdof::output {
 
 using words::Language;
 
-// "en" or "de"; false: it is neither.
+// Accepts "en" or "de"; returns false for other names.
 bool language_from(std::string_view name, Language& language);
 const char* code_of(Language language);
 
@@ -24,7 +24,7 @@ enum class Phrase {
 };
 
 const char* phrase(Phrase phrase, Language language);
-// With {0}, {1} ... replaced.
+// Replaces {0}, {1} ...
 std::string phrase(Phrase phrase, Language language, std::initializer_list<std::string> values);
 
 const char* state_text(RunState state, Language language);

@@ -20,8 +20,8 @@ bool is_member(const FileUser& user, gid_t group) {
   return user.gid == group || std::find(further.begin(), further.end(), group) != further.end();
 }
 
-// mdofd reads on behalf of the caller: nothing that the caller may not read. A log of mdofd's own
-// group is open to who may use the socket.
+// mdofd reads on behalf of the caller, so it must not read what the caller may not read. Exception:
+// users of the socket may read logs of mdofd's own group.
 bool may_read(const FileUser& user, const struct stat& file) {
   if (user.uid == 0 || user.uid == ::geteuid()) return true;
   if (user.uid == file.st_uid) return (file.st_mode & S_IRUSR) != 0;
@@ -30,8 +30,7 @@ bool may_read(const FileUser& user, const struct stat& file) {
   return (file.st_mode & S_IROTH) != 0;
 }
 
-// A path that leads to no file that may be read is a mistake of the caller, as where `mdof` opens
-// the file itself.
+// Errors that the path causes are mistakes of the caller, as if `mdof` opened the file itself.
 bool is_of_path(int why) {
   return why == ENOENT || why == ENOTDIR || why == EACCES || why == ELOOP || why == ENAMETOOLONG;
 }
@@ -58,9 +57,9 @@ Status check_file(const FileUser& user, const std::string& path, int place) {
   return bad_input(path + ": you have no permission to read this file; check its owner and mode");
 }
 
-// First the place alone (O_PATH), which reads nothing, waits for nobody and is not what a program
-// has a lock on; what was looked at there is what is opened then, whatever its name leads to by
-// now.
+// Opens the path with O_PATH first, which reads nothing, does not block and does not affect locks
+// of other programs. After the check, exactly this file is opened for reading, even if its name now
+// refers to another file.
 Result<Descriptor> open_checked(const FileUser& user, const std::string& path) {
   const Descriptor place(::open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
   if (place.get() < 0) return cannot_open(path, errno);

@@ -1,5 +1,5 @@
-// A file that a client names. This is the one place where mdofd opens one: it is opened once, its
-// rights are those of the file that is open, and it is read through its descriptor alone.
+// Opens a file that a client names. All such files are opened here: once, with the permissions
+// checked on the open file, and then read only through its descriptor.
 #pragma once
 
 #include <sys/types.h>
@@ -12,7 +12,7 @@
 
 namespace mdof::daemon {
 
-// Who wants it read, by uid and groups as the kernel gives them.
+// The requesting user: uid and groups as the kernel reports them.
 struct FileUser {
   uid_t uid = 0;
   gid_t gid = 0;
@@ -21,12 +21,13 @@ struct FileUser {
 
 struct ClientFile {
   rpc::Descriptor file;
-  rpc::Descriptor wal;  // of a recording with changes that are not in the file yet; -1: none
+  rpc::Descriptor wal;  // of a recording with changes that are not yet in the file; -1: none
 };
 
-// For reading; takes no terminal, waits for no writer of a pipe. Errors: a path that is not
-// absolute or is a link, no regular file, one that the user or mdofd may not read. It may wait for
-// the file system that the path leads to: not on the event loop.
+// Opens the file for reading. Never becomes the controlling process of a terminal and does not wait
+// for the writer of a pipe. Errors: a path that is not absolute or is a link; no regular file; a
+// file that the user or mdofd may not read. May block on the file system, so do not call it on the
+// event loop.
 Result<ClientFile> open_for(const FileUser& user, const std::string& path);
 
 }  // namespace mdof::daemon

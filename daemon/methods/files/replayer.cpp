@@ -13,7 +13,7 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr int kNiceness = 10;  // after everything that measures
+constexpr int kNiceness = 10;  // lower priority than the measurement
 constexpr std::chrono::seconds kPatience{2};
 
 std::atomic<bool> left_behind{false};
@@ -27,19 +27,20 @@ struct Replayer::Shared {
   void store(Result<Made> made, const HistoryEntry& action, const Done& done);
 
   std::atomic<bool> busy{false}, stopping{false};
-  std::mutex mutex;  // guards the next two
+  std::mutex mutex;  // protects ended and working
   std::condition_variable ended;
   bool working = false;
-  Storekeeper& keeper;  // only under the mutex and before `stopping`: it goes after that
+  Storekeeper& keeper;  // use only under the mutex and before `stopping`, because it is destroyed
+                        // after that
 };
 
 void Replayer::Shared::work(const Make& make, const HistoryEntry& action, const Done& done) {
   start_thread_as("replay");
-  // Linux: of this thread alone.
+  // On Linux this changes the priority of this thread only.
   (void)::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kNiceness);
   auto made = make([this](const Progress&) { return !stopping; });
   const std::lock_guard lock(mutex);
-  busy = false;  // before the answer: who has it may ask for the next
+  busy = false;  // before the reply, because its receiver may send the next request
   if (!stopping) store(std::move(made), action, done);
   working = false;
   ended.notify_all();
@@ -81,7 +82,7 @@ void Replayer::start(Make make, const HistoryEntry& action, Done done) {
     return done(
         fail(ErrorCode::conflict,
              "mdofd is replaying or importing another file; try again when mdofd has finished"));
-  if (thread_.joinable()) thread_.join();  // it has done its work, or is about to have
+  if (thread_.joinable()) thread_.join();  // the thread has finished, or is about to finish
   {
     const std::lock_guard lock(shared_->mutex);
     shared_->working = true;

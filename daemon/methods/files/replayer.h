@@ -1,6 +1,6 @@
-// Makes runs of clients' files, one at a time, on the thread "replay": who cannot write the
-// database, since this daemon does, has the file read here, so that what is stored was computed
-// here.
+// Calculates runs from clients' files, one at a time, on the thread "replay". A client cannot write
+// the database while this daemon does; the daemon reads the file itself, so that it stores only its
+// own results.
 #pragma once
 
 #include <functional>
@@ -15,31 +15,31 @@
 
 namespace mdof::daemon {
 
-// Calls from the main thread only. The storekeeper outlives it.
+// Call it from the main thread only. The storekeeper must outlive it.
 class Replayer {
  public:
   explicit Replayer(Storekeeper& keeper);
-  // Gives up the file under way. Where its file system does not answer, the thread is left behind
-  // after a while: was_left_behind() then, and the process must end without waiting for threads.
+  // Cancels the present file. If its file system does not respond, the thread is abandoned after a
+  // while. was_left_behind() is then true, and the process must exit without waiting for threads.
   ~Replayer();
   static bool was_left_behind();
 
-  // A run with its uncertainty for SQL users, and what the reply says of it once it has its id:
-  // that is made by the thread that stores it, so it is quick.
+  // A run, its uncertainty for SQL users, and a function that makes the reply from the stored run.
+  // The function runs on the thread that stores the run, so it must be short.
   struct Made {
     std::shared_ptr<Run> run;
     RunUncertainty uncertainty;
     std::function<std::string(const Run&)> document;
   };
-  // `make` runs on the thread and ends soon after the callback that it gets has returned false.
-  // `done` receives the document of the stored run, or the error; on another thread, or at once
-  // with `conflict` while a file is under way.
+  // `make` runs on the thread and ends soon after its callback has returned false. `done` gets the
+  // document of the stored run or the error, on another thread; if another file is in progress, it
+  // gets `conflict` at once.
   using Make = std::function<Result<Made>(const ProgressCallback&)>;
   using Done = std::function<void(Result<std::string>)>;
   void start(Make make, const HistoryEntry& action, Done done);
 
  private:
-  struct Shared;  // with the thread, which may outlive this
+  struct Shared;  // shared with the thread, which may outlive this object
   std::shared_ptr<Shared> shared_;
   std::thread thread_;
 };

@@ -28,12 +28,12 @@ TickStep round_up(double step) {
   return {1.0, exponent + 1};
 }
 
-// n · 10^exponent; dividing by a positive power keeps 3 · 10^-1 the double nearest to 0.3.
+// n · 10^exponent. Division by a positive power keeps 3 · 10^-1 the double nearest to 0.3.
 double decimal(double n, int exponent) {
   return exponent < 0 ? n / power_of_ten(-exponent) : n * power_of_ten(exponent);
 }
 
-// Labels of plain size stay as they are; others get a common power of ten, in steps of 1000.
+// Labels of ordinary size need no factor; others share a power of ten, in steps of 1000.
 int common_exponent(double largest) {
   const int exponent = decimal_exponent(largest);
   if (largest == 0 || (exponent >= -3 && exponent < 5)) return 0;
@@ -57,7 +57,8 @@ Axis with_ticks(const Range& range, int count) {
   return axis;
 }
 
-// log2(x / a) for 0 < a <= x, by squaring: the same bits from every library. Good to 2^-32.
+// log2(x / a) for 0 < a <= x, by squaring, so that every library gives the same bits. Accurate to
+// 2^-32.
 double log2_of_ratio(double x, double a) {
   int exponent = 0;
   double m = 2 * std::frexp(x / a, &exponent);  // 1 <= m < 2
@@ -141,7 +142,8 @@ Axis logarithmic_axis(const Range& range, double length_px) {
   axis.logarithmic = true;
   axis.low = std::clamp(range.low, 1 / kFarDecade, kFarDecade);
   axis.high = std::clamp(range.high, axis.low, kFarDecade);
-  if (axis.high < 2 * axis.low) {  // no decade to speak of: the value in the middle
+  if (axis.high < 2 * axis.low) {  // the range is too small for decades: put the value in the
+                                   // middle
     axis.low /= 2;
     axis.high *= 2;
   }

@@ -1,4 +1,4 @@
-// From a quantity to a place on paper: ranges, ticks at round numbers and their labels. Pure.
+// Converts a quantity to a position on paper: ranges, ticks at round numbers and tick labels. Pure.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace mdof::charts {
 
-// What of a quantity is drawn. Numbers that are not finite are left out; magnitudes above 1e300
-// are taken as 1e300, so that no difference overflows.
+// The drawn range of a quantity. Non-finite numbers are ignored; magnitudes above 1e300 become
+// 1e300, so that no difference overflows.
 struct Range {
   double low = 0, high = 0;
   bool empty = true;
@@ -15,8 +15,8 @@ struct Range {
   double span() const { return high - low; }
 };
 
-// Wider by `fraction` of its span at either end. A range with next to no span (of a constant)
-// becomes one around its value; an empty one becomes 0 to 1.
+// Adds `fraction` of the span at both ends. A range with almost no span (a constant) becomes a
+// range around its value; an empty range becomes 0 to 1.
 Range padded(const Range& wanted, double fraction);
 
 struct Tick {
@@ -25,12 +25,13 @@ struct Tick {
 };
 
 struct Axis {
-  double low = 0, high = 1;  // at its two ends; low < high, and 0 < low on a logarithmic axis
+  double low = 0, high = 1;  // values at the two ends; low < high, and 0 < low on a logarithmic
+                             // axis
   bool logarithmic = false;
   int exponent = 0;  // labels are in multiples of 10^exponent
   std::vector<Tick> ticks;
 
-  // 0 at low, 1 at high; what is beyond an end is at that end.
+  // 0 at low, 1 at high; values outside the ends are limited to the ends.
   double fraction(double x) const;
 };
 
@@ -39,12 +40,11 @@ double widest_label(const Axis& axis);  // px
 // The smallest of 1, 2, 5 times a power of ten that is not below `step` > 0.
 double round_step(double step);
 
-// Ticks at multiples of round_step, as many as fit without their labels touching: side by side
-// along a horizontal axis, one above the other along a vertical one. A range without a span is
-// padded.
+// Ticks at multiples of round_step, as many as fit without overlapping labels (side by side on a
+// horizontal axis, one above the other on a vertical axis). A range without a span is padded.
 Axis horizontal_axis(const Range& drawn, double length_px);
 Axis vertical_axis(const Range& range, double length_px);
-// Of what is within 1e±150. Ticks at powers of ten, and at 2 and 5 times those where there is room.
+// For values within 1e±150. Ticks at powers of ten, and at 2 and 5 times them if there is space.
 Axis logarithmic_axis(const Range& range, double length_px);
 
 }  // namespace mdof::charts

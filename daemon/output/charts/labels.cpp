@@ -38,13 +38,13 @@ constexpr std::array<Unit, 19> kUnits = {{{"um", "µm"},
 
 constexpr const char* kMinus = "−";
 
-// What std::to_chars wrote, with a true minus sign.
+// Text of std::to_chars with a true minus sign.
 std::string with_minus(std::string_view digits) {
   return digits.starts_with('-') ? kMinus + std::string(digits.substr(1)) : std::string(digits);
 }
 
 bool begins_character(char c) {
-  return (c & 0xC0) != 0x80;  // of UTF-8 only continuation bytes begin with 10
+  return (c & 0xC0) != 0x80;  // only continuation bytes of UTF-8 begin with 10
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ int decimal_exponent(double x) {
 
 std::string fixed_text(double x, int decimals) {
   if (!std::isfinite(x)) return "–";
-  char buffer[700];  // 309 digits before the point and no more than 340 after it
+  char buffer[700];  // 309 digits before the point and at most 340 after it
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, x, std::chars_format::fixed,
                                  std::clamp(decimals, 0, 340));
   const std::string_view text(buffer, static_cast<std::size_t>(end.ptr - buffer));

@@ -13,7 +13,7 @@ namespace {
 constexpr double kSignPx = 26, kItemGapPx = 22, kLegendRowPx = 20;  // of a legend
 constexpr double kAbovePx = 34, kBelowPx = 48, kGapPx = 28;         // around a panel
 
-constexpr double kBold = 1.12;  // how much wider bold letters are
+constexpr double kBold = 1.12;  // ratio of the widths of bold and normal letters
 
 std::string fitting(std::string_view text, double font_px, double room_px) {
   std::string whole(text);
@@ -29,7 +29,7 @@ void draw_sign(Svg& svg, const LegendItem& item, Place left) {
   if (item.sign == LegendSign::dot) svg.dot(item.mark, {left.x + (kSignPx - 6) / 2, y}, 3);
 }
 
-// Calls draw(steps without a gap between them) for each such run.
+// Calls draw(steps) for each sequence of steps without a gap.
 template <class Draw>
 void for_each_run(std::span<const Step> steps, Draw draw) {
   const auto known = [](const Step& s) { return std::isfinite(s.low) && std::isfinite(s.high); };

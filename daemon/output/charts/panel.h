@@ -1,4 +1,4 @@
-// The parts plots have in common: a head, a legend, panels with axes side by side, stepped bands.
+// Common parts of plots: a head, a legend, panels with axes side by side, stepped bands.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@
 
 namespace mdof::charts {
 
-inline constexpr double kMarginPx = 24;  // around everything
+inline constexpr double kMarginPx = 24;  // around the plot
 
-// Title and a quieter line below it; both end above kHeadPx.
+// A title and a less prominent line below it; both end above kHeadPx.
 inline constexpr double kHeadPx = 60;
 void draw_head(Svg& svg, std::string_view title, std::string_view subtitle);
 
-// "simulation-1: what", of a study without a name what alone.
+// "simulation-1: what"; only "what" if the study has no name.
 std::string titled(const StudyResult& result, const std::string& what);
 
-// "Monte Carlo, 1 000 000 trials, seed 7", and that it was interrupted where it was.
+// "Monte Carlo, 1 000 000 trials, seed 7", and a remark if the study was interrupted.
 std::string study_line(const StudyResult& result);
 
 enum class LegendSign { line, area, dot };
@@ -31,10 +31,10 @@ struct LegendItem {
   const char* mark;
   std::string text;
 };
-// In rows of the plot's width from `top` down; gives where the rows end.
+// Draws rows of the plot's width from `top` downwards; returns the bottom of the last row.
 double draw_legend(Svg& svg, double top, std::span<const LegendItem> items);
 
-// A rectangle with a quantity along each side.
+// A rectangle with one quantity along each side.
 struct Panel {
   Place corner;  // upper left
   double width = 0, height = 0;
@@ -43,17 +43,17 @@ struct Panel {
   double px_y(double value) const { return corner.y + (1 - y.fraction(value)) * height; }
   Place at(double vx, double vy) const { return {px_x(vx), px_y(vy)}; }
 };
-// Where a unit is as long along x as along y: the longer side has `longest_px`.
+// A panel with the same scale along x and y; the longer side has `longest_px`.
 Panel panel_in_proportion(Place corner, const Range& x, const Range& y, double longest_px);
-// Grid lines, tick labels and the title of x below.
+// Grid lines, tick labels, and the title of x below.
 void draw_axes(Svg& svg, const Panel& panel, std::string_view x_key);
-// The title of y, set level, above the upper left corner.
+// The title of y, horizontal, above the upper left corner.
 void draw_y_title(Svg& svg, const Panel& panel, std::string_view y_key);
 
-inline constexpr double kOutputPx = 170;  // height of a panel where every output has one
+inline constexpr double kOutputPx = 170;  // height of a panel if every output has one
 
-// Panels of one size, two side by side where there are several; their left edges leave room for
-// the widest label of all.
+// Panels of equal size, two side by side if there are several. Their left margin fits the widest
+// label of all panels.
 class Sheet {
  public:
   Sheet(double top_px, std::span<const Range> y_ranges, double panel_height_px);
@@ -66,7 +66,7 @@ class Sheet {
   std::vector<Axis> y_;
 };
 
-// A figure over an interval of x, from low to high (equal for a line). NaN leaves a gap.
+// A value over an interval of x, from low to high (equal for a line). NaN leaves a gap.
 struct Step {
   double from = 0, to = 0, low = 0, high = 0;
 };

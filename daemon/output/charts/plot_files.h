@@ -1,4 +1,4 @@
-// Where plots are written, and what their files are called.
+// Writing of plots, and their file names.
 #pragma once
 
 #include <filesystem>
@@ -15,15 +15,16 @@ struct NamedChart {
   std::string svg;
 };
 
-// Into a folder that is made where it is missing: all files or none. Gives their paths. Error: io.
+// Writes all files or none into the folder, which is created if missing. Returns the paths. Error:
+// io.
 Result<std::vector<std::string>> write_charts(const std::vector<NamedChart>& charts,
                                               const std::filesystem::path& folder);
 
 // Error: io, with the remedy.
 Status make_plot_folder(const std::filesystem::path& folder);
 
-// Keys are words already; whatever else one contains becomes its bytes in hexadecimal, so that
-// different keys stay different files.
+// Keys are words already; every other character becomes its bytes in hexadecimal, so that different
+// keys give different file names.
 std::string file_name(std::string_view key);
 
 }  // namespace mdof::charts

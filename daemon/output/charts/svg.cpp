@@ -35,7 +35,8 @@ std::string_view escape_of(char c) {
   }
 }
 
-// 0.01 px, shortest; what is not a number or absurdly far is a bug elsewhere, and stays valid SVG.
+// Shortest text to 0.01 px. Non-finite and extreme values are errors of the caller; the SVG stays
+// valid.
 std::string px(double x) {
   if (!std::isfinite(x)) x = 0;
   char buffer[32];

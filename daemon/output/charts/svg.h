@@ -1,5 +1,5 @@
-// Writes an SVG 1.1 document: no external resource, text as text, coordinates to 0.01 px, valid
-// XML whatever the texts contain. Places are in px, y downwards.
+// Writes an SVG 1.1 document: no external resources, text as text, coordinates to 0.01 px, valid
+// XML for all texts. Positions are in px, y downwards.
 #pragma once
 
 #include <span>
@@ -14,21 +14,21 @@ struct Place {
 
 enum class Anchor { start, middle, end };
 
-// As it may stand in XML text or an attribute: & < > " ' escaped, and what XML 1.0 does not allow
-// (control characters, U+FFFE, U+FFFF), or every byte that is not ASCII where the text is not
-// UTF-8, as U+FFFD.
+// Escapes & < > " ' for XML text and attributes. Characters that XML 1.0 does not allow (control
+// characters, U+FFFE, U+FFFF) become U+FFFD. If the text is not UTF-8, every byte that is not ASCII
+// becomes U+FFFD.
 std::string xml_escaped(std::string_view text);
 
-// As it is read back to the same bits; "" for what is not finite.
+// Decimal text that is read back bit-identical; "" for non-finite numbers.
 std::string exact_text(double x);
 
-// Light: dark screens show it in light colours too, as what will be printed.
+// light: light colours on dark screens, too, as in the print.
 enum class Theme { adaptive, light };
 
 class Svg {
  public:
-  // `title` is what a browser shows as its name, `description` the plot in words for whoever
-  // cannot see it.
+  // A browser shows `title` as the name of the plot. `description` describes the plot in words for
+  // users who cannot see it.
   Svg(double width, double height, std::string_view title, std::string_view description,
       Theme theme = Theme::adaptive);
 
@@ -38,17 +38,18 @@ class Svg {
   void polyline(std::string_view mark, std::span<const Place> places);
   void polygon(std::string_view mark, std::span<const Place> places);
   void dot(std::string_view mark, Place centre, double radius);
-  void text(std::string_view mark, Place base, Anchor anchor, std::string_view text);  // "": none
-  // The next element carries it as data-NAME, for programs: a number as exact_text(), left out
-  // where that is empty.
+  // no element for ""
+  void text(std::string_view mark, Place base, Anchor anchor, std::string_view text);
+  // Gives the next element the attribute data-NAME, for programs. A number is written as by
+  // exact_text(), or left out if that is empty.
   Svg& data(std::string_view name, double value);
   Svg& data(std::string_view name, std::string_view value);
-  // What follows, up to end_group, has this as its tooltip.
+  // Elements up to end_group have this tooltip.
   void begin_group(std::string_view tooltip);
-  void begin_group();  // without one
+  void begin_group();  // without a tooltip
   void end_group();
 
-  // The document with its end; nothing may follow.
+  // Ends and returns the document; do not call other functions after it.
   std::string take();
 
  private:

@@ -11,7 +11,7 @@
 namespace mdof::controllers {
 namespace {
 
-constexpr int kBetween = 4;  // places in each step of the grid
+constexpr int kBetween = 4;  // test points in each step of the grid
 constexpr double kRounding_m = 1e-12;
 
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
@@ -22,12 +22,13 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
   return y[i - 1] + (y[i] - y[i - 1]) * ((at - x[i - 1]) / (x[i] - x[i - 1]));
 }
 
-// The simulated machine: how an error of the axis `along`, and a correction of `command`, move the
-// tool against the work. Calculated from the chain's bodies, not from the factor that the export
-// used.
+// The simulated machine: how an error of the axis `along` and a correction of `command` move the
+// tool relative to the work. It follows from the bodies of the chain, not from the factor of the
+// export.
 struct Machine {
   double error = 1, command = 1;
-  bool own = false;  // the corrected axis is the measured one: the correction also moves where E is
+  bool own = false;  // the corrected axis is the measured one, so the correction also changes the
+                     // position of E
 };
 
 Machine machine_of(const CompensationTable& table, const AppliedCorrection& applied) {
@@ -41,7 +42,7 @@ Machine machine_of(const CompensationTable& table, const AppliedCorrection& appl
   return machine;
 }
 
-// One approach: what the axis has, and what the controller adds.
+// One approach: the error of the axis and the correction of the controller.
 struct Approach {
   const std::vector<double>&error_at, &error, &added_at, &added;
 };
@@ -60,7 +61,7 @@ class Trial {
   Trial(const Series& series, const AppliedCorrection& applied, const Machine& machine, double zero)
       : series_(series), applied_(applied), machine_(machine), zero_(zero) {}
 
-  // Largest over both approaches; `sign` 0: without correction, -1: the wrong one.
+  // Largest value over both approaches; `sign` 0: without correction, -1: with the wrong sign.
   double residual(double sign, bool swapped, bool one_way) const {
     double largest = 0;
     for (const double x : places()) {
@@ -70,8 +71,8 @@ class Trial {
     }
     return largest;
   }
-  // Largest error while the ramp holds a step of the correction back: after a turn at any place, as
-  // long as the axis goes on and the step stays within what is held.
+  // Largest error while the ramp does not apply a step of the correction: after a reversal at any
+  // position, while the axis continues and the step is one that the ramp does not apply.
   double held_by(const HeldSteps& held) const {
     const std::vector<double> x = places();
     double largest = 0;
@@ -88,9 +89,9 @@ class Trial {
       }
     return largest;
   }
-  // False: no place lies within what was measured and what was written.
+  // False if no test point is inside both the measured and the written range.
   bool judges_anything() const { return !places().empty(); }
-  // |E dE/dx| of the correction's own place, where it moves the axis that was measured.
+  // |E dE/dx|: the effect of the correction on the position of E, if it moves the measured axis.
   double second_order() const {
     if (!machine_.own) return 0;
     double largest = 0, steepest = 0;
@@ -129,7 +130,7 @@ class Trial {
   const Series& series_;
   const AppliedCorrection& applied_;
   Machine machine_;
-  double zero_;  // what was taken from the correction, so that it is 0 at home
+  double zero_;  // subtracted from the correction, so that it is 0 at home
 };
 
 Control control_of(const std::string& name, double residual, double bound, double change) {
@@ -143,7 +144,7 @@ double largest_reversal(const Series& s) {
   return largest;
 }
 
-// A hole of the table is no part of what was exported.
+// Missing values of the table are not exported.
 Series without_missing(const Series& s) {
   Series whole = s;
   whole.position_m.clear();
@@ -158,8 +159,9 @@ Series without_missing(const Series& s) {
   return whole;
 }
 
-// The constant that the file lacks: the machine's zero is moved by it, which is no error. Beyond
-// the file's ends the controller holds them, also where more was measured.
+// The constant that the file does not contain. It shifts the zero of the machine and is no error.
+// Beyond the ends of the file the controller uses its end values, even if the axis was measured
+// there.
 double zero_of(const Series& s, const AppliedCorrection& applied, const ExportOptions& options) {
   const std::optional<double> home_m = options.home_m(applied.along);
   if (!home_m) return 0;
@@ -180,7 +182,7 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
   CheckedError e;
   e.error = applied.error;
   e.angle = series.angle;
-  // The controller holds one value for both approaches.
+  // The controller has one value for both approaches.
   const bool one_value = applied.forward == applied.reverse && largest_reversal(series) > 0;
   e.one_way = one_value && options.one_approach;
   e.by_reversal = one_value ? 0.5 * largest_reversal(series) : 0;
@@ -199,12 +201,13 @@ CheckedError judged(const Format& format, const CompensationTable& table, const 
   e.bound = std::min(
       thinning + trial.second_order() + step + left + e.by_ramp,
       algo::ResidualLimits{most_residual(options), options.residual_share}.of(e.before, step));
-  // A table that the step of the numbers makes zero is no correction, as of mm taken for um.
+  // If the step of the numbers rounds all values to zero, nothing is corrected (for example, mm
+  // read as um).
   const bool lost = e.nothing && e.before > kRounding_m;
   e.cancels = trial.judges_anything() && e.residual <= e.bound && !lost;
   e.controls.push_back(
       control_of("wrong sign", trial.residual(-1, false, e.one_way), e.bound, 2 * e.before));
-  // Of one value it changes nothing.
+  // With one value this mistake changes nothing.
   e.controls.push_back(control_of("forward and reverse swapped", trial.residual(1, true, e.one_way),
                                   e.bound, one_value ? 0 : largest_reversal(series)));
   return e;

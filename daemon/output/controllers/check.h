@@ -1,5 +1,5 @@
-// Does what was exported make the error vanish? The files are read back by the controller's own
-// rules and applied to a simulated axis that has the table's errors.
+// Self-test of an export: reads the files back by the rules of the controller, applies them to a
+// simulated axis with the errors of the table, and checks that the errors vanish.
 #pragma once
 
 #include <string>
@@ -9,52 +9,55 @@
 
 namespace mdof::controllers {
 
-// The same with a mistake planted: the check is worth something only if it is seen.
+// The same test with a deliberate mistake, which it must detect.
 struct Control {
   std::string name;        // "wrong sign", "forward and reverse swapped"
   double residual = 0;     // m or rad
-  bool detected = false;   // beyond the bound
-  bool too_small = false;  // the mistake would change less than the bound: it cannot be seen
+  bool detected = false;   // the residual exceeds the bound
+  bool too_small = false;  // the mistake changes less than the bound, so it cannot be detected
 };
 
 struct CheckedError {
-  std::string error;  // "EXX"; of a volumetric table the command, "X"
+  std::string error;  // "EXX"; the command, "X", for a volumetric table
   bool angle = false;
-  bool one_way = false;  // judged is the mean of both approaches: ExportOptions::one_approach
+  bool one_way = false;  // the mean of both approaches is judged: ExportOptions::one_approach
   double before = 0;     // largest error without the correction, m or rad
-  double residual = 0;   // with it, both approaches, on the grid and between
-  // Parts of the residual that the file cannot correct: of one value for errors that differ by
-  // approach, in each of them (where the mean is judged, beside the residual); between the nodes of
-  // a volumetric table.
+  double residual = 0;   // largest error with the correction, both approaches, at and between the
+                         // points
+  // Parts of the residual that the file cannot correct. by_reversal: one value for errors that
+  // differ by approach (not in the residual if the mean is judged). between_nodes: between the
+  // nodes of a volumetric table.
   double by_reversal = 0, between_nodes = 0;
-  // In the residual, too: what stays after a turn, because the ramp of the controller does not
-  // start (LinuxCNC; ExportOptions::ramps).
+  // Also part of the residual: the error after a reversal, because the ramp of the controller does
+  // not start (LinuxCNC; ExportOptions::ramps).
   double by_ramp = 0;
-  // Thinning, step of the numbers and second order; at most what ExportOptions allows.
+  // Limit from thinning, the step of the numbers and second order; at most the limit of
+  // ExportOptions.
   double bound = 0;
   bool cancels = false;
-  bool nothing = false;  // there is no error above a step of the numbers
+  bool nothing = false;  // no error exceeds a step of the numbers
   std::vector<Control> controls;
 };
 
 struct Check {
   std::vector<CheckedError> errors;
-  std::vector<std::string> not_judged;    // written, but nobody knows which way its correction goes
-  double most_residual_m = 0, share = 0;  // as of ExportOptions, the tolerance in it
-  bool passed() const;                    // of what could be judged
-  bool nothing_to_correct() const;        // no error is above a step of the numbers
+  std::vector<std::string> not_judged;    // written, but the sign of the correction is unknown
+  double most_residual_m = 0, share = 0;  // from ExportOptions, including the tolerance
+  bool passed() const;                    // of the errors that could be judged
+  bool nothing_to_correct() const;        // no error exceeds a step of the numbers
 };
 
-// Of what `format` wrote of these tables. Each error is the table's own, joined by straight lines.
-// Errors: files that the controller would not read as meant; a correction of an error that no table
-// has.
+// Checks the files that `format` wrote for these tables. Each error is that of the table, linear
+// between its points. Errors: files that the controller would misread; a correction of an error
+// that no table has.
 Result<Check> check_export(const Format& format, const std::vector<CompensationTable>& tables,
                            const Export& exported, const ExportOptions& options);
-// The same of a volumetric table: at its nodes and in the middle of their cells. `error` is the
-// command that is corrected.
+// The same for a volumetric table: at its nodes and in the middle of their cells. `error` is the
+// corrected command.
 Result<Check> check_export(const Format& format, const VolumetricTable& table,
                            const Export& exported, const ExportOptions& options);
-// The same of the squareness: how far the tool leaves the perpendicular of X as Y is commanded.
+// The same for the squareness: by how much the tool deviates from the perpendicular to X while Y
+// moves.
 Result<Check> check_export(const Format& format, const SquareAxes& axes, const Export& exported,
                            const ExportOptions& options);
 

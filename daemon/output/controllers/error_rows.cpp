@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostOfWeihong = 10'000, kMostOfSsfk = 1500;
 constexpr double kTenthOfMicrometre = 1e-7;
-constexpr double kMostOfPosition_m = 200;  // in whole 0.1 µm of 32 bits
+constexpr double kMostOfPosition_m = 200;  // limit of 32 bits in whole 0.1 µm
 constexpr const char* kWeihongFile = "axeserr.dat";
 
 std::string tenths_text(double m) {
@@ -58,7 +58,7 @@ AppliedCorrection nothing_of(char axis) {
   return {{'E', axis, axis}, axis, axis, {}, {}, {}};
 }
 
-// A whole number behind a key that the file must have next.
+// The whole number after a required key.
 Result<double> whole_after(const ControllerFile& file, const std::vector<std::string_view>& lines,
                            std::size_t at, const std::string& key) {
   const auto words = at < lines.size() ? words_of(lines[at]) : std::vector<std::string_view>();

@@ -1,13 +1,13 @@
-// Compensation tables as files of machine controllers: pure functions from values to texts and
-// back.
+// Converts compensation tables to files of machine controllers and back, by pure functions from
+// values to texts.
 //
-// What goes in is tables of axes, a volumetric table, or the squareness of X and Y.
+// Input: tables of axes, a volumetric table, or the squareness of X and Y.
 //
-// Sense. A table holds errors E = actual - nominal of the body that moves. What is added to the
-// command of an axis so that the error vanishes is factor * E: of positioning -E whichever body
-// moves, of the others by the machine's chain (schema/rig/correction.h). A controller's file may
-// hold the correction or the error: its row in formats.cpp says which, and where that is known
-// from.
+// Sign: a table contains errors E = actual - nominal of the moving body. The correction of an axis
+// command is factor * E. For positioning the factor is -1 whichever body moves; for other errors it
+// follows from the machine's chain (schema/rig/correction.h). The file of a controller contains
+// either the correction or the error: its row in formats.cpp states which, and the source of this
+// information.
 #pragma once
 
 #include <cstddef>
@@ -25,23 +25,24 @@
 
 namespace mdof::controllers {
 
-// One error of one axis against the position of that axis.
+// One error of one axis against the position of this axis.
 struct Series {
   std::string error;   // "EXX"
-  char along = 'X';    // the axis by whose position it is stated
-  char command = 'X';  // the axis whose command takes the correction
+  char along = 'X';    // axis whose position is x of the series
+  char command = 'X';  // axis whose command gets the correction
   bool angle = false;
-  int factor = 0;                                    // correction = factor * E; 0: not known
-  std::string gap;                                   // why it is not
+  int factor = 0;                                    // correction = factor * E; 0: unknown
+  std::string gap;                                   // why the factor is unknown
   std::vector<double> position_m, forward, reverse;  // E; m or rad
 };
 
 struct ExportOptions {
-  double tolerance_m = 0;     // points are left out within it; 0: none is. Of angles in rad
-  bool one_approach = false;  // one value for both approaches, though a reversal stays
-  bool cut_range = false;     // the longest range without a missing value, instead of refusing
-  // Where the correction of an axis is 0 (mean of both approaches); axis 0: a number for one axis
-  // that was not named. An axis without one is not shifted.
+  double tolerance_m = 0;     // largest error by left-out points; 0: keep all points. For angles in
+                              // rad
+  bool one_approach = false;  // one value for both approaches, although a reversal remains
+  bool cut_range = false;     // use the longest range without missing values, instead of an error
+  // Position at which the correction of an axis (mean of both approaches) is 0. axis 0: the
+  // position for the only axis, not named. An axis without an entry is not shifted.
   struct Home {
     char axis = 0;
     double at_m = 0;
@@ -52,34 +53,34 @@ struct ExportOptions {
       if (home.axis == axis) return home.at_m;
     return {};
   }
-  // What may be left with the correction: no more than this beside the tolerance, of angles in rad,
-  // and no more than this share of what there was; a step of the controller's numbers is always.
+  // Limits of the residual: at most residual_m (for angles in rad) plus the tolerance, and at most
+  // this share of the error. The share never demands less than a step of the controller's numbers.
   double residual_m = algo::ResidualLimits{}.most_m;
   double residual_share = algo::ResidualLimits{}.share;
-  // LinuxCNC alone: which joints take the table of an axis, two for a gantry; empty: X Y Z are 0 1
-  // 2. Rows in inches instead of mm.
+  // LinuxCNC only: joints that get the table of an axis (two for a gantry); empty: X Y Z are 0 1 2.
+  // inch: rows in inches instead of mm.
   struct Joint {
     char axis = 'X';
     int number = 0;
   };
   std::vector<Joint> joints;
   bool inch = false;
-  // LinuxCNC alone: MAX_ACCELERATION and SERVO_PERIOD of a joint with the table of this axis.
+  // LinuxCNC only: MAX_ACCELERATION and SERVO_PERIOD of a joint with the table of this axis.
   struct Ramp {
     char axis = 'X';
     double max_acceleration_m_s2 = 0, period_s = 1e-3;
   };
-  std::vector<Ramp> ramps;  // of an axis none: not known
-  // Siemens alone: the control's own limits; 0: points 200, tables as many as there are.
+  std::vector<Ramp> ramps;  // an axis without an entry: unknown
+  // Siemens only: limits of the control; 0: 200 points, any number of tables.
   std::size_t siemens_points = 0, siemens_tables = 0;
-  std::vector<std::string> marks;  // what a reader of the files has to know
+  std::vector<std::string> marks;  // warnings for readers of the files
 };
 
 struct ControllerFile {
   std::string name, text;
 };
 
-// What became of a series.
+// Number of points and thinning of a written series.
 struct Written {
   std::string error;
   std::size_t points = 0, points_before = 0;
@@ -89,31 +90,30 @@ struct Written {
 struct Export {
   std::vector<ControllerFile> files;
   std::vector<Written> written;
-  std::vector<std::string> left_out;  // what the controller cannot hold
+  std::vector<std::string> left_out;  // errors that the controller cannot store
   std::vector<std::string> notes;
-  double left_m = 0;  // of a volumetric table: what the form of the file cannot hold
+  double left_m = 0;  // volumetric table: largest part that the file format cannot represent
 };
 
-// What a controller adds to a command, as its own rules read the files: linear between the
-// positions, held beyond the ends, chosen by the sign of the velocity.
+// The value that a controller adds to a command according to its rules: linear between the
+// positions, constant beyond the ends, selected by the sign of the velocity.
 struct AppliedCorrection {
   std::string error;
   char along = 'X', command = 'X';
   std::vector<double> position_m, forward, reverse;  // correction, m or rad
 };
 
-// The angle between X and Y, and how the machine's commands go.
+// The angle between X and Y, and the chain of the machine.
 struct SquareAxes {
-  std::int64_t id = 0;  // of the stored squareness
+  std::int64_t id = 0;  // id of the stored squareness
   double EC0Y_rad = 0;
-  Budget budget;  // of EC0Y
+  Budget budget;  // for EC0Y
   Chain machine;
-  StatedAt at = kAtFixture;  // where the angle holds
+  StatedAt at = kAtFixture;  // point at which the angle holds
 };
 
-// Of each pair: to files, and what the controller does with them by its own strict grammar; an
-// error of the latter names file and line. Both are nullptr where the controller holds no such
-// thing.
+// `write` makes the files; `read` gives the behaviour of the controller, by its own strict grammar,
+// and its errors name file and line. Both are nullptr if the controller does not support the input.
 struct AxisFiles {
   Result<Export> (*write)(const std::vector<CompensationTable>& tables,
                           const ExportOptions& options) = nullptr;
@@ -122,40 +122,41 @@ struct AxisFiles {
 };
 struct VolumeFiles {
   Result<Export> (*write)(const VolumetricTable& table, const ExportOptions& options) = nullptr;
-  // Its grid and corrections, linear between the nodes; nothing else of a table is in the files.
+  // The grid and corrections, linear between the nodes; the files contain nothing else of a table.
   Result<VolumetricTable> (*read)(const std::vector<ControllerFile>& files) = nullptr;
 };
 struct SquareFiles {
   Result<Export> (*write)(const SquareAxes& axes, const ExportOptions& options) = nullptr;
-  // k: the controller moves X to x + k y, where x and y are commanded.
+  // k: the controller moves X to x + k y, with the commands x and y.
   Result<double> (*read)(const std::vector<ControllerFile>& files) = nullptr;
 };
 
 struct Format {
   const char* name;   // "linuxcnc"
-  const char* of;     // the controller
-  const char* holds;  // what of a table goes in
+  const char* of;     // name of the controller
+  const char* holds;  // the content of a table that the format can store
   const char* limits;
-  const char* sense;    // what its values mean
-  const char* source;   // where that sense is known from
-  bool sign_confirmed;  // else the export has to be asked for
-  double quantum_m;     // step of its numbers; of a squareness rad
-  bool takes_home;      // ExportOptions::home_m is taken out of it
-  AxisFiles axes;       // one of the three, or axes and a volume
+  const char* sense;    // meaning of the values
+  const char* source;   // source of this meaning
+  bool sign_confirmed;  // otherwise the user must allow the export explicitly
+  double quantum_m;     // step of its numbers; rad for a squareness
+  bool takes_home;      // subtracts the correction at ExportOptions::home_m
+  AxisFiles axes;       // one of axes, volume, square, or both axes and volume
   VolumeFiles volume;
   SquareFiles square;
-  bool takes_joints = false;     // ExportOptions::joints, inch and ramps
-  bool both_approaches = false;  // has a value for each, so that it also corrects the reversal
+  bool takes_joints = false;     // supports ExportOptions::joints, inch and ramps
+  bool both_approaches = false;  // one value for each approach, so that it also corrects the
+                                 // reversal
 };
 
 // In the order of the help.
 const std::vector<Format>& formats();
-// Controllers for which no file is written: why, and what to use instead.
+// Controllers without a format: the reason, and the alternative.
 struct NotWritten {
   const char *name, *of, *reason, *instead;
 };
 const std::vector<NotWritten>& not_written();
-// Error (usage): names those there are; of one that is not written, the reason.
+// Error (usage): lists the formats; for a controller of not_written() it gives the reason.
 Result<const Format*> format_named(const std::string& name);
 
 }  // namespace mdof::controllers

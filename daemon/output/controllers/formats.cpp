@@ -1,4 +1,4 @@
-// The table of formats: one row each. A new one: a file beside this one, and its row here.
+// The table of formats, one row each. To add a format, add a file in this folder and a row here.
 #include <algorithm>
 
 #include "daemon/output/controllers/error_rows.h"

@@ -10,19 +10,19 @@ namespace {
 constexpr double kRoundingOfGrid_m = 1e-12;
 constexpr std::string_view kCommands = "XYZ";
 
-// Bounds and controls of what was measured with and without the correction, and with mistakes.
+// Measured residuals without and with the correction, and with deliberate mistakes.
 struct Residuals {
   double before = 0, with = 0, wrong_sign = 0;
-  std::optional<double> exchanged;  // X and Y; none: there is no such mistake
-  double exchange = 0;              // what that mistake changes
+  std::optional<double> exchanged;  // X and Y exchanged; nullopt: this mistake is not possible
+  double exchange = 0;              // change by this mistake
 };
 
-// What the table leaves, so that no file of it corrects it.
+// Residuals of the table itself, which no file can correct.
 struct LeftByTable {
   double by_reversal = 0, between_nodes = 0;
 };
 
-// `left_m`: what the form of the file cannot hold.
+// `left_m`: the part that the file format cannot represent.
 CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
                        const Format& format, const ExportOptions& options, double left_m,
                        const LeftByTable& table) {
@@ -31,7 +31,7 @@ CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
   e.angle = angle;
   e.by_reversal = table.by_reversal;
   e.between_nodes = table.between_nodes;
-  e.before = r.before + e.by_reversal;  // at most, in the worse approach
+  e.before = r.before + e.by_reversal;  // upper limit, in the worse approach
   e.residual = r.with + e.between_nodes + e.by_reversal;
   const double step = format.quantum_m + kRoundingOfGrid_m;
   e.bound = algo::ResidualLimits{options.residual_m, options.residual_share}.of(e.before, step);
@@ -44,7 +44,7 @@ CheckedError judged_by(const std::string& name, bool angle, const Residuals& r,
   return e;
 }
 
-// Nodes, and the middles between one and the next along all axes of the grid.
+// The nodes, and the middles of the cells along all axes of the grid.
 std::vector<Vec3> places_of(const VolumetricTable& table) {
   std::vector<Vec3> places;
   for (std::size_t node = 0; node < table.nodes(); ++node) {
@@ -78,13 +78,13 @@ Residuals residuals_of(const VolumetricTable& table, const VolumetricTable& appl
   return r;
 }
 
-// What the tool goes along X by a metre of Y's command, where X goes to x + k y; by the bodies of
-// the chain, whose lines enclose 90 deg + EC0Y.
+// Motion of the tool along X for a command of Y of 1 m, if X moves to x + k y. It follows from the
+// bodies of the chain, whose lines enclose 90 deg + EC0Y.
 double angle_after_shear(const SquareAxes& axes, double k) {
   const auto moved = [&](char axis, double command) {
     const ChainAxis* of = axes.machine.find(axis);
     const double body = of->against_command ? -command : command;
-    return of->carries_work ? -body : body;  // the tool against the work
+    return of->carries_work ? -body : body;  // the tool relative to the work
   };
   const double y = moved('Y', 1), x = moved('X', k);
   return x - y * std::tan(axes.EC0Y_rad);

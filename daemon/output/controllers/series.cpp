@@ -30,7 +30,7 @@ std::string place_text(double position_m) {
   return plain_number(to_mm(position_m), 9) + " mm";
 }
 
-// First and last + 1 of the longest run of positions with both values.
+// First index and end index of the longest sequence of positions with both values.
 std::pair<std::size_t, std::size_t> longest_range(const Series& s) {
   std::pair<std::size_t, std::size_t> best{0, 0};
   for (std::size_t i = 0, begin = 0; i <= s.position_m.size(); ++i) {
@@ -144,8 +144,8 @@ Status check_one_table_an_axis(const std::vector<CompensationTable>& tables) {
   return {};
 }
 
-// A mark quotes what a run says, and nothing of it may be a line of its own or a letter that the
-// controller does not know.
+// A mark quotes text of a run. It must not begin a new line or contain a character that the
+// controller does not support.
 std::string one_plain_line(std::string_view text) {
   constexpr std::pair<std::string_view, std::string_view> kPlain[] = {
       {"µ", "u"}, {"±", "+-"}, {"°", " deg"}};

@@ -29,7 +29,7 @@ std::vector<std::string> head_of(const SquareAxes& axes, const ExportOptions& op
   return lines;
 }
 
-// One line for the controller below what a reader has to know.
+// A file with one line for the controller, below the information for readers.
 Result<Export> exported(const SquareAxes& axes, const ExportOptions& options, const char* name,
                         const char* sign, const std::vector<std::string>& how,
                         const std::string& line) {
@@ -42,7 +42,7 @@ Result<Export> exported(const SquareAxes& axes, const ExportOptions& options, co
   return out;
 }
 
-// The one line of a file that is no comment, behind `begin`.
+// The only line of a file that is no comment, without `begin`.
 Result<std::string_view> value_of(const std::vector<ControllerFile>& files, const char* name,
                                   char sign, std::string_view begin) {
   const ControllerFile* file = find_file(files, name);
@@ -83,8 +83,9 @@ Result<double> shear_of(const SquareAxes& axes) {
 
 Result<Export> write_klipper(const SquareAxes& axes, const ExportOptions& options) {
   MDOF_TRY(const double k, shear_of(axes));
-  // The machine's square ABCD, A at its begin: B lies along X, D along Y and -k of it along X.
-  const double cosine = k / std::hypot(1, k);  // of the angle at B, between BA and BC
+  // The machine's square ABCD with A as origin: B is along X; D is along Y, and by -k of it along
+  // X.
+  const double cosine = k / std::hypot(1, k);  // of the angle at B between BA and BC
   const double AC = kSide_mm * std::sqrt(2 - 2 * cosine);
   const double BD = kSide_mm * std::sqrt(2 + 2 * cosine);
   return exported(axes, options, kGcode, ";",
@@ -103,7 +104,8 @@ Result<double> read_klipper(const std::vector<ControllerFile>& files) {
     x = *read;
     text = text.find(',') == text.npos ? std::string_view() : text.substr(text.find(',') + 1);
   }
-  // The firmware's rule: the other side from both diagonals, the angle at A by the cosine rule.
+  // The rule of the firmware: the other side from both diagonals, and the angle at A by the cosine
+  // rule.
   const double AC = length[0], BD = length[1], AD = length[2];
   const double side = std::sqrt(2 * AC * AC + 2 * BD * BD - 4 * AD * AD) / 2;
   const double angle = std::acos((AC * AC - side * side - AD * AD) / (2 * side * AD));

@@ -1,19 +1,20 @@
-// The squareness of X and Y as one line of controllers that shear their commands.
+// The squareness of X and Y as one line for controllers that shear their commands.
 //
-// The angle from +X to +Y is 90 deg + EC0Y: while the tool goes along Y by y it is off along X by
-// -y tan EC0Y. So X is to move to x + k y with k = tan EC0Y; -tan EC0Y where one of both commands
-// moves the tool along - (schema/rig/correction.h has the sign s of each axis: k = s_X s_Y tan
-// EC0Y).
+// The angle from +X to +Y is 90 deg + EC0Y: if the tool moves by y along Y, its error along X is -y
+// tan EC0Y. The correction moves X to x + k y with k = tan EC0Y, or k = -tan EC0Y if one of the two
+// commands moves the tool towards - (schema/rig/correction.h gives the sign s of each axis: k = s_X
+// s_Y tan EC0Y).
 #pragma once
 
 #include "daemon/output/controllers/export.h"
 
 namespace mdof::controllers {
 
-// Error (bad_input): the machine's chain is not known, or lacks X or Y.
+// Error (bad_input): the machine's chain is unknown, or lacks X or Y.
 Result<double> shear_of(const SquareAxes& axes);
 
-// SET_SKEW XY=AC,BD,AD: the diagonals and a side of a square of 100 mm that the machine would draw.
+// SET_SKEW XY=AC,BD,AD: the diagonals and one side of a square of 100 mm as the machine would draw
+// it.
 Result<Export> write_klipper(const SquareAxes& axes, const ExportOptions& options);
 Result<double> read_klipper(const std::vector<ControllerFile>& files);
 
@@ -21,7 +22,7 @@ Result<double> read_klipper(const std::vector<ControllerFile>& files);
 Result<Export> write_marlin(const SquareAxes& axes, const ExportOptions& options);
 Result<double> read_marlin(const std::vector<ControllerFile>& files);
 
-// M556 S100 X: X / S is the tangent by which the angle is above 90 deg.
+// M556 S100 X: X / S is the tangent of the angle above 90 deg.
 Result<Export> write_reprapfirmware(const SquareAxes& axes, const ExportOptions& options);
 Result<double> read_reprapfirmware(const std::vector<ControllerFile>& files);
 

@@ -1,4 +1,4 @@
-// Pieces that the readers of controllers' files share.
+// Common functions of the readers of controller files.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace mdof::controllers {
 
-// Split at LF; a last line without one counts too.
+// Splits at LF; a last line without LF also counts.
 std::vector<std::string_view> lines_of(std::string_view text);
-// [-+]digits[.digits], all of the word.
+// [-+]digits[.digits]; the whole word must match.
 std::optional<double> decimal_from(std::string_view word);
 // "X.comp:7: what"
 tl::unexpected<Error> wrong_at(const std::string& file, std::size_t line, const std::string& what);

@@ -38,7 +38,7 @@ std::vector<std::string_view> words_in(std::string_view line, char separator) {
   return words;
 }
 
-// All words as numbers; nullopt where a word is no number.
+// All words as numbers; nullopt if a word is not a number.
 std::optional<std::vector<double>> numbers_in(std::string_view line, char separator) {
   std::vector<double> numbers;
   for (const std::string_view word : words_in(line, separator)) {
@@ -49,7 +49,7 @@ std::optional<std::vector<double>> numbers_in(std::string_view line, char separa
   return numbers;
 }
 
-// Places of one axis as the rows name them, in order and once each.
+// The positions of one axis in the rows, sorted and without repetition.
 std::vector<double> places_of(std::vector<double> all) {
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
@@ -65,7 +65,7 @@ std::string isg_list(const VolumetricTable& t, const std::vector<std::string>& h
          kIsgTable + "\nfile_format[0] ISG_CSV\n";
 }
 
-// Where u of one node is not known, the largest is not.
+// If u of any node is unknown, the largest u is unknown.
 std::string largest_u_text(const VolumetricTable& t, std::size_t axis) {
   double largest = 0;
   for (const Vec3& node : t.u_m) {
@@ -164,7 +164,7 @@ Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files) {
     ++n;
     if (line.starts_with("//")) continue;
     const auto words = words_in(line, ' ');
-    if (axes.empty()) {  // the names of the columns
+    if (axes.empty()) {  // names of the columns
       for (const std::string_view word : words)
         if (word.size() == 1 && kLinear.find(word[0]) != kLinear.npos)
           axes.push_back(kLinear.find(word[0]));
@@ -192,7 +192,7 @@ Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files) {
     }
     t.command_m[k] = places_of(std::move(places));
   }
-  // The controller's mode GRID takes nothing else.
+  // The controller's mode GRID accepts only complete grids.
   if (rows.empty() || t.nodes() != rows.size())
     return bad_input(file->name + ": the rows do not form a complete grid of positions");
   resize_to_grid(t);
@@ -211,7 +211,7 @@ Result<VolumetricTable> read_isg_csv(const std::vector<ControllerFile>& files) {
 
 namespace {
 
-// The step is multiplied by the number of a row: it has more digits than a place.
+// The step has more digits than a position, because KMotion multiplies it by the number of the row.
 std::string inches(double m, int decimals = 12) {
   return fixed(m / kInch_m, decimals);
 }
@@ -238,7 +238,7 @@ Result<Export> write_dynomotion(const VolumetricTable& t, const ExportOptions& o
               inches(t.command_m[0][column] + c[0]) + "," + inches(t.command_m[1][row] + c[1]) +
               "," + inches(c[2]) + "\n";
     }
-  // KMotion reads as many rows as the first line says, and nothing behind them.
+  // KMotion reads the number of rows in the first line and ignores everything after them.
   text +=
       commented(head_of(t, options,
                         "columns: row number, column number, corrected command of X, corrected "

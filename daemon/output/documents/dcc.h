@@ -1,10 +1,10 @@
-// A test report of stored runs in the form of PTB's Digital Calibration Certificate 3.3.0 with
-// D-SI 2.2.1. It says that it is no calibration certificate of an accredited laboratory. Pure: the
+// A test report of stored runs in the form of PTB's Digital Calibration Certificate 3.3.0 with D-SI
+// 2.2.1. It states that it is no calibration certificate of an accredited laboratory. Pure: the
 // same results give the same bytes.
 //
-// Values are SI (metre, radian), with the expanded uncertainty U, its k and 95 % where U is known;
-// NaN stands for what is not known. Points are lists by row, the figures of a run single
-// quantities. What nobody stated reads "not stated" where the schema takes it.
+// Values are in SI units (metre, radian), with the expanded uncertainty U, its k and 95 % if U is
+// known; NaN means unknown. Points are lists by row; the figures of a run are single quantities.
+// Missing information reads "not stated" if the schema allows it.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@
 
 namespace mdof::documents {
 
-// Error (bad_input): a key that the schema requires is not stated: country, or the date of a run
-// whose log has none; a run is an imported one.
+// Error (bad_input): a required key of the schema is missing (country, or the date of a run whose
+// log has no date); an imported run.
 Result<std::string> dcc_xml(const report::Report& report);
 
 }  // namespace mdof::documents

@@ -13,7 +13,7 @@ namespace mdof::documents {
 void write_text(Xml& xml, std::string_view element, std::string_view text,
                 Xml::Attributes attributes = {});
 
-// A declaration under a name, "dcc:statement" or "dcc:metaData".
+// A named declaration, "dcc:statement" or "dcc:metaData".
 void write_declaration(Xml& xml, std::string_view element, const std::string& name,
                        const std::string& text);
 

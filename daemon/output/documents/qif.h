@@ -3,9 +3,9 @@
 //
 // Each figure of a run, and each error at each target and approach, is a user-defined
 // characteristic in µm or µrad; a point is a measurement of five of them. combinedUncertainty is
-// the standard uncertainty u, with a mean error of 0, since what is known of one is corrected;
-// the attributes U, k and coverage_probability are the expanded uncertainty. A point without
-// errors has no value, and the reason as its description.
+// the standard uncertainty u, with a mean error of 0, because known systematic errors are
+// corrected. The attributes U, k and coverage_probability give the expanded uncertainty. A point
+// without errors has no value; its description gives the reason.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@
 
 namespace mdof::documents {
 
-// Error (bad_input): a run is an imported one.
+// Error (bad_input): an imported run.
 Result<std::string> qif_xml(const report::Report& report);
 
 }  // namespace mdof::documents

@@ -1,4 +1,5 @@
-// Writes an XML document: texts escaped, elements closed in their order, indented by one space.
+// Writes an XML document with escaped texts, correctly nested elements and indentation by one
+// space.
 #pragma once
 
 #include <initializer_list>
@@ -17,7 +18,7 @@ class Xml {
   void close();
   void leaf(std::string_view element, std::string_view text, Attributes attributes = {});
 
-  // With its declaration; all elements must be closed.
+  // The document with its declaration; all elements must be closed.
   std::string take();
 
  private:
@@ -26,8 +27,8 @@ class Xml {
   std::vector<std::string> open_;
 };
 
-// Of a user's text: white space at the ends left out, inside a single space; "not stated" where
-// nothing is left, since neither DCC nor QIF takes an empty text.
+// A user's text without white space at its ends and with single spaces inside; "not stated" if it
+// is empty, because neither DCC nor QIF allows an empty text.
 std::string stated(std::string_view text);
 
 }  // namespace mdof::documents

@@ -48,7 +48,7 @@ constexpr std::string_view kStyle =
     "*{print-color-adjust:exact;-webkit-print-color-adjust:exact}}";
 
 std::string base64(std::string_view bytes) {
-  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // OpenSSL ends it with a NUL
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // OpenSSL appends a NUL
   const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
                                      reinterpret_cast<const unsigned char*>(bytes.data()),
                                      static_cast<int>(bytes.size()));
@@ -63,7 +63,7 @@ void Html::element(std::string_view tag, std::string_view text, std::string_view
   text_ += '<' + name;
   if (!css_class.empty()) text_ += " class=\"" + std::string(css_class) + '"';
   text_ += '>';
-  if (tag == "pre") {  // keeps its lines
+  if (tag == "pre") {  // keeps its line breaks
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = std::min(text.find('\n', at), text.size());
       text_ += xml_escaped(text.substr(at, end - at)) + (end < text.size() ? "\n" : "");

@@ -1,4 +1,4 @@
-// HTML for print: escaped texts, tables, lists of facts.
+// Writes HTML for print: escaped texts, tables, lists of facts.
 #pragma once
 
 #include <string>
@@ -10,22 +10,22 @@ namespace mdof::report {
 
 class Html {
  public:
-  // What follows a tag is escaped: no text of a user becomes markup.
+  // The text is escaped, so that a user's text never becomes markup.
   void element(std::string_view tag, std::string_view text, std::string_view css_class = "");
-  // Markup that this program made.
+  // Appends markup that this program generated.
   void raw(std::string_view markup) { text_ += markup; }
-  // Names and values; an empty value is left out.
+  // Names and values; entries with an empty value are left out.
   void facts(const std::vector<std::pair<std::string, std::string>>& facts);
-  // `css_class` "long": its rows may be on several pages, with the head on each.
+  // `css_class` "long": the table may extend over several pages, with its head on each page.
   void table(const std::vector<std::string>& head,
              const std::vector<std::vector<std::string>>& rows, std::string_view css_class = "");
-  // A file that the page has in it: a link that saves `bytes` as `file_name`.
+  // A link that saves `bytes`, which the page contains, as `file_name`.
   void attachment(std::string_view text, std::string_view file_name, std::string_view media_type,
                   std::string_view bytes);
-  // An SVG document, with its number as part of the page.
+  // Inserts an SVG document and numbers it.
   void figure(std::string_view svg);
 
-  // `pictures`: data: URLs of images are shown, as a company's head may have one.
+  // `pictures`: show images from data: URLs, for example in the company's head.
   std::string take(std::string_view language, std::string_view title, bool pictures = false);
 
  private:

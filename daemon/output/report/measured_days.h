@@ -13,13 +13,13 @@ struct Days {
   std::string first, last;  // UTC, YYYY-MM-DD
 };
 
-// Of a run that was recorded. nullopt: nobody recorded them (a CSV log has no date).
+// The days of a recorded run. nullopt if the run was not recorded (a CSV log has no date).
 std::optional<Days> recorded_days(const ReportRun& run);
 
-// Uses the stated date of the report for the runs that have none of their own: calibrations must
-// have been valid on that day, not on the day of the evaluation. `now` is a UTC time. Errors:
-// usage, where the date is in the future, or more than a day outside the recorded days of a run
-// (local dates differ from UTC by a day).
+// Uses the stated date of the report for runs without a date: calibrations must have been valid on
+// that day, not on the day of the evaluation. `now` is a UTC time. Errors: usage, if the date is in
+// the future, or more than a day outside the recorded days of a run (local dates differ from UTC by
+// up to a day).
 Status use_stated_date(Report& report, std::chrono::sys_seconds now);
 
 }  // namespace mdof::report

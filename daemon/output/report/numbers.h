@@ -1,12 +1,13 @@
-// Values as a report prints them.
+// Values as text for a report.
 #pragma once
 
 #include <string>
 
 namespace mdof::report {
 
-// U, u: two significant digits. A value: to the place of its uncertainty (GUM 7.2.6); four
-// significant digits where there is none. In the unit of the key; what is not known is "–".
+// U and u have two significant digits. A value is rounded to the digits of its uncertainty (GUM
+// 7.2.6), or to four significant digits without one. In the unit of the key; unknown values are
+// "–".
 std::string uncertainty_text(double u);
 std::string value_text(double value, double u);
 std::string value_with_u(double value, double u);  // "0.123 ± 0.045"

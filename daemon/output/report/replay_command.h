@@ -1,4 +1,4 @@
-// How a run is evaluated again from its recording, or imported again.
+// The command that evaluates a run again from its recording, or imports it again.
 #pragma once
 
 #include <string>
@@ -7,10 +7,10 @@
 
 namespace mdof::report {
 
-// The file in which the command looks for the rig of a run; empty: the run has none.
+// The file in which the command expects the rig of a run; empty: the run has no rig.
 std::string rig_file(const RunHeader& run);
 
-// For a shell, with the rig and the options that were used, whatever the recording has.
+// A shell command with the rig and the options of the run; they override those of the recording.
 std::string replay_command(const Run& run);
 
 }  // namespace mdof::report

@@ -1,6 +1,5 @@
-// A report of stored runs for a customer: one HTML file that needs nothing else, without script,
-// made to be printed on A4. Pure: the same results give the same bytes, and no time of making is in
-// it.
+// A report of stored runs for a customer: one self-contained HTML file without scripts, for
+// printing on A4. Pure: the same results give the same bytes, without the time of creation.
 #pragma once
 
 #include <optional>
@@ -26,26 +25,27 @@ struct Decided {
 struct ReportRun {
   charts::StatedResults results;
   Rig rig;
-  std::vector<Decided> decided;  // of the figures that have a tolerance
+  std::vector<Decided> decided;  // for the figures that have a tolerance
   std::string result_sha256;
   std::optional<std::int64_t> superseded_by;
-  std::string against_decision;  // why nothing is decided of it; empty: it can be
+  std::string against_decision;  // why no conformity is decided for this run; empty: it can be
+                                 // decided
 };
 
-// A file inside the report, which a reader can save.
+// A file inside the report that a reader can save.
 struct Attachment {
   std::string file_name, media_type, bytes;
 };
 
 struct Report {
   ReportFacts facts;
-  std::string head;  // HTML above everything else: a company's head; empty: none
+  std::string head;  // HTML above everything else, the company's head; empty: none
   std::vector<ReportRun> runs;
-  std::vector<daemon::Comparison> comparisons;       // before and after, an axis each
-  std::vector<charts::SquarenessOfPair> squareness;  // XY, XZ, YZ, where both have one run
-  std::vector<Decided> decided;                      // of squareness that has a tolerance
+  std::vector<daemon::Comparison> comparisons;       // before and after, one for each axis
+  std::vector<charts::SquarenessOfPair> squareness;  // XY, XZ, YZ, if both axes have one run
+  std::vector<Decided> decided;                      // for squareness with a tolerance
   std::vector<Attachment> attachments;
-  std::string software_version;  // that made the report
+  std::string software_version;  // version that made the report
   Language language = Language::english;
 };
 

@@ -79,7 +79,7 @@ std::vector<std::string> point_row(const ReportRun& run, std::size_t row) {
   return cells;
 }
 
-// What another instrument measured, and what its file says.
+// Conditions of an imported run: the instrument's measurement and the information in its file.
 std::vector<std::pair<std::string, std::string>> conditions_of_imported(const Run& run,
                                                                         const std::string& state,
                                                                         Language language) {
@@ -141,7 +141,8 @@ void write_conditions(Html& html, const ReportRun& run, Language language) {
   if (run.superseded_by)
     state += ", " + phrase(Phrase::superseded, language, {std::to_string(*run.superseded_by)});
   if (is_imported(h)) return html.facts(conditions_of_imported(run.results.run, state, language));
-  const bool is_evaluation = h.provenance.recording_kind == "csv";  // nobody knows when it began
+  const bool is_evaluation = h.provenance.recording_kind == "csv";  // the time of its start is
+                                                                    // unknown
   html.facts({{of(is_evaluation ? Phrase::evaluated : Phrase::started), h.started_utc},
               {of(Phrase::state), state},
               {of(Phrase::temperature), temperature_of(h, language)},

@@ -1,4 +1,4 @@
-// The sections of a report: of one run, of two runs of an axis.
+// The sections of a report on one run, and on two runs of an axis.
 #pragma once
 
 #include "daemon/output/report/html.h"
@@ -10,7 +10,7 @@ void write_conditions(Html& html, const ReportRun& run, Language language);
 void write_fixture(Html& html, const ReportRun& run, Language language);
 void write_results(Html& html, const ReportRun& run, Language language);
 void write_decisions(Html& html, const ReportRun& run, Language language);
-// The table of the decisions alone.
+// Only the table of the decisions.
 void write_decided(Html& html, const std::vector<Decided>& decided,
                    const std::vector<Budget>& budgets, Language language);
 void write_notices(Html& html, const ReportRun& run, Language language);
@@ -18,7 +18,7 @@ void write_charts(Html& html, const ReportRun& run, Language language);
 void write_points(Html& html, const ReportRun& run, Language language);
 void write_provenance(Html& html, const ReportRun& run, Language language);
 
-// What changed between two runs of an axis.
+// Differences between two runs of an axis.
 void write_comparison(Html& html, const daemon::Comparison& comparison, Language language);
 
 }  // namespace mdof::report

@@ -1,5 +1,6 @@
-// Charts of analyses that commands make, a function each: results in, an SVG document out. Pure:
-// the same results give the same bytes. What is drawn carries its numbers, in the units of the
+// Charts of analyses, one function each: it takes results and returns an SVG document. Pure: the
+// same results give the same bytes. Drawn elements have their numbers as data-… attributes, in the
+// units of the result documents.
 // result documents, as data-… attributes.
 #pragma once
 
@@ -16,8 +17,8 @@
 
 namespace mdof::charts {
 
-// after - before of each error at each target and approach, µm or µrad over mm, with U of the
-// difference of two independent runs. There is nothing to draw where no target is in both runs.
+// after - before for each error, target and approach, in µm or µrad over mm, with U of the
+// difference of two independent runs. has_comparison() is false if the runs have no common target.
 bool has_comparison(const daemon::Comparison& comparison);
 std::string comparison_svg(const daemon::Comparison& comparison, output::Language language);
 
@@ -30,14 +31,14 @@ struct PositioningSeries {
 struct PositioningPicture {
   std::string title, about;
   std::vector<std::string> warnings;
-  std::vector<PositioningSeries> series;  // one at least
+  std::vector<PositioningSeries> series;  // at least one
 };
 std::string positioning_svg(const PositioningPicture& picture, output::Language language);
 
-// The readings of an imported run, with the means of ISO 230-2 where the readings give them.
+// The readings of an imported run, with the means of ISO 230-2 if the readings give them.
 RunCharts charts_of_imported(const Run& run, output::Language language);
 
-// Deviations in m over positions in m: with each reference line, and what is left about the
+// Deviations in m over positions in m, with each reference line and the residuals about the
 // least-squares line.
 struct StraightnessPicture {
   std::string about;
@@ -47,7 +48,7 @@ struct StraightnessPicture {
 };
 std::string reference_lines_svg(const StraightnessPicture& picture, output::Language language);
 
-// Rates of drift of a parked axis in each window, nm/h or µrad/h over min, with u and the limits.
+// Drift rates of a parked axis in each window, nm/h or µrad/h over min, with u and the limits.
 std::string warm_up_svg(const daemon::ParkedLog& log, const algo::WarmUp& found,
                         output::Language language);
 

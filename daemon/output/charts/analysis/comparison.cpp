@@ -1,4 +1,4 @@
-// What changed between two runs of an axis, target by target.
+// Changes between two runs of an axis, target by target.
 #include <array>
 #include <cmath>
 
@@ -15,7 +15,7 @@ using output::Language;
 using output::Phrase;
 using output::phrase;
 
-constexpr std::array kSidesDrawn = {1, -1};  // as kComparedSides begins
+constexpr std::array kSidesDrawn = {1, -1};  // the first two of kComparedSides
 
 std::vector<Mark> changes_of(const daemon::ComparedPoints& compared, std::size_t error) {
   std::vector<Mark> marks;

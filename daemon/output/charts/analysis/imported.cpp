@@ -15,7 +15,7 @@ using output::phrase;
 
 namespace {
 
-// By their keys, as JSON and CSV have them: a chart without them does not say its signs.
+// Keys as in JSON and CSV. Without them the chart would not show its sign convention.
 std::string sense_of(const RunHeader& run) {
   if (run.provenance.model != positioning_name(run.axis)) return "";
   const ImportedSense stated = run_options(run).imported;

@@ -1,4 +1,4 @@
-// A chart of several quantities over one: a panel each, with marks, bands of U and lines. Pure.
+// A chart with one panel for each quantity over a common x, with marks, bands of U and lines. Pure.
 #pragma once
 
 #include <cmath>
@@ -12,29 +12,29 @@
 
 namespace mdof::charts {
 
-// Through these places, in the units of the panel; what is not finite is left out.
+// A line through these points, in the units of the panel; non-finite points are left out.
 struct NamedLine {
   const char* mark;  // class of style.h
-  std::string name;  // drawn as data-line
+  std::string name;  // attribute data-line
   std::vector<Place> values;
 };
 
 struct MarkedPanel {
-  std::string key;    // drawn as data-panel
+  std::string key;    // attribute data-panel
   std::string title;  // of y; empty: the key
   std::string note;   // above the upper right corner
   std::vector<Mark> marks;
-  std::vector<NamedLine> lines;      // y of each is within the panel
-  double vertical_x = std::nan("");  // where a line goes from edge to edge, data-line "vertical"
+  std::vector<NamedLine> lines;      // y must be inside the panel
+  double vertical_x = std::nan("");  // x of a line from edge to edge, data-line "vertical"
 };
 
 struct MarkedChart {
   std::string title, about;
   std::vector<std::string> warnings;  // in the alarm colour
-  std::string x_key, x_label;         // of the data; of the axis, with its unit
-  std::vector<MarkedPanel> panels;    // one at least
-  std::optional<Legend> legend;       // none: as the marks are
-  std::vector<LegendItem> lines;      // of the legend
+  std::string x_key, x_label;         // key of the data; label of the axis, with its unit
+  std::vector<MarkedPanel> panels;    // at least one
+  std::optional<Legend> legend;       // nullopt: derived from the marks
+  std::vector<LegendItem> lines;      // lines of the legend
   std::vector<std::string> notes;
 };
 

@@ -1,4 +1,4 @@
-// How fast each reading of a parked axis drifts, window by window.
+// Drift rate of each reading of a parked axis, window by window.
 #include <cmath>
 
 #include "daemon/output/charts/analysis/analysis_charts.h"

@@ -21,9 +21,9 @@ using output::phrase;
 constexpr double kCellsLongestPx = 600, kCellsLeftPx = 60, kScalePx = 16, kScaleTextPx = 64;
 constexpr int kShades = 10;  // classes height-0 (lowest) to height-9 of style.h
 
-// Neighbouring pixels, the same number of columns and rows in each cell but the last.
+// Groups of neighbouring pixels, with equal columns and rows in all cells except the last.
 struct Cells {
-  std::size_t pixels = 1;  // along a side of a cell
+  std::size_t pixels = 1;  // along one side of a cell
   std::size_t nx = 0, ny = 0;
   std::vector<double> low_m, high_m;  // ny rows of nx; NaN: no height
 };
@@ -38,7 +38,7 @@ Cells cells_of(const SurfaceMap& map) {
   for (std::size_t j = 0; j < map.ny; ++j)
     for (std::size_t i = 0; i < map.nx; ++i) {
       const std::size_t k = j / cells.pixels * cells.nx + i / cells.pixels;
-      // fmin and fmax leave NaN out.
+      // fmin and fmax ignore NaN.
       cells.low_m[k] = std::fmin(cells.low_m[k], map.at(i, j));
       cells.high_m[k] = std::fmax(cells.high_m[k], map.at(i, j));
     }
@@ -88,7 +88,7 @@ void draw_cells(Svg& svg, const Panel& panel, const SurfaceMap& map, const Cells
     }
 }
 
-// The heights of the shades, the lowest at the bottom.
+// The heights of the shades, with the lowest at the bottom.
 void draw_scale(Svg& svg, const Panel& panel, const Shades& shades) {
   const double x = panel.corner.x + panel.width + 20,
                step = std::min(panel.height, 200.0) / kShades;

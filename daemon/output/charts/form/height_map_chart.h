@@ -1,4 +1,4 @@
-// A height map as coloured cells, in true proportions, as an SVG document. Pure.
+// A height map as coloured cells, true to scale, as an SVG document. Pure.
 #pragma once
 
 #include <string>
@@ -8,12 +8,13 @@
 
 namespace mdof::charts {
 
-// The longer side has at most kMostCells cells. A cell has the colour of the height in it that is
-// farthest from the middle of all heights, so that no spike is lost; it carries the smallest and
-// the largest in µm, and its place in mm, as data-…. A cell without a height is left out.
+// The longer side has at most kMostCells cells. The colour of a cell shows the height in it that is
+// farthest from the middle of all heights, so that spikes stay visible. The cell has its smallest
+// and largest height in µm and its position in mm as data-… attributes. A cell without a height is
+// left out.
 inline constexpr std::size_t kMostCells = 80;
 
-// A map that has a height.
+// The map must have at least one height.
 std::string height_map_svg(const SurfaceMap& map, const std::string& title,
                            output::Language language);
 

@@ -1,5 +1,5 @@
-// The wall that an end mill leaves, as an SVG document: one turn of it along the feed, at the tip
-// and at the top of the cut, and its mean over the depth. Pure.
+// The wall that an end mill leaves, as an SVG document: one turn along the feed, at the tip and at
+// the top of the cut, and the mean over the depth. Pure.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace mdof::charts {
 
-// `lines`: as of algo::wall_lines(), two at least; `turn_m`: feed of a turn. Each mean carries its
-// height, the mean, the least and the largest in µm as data-….
+// `lines`: as from algo::wall_lines(), at least two; `turn_m`: feed of one turn. Each mean has its
+// height, mean, minimum and maximum in µm as data-… attributes.
 std::string wall_svg(const std::vector<algo::WallLine>& lines, double turn_m,
                      const std::string& title, output::Language language);
 

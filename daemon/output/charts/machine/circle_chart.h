@@ -1,4 +1,4 @@
-// The circular test (ISO 230-4) as polar pictures of one scale, as an SVG document. Pure.
+// The circular test (ISO 230-4) as polar diagrams with a common scale, as an SVG document. Pure.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 namespace mdof::charts {
 
 struct CirclePicture {
-  bool measured = false;  // else predicted
+  bool measured = false;  // otherwise predicted
   algo::CircularPath path;
   algo::CircularFigures figures;
 };
@@ -21,7 +21,7 @@ struct CirclesToDraw {
   std::vector<CirclePicture> pictures;  // one or two
 };
 
-// Each group has its scale as data-base-px (radius of no deviation) and data-px-per-um.
+// Each group has its scale as data-base-px (radius of zero deviation) and data-px-per-um.
 std::string circles_svg(const CirclesToDraw& circles, output::Language language);
 
 }  // namespace mdof::charts

@@ -30,7 +30,7 @@ double longest_span_mm(const Rig& rig) {
   return longest;
 }
 
-// All views have one scale, and room for the arrows.
+// All views have the same scale and space for the arrows.
 Range range_in_view(const Rig& rig, std::size_t axis, double span_mm) {
   Range range;
   for (const Probe& probe : rig.probes) range.include(to_mm(probe.position_m[axis]));
@@ -40,7 +40,7 @@ Range range_in_view(const Rig& rig, std::size_t axis, double span_mm) {
   return range;
 }
 
-constexpr double kNamePx = 14;  // the names of probes that are one behind the other stand in a row
+constexpr double kNamePx = 14;  // names of probes one behind the other are written in a row
 
 Place place_of(const Panel& panel, const Probe& probe, std::size_t up) {
   return panel.at(to_mm(probe.position_m[0]), to_mm(probe.position_m[up]));
@@ -79,7 +79,7 @@ void draw_probe(Svg& svg, const Panel& panel, const Rig& rig, std::size_t k, std
   svg.end_group();
 }
 
-// Places of the probes along `axis`, each once.
+// Positions of the probes along `axis`, without repetition.
 std::vector<double> places_mm(const Rig& rig, std::size_t axis) {
   constexpr double kSamePlace_mm = 1e-6;
   std::vector<double> places;
@@ -90,8 +90,8 @@ std::vector<double> places_mm(const Rig& rig, std::size_t axis) {
   return places;
 }
 
-// From a place of probes to the next, above the panel for its x and at its right for its y. A
-// number that the line has no room for is left to the table of probes.
+// Dimension lines between neighbouring probe positions: above the panel for x, at its right for y.
+// If a number does not fit, it is left out; the table of probes has it.
 void draw_dimensions(Svg& svg, const Panel& panel, const Rig& rig, std::size_t axis) {
   const bool level = axis == 0;
   const double line =

@@ -1,4 +1,4 @@
-// The probes of a rig as they are mounted, to scale, as an SVG document. Pure.
+// The mounted probes of a rig, to scale, as an SVG document. Pure.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace mdof::charts {
 
-// From above (X to the right, Y up) and from the side (X to the right, Z up), in mm of M. Each
-// probe has its place and its direction in M as data-…; an arrow shows the measuring direction, a
-// square a direction that is square to the picture. Dimension lines go from each place of probes
-// along an axis to the next. At least one probe.
+// Views from above (X to the right, Y up) and from the side (X to the right, Z up), in mm of M.
+// Each probe has its position and direction in M as data-… attributes. An arrow shows the measuring
+// direction; a square shows a direction perpendicular to the picture. Dimension lines connect
+// neighbouring probe positions along an axis. The rig must have at least one probe.
 std::string fixture_svg(const Rig& rig, output::Language language);
 
 }  // namespace mdof::charts

@@ -34,7 +34,7 @@ double largest_um(const algo::PlaneMap& map) {
   return largest;
 }
 
-// So that the longest arrow is about as long as from one point to the next.
+// The longest arrow is about as long as the distance of neighbouring points.
 double arrow_enlargement(const algo::PlaneMap& map, double largest) {
   const auto step = [](const std::vector<double>& at) {
     return at.size() > 1 ? at[1] - at[0] : 1e-2;

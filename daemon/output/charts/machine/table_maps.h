@@ -6,8 +6,9 @@
 
 namespace mdof::charts {
 
-// "table-3-XY.svg" and so on: each plane of two axes that have several commands, through the middle
-// node of the third axis. A plane of more than kMostArrows nodes is left out, and why.
+// "table-3-XY.svg" and so on: a chart for each plane of two axes with several commands, through the
+// middle node of the third axis. A plane with more than kMostArrows nodes is left out, with the
+// reason.
 RunCharts charts_of_volume(const VolumetricTable& table, output::Language language);
 
 }  // namespace mdof::charts

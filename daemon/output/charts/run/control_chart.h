@@ -1,4 +1,4 @@
-// A figure of the stored runs over time, with its control limits, as an SVG document. Pure.
+// A control chart of a figure of the stored runs over time, as an SVG document. Pure.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace mdof::charts {
 
-// One value at least. Each carries its number, limits and runs as data-… attributes, in the unit of
-// the figure's name.
+// The trend must have at least one value. Each value has its number, limits and runs as data-…
+// attributes, in the unit of the figure's name.
 std::string control_chart_svg(const daemon::Trend& trend, output::Language language);
 
 }  // namespace mdof::charts

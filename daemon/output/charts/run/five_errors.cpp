@@ -1,4 +1,4 @@
-// The five errors of a run by position: every point, U, and the mean of each approach.
+// The five errors of a run by position: all points, U, and the mean of each approach.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -41,7 +41,7 @@ void draw_means(Svg& svg, const Panel& panel, const ApproachMeans& of, std::size
   if (places.size() > 1) svg.polyline(line_of(of.direction), places);
 }
 
-// "U = 0.0078–0.0081 µm (k = 2.05, 95 %)", since a band may be narrower than its markers.
+// "U = 0.0078–0.0081 µm (k = 2.05, 95 %)", because a band may be narrower than its markers.
 std::string U_line(const StatedResults& results, std::size_t named, Language language) {
   const std::string unit = split_key(error_names(results.run.header.axis)[named].key).unit;
   Range U, k;

@@ -11,22 +11,22 @@
 
 namespace mdof::charts {
 
-// Of the error at this place of error_names(), in µm or µrad over mm.
+// Marks of one error, by its index in error_names(), in µm or µrad over mm.
 std::vector<Mark> marks_of_error(const StatedResults& results, std::size_t named);
 Legend legend_of(std::span<const Mark> marks);
 
 // "run 3, axis X: five geometric errors against position"
 std::string title_of_run(const RunHeader& header, const std::string& what, Language language);
-// "model rigid, complete, recording 0f3a…": no time, so that a replay is drawn in the same bytes.
+// "model rigid, complete, recording 0f3a…", without a time, so that a replay gives the same bytes.
 std::string about_run(const RunHeader& header, Language language);
 
-// The marks of a head: that u is of noise alone comes first.
+// The marks of a head; the mark that u is from noise only comes first.
 std::vector<std::string> head_marks(NoiseOnly noise_only, std::vector<std::string> marks,
                                     output::Language language);
 std::vector<std::string> head_marks(bool noise_only, std::vector<std::string> marks,
                                     Language language);
 
-// "position_mm" with the word of the language, for draw_axes().
+// "position_mm" with its word in the language, for draw_axes().
 std::string position_key(Language language);
 
 }  // namespace mdof::charts

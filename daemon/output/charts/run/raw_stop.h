@@ -1,4 +1,4 @@
-// The raw readings of one stop, as they were recorded, with the part that was averaged. Pure.
+// The recorded raw readings of one stop, with the averaged part. Pure.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace mdof::charts {
 
-// Of one channel, around the stop.
+// Readings of one channel around the stop.
 struct RawSeries {
   Channel channel;
-  std::vector<std::int64_t> time_ns;  // on the clock of the run's points
-  std::vector<double> value;          // in the channel's unit; NaN: missing
+  std::vector<std::int64_t> time_ns;  // clock of the run's points
+  std::vector<double> value;          // unit of the channel; NaN: missing
   std::vector<Quality> quality;
 };
 
-// A panel a channel; time in s from the beginning of the averaged part. At least one channel.
+// One panel for each channel (at least one); time in s from the beginning of the averaged part.
 std::string raw_stop_svg(const StatedResults& results, std::size_t row,
                          const std::vector<RawSeries>& channels, Language language);
 

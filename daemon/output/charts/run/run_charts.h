@@ -1,6 +1,6 @@
-// One function a chart of a stored run: results in, an SVG document out. Pure: the same results
-// give the same bytes, and no time of making is in them. What is drawn carries its numbers, in the
-// units of the result documents, as data-… attributes.
+// Charts of a stored run, one function each: it takes results and returns an SVG document. Pure:
+// the same results give the same bytes, without the time of creation. Drawn elements have their
+// numbers as data-… attributes, in the units of the result documents.
 #pragma once
 
 #include <optional>
@@ -20,44 +20,44 @@ namespace mdof::charts {
 
 using output::Language;
 
-// A run as the commands state it.
+// A run with everything that the commands state about it.
 struct StatedResults {
   Run run;
   RunUncertainty uncertainty;            // of its points
-  StatedFigures figures;                 // budgets, or why there are none
-  std::vector<StraightnessLines> lines;  // about which straightness is stated
+  StatedFigures figures;                 // budgets, or the reason why there are none
+  std::vector<StraightnessLines> lines;  // reference lines of the straightness
 };
 
-// Each says whether there is anything to show, and draws it then.
+// Each has_… function returns whether its chart has anything to show; only then call …_svg.
 bool has_five_errors(const StatedResults& results);
 std::string five_errors_svg(const StatedResults& results, Language language);
 
 bool has_straightness(const StatedResults& results);
 std::string straightness_svg(const StatedResults& results, Language language);
 
-// What the visits of a target from the same side differ by, over the position and over the time of
-// the run. Both need a target that was visited again.
+// Differences between the visits of a target from the same side, over the position and over the
+// time of the run. Both charts need a target with several visits.
 bool has_repeatability(const StatedResults& results);
 std::string repeatability_svg(const StatedResults& results, Language language);
 std::string drift_svg(const StatedResults& results, Language language);
 
-// Of one figure; `title_of` says of which runs. Where u is 0 or not known there is nothing to show.
+// The budget of one figure; `title_of` names its runs. has_budget() is false if u is 0 or unknown.
 bool has_budget(const Budget& budget);
 std::string budget_svg(const Budget& budget, const std::string& title_of,
                        const std::vector<std::string>& marks, Language language);
 
-// `marks` as of a run.
+// `marks`: as for a run.
 bool has_table(const CompensationTable& table);
 std::string table_svg(const CompensationTable& table, const std::vector<std::string>& marks,
                       Language language);
 
-// Two axes as they were measured against one square, their errors enlarged.
+// Two axes that were measured against one square; the chart enlarges their errors.
 struct SquarenessResults {
   Squareness squareness;
   Budget budget;     // of EC0Y, EB0Z or EA0Z
   Run run_a, run_b;  // stated at the fixture
 };
-// Of two axes with one run each among several runs; nothing where it cannot be calculated.
+// Squareness of two axes with one run each; nullopt if it cannot be calculated.
 struct SquarenessOfPair {
   AxisPair axes;
   std::optional<SquarenessResults> results;
@@ -65,10 +65,10 @@ struct SquarenessOfPair {
 };
 std::string squareness_svg(const SquarenessResults& results, Language language);
 
-// All that there is to draw of a run.
+// All charts of a run.
 struct RunCharts {
   std::vector<NamedChart> charts;
-  std::vector<std::string> left_out;  // which chart and why, a sentence each
+  std::vector<std::string> left_out;  // one sentence for each chart that was left out
 };
 RunCharts charts_of_run(const StatedResults& results, Language language);
 

@@ -1,5 +1,5 @@
-// What the visits of a target differ by: each error minus the mean of its target and approach, over
-// the position (repeatability) and over the time of the run (drift).
+// Differences between the visits of a target: each error minus the mean of its target and approach,
+// over the position (repeatability) and over the time of the run (drift).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -31,10 +31,11 @@ struct Visits {
   std::size_t n = 0;
 };
 
-// Of the points that have errors and whose target was visited again from the same side.
+// Scatter of points with errors whose target was visited again from the same side.
 struct Scatter {
   std::array<std::vector<Mark>, kErrorCount> marks;
-  std::array<double, kErrorCount> largest_s{};  // of a target and approach, n - 1; key's unit
+  std::array<double, kErrorCount> largest_s{};  // largest s of a target and approach, n - 1; in the
+                                                // unit of the key
 };
 
 bool is_visit(const Mark& mark) {
@@ -57,7 +58,7 @@ Scatter scatter_of(const StatedResults& results) {
       Visits& visits = targets[{mark.target, mark.direction}];
       if (visits.n < 2) continue;
       mark.y -= visits.sum / static_cast<double>(visits.n);
-      mark.U = std::nan("");  // U is of the error, not of what visits differ by
+      mark.U = std::nan("");  // U belongs to the error, not to the difference between visits
       visits.squares += mark.y * mark.y;
       scatter.marks[k].push_back(std::move(mark));
     }
@@ -69,7 +70,7 @@ Scatter scatter_of(const StatedResults& results) {
   return scatter;
 }
 
-// Seconds from the first stop to the middle of each.
+// Sets x to the time in s from the first stop to the middle of each stop.
 void place_in_time(Scatter& scatter, const Run& run) {
   const std::int64_t first_ns = run.points.front().point.begin_ns;
   for (auto& marks : scatter.marks)
@@ -81,8 +82,8 @@ void place_in_time(Scatter& scatter, const Run& run) {
 
 struct ScatterChart {
   Phrase title, note;
-  const char* x_key;    // of the data
-  std::string x_label;  // of the axis
+  const char* x_key;    // key of the data
+  std::string x_label;  // label of the axis
 };
 
 std::string scatter_svg(const StatedResults& results, const Scatter& scatter,

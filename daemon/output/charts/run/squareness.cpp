@@ -1,4 +1,4 @@
-// The squareness of two axes as a picture: both axes as the square shows them, errors enlarged.
+// The squareness of two axes: both axes relative to the square, with enlarged errors.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -21,10 +21,10 @@ using output::Phrase;
 using output::phrase;
 
 constexpr double kPicturePx = 430, kPictureLegendPx = 62;
-constexpr double kErrorShare = 0.25;  // of the length of an axis, for the largest error
+constexpr double kErrorShare = 0.25;  // share of an axis length that the largest error gets
 
-// One axis over the travel of its moving body: positions, errors across it towards + of the other,
-// and the line through them, which begins at 0 across.
+// One axis over the travel of its moving body: positions, errors towards + of the other axis, and
+// the line through them, which begins at 0.
 struct AxisPath {
   std::vector<double> along_mm, across_um;
   double from_mm = 0, to_mm = 0, slope_um_per_mm = 0;
@@ -45,7 +45,7 @@ AxisPath path_of(const Run& run, std::size_t named, double slope_rad, double tur
   path.from_mm = to_mm(along(means.front()));
   path.to_mm = to_mm(along(means.back()));
   path.slope_um_per_mm = (slope_rad + turned_rad) * 1e3;
-  double mean_left = 0;  // of the errors about the slope: it lies on the line
+  double mean_left = 0;  // mean residual about the slope; the points are shifted so that it is 0
   for (const algo::TargetMean& m : means) {
     path.along_mm.push_back(to_mm(along(m)));
     path.across_um.push_back(to_um(m.named[named] + turned_rad * along(m)));
@@ -56,7 +56,7 @@ AxisPath path_of(const Run& run, std::size_t named, double slope_rad, double tur
   return path;
 }
 
-// A round factor by which the largest error becomes a share of an axis.
+// A round factor that enlarges the largest error to a share of an axis.
 double enlargement(const AxisPath& x, const AxisPath& y) {
   double largest_um = 0;
   for (const AxisPath* path : {&x, &y}) {
@@ -71,7 +71,7 @@ double enlargement(const AxisPath& x, const AxisPath& y) {
 struct Picture {
   Panel panel;
   double factor = 1, x0_mm = 0, y0_mm = 0;
-  // X lies along the panel's x from 0; a + error of Y's direction goes up.
+  // X is along the panel's x from 0; a positive error in Y's direction points upwards.
   Place on_x(double along_mm, double across_um) const {
     return panel.at(along_mm - x0_mm, across_um * factor / 1e3);
   }
@@ -91,7 +91,7 @@ Picture picture_of(const AxisPath& x, const AxisPath& y, double top) {
     range->include(-0.35 * length);
     range->include(1.1 * length);
   }
-  picture.panel.width = picture.panel.height = kPicturePx;  // true proportions
+  picture.panel.width = picture.panel.height = kPicturePx;  // true to scale
   picture.panel.corner = {kMarginPx + 40, top};
   picture.panel.x = horizontal_axis(across, kPicturePx);
   picture.panel.y = vertical_axis(up, kPicturePx);
@@ -123,7 +123,7 @@ void draw_path(Svg& svg, const AxisPath& path, On on, int direction, const char*
 std::string squareness_svg(const SquarenessResults& results, Language language) {
   const Squareness& s = results.squareness;
   const Budget& b = results.budget;
-  // The square's own angle turns what was read against its second face.
+  // The angle of the square rotates the readings against its second face.
   const std::string name = squareness_name(s.axes);
   const std::string a(1, letter(s.axes.a)), b_axis(1, letter(s.axes.b));
   const AxisPath x =

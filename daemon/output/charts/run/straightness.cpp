@@ -1,5 +1,5 @@
-// Straightness of a run: means of the targets with their reference lines, and what is left of them
-// about the least-squares line (ISO 230-1).
+// Straightness of a run: target means with their reference lines, and their residuals about the
+// least-squares line (ISO 230-1).
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -25,11 +25,11 @@ using output::phrase;
 constexpr double kLinesLegendPx = 64;
 constexpr const char* kMeanLine = "ink thin";
 
-// The means of one approach with the lines through them; direction 0: the mean of both.
+// The means of one approach with their reference lines; direction 0: the mean of both approaches.
 struct ApproachSeries {
   int direction = 0;
   std::vector<Mark> means;      // µm over mm
-  std::vector<double> left_um;  // of each, about the least-squares line
+  std::vector<double> left_um;  // residuals about the least-squares line
   const ReferenceLines* lines = nullptr;
 };
 
@@ -50,7 +50,7 @@ const ReferenceLines* lines_through(const StatedResults& results, const std::str
   return nullptr;
 }
 
-// Of the line at the encoder's position; lines are over the body's own travel in M.
+// The value of the line at the encoder's position; lines are over the body's own travel in M.
 double at_position_m(const ReferenceLine& line, const Sides& sides, double position_m) {
   return line.intercept_m + line.slope_rad * sides.own_travel_m(position_m);
 }
@@ -131,7 +131,7 @@ void draw_line_through(Svg& svg, const Panel& panel, const char* mark,
   if (line.size() > 1 && line.size() <= kMostMarks) svg.polyline(mark, line);
 }
 
-// Only where both approaches differ has their mean markers of its own.
+// The mean of both approaches gets markers only if there are no separate approaches.
 bool is_drawn(const StraightnessOfError& error, const ApproachSeries& series) {
   return series.direction != 0 || error.approaches.size() == 1;
 }
@@ -167,7 +167,7 @@ void draw_left(Svg& svg, const Panel& panel, const StraightnessOfError& error) {
   draw_marks(svg, panel, drawn);
 }
 
-// All three figures of an error, the first with its U.
+// All three figures of an error; the first one has its U.
 std::string figure_line(const StatedResults& results, const StraightnessOfError& error,
                         Language language) {
   const ApproachSeries* both = error.both();

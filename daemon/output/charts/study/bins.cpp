@@ -1,4 +1,4 @@
-// Each output against the binned quantity, usually the travel: mean, spread and extremes bin by
+// Each output against the binned quantity (usually the travel): mean, spread and extremes of each
 // bin.
 #include <algorithm>
 #include <array>
@@ -15,14 +15,14 @@ namespace mdof::charts {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-// Extremes further out than so many intervals are cut off, or nothing else could be seen.
+// Extremes beyond this number of intervals are cut off, because they would hide everything else.
 constexpr double kFarthest = 4;
 
 struct BinnedOutput {
   std::string key;
   std::vector<Step> mean, sd, interval, minimum, maximum;
   Range y;
-  bool cut = false;  // some extreme is outside y
+  bool cut = false;  // an extreme is outside y
 };
 
 const OutputSummary* find(const StudyBin& bin, const std::string& key) {
@@ -31,7 +31,7 @@ const OutputSummary* find(const StudyBin& bin, const std::string& key) {
   return found == bin.outputs.end() || found->n == 0 ? nullptr : &*found;
 }
 
-// A bin without a solved trial is a gap.
+// A bin without a solved trial becomes a gap.
 void add_bin(BinnedOutput& out, const StudyBin& bin) {
   const auto add = [&](std::vector<Step>& steps, double low, double high) {
     steps.push_back({bin.from, bin.to, low, high});

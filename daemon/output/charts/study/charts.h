@@ -1,4 +1,5 @@
-// One function a plot: the figures of a study in, an SVG document out. Pure.
+// Plots of a study, one function each: it takes the study's figures and returns an SVG document.
+// Pure.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace mdof::charts {
 
-// Each says whether its plot has anything to show, and draws it then.
+// Each has_… function returns whether its plot has anything to show; only then call …_svg.
 bool has_histogram(const OutputSummary& output);
 std::string histogram_svg(const StudyResult& result, const OutputSummary& output);
 

@@ -1,5 +1,5 @@
-// How the figures of each output settled: the difference from the last value against the number of
-// trials.
+// Convergence of the figures of each output: the difference from the last value against the number
+// of trials.
 #include <algorithm>
 #include <array>
 #include <cmath>

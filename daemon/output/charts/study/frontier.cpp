@@ -1,5 +1,5 @@
-// The plot of an allocation's frontier: for each value of the first tolerance the largest of the
-// second with which the two together still keep the limit.
+// The frontier of an allocation: for each value of the first tolerance, the largest second
+// tolerance for which both together satisfy the limit.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -18,7 +18,7 @@ struct Point {
   double first = 0;
   AllocatedTolerance second;
 };
-// One allocation, one pair of tolerances; points by ascending first.
+// One allocation and one pair of tolerances; points in ascending order of the first.
 struct Frontier {
   const Allocation* allocation = nullptr;
   std::string first_key, second_key;
@@ -41,7 +41,7 @@ void add_point(std::vector<Frontier>& all, const Allocation& allocation,
   at->points.push_back({pair[0].value, pair[1]});
 }
 
-// Where the second tolerance does not matter its value is infinite; there is no point to draw.
+// If the second tolerance has no influence, its value is infinite and no point is drawn.
 bool leaves_some_out(const StudyResult& result) {
   const auto left_out = [](const Allocation& a) {
     return std::any_of(a.frontier.begin(), a.frontier.end(),
@@ -87,7 +87,7 @@ Range second_range(const Frontier& f) {
   return y;
 }
 
-// Everything on and below the line keeps the limit.
+// All points on and below the line satisfy the limit.
 void draw_allowed(Svg& svg, const Panel& panel, const Frontier& f) {
   std::vector<Place> line;
   for (const Point& p : f.points) line.push_back(panel.at(p.first, p.second.value));

@@ -1,4 +1,4 @@
-// The distribution of one output: bars, and above them mean and coverage intervals to scale.
+// The distribution of one output: bars, and above them the mean and coverage intervals to scale.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,11 +14,11 @@ namespace {
 
 constexpr double kIntervalPx = 22, kBarsPx = 250, kLeftPx = 132;
 
-// An interval drawn above the bars: its name at the left, its figures at the right.
+// An interval above the bars: its name at the left, its figures at the right.
 struct Row {
   std::string name, figures;
-  const char* mark;   // of the line of the interval
-  const char* guide;  // of the lines down through the bars
+  const char* mark;   // mark of the interval's line
+  const char* guide;  // mark of the lines down through the bars
   double low, high;
 };
 
@@ -36,8 +36,8 @@ std::array<Row, 3> rows_of(const OutputSummary& o) {
             o.shortest.high}}};
 }
 
-// Bars with a share in %, of what was solved. One of no width, of a constant, becomes as wide as
-// its surroundings allow.
+// Bars with a share in % of the solved trials. A bar of zero width (a constant) becomes as wide as
+// the surrounding range allows.
 std::vector<Step> bars_of(const OutputSummary& o) {
   const Histogram& h = o.histogram;
   const bool flat = !(h.width > 0) || !std::isfinite(h.width);
@@ -98,7 +98,7 @@ std::string extremes_line(const OutputSummary& o) {
   return line;
 }
 
-// What the bars do not show; "" where they show all.
+// Trials that the bars do not show; "" if they show all trials.
 std::string missing_line(const OutputSummary& o) {
   std::string line;
   if (o.histogram.below + o.histogram.above > 0)
@@ -115,7 +115,7 @@ std::string in_words(const StudyResult& result, const OutputSummary& o) {
   return words + extremes_line(o) + ". " + missing_line(o);
 }
 
-// Wide enough at the right for the figures of the rows.
+// The right margin fits the figures of the rows.
 Panel panel_of(const OutputSummary& o, const std::vector<Step>& bars) {
   double right = 0;
   for (const Row& row : rows_of(o)) right = std::max(right, text_width(row.figures, kTextPx));

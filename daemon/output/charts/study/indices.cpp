@@ -1,4 +1,4 @@
-// What causes the scatter of each output: first-order and total index of every cause as bars.
+// Causes of the scatter of each output: bars of the first-order and total index of every cause.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,7 +28,7 @@ std::string with_se(double index, double se) {
   return fixed_text(index, 3) + " ± " + fixed_text(se, 3);
 }
 
-// 0 to 1, and further where estimates scatter beyond.
+// 0 to 1, extended if estimates scatter beyond this range.
 Axis index_axis(const StudyResult& result, double length_px) {
   Range range;
   range.include(0);

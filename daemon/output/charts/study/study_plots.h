@@ -1,4 +1,4 @@
-// The plots of a study as SVG files, for people and reports.
+// The plots of a study as SVG files.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,15 @@
 
 namespace mdof::charts {
 
-// Writes into the folder, which is made where it is missing:
-//   histogram-KEY.svg         each output with a solved trial: histogram, mean, coverage intervals
-//   error-against-travel.svg  where the study has bins (named after the binned quantity)
-//   sensitivity.svg           where it has indices
-//   convergence.svg           where it has a history
-//   allocation.svg            where an allocation has a frontier
-// The same figures give the same bytes: times of day and durations are in none. Each file is whole
-// or absent, files of the same name are replaced, others stay. Everything is in the units that end
-// the keys. Error: io, naming the folder or file and the remedy. Any thread.
+// Writes into the folder, which is created if missing:
+//  histogram-KEY.svg         each output with a solved trial: histogram, mean, coverage intervals
+//  error-against-travel.svg  if the study has bins (named after the binned quantity)
+//  sensitivity.svg           if it has indices
+//  convergence.svg           if it has a history
+//  allocation.svg            if an allocation has a frontier
+// The same figures give the same bytes, because no file contains a time or duration. Each file is
+// complete or absent. Files of the same name are replaced; other files stay. Numbers are in the
+// units at the ends of the keys. Error: io, with the folder or file and the remedy. Any thread.
 Status write_study_plots(const StudyResult& result, const std::filesystem::path& folder);
 
 }  // namespace mdof::charts

@@ -42,7 +42,7 @@ std::vector<int> joints_of(char axis, const ExportOptions& options) {
   return numbers;
 }
 
-// The constant that makes the trim 0 at home; where nobody said where that is, what it is at 0.
+// The constant that makes the trim 0 at home. If home is unknown, a note states the trim at 0.
 double zero_of(const Series& s, const ExportOptions& options, Export& out) {
   const std::optional<double> home_m = options.home_m(s.along);
   const double there = s.factor * mean_error_at(s, home_m.value_or(0.0));
@@ -131,7 +131,7 @@ Result<AppliedCorrection> read_comp(const ControllerFile& file, char axis, int t
   return read;
 }
 
-// What the ini lines have said of one joint.
+// Ini lines of one joint.
 struct JointLines {
   std::string file;
   int type = 0;  // LinuxCNC's default
@@ -210,7 +210,7 @@ Result<std::vector<AppliedCorrection>> read_linuxcnc(const std::vector<Controlle
     const ControllerFile* file = find_file(files, joints[j].file);
     if (!file)
       return bad_input(joints[j].file + ": the file is missing, so LinuxCNC would not start");
-    // The name says the axis: joints have none.
+    // The axis follows from the file name, because joints have no axis.
     const std::size_t axis = std::string_view(kAxes).find(joints[j].file.front());
     if (axis == std::string_view::npos)
       return bad_input(joints[j].file +

@@ -10,7 +10,7 @@
 namespace mdof::controllers {
 namespace {
 
-constexpr double kLinuxCncPeriod_s = 1e-3;  // its default SERVO_PERIOD
+constexpr double kLinuxCncPeriod_s = 1e-3;  // LinuxCNC's default SERVO_PERIOD
 constexpr double kNoReversal_m = 1e-12;
 constexpr const char* kRampRemedy =
     "; change MAX_ACCELERATION, or use the live compensation, which does not have this limitation";
@@ -44,7 +44,7 @@ void note_ramp(const Series& s, const ExportOptions::Ramp& ramp, Export& out) {
                       um_text(held.above_m) + " and up to " + um_text(held.up_to_m) + kRampRemedy);
 }
 
-// Which MAX_ACCELERATION holds a step is linear in the step.
+// The MAX_ACCELERATION for which a step is not applied is proportional to the step.
 void note_unknown_ramp(const Series& s, Export& out) {
   double least = INFINITY, most = 0;
   for (std::size_t i = 0; i < s.position_m.size(); ++i) {

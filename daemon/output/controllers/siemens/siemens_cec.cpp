@@ -25,12 +25,12 @@ struct CecTable {
   char input = 'X', output = 'X';
   int direction = 0;  // of the input axis: 1 positive, -1 negative, 0 both
   double first_m = 0, step_m = 0;
-  std::vector<double> correction_m;  // of a product: one factor of it
-  std::size_t multiply_by = 0;       // number of the table with the other factor: its index + 1
+  std::vector<double> correction_m;  // for a product: one of its factors
+  std::size_t multiply_by = 0;       // index + 1 of the table with the other factor
 };
 
 constexpr int kDecimalsOfAxis = 6;    // mm
-constexpr int kDecimalsOfVolume = 9;  // a dozen tables add up
+constexpr int kDecimalsOfVolume = 9;  // about ten tables add up
 
 std::string cec_text(std::size_t t, const CecTable& table, const std::string& error,
                      int decimals = kDecimalsOfAxis) {
@@ -57,7 +57,7 @@ CecTable table_of(const Series& s, const EqualSteps& e, const std::vector<double
   return table;
 }
 
-// The errors of one table of mdof; `t` is the control's next one.
+// Writes the errors of one table of mdof; `t` is the next table number of the control.
 Status add_errors(const CompensationTable& table, const ExportOptions& options, Export& out,
                   std::string& text, std::size_t& t) {
   const std::string of_table = " of table " + std::to_string(table.id) + ": ";
@@ -146,7 +146,8 @@ AppliedCorrection applied_by(const CecTable& table) {
   return applied;
 }
 
-// The control adds up its tables of one output axis; those of one error stand at the same places.
+// Adds up tables of the same output axis, as the control does. Tables of one error have the same
+// positions.
 bool add_to(std::vector<AppliedCorrection>& all, const AppliedCorrection& more) {
   for (AppliedCorrection& one : all) {
     if (one.error != more.error) continue;
@@ -191,7 +192,8 @@ std::string file_text(const std::string& head, const std::string& tables) {
          kMetricOnly + "CHANDATA(1)\n" + tables + "M17\n";
 }
 
-// Unless the limit of the control is stated, that of an 828D is a note.
+// Compares the number of tables with the given limit of the control; without one, a note states
+// that of an 828D.
 Status check_count(std::size_t tables, const ExportOptions& options, Export& out) {
   const std::string count = std::to_string(tables) + " CEC tables are needed, but ";
   if (options.siemens_tables > 0 && tables > options.siemens_tables)
@@ -203,7 +205,7 @@ Status check_count(std::size_t tables, const ExportOptions& options, Export& out
   return {};
 }
 
-// What is left out must be known where the file is read.
+// Errors that were left out must be stated in the file itself.
 std::string left_out_lines(const Export& out) {
   std::string text;
   for (const std::string& left : out.left_out)
@@ -253,9 +255,9 @@ Result<std::vector<AppliedCorrection>> read_cec(const std::vector<ControllerFile
 namespace {
 
 constexpr std::string_view kLinearAxes = "XYZ";
-constexpr double kEnough_m = 2e-9;  // of what two axes do together
+constexpr double kEnough_m = 2e-9;  // accuracy of the common effect of two axes
 
-// A factor in √m as the number that is written in mm: the product of two numbers is in mm.
+// Converts a factor in √m to the written number, so that the product of two numbers is in mm.
 std::vector<double> in_root_mm(std::vector<double> factor) {
   for (double& x : factor) x *= std::sqrt(1e-3);
   return factor;
@@ -269,7 +271,7 @@ double largest_factor(const std::vector<CecTable>& tables) {
   return most;
 }
 
-// The tables of one output axis, one behind the other.
+// Adds the tables of one output axis.
 void add_correction(const VolumetricTable& t, const std::array<double, 3>& step_m, char output,
                     const algo::SeparableCorrection& sum, std::vector<CecTable>& tables) {
   const auto add = [&](std::size_t axis, const std::vector<double>& values, bool multiply) {
@@ -284,7 +286,8 @@ void add_correction(const VolumetricTable& t, const std::array<double, 3>& step_
   }
 }
 
-// The commands of the nodes along an axis: those of its tables, which are the same.
+// The commands of the nodes along an axis, from its tables. All of its tables have the same
+// commands.
 Result<std::vector<double>> commands_of(const std::vector<CecTable>& tables, char axis) {
   std::vector<double> commands;
   for (const CecTable& table : tables) {
@@ -301,8 +304,8 @@ Result<std::vector<double>> commands_of(const std::vector<CecTable>& tables, cha
   return commands;
 }
 
-// What the control adds at a node: the sum of its tables and products. A table that another one is
-// multiplied with counts in the product alone.
+// The value that the control adds at a node: the sum of its tables and products. The second factor
+// of a product is not added as a table.
 Vec3 sum_at(const std::vector<CecTable>& tables, const std::array<std::size_t, 3>& index) {
   const auto value = [&](const CecTable& table) {
     return table.correction_m[index[kLinearAxes.find(table.input)]];
@@ -314,7 +317,7 @@ Vec3 sum_at(const std::vector<CecTable>& tables, const std::array<std::size_t, 3
   for (std::size_t t = 0; t < tables.size(); ++t) {
     if (is_factor[t]) continue;
     const std::size_t by = tables[t].multiply_by;
-    // Factors are numbers in mm, and so is their product.
+    // Factors are numbers in mm, so that the product is in mm, too.
     const double factor = by > 0 ? to_mm(value(tables[by - 1])) : 1;
     sum[kLinearAxes.find(tables[t].output)] += value(tables[t]) * factor;
   }

@@ -13,7 +13,7 @@ namespace mdof::controllers {
 namespace {
 
 constexpr const char* kLecHead = "%_N_AX_EEC_INI";
-constexpr double kStepOfLec_m = 2e-9;  // of its numbers, and their rounding
+constexpr double kStepOfLec_m = 2e-9;  // step and rounding of the numbers
 
 // ENC_COMP has one value for both approaches.
 Series mean_of_approaches(Series s) {
@@ -22,7 +22,8 @@ Series mean_of_approaches(Series s) {
   return s;
 }
 
-// Refused where the mean leaves what the self-test would not take, unless it is asked for.
+// Error: the residual of the mean is larger than the self-test accepts, and the user did not allow
+// it.
 Status check_reversal(const CompensationTable& table, const Series& s, const ExportOptions& options,
                       Export& out) {
   const double largest = largest_error_m(s);
@@ -46,7 +47,7 @@ Status check_reversal(const CompensationTable& table, const Series& s, const Exp
                    "backlash compensation of the control (MD32450 BACKLASH)");
 }
 
-// The control activates ENC_COMP when the axis is referenced: a value there is a jump.
+// The control activates ENC_COMP when the axis is referenced; a value there would be a jump.
 Series zeroed_at_home(Series s, const ExportOptions& options, Export& out) {
   const std::optional<double> home_m = options.home_m(s.along);
   const double there = mean_error_at(s, home_m.value_or(0.0));
@@ -89,7 +90,7 @@ std::string lec_text(const CompensationTable& table, const Series& s, const Equa
          "\n$AA_ENC_COMP_IS_MODULO" + of + "0\nM17\n";
 }
 
-// "$KEY[...]=number" of a line that begins so; nothing: it does not.
+// The number of a line "$KEY[...]=number", or nullopt if the line begins otherwise.
 std::optional<double> assigned(std::string_view line, const std::string& to) {
   if (!line.starts_with(to + "=")) return std::nullopt;
   return decimal_from(line.substr(to.size() + 1));

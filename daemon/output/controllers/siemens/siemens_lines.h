@@ -1,4 +1,4 @@
-// Reading a compensation file of a SINUMERIK line by line; comment lines are skipped.
+// Reads a compensation file of a SINUMERIK line by line. Comment lines are skipped.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace mdof::controllers {
 
-// The lines of one file, one after the other.
+// The lines of one file, in order.
 class SiemensLines {
  public:
   explicit SiemensLines(const ControllerFile& file)
@@ -21,7 +21,7 @@ class SiemensLines {
     ++at_;
     return true;
   }
-  // "KEY=value" with this key.
+  // The value of a line "KEY=value" with this key.
   std::optional<std::string_view> value(const std::string& key) {
     skip();
     if (at_ >= lines_.size() || !lines_[at_].starts_with(key + "=")) return std::nullopt;

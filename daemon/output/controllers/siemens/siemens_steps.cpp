@@ -10,7 +10,8 @@ namespace mdof::controllers {
 namespace {
 
 constexpr double kSameStep_m = 1e-9;
-constexpr double kPermittedLoss = 0.01;  // of the largest error, where steps miss the targets
+constexpr double kPermittedLoss = 0.01;  // share of the largest error, if the steps do not match
+                                         // the targets
 
 double value_at(const EqualSteps& e, const std::vector<double>& values, double at_m) {
   const double place =
@@ -19,7 +20,7 @@ double value_at(const EqualSteps& e, const std::vector<double>& values, double a
   return values[i] + (values[i + 1] - values[i]) * (place - static_cast<double>(i));
 }
 
-// One approach of `s`, `steps` + 1 values.
+// Resamples one approach of `s` to `steps` + 1 values.
 std::vector<double> resampled(const Series& s, const std::vector<double>& approach,
                               std::size_t steps, EqualSteps& e) {
   Series one = s;

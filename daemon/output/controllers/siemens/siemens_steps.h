@@ -1,4 +1,4 @@
-// Points at equal steps, as Siemens' compensation tables have them.
+// Points at equal steps, as in Siemens' compensation tables.
 #pragma once
 
 #include <cstddef>
@@ -10,33 +10,33 @@
 namespace mdof::controllers {
 
 constexpr std::size_t kMostOfSiemens = 200;       // points of a table: 808D, 828D; others MD38000
-constexpr std::size_t kMostBeforeSteps = 20'000;  // of a series, before they are equal
+constexpr std::size_t kMostBeforeSteps = 20'000;  // points of a series before resampling
 
 struct EqualSteps {
   double first_m = 0, step_m = 0;
   std::vector<double> forward, reverse;  // E; m
-  double loss_m = 0;                     // at a point of the series, by resampling
+  double loss_m = 0;                     // largest change at a point of the series, by resampling
 
   double last_m() const { return first_m + step_m * static_cast<double>(forward.size() - 1); }
 };
 
-// As many steps as the smallest of the series asks for, and twice as many again and again while
-// the series loses more than 1 % of its largest error; at most most_points() - 1; of whole
-// nanometres, as they are written. What the series loses becomes a note of `out`, and its last
-// `written` has the points. Error (bad_input): fewer than two points.
+// The number of steps follows from the smallest interval of the series. It is doubled while the
+// series changes by more than 1 % of its largest error, up to most_points() - 1. Steps are whole
+// nanometres, as in the file. The change becomes a note of `out`; its last `written` gets the
+// number of points. Error (bad_input): fewer than two points.
 Result<EqualSteps> equal_steps(const Series& s, const ExportOptions& options, Export& out);
 // ExportOptions::siemens_points, or kMostOfSiemens.
 std::size_t most_points(const ExportOptions& options);
 
-// Largest error of both approaches.
+// Largest absolute error of both approaches.
 double largest_error_m(const Series& s);
 
-// Points at equal steps are not left out; a note says so where a tolerance was given.
+// Points at equal steps are not thinned; a note states this if a tolerance was given.
 ExportOptions without_tolerance(const ExportOptions& options, Export& out);
 
-// "AX1" of X.
+// "AX1" for X.
 std::string siemens_axis(char axis);
-// The values of LEC and CEC are in the basic system of the control, whatever G70 or G71 say.
+// The values of LEC and CEC are in the basic system of the control, independent of G70 and G71.
 inline constexpr const char* kMetricOnly =
     "; The basic system of the control must be metric (MD10240 = 1): the values are in mm.\n";
 

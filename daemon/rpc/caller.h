@@ -1,4 +1,4 @@
-// The client behind a call, as a method handler sees it.
+// The client of a call, as a method handler sees it.
 #pragma once
 
 #include <sys/types.h>
@@ -12,28 +12,30 @@
 
 namespace mdof::rpc {
 
-// Of SO_PEERCRED: taken by the kernel when the client connected.
+// From SO_PEERCRED: the kernel records it when the client connects.
 struct Credentials {
   uid_t uid = 0;
   gid_t gid = 0;
   pid_t pid = 0;
 };
 
-// Thread-bound: the loop, and only while the handler that was given it runs.
+// Thread-bound: use it on the event loop, and only while the handler that got it runs.
 class Caller {
  public:
   virtual ~Caller() = default;
 
-  // Who to name in the audit of a writing method; nothing for a TCP client.
+  // The user for the history of a writing method; nullopt for a TCP client.
   virtual std::optional<Credentials> credentials() const = 0;
   virtual bool may_write() const = 0;
-  // A request of a browser: it ends with its reply, and its right to write comes with it.
+  // A browser's request: its session ends with the reply, and the request itself carries the
+  // permission to write.
   virtual bool over_http() const = 0;
-  virtual bool in_group(gid_t group) const = 0;           // not where there are no credentials
-  virtual std::vector<gid_t> further_groups() const = 0;  // beside that of the credentials
+  virtual bool in_group(gid_t group) const = 0;           // false without credentials
+  virtual std::vector<gid_t> further_groups() const = 0;  // besides the group of the credentials
 
-  // Until unsubscribe or the end of the connection; again on the same topic: the new interval
-  // holds. Errors: not_found (topic), usage (interval below the topic's minimum, too many).
+  // Holds until unsubscribe() or the end of the connection. A second call for the same topic
+  // changes the interval. Errors: not_found (topic); usage (interval below the topic's minimum, too
+  // many subscriptions).
   virtual Status subscribe(std::string_view topic, std::chrono::milliseconds interval) = 0;
   virtual Status unsubscribe(std::string_view topic) = 0;
 };

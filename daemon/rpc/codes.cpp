@@ -10,7 +10,7 @@ struct Row {
   int code;
 };
 
-// The first row of an ErrorCode is the one that is sent.
+// The first row of an ErrorCode gives the code that is sent.
 constexpr std::array<Row, 13> kTable{{
     {ErrorCode::usage, kInvalidParams},
     {ErrorCode::changed, kChanged},

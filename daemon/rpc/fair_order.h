@@ -1,6 +1,6 @@
-// Who is next of several that share one thread: the one that has used the least of it lately
-// (start-time fair queueing, Goyal, Vin and Cheng 1996). Who asks seldom is served before those
-// who ask without end.
+// Selects the next user of a shared thread: the one that has used the least of its time lately
+// (start-time fair queueing, Goyal, Vin and Cheng 1996). A user with few requests is served before
+// one with many.
 #pragma once
 
 #include <algorithm>
@@ -11,23 +11,24 @@
 
 namespace mdof {
 
-// What one of them has used, in the order's own time.
+// The used time of one user, on the time scale of the order.
 struct FairShare {
   std::chrono::nanoseconds end{0};
 };
 
-// Thread-bound, or under its owner's lock. Pure: the cost of a turn comes from outside.
+// Thread-bound, or protected by the owner's lock. Pure: the caller measures the cost of a turn.
 template <class T>
 class FairOrder {
  public:
   bool empty() const { return waiting_.empty(); }
 
-  // `who` waits for one turn. Nobody waits twice at a time.
+  // `who` waits for one turn. It must not wait twice at a time.
   void add(T who, const FairShare& share) {
     waiting_.push_back({std::max(now_, share.end), std::move(who)});
   }
 
-  // Of equals the one that has waited longest. Not when empty.
+  // Returns the user with the least used time; if equal, the one that has waited longest. Must not
+  // be empty.
   T take() {
     assert(!waiting_.empty());
     const auto next =
@@ -39,8 +40,8 @@ class FairOrder {
     return who;
   }
 
-  // Before the next take(): what the turn has cost. Of a new one: so much later it begins, lest
-  // one who comes anew each time is before those who have had a turn.
+  // Call it with the cost of a turn before the next take(). For a new user the cost delays the
+  // first turn, so that repeated reconnecting gives no advantage.
   void charge(FairShare& share, std::chrono::nanoseconds cost) { share.end = now_ + cost; }
 
   template <class Condition>

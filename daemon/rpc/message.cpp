@@ -71,7 +71,7 @@ void append_notification(std::string& out, std::string_view method, std::string_
   out += '}';
 }
 
-// A topic's name has no quotes in it.
+// The name of a topic contains no quotes.
 Notification notification_of(std::string_view message) {
   assert(message.starts_with(kBeforeMethod) && message.ends_with('}'));
   message.remove_prefix(kBeforeMethod.size() + 1);

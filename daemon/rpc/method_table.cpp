@@ -12,12 +12,12 @@ namespace mdof::rpc {
 namespace {
 
 constexpr std::size_t kEnvelopeBytes =
-    512;                               // of the JSON-RPC reply around the document, id included
-constexpr std::size_t kEndBytes = 64;  // what comes after the methods
+    512;  // of the JSON-RPC reply around the document, including the id
+constexpr std::size_t kEndBytes = 64;  // text after the methods
 constexpr const char* kLeftOut =
     R"({"description":"the schema does not fit into max_bytes; give a larger max_bytes"})";
 
-// As JSON Schema names them; the bytes of a text are no fewer than its characters.
+// Bounds in the names of JSON Schema; a text has at least as many bytes as characters.
 void write_bounds(JsonWriter& json, const Param& param) {
   const Bounds none;
   const bool numeric = param.type == ParamType::number || param.type == ParamType::integer;
@@ -40,7 +40,7 @@ std::string describe(const Param& param) {
   return json.take();
 }
 
-// "x-example-params", since an OpenRPC example pairing needs a result, which depends on the data.
+// "x-example-params", because an OpenRPC example pairing needs a result, which depends on the data.
 std::string describe(const Method& method, const std::string& schema) {
   JsonWriter json;
   json.begin_object().field("name", method.name).field("summary", method.summary);
@@ -54,7 +54,7 @@ std::string describe(const Method& method, const std::string& schema) {
   return json.take();
 }
 
-// The codes of errors, as OpenRPC has them.
+// The error codes in the form of OpenRPC.
 void write_components(JsonWriter& json) {
   json.key("components").begin_object().key("errors").begin_object();
   for (const CodeMeaning& each : code_meanings())
@@ -125,7 +125,7 @@ const Method* MethodTable::find(std::string_view name) const {
 }
 
 std::string MethodTable::nearest(std::string_view name) const {
-  if (name.size() > 64) return {};  // the distance of long texts is costly and says nothing
+  if (name.size() > 64) return {};  // the distance of long texts takes long and is useless
   std::vector<std::string> names;
   for (const auto& [known, method] : methods_) names.push_back(known);
   return nearest_of(name, names);

@@ -1,4 +1,4 @@
-// The right to answer one call, now or later, from any thread.
+// An object with which one call is answered, now or later, from any thread.
 #pragma once
 
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace mdof::rpc {
 
-// Move-only. Answers once: with JSON text or an Error; destroyed without an answer, the client gets
-// -32603. Thread-safe in that any one thread may hold and call it; the client may have gone, or
-// the whole server: then the answer goes nowhere.
+// Move-only. Call it once, with JSON text or an Error. If it is destroyed without an answer, the
+// client gets -32603. Any thread may own and call it. If the client or the server no longer exists,
+// the answer is dropped.
 class Reply {
  public:
   struct Slot;  // see exchange.h
@@ -22,12 +22,12 @@ class Reply {
 
   void operator()(Result<std::string> result);
 
-  // Who asked: the same for all calls of one client, expired once it has gone. Not after the
-  // answer.
+  // Identity of the client: equal for all calls of one client, expired after it has disconnected.
+  // Do not call it after the answer.
   std::weak_ptr<const void> client() const;
 
  private:
-  std::unique_ptr<Slot> slot_;  // empty once answered
+  std::unique_ptr<Slot> slot_;  // empty after the answer
 };
 
 }  // namespace mdof::rpc

@@ -10,7 +10,7 @@ using MaybeElement = std::optional<element>;
 
 struct Members {
   MaybeElement jsonrpc, method, params, id;
-  std::string_view twice;  // a member that is given twice; empty: none is
+  std::string_view twice;  // a repeated member; empty: none
   bool id_twice = false;
 };
 
@@ -30,7 +30,7 @@ Members members_of(const simdjson::dom::object& message) {
   return out;
 }
 
-// A second look at the line with the parser that keeps tokens; empty where it does not find them.
+// Reads the line again with the parser that keeps the text of numbers; empty if it is not found.
 std::string number_text(const Source& source) {
   using namespace simdjson;
   ondemand::parser parser;
@@ -62,9 +62,9 @@ bool may_be_id(const element& id) {
   return id.is_string() || id.is_number() || id.is_null();
 }
 
-// Where the specification shows an error object, that is what is sent: without a reason.
+// If the specification shows an error object, this object is sent unchanged, without a reason.
 std::optional<std::string> fault_of(const Members& members) {
-  // Another reader of the line (a log, a filter) may take the other of the two.
+  // Another reader of the line (a log, a filter) may use the other value.
   if (!members.twice.empty()) return "member \"" + std::string(members.twice) + "\" is given twice";
   if (!members.method || !members.method->is_string()) return "";
   std::string_view version;

@@ -1,4 +1,4 @@
-// One request object of JSON-RPC 2.0, taken from parsed JSON. Private header.
+// One request object of JSON-RPC 2.0, read from parsed JSON. Private header.
 #pragma once
 
 #include <simdjson.h>
@@ -10,21 +10,22 @@
 
 namespace mdof::rpc {
 
-// The line and where in it the request stands: a number's exact text is only there.
+// The line, and the request's index in it. Only the line has the exact text of a number.
 struct Source {
   std::string_view line;              // padded, and known to be JSON
-  std::optional<std::size_t> member;  // of a batch
+  std::optional<std::size_t> member;  // index in a batch
 };
 
-// Views end with the parsed document.
+// The views are valid as long as the parsed document.
 struct Request {
   std::string_view method;
   std::optional<simdjson::dom::element> params;  // an array or an object
   std::string id;                                // JSON text; empty: a notification
-  std::optional<std::string> invalid;            // not a request; the reason, may be empty
+  std::optional<std::string> invalid;            // reason why it is not a request; may be empty
 };
 
-// A member given twice makes it invalid (an id given twice is null); unknown ones are ignored.
+// A repeated member makes the request invalid (a repeated id becomes null); unknown members are
+// ignored.
 Request read_request(const simdjson::dom::element& message, const Source& source,
                      std::size_t max_id_bytes);
 

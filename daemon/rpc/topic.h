@@ -1,4 +1,4 @@
-// What clients can subscribe to.
+// Topics to which clients can subscribe.
 #pragma once
 
 #include <chrono>
@@ -6,15 +6,14 @@
 
 namespace mdof::rpc {
 
-// A message of a topic is a notification: its method is the topic's name, its params are
-// {"missed": n, "value": ...}. `missed` counts what was not sent since the message before.
+// A message of a topic is a notification: its method is the topic's name, its params are {"missed":
+// n, "value": ...}. `missed` counts the values that were not sent since the previous message.
 struct Topic {
   std::string name;
-  // false: a value, of which only the newest is worth sending, of each axis; a slow client gets
-  // fewer of them.
-  // true: an event, each worth sending; they queue for a slow client up to max_queued_events.
+  // false: a value, of which only the newest of each axis is sent; a slow client gets fewer values.
+  // true: an event, of which each is sent; for a slow client up to max_queued_events are queued.
   bool event = false;
-  std::chrono::milliseconds min_interval{20};  // between two messages to a client; values only
+  std::chrono::milliseconds min_interval{20};  // between two messages to a client; for values only
 };
 
 }  // namespace mdof::rpc

@@ -16,7 +16,7 @@ void notify(std::string state, std::string_view status) {
   std::replace_if(
       line.begin(), line.end(), [](char c) { return c == '\n' || c == '\0'; }, ' ');
   state += "STATUS=" + line;
-  sd_notify(0, state.c_str());  // the daemon works on without a service manager
+  sd_notify(0, state.c_str());  // without a service manager the daemon continues
 }
 
 }  // namespace

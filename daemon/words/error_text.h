@@ -1,4 +1,4 @@
-// An error as a person reads it: its message and the words of its remedy.
+// The text of an error for users: its message and its remedy.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace mdof::words {
 
-// What to do, without a full stop; {subject} is `what_for`. Of Remedy::none: "".
+// The remedy without a full stop; {subject} becomes `what_for`. "" for Remedy::none.
 std::string remedy(Remedy remedy, const std::string& what_for = "",
                    Language language = Language::english);
 
-// "rig_X.toml:3: … is wrong; take …". The message itself is English in any language.
+// "rig_X.toml:3: … is wrong; take …". The message itself is always English.
 std::string text(const Error& error, Language language = Language::english);
 
 }  // namespace mdof::words

@@ -1,5 +1,5 @@
-// The help of a program within so many columns: CLI11 neither breaks lines nor counts characters.
-// A header only, for those who include CLI11.
+// Formats the help of a program to a number of columns. CLI11 neither breaks lines nor counts
+// characters. In a header, because only users of CLI11 include it.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -30,7 +30,7 @@ class HelpFormatter : public CLI::Formatter {
   std::string make_usage(const CLI::App* app, std::string name) const override {
     return fitted(CLI::Formatter::make_usage(app, std::move(name)), columns_);
   }
-  // Examples stay as they are, so that they can be copied.
+  // Examples are not wrapped, so that they can be copied.
   std::string make_footer(const CLI::App* app) const override {
     std::istringstream lines(paragraphs(CLI::Formatter::make_footer(app)));
     std::string out;
@@ -40,7 +40,8 @@ class HelpFormatter : public CLI::Formatter {
   }
 
  private:
-  static constexpr std::size_t kCommandColumn = 20;  // two spaces before and behind the longest
+  static constexpr std::size_t kCommandColumn = 20;  // the longest command with two spaces before
+                                                     // and after it
 
   std::string row(const std::string& name, const std::string& description,
                   std::size_t column) const {
@@ -58,7 +59,7 @@ class HelpFormatter : public CLI::Formatter {
 
   // Joins lines of prose that a source file has broken. Lines that begin with a space are examples.
   static std::string paragraphs(std::string_view text) {
-    constexpr std::size_t kFull = 60;  // a shorter line was ended on purpose
+    constexpr std::size_t kFull = 60;  // a shorter line is a deliberate line end
     std::string out;
     bool goes_on = false;
     while (!text.empty()) {

@@ -36,7 +36,7 @@ static_assert(std::none_of(kPatterns.begin(), kPatterns.end(),
                            [](const Pattern& p) { return p.english == nullptr; }),
               "a code of schema/notice/notice_codes.inc has no row in daemon/words/notices/");
 
-// Values that algo gives: "targets 1 to 3", "forward", "the end" (of a log).
+// Values from algo: "targets 1 to 3", "forward", "the end" (of a log).
 struct GermanName {
   std::string_view english, german;
 };
@@ -54,7 +54,7 @@ std::string german_name(const std::string& name) {
   return name;
 }
 
-// "run 3" is a stored run here, not one pass over the targets.
+// Here "run 3" is a stored run, not one pass over the targets.
 std::string source_text(const std::string& source, Language language) {
   const bool is_run = source.starts_with("run ");
   return language == Language::german && is_run ? "Messung " + source.substr(4) : source;

@@ -1,5 +1,5 @@
-// The catalogue: what a reader sees of a notice, in plain English (CONTRIBUTING.md) or German.
-// The only place below the tools that may name a command or an option of mdof.
+// The catalogue of notice texts, in plain English (CONTRIBUTING.md) and German. Below the tools,
+// only this folder may name commands or options of mdof.
 #pragma once
 
 #include <string>
@@ -10,28 +10,28 @@
 
 namespace mdof::words {
 
-// German is for reports. Numbers keep their decimal point in both. Sentences that a notice carries
-// as a value (a device's or another program's own words) stay as they are.
+// German is for reports. Numbers have a decimal point in both languages. Sentences that a notice
+// contains as a value (from a device or another program) are not translated.
 enum class Language { english, german };
 
-// "run 3: probe \"B\" no longer changes …": without its severity.
+// "run 3: probe \"B\" no longer changes …", without the severity.
 std::string text(const Notice& notice);
 std::string text(const Notice& notice, Language language);
 
-// With it where it is not doubtful: "information: the axis was parked …".
+// With the severity if it is not doubtful: "information: the axis was parked …".
 std::string line(const Notice& notice, Language language = Language::english);
 
-// `pattern` with the values of the notice put for its fields:
-//   {key}          a name, or a number of four digits; digits before the point are all shown
-//   {key:6}        a number of six digits
-//   {key:+.3f}     a number as of printf
-//   {key:?a|b}     a where the number is 1 or the name is not empty, else b
-//   {subject}
-// A key that the notice lacks, as one of another version's database, reads "unknown".
+// Replaces the fields of `pattern` by the values of the notice:
+//  {key}          a name, or a number with four digits; all digits before the point are shown
+//  {key:6}        a number with six digits
+//  {key:+.3f}     a number in the format of printf
+//  {key:?a|b}     a if the number is 1 or the name is not empty, otherwise b
+//  {subject}
+// A key that the notice lacks (for example, in the database of another version) becomes "unknown".
 std::string filled(const char* pattern, const Notice& notice,
                    Language language = Language::english);
 
-// The pattern of a code.
+// The pattern of a notice code.
 const char* pattern(NoticeCode code, Language language = Language::english);
 
 // One sentence, without a full stop.

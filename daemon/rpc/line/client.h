@@ -11,22 +11,22 @@
 
 namespace mdof::rpc {
 
-// Thread-bound. After an io error of any call the connection is of no more use.
+// Thread-bound. Do not use the connection after a call has returned an io error.
 class Client {
  public:
   using milliseconds = std::chrono::milliseconds;
 
-  // Errors (io) say how to start the daemon, or which group may use the socket.
+  // The error (io) states how to start the daemon, or which group may use the socket.
   static Result<Client> connect(const std::string& socket_path);
 
-  // `params` is a JSON object or array. Gives the result as JSON text; an error of the server is
-  // one with its message (and data), the code being what codes.h makes of it. Notifications that
-  // come meanwhile are kept for next_notification().
+  // `params` is a JSON object or array. Returns the result as JSON text. An error of the server is
+  // returned with its message (and data) and the code according to codes.h. Notifications that
+  // arrive during the call are kept for next_notification().
   Result<std::string> call(std::string_view method, std::string_view params = "{}",
                            milliseconds timeout = milliseconds(30000));
-  // One notification, a whole line of JSON. Errors: io, also when none comes in time.
+  // Returns one notification, a whole line of JSON. Error: io, also if none arrives in time.
   Result<std::string> next_notification(milliseconds timeout);
-  // False once the daemon has closed the connection.
+  // False after the daemon has closed the connection.
   bool connected() const { return connected_; }
 
  private:
@@ -36,7 +36,7 @@ class Client {
   Result<std::string> read_line(Clock::time_point end);
 
   Descriptor socket_;
-  std::string received_;  // not yet a whole line
+  std::string received_;  // not yet a complete line
   std::deque<std::string> notifications_;
   std::int64_t last_id_ = 0;
   bool connected_ = true;

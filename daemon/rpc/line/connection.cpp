@@ -12,8 +12,8 @@
 namespace mdof::rpc {
 namespace {
 
-// A request line or a header: a page in a browser can send them with lines of its own behind them,
-// which must not be run. No request of ours begins so.
+// Whether the line is an HTTP request line or header. A page in a browser can send such lines
+// followed by lines of its own, which must not be run. No valid request begins like this.
 bool is_http(std::string_view line) {
   constexpr std::string_view kToken =
       "!#$%&'*+-.^_`|~0123456789"
@@ -67,7 +67,7 @@ void Connection::send_all() {
   wait();
 }
 
-// At least one request or member of a batch, so that it goes on however short a turn is.
+// Runs at least one request or batch member, so that there is progress in the shortest turn.
 void Connection::run_lines() {
   const auto until = Clock::now() + server_.service.options().turn;
   while (is_open() && session_->has_room() && next_line()) {
@@ -91,13 +91,13 @@ void Connection::take_line(Clock::time_point until) {
     return refuse(
         "this port accepts JSON-RPC lines, not HTTP; for HTTP use the address of the web page "
         "([http] of mdofd.toml)");
-  if (line.text.empty()) return;      // as a line end too many leaves it
-  std::string& out = output_.text();  // whole lines
+  if (line.text.empty()) return;      // an additional line end
+  std::string& out = output_.text();  // contains complete lines
   if (!session_->handle(line.text, out, until)) line_ = line;
   if (!out.empty() && out.back() != '\n') out += '\n';
 }
 
-// As long as the client takes it: what is left waits for the socket, or for its time.
+// Sends while the client takes the data; the rest waits for the socket or for its time.
 void Connection::send_due() {
   while (is_open() && output_.unsent() == 0 && session_->has_subscriptions()) {
     const auto next = session_->send_due(Clock::now());
@@ -107,7 +107,7 @@ void Connection::send_due() {
   }
 }
 
-// Exactly one thing comes next: writing, another turn, the end, or reading.
+// Exactly one of these follows: writing, another turn, the end, or reading.
 void Connection::wait() {
   if (closed_) return;
   if (output_.unsent() > 0) wait_writable();
@@ -116,15 +116,15 @@ void Connection::wait() {
     return wait_readable();
   }
   if (!session_->has_room())
-    return line_since_.reset();  // the line waits for us, not we for the line
+    return line_since_.reset();  // the line waits for the client, so its time does not count
   if (line_ || input_.has_line()) return go_on();
   if (finished()) return close();
   if (input_.partial() && !line_since_) line_since_ = Clock::now();
   wait_readable();
 }
 
-// A client that has closed both ways takes no reply any more: what it sent last, as a notification,
-// has had its turn, and what does not fit into that is not run.
+// A client that has closed both directions takes no reply. Its last messages (notifications) have
+// had one turn; messages that did not fit into this turn are not run.
 void Connection::go_on() {
   hung_up() ? close() : wake();
 }
@@ -133,7 +133,8 @@ bool Connection::finished() {
   return input_ended_ && output_.unsent() == 0 && session_->awaits_nothing();
 }
 
-// Only where no whole line waits: what next() gave has ended, and the space stays where it is.
+// Call it only if no complete line waits, because it invalidates the result of next() and may move
+// the data.
 void Connection::receive() {
   if (draining_since_) input_.discard();
   const auto space = input_.space();
@@ -154,8 +155,8 @@ void Connection::input_ended() {
   send(message);
 }
 
-// Says why, lets the client take it, closes. What it still sends is thrown away meanwhile, for a
-// socket closed with unread bytes would take the answer with it.
+// Sends the reason, lets the client read it, and closes. Input is discarded meanwhile, because
+// closing a socket with unread bytes would also discard the reply.
 void Connection::refuse(std::string_view why) {
   session_->refuse(why);
   server_.service.log(session_->name() + " refused: " + std::string(why));

@@ -1,5 +1,5 @@
-// Carries the messages of a session as lines over a socket, within the limits that keep a client
-// from harming the others. Private header.
+// Transmits the messages of a session as lines over a socket, within limits that protect the other
+// clients. Private header.
 #pragma once
 
 #include <chrono>
@@ -17,14 +17,15 @@ namespace mdof::rpc {
 
 struct ServerCore;
 
-// Thread-bound: the loop. All that takes time (receiving, requests, sending) is done in
-// take_turn(), which the server calls in an order that is fair; whatever else happens asks for a
-// turn, so that a handler never runs inside another.
+// Thread-bound: the event loop. All longer work (receiving, requests, sending) is done in
+// take_turn(), which the server calls in a fair order. Other events only ask for a turn, so that a
+// handler never runs inside another handler.
 class Connection final : public ClientSocket {
  public:
-  Connection(ServerCore& server, int socket);  // takes it; connected and non-blocking
+  Connection(ServerCore& server, int socket);  // takes ownership; the socket is connected and
+                                               // non-blocking
 
-  // One of the two comes first.
+  // Call one of these two first.
   void start(std::shared_ptr<Session> session);
   void turn_away(std::string_view why);
 
@@ -56,10 +57,10 @@ class Connection final : public ClientSocket {
 
   ServerCore& server_;
   LineBuffer input_;
-  std::optional<LineBuffer::Line> line_;  // being taken; valid as nothing is read meanwhile
+  std::optional<LineBuffer::Line> line_;  // in progress; valid because nothing is read meanwhile
   FairShare share_;
-  std::optional<Clock::time_point> line_since_;      // a line has begun and not ended
-  std::optional<Clock::time_point> draining_since_;  // nothing that comes is taken any more
+  std::optional<Clock::time_point> line_since_;      // begin of an incomplete line
+  std::optional<Clock::time_point> draining_since_;  // further input is discarded
 };
 
 }  // namespace mdof::rpc

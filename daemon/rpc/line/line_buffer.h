@@ -1,4 +1,4 @@
-// Received bytes, cut into lines. Private header.
+// Divides received bytes into lines. Private header.
 #pragma once
 
 #include <cstddef>
@@ -11,26 +11,26 @@ namespace mdof::rpc {
 
 class LineBuffer {
  public:
-  // `padding` bytes after each line may be read by whoever gets it.
+  // The user of a line may read `padding` bytes after it.
   LineBuffer(std::size_t max_line_bytes, std::size_t padding);
 
-  // Where to receive; not empty unless the next line is too long. Ends what next() gave.
+  // Space for receiving; empty only if the next line is too long. Invalidates the result of next().
   std::span<char> space();
   void received(std::size_t bytes) { end_ += bytes; }
   void discard() { begin_ = scanned_ = end_; }
 
   struct Line {
     std::string_view text;  // without LF or CR LF
-    bool too_long = false;  // then nothing can follow
+    bool too_long = false;  // nothing can follow such a line
   };
-  bool has_line();             // one more is there, or is too long
+  bool has_line();             // a complete line or a line that is too long
   std::optional<Line> next();  // valid until space()
   bool partial() { return begin_ < end_ && !has_line(); }
 
  private:
   std::size_t max_line_, capacity_;
   std::unique_ptr<char[]> bytes_;
-  std::size_t begin_ = 0, end_ = 0;  // what is not yet taken
+  std::size_t begin_ = 0, end_ = 0;  // bytes not yet taken
   std::size_t scanned_ = 0;          // no LF in [begin_, scanned_)
 };
 

@@ -13,7 +13,7 @@
 namespace mdof::rpc {
 namespace {
 
-// A socket file, to be removed if it is still ours.
+// A socket file, which is removed if it is still the same file.
 struct SocketFile {
   std::string path;
   dev_t device = 0;

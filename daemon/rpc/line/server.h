@@ -1,5 +1,5 @@
-// The sessions of a service on Unix and TCP sockets, a message a line. README.md has the rules of
-// the wire.
+// Serves the sessions of a service on Unix and TCP sockets, one message a line. README.md describes
+// the protocol.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: every call on the loop's thread, or while the loop does not run. The service
-// outlives it, and so does the loop.
+// Thread-bound: call it on the loop's thread, or while the loop does not run. The service and the
+// loop must outlive it.
 class LineServer {
  public:
   LineServer(EventLoop& loop, Service& service);
@@ -22,13 +22,13 @@ class LineServer {
   LineServer(const LineServer&) = delete;
   LineServer& operator=(const LineServer&) = delete;
 
-  // Mode 0660. A socket file left by a daemon that is no more is replaced; where one answers, that
-  // is an error (conflict).
+  // Mode 0660. Replaces the socket file of a daemon that no longer runs. Error (conflict): a daemon
+  // answers on the socket.
   Status listen_unix(const std::string& path);
-  // An already listening Unix or TCP socket, as from sd_listen_fds(); owns it from then on, unless
-  // that is an error.
+  // A socket that already listens (Unix or TCP), for example from sd_listen_fds(). Takes ownership
+  // unless it returns an error.
   Status listen_fd(int fd);
-  // Loopback only: "127.0.0.1" or "::1"; port 0 takes a free one. Gives the port.
+  // Loopback only: "127.0.0.1" or "::1"; port 0 selects a free one. Returns the port.
   Result<std::uint16_t> listen_tcp(const std::string& address, std::uint16_t port);
 
  private:

@@ -17,7 +17,7 @@ void ServerCore::adopt(int socket) {
   const auto connection = std::make_shared<Connection>(*this, socket);
   auto session = service.admit(peer_of(socket), *connection);
   if (!session) return connection->turn_away(session.error().message);
-  // One who comes again and again is not before those who stay.
+  // Charges a turn, so that a client that reconnects repeatedly is not served before the others.
   order_.charge(connection->share(), service.options().turn);
   connection->start(std::move(*session));
   begin(connection);
@@ -25,7 +25,7 @@ void ServerCore::adopt(int socket) {
 
 void ServerCore::ask_for_turn(std::shared_ptr<Connection> connection) {
   if (connection.get() == in_turn_) {
-    again_ = true;  // once its turn has been charged
+    again_ = true;  // after its turn has been charged
     return;
   }
   const FairShare share = connection->share();

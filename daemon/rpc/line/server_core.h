@@ -1,4 +1,4 @@
-// What the connections of a line server share. Private header.
+// Data that the connections of a line server share. Private header.
 #pragma once
 
 #include <chrono>
@@ -9,12 +9,12 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: the loop.
+// Thread-bound: the event loop.
 struct ServerCore final : ClientSet<Connection> {
   using ClientSet::ClientSet;
   ~ServerCore() override { close_all(); }
 
-  void adopt(int socket);  // a connected client, or one too many
+  void adopt(int socket);  // a connected client, which is turned away if all places are taken
   void ask_for_turn(std::shared_ptr<Connection> connection);
 
  private:
@@ -23,7 +23,7 @@ struct ServerCore final : ClientSet<Connection> {
   void wake_due() override;
   std::chrono::milliseconds least_limit() const override;
 
-  FairOrder<std::shared_ptr<Connection>> order_;  // who has a request to run
+  FairOrder<std::shared_ptr<Connection>> order_;  // connections with a request to run
   bool again_ = false;
   const Connection* in_turn_ = nullptr;
 };

@@ -1,12 +1,12 @@
-// Boost.Asio as this folder uses it: without deprecated names, for its loop: descriptors, timers,
-// signals. Sockets are opened and written to by plain system calls. Not the standalone Asio:
-// Boost.Beast (daemon/rpc/web/) does not run on that, and the two must not meet. Private header.
+// Boost.Asio without deprecated names. This folder uses its loop: descriptors, timers and signals.
+// Sockets are opened and written with plain system calls. Not the standalone Asio, because
+// Boost.Beast (daemon/rpc/web/) needs Boost.Asio, and both must not be mixed. Private header.
 #pragma once
 
 #ifndef BOOST_ASIO_NO_DEPRECATED
 #define BOOST_ASIO_NO_DEPRECATED
 #endif
-#ifdef MDOF_SANITIZED  // TSan does not follow fences; the loop's queues have their mutex
+#ifdef MDOF_SANITIZED  // TSan does not support fences; a mutex protects the loop's queues
 #define BOOST_ASIO_DISABLE_FENCED_BLOCK
 #endif
 #include <boost/asio/buffer.hpp>
@@ -20,6 +20,6 @@
 namespace mdof::rpc {
 
 namespace asio = boost::asio;
-using LoopError = boost::system::error_code;  // what a wait ended with
+using LoopError = boost::system::error_code;  // result of a wait
 
 }  // namespace mdof::rpc

@@ -1,5 +1,5 @@
-// The connections of a server of either kind: they have turns in slices, are looked at from time to
-// time, and are woken when a value is due. Private header.
+// The connections of a server of either kind. They get turns in time slices, are checked regularly,
+// and are woken when a value is due. Private header.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: the loop. `C`: a ClientSocket with check_times().
+// Thread-bound: the event loop. `C`: a ClientSocket with check_times().
 template <class C>
 struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
   using Clock = std::chrono::steady_clock;
@@ -36,7 +36,7 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
     due_timer_.expires_at(when);
     due_timer_.async_wait([weak = this->weak_from_this()](const LoopError& error) {
       const auto self = weak.lock();
-      if (!self || error) return;  // gone, or an earlier time took its place
+      if (!self || error) return;  // destroyed, or replaced by an earlier time
       self->due_.reset();
       self->wake_due();
     });
@@ -47,10 +47,10 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
   std::vector<std::shared_ptr<C>> connections;
 
  protected:
-  // To the connection that is next; returns the time after its turn.
+  // Gives a turn to the next connection; returns the time after this turn.
   virtual Clock::time_point give_turn(Clock::time_point now) = 0;
   virtual bool awaits_turn() const = 0;
-  virtual void wake_due() = 0;  // the connections that have a value to send now
+  virtual void wake_due() = 0;  // wakes connections whose value is due
   virtual std::chrono::milliseconds least_limit() const = 0;
 
   void close_all() {
@@ -68,8 +68,8 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
   }
 
  private:
-  // In slices, between which the loop looks at sockets and timers: a request that has just come
-  // needs not wait for all who are before it in the queue of the loop.
+  // Works in time slices. Between them the loop checks sockets and timers, so that a new request
+  // need not wait for all connections that are before it in the queue.
   void give_turns() {
     constexpr std::chrono::microseconds kSlice{300};
     turns_posted_ = false;
@@ -77,7 +77,7 @@ struct ClientSet : std::enable_shared_from_this<ClientSet<C>> {
     for (const auto end = now + kSlice; awaits_turn() && now < end;) now = give_turn(now);
     if (awaits_turn()) post_turns();
   }
-  // Often enough to keep a limit to within an eighth of it.
+  // Often enough to exceed a limit by at most an eighth of it.
   void sweep() {
     for (const auto& connection : std::vector(connections)) connection->check_times(Clock::now());
     if (connections.empty()) {

@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Keeps itself alive through its own pending wait.
+// Its pending wait keeps the object alive.
 struct Ticker : std::enable_shared_from_this<Ticker> {
   Ticker(asio::io_context& context, Clock::duration every, std::function<void()> call)
       : timer(context), period(every), work(std::move(call)), due(Clock::now()) {}
@@ -51,7 +51,7 @@ struct SignalWatch : std::enable_shared_from_this<SignalWatch> {
 struct ReadWatch : std::enable_shared_from_this<ReadWatch> {
   ReadWatch(asio::io_context& context, int fd, std::function<void()> call)
       : descriptor(context, fd), work(std::move(call)) {}
-  ~ReadWatch() { descriptor.release(); }  // the caller's
+  ~ReadWatch() { descriptor.release(); }  // the descriptor belongs to the caller
 
   void wait() {
     descriptor.async_wait(asio::posix::descriptor_base::wait_read,
@@ -75,7 +75,7 @@ EventLoop::~EventLoop() {
     const std::scoped_lock lock(core_->mutex);
     core_->open = false;
   }
-  core_->context.reset();  // outside the lock: what it destroys may try to post
+  core_->context.reset();  // outside the lock, because destroyed objects may post
 }
 
 std::shared_ptr<Executor> EventLoop::executor() const {

@@ -1,5 +1,5 @@
-// The loop that the daemon's main owns: readiness of descriptors, timers, signals and work posted
-// from other threads, one after the other on the thread that called run().
+// The event loop of the main thread: readiness of descriptors, timers, signals and work from other
+// threads, run one after the other on the thread that called run().
 #pragma once
 
 #include <chrono>
@@ -14,33 +14,34 @@ namespace mdof::rpc {
 
 class EventLoop {
  public:
-  struct Core;  // of Asio; see event_loop_core.h
+  struct Core;  // contains the Asio objects; see event_loop_core.h
 
   EventLoop();
-  // After run() has returned. Work that is still queued is destroyed, not run.
+  // Call it after run() has returned. Queued work is destroyed without being run.
   ~EventLoop();
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
 
-  // Runs until stop(); never returns for want of work.
+  // Runs until stop(), also without any work.
   void run();
-  // Thread-safe. What is running ends first.
+  // Thread-safe. Running work is finished first.
   void stop();
-  // Thread-safe. In order for one posting thread; after the loop's end nothing happens.
+  // Thread-safe. Keeps the order of each posting thread. Does nothing after the loop's end.
   void post(std::function<void()> work);
-  // Before run() or on the loop: every `period`, on a fixed grid; missed ticks are left out.
+  // Before run() or on the loop: calls `work` every `period`, on a fixed grid; missed ticks are
+  // skipped.
   void call_every(std::chrono::nanoseconds period, std::function<void()> work);
   // Before run() or on the loop: calls `work(number)` on the loop for each of these signals.
   void on_signal(const std::vector<int>& signals, std::function<void(int)> work);
-  // Before run() or on the loop: calls `work` whenever there is something to read, which it takes.
-  // The descriptor stays the caller's and must outlive the loop's run().
+  // Before run() or on the loop: calls `work` whenever the descriptor is readable; `work` must read
+  // the data. The caller keeps the descriptor, which must outlive run().
   void on_readable(int descriptor, std::function<void()> work);
 
   const std::shared_ptr<Core>& core() const { return core_; }
-  std::shared_ptr<Executor> executor() const;  // this loop, for those who know no loops
+  std::shared_ptr<Executor> executor() const;  // for users that do not depend on EventLoop
 
  private:
-  std::shared_ptr<Core> core_;  // shared with those who may post after the loop has gone
+  std::shared_ptr<Core> core_;  // shared with objects that may post after the loop's end
 };
 
 }  // namespace mdof::rpc

@@ -1,4 +1,4 @@
-// What is behind EventLoop. Private header.
+// Implementation of EventLoop. Private header.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,11 @@
 namespace mdof::rpc {
 
 struct EventLoop::Core final : Executor {
-  std::mutex mutex;  // guards `open`, and the context against posts while it goes
+  std::mutex mutex;  // protects `open`, and the context against posts during its destruction
   bool open = true;
   std::unique_ptr<asio::io_context> context = std::make_unique<asio::io_context>(1);
 
-  // Thread-safe; drops the work when the loop has gone.
+  // Thread-safe. Drops the work after the loop's end.
   template <class Work>
   void post(Work&& work) {
     const std::scoped_lock lock(mutex);

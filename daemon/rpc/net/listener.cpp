@@ -47,7 +47,7 @@ void Listener::accept_some() {
   if (adopt_) start();
 }
 
-// Out of descriptors or memory: the waiting client would wake the loop without end.
+// Without free descriptors or memory, the waiting client would wake the loop again and again.
 void Listener::wait_a_little(int why) {
   log_("cannot accept a client (mdofd tries again): " + system_error_text(why));
   pause_.emplace(socket_.get_executor(), kPause);

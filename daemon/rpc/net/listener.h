@@ -12,10 +12,10 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: the loop.
+// Thread-bound: the event loop.
 class Listener : public std::enable_shared_from_this<Listener> {
  public:
-  // Gives each connected, non-blocking socket to `adopt`, which owns it from then on.
+  // Passes each connected, non-blocking socket to `adopt`, which then owns it.
   Listener(EventLoop::Core& loop, Descriptor socket, std::function<void(int)> adopt,
            std::function<void(const std::string&)> log);
 

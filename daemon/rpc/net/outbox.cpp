@@ -7,7 +7,7 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::size_t kKeepCapacity = 128 * 1024;  // beyond this an empty buffer is given back
+constexpr std::size_t kKeepCapacity = 128 * 1024;  // a larger empty buffer is released
 
 }  // namespace
 

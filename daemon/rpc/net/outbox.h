@@ -1,4 +1,4 @@
-// Lines on their way to a client. Private header.
+// Lines that wait to be sent to a client. Private header.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +9,19 @@ namespace mdof::rpc {
 
 class Outbox {
  public:
-  // To append whole lines to.
+  // Append only whole lines.
   std::string& text() { return text_; }
   std::size_t unsent() const { return text_.size() - sent_; }
 
-  // Sends what the socket takes without waiting. Bytes sent; nothing: the connection is broken.
+  // Sends as much as the socket takes without blocking. Returns the number of bytes; nullopt: the
+  // connection is broken.
   std::optional<std::size_t> flush(int socket);
 
  private:
   void forget_sent();
 
   std::string text_;
-  std::size_t sent_ = 0;  // of text_
+  std::size_t sent_ = 0;  // bytes of text_
 };
 
 }  // namespace mdof::rpc

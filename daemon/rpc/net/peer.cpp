@@ -20,18 +20,18 @@ bool is_unix(int socket) {
   return ::getsockopt(socket, SOL_SOCKET, SO_DOMAIN, &domain, &bytes) == 0 && domain == AF_UNIX;
 }
 
-// Empty as well where the kernel does not know.
+// Also empty if the kernel does not report them.
 std::vector<gid_t> further_groups(int socket) {
   socklen_t bytes = 0;
   (void)::getsockopt(socket, SOL_SOCKET, SO_PEERGROUPS, nullptr,
-                     &bytes);  // says how many there are
+                     &bytes);  // returns their size
   std::vector<gid_t> groups(bytes / sizeof(gid_t));
   if (groups.empty() || ::getsockopt(socket, SOL_SOCKET, SO_PEERGROUPS, groups.data(), &bytes) != 0)
     return {};
   return groups;
 }
 
-// An address as the kernel's table of sockets has it.
+// An address in the format of the kernel's socket table.
 struct Endpoint {
   sa_family_t family = AF_UNSPEC;
   __be16 port = 0;
@@ -85,8 +85,8 @@ OwnerQuestion question_about(const Endpoint& client, const Endpoint& server) {
   return ask;
 }
 
-// The client's end of the connection is a socket of this machine as well: the kernel is asked for
-// exactly that one, which takes no longer however many there are.
+// The client's end of the connection is also a socket of this machine. The request names exactly
+// this socket, so that it takes the same time for any number of sockets.
 std::optional<uid_t> owner_of_client(int socket) {
   const Endpoint client = endpoint(socket, ::getpeername), server = endpoint(socket, ::getsockname);
   if (client.family != AF_INET && client.family != AF_INET6) return std::nullopt;

@@ -1,13 +1,13 @@
-// Who is at the other end of a socket, as the kernel took it down when the client connected.
-// Private header.
+// The process at the other end of a socket, as recorded by the kernel at connection. Private
+// header.
 #pragma once
 
 #include "daemon/rpc/session/peer.h"
 
 namespace mdof::rpc {
 
-// Of a Unix socket its credentials; of a TCP client whose socket it is, where the kernel says so
-// that.
+// For a Unix socket its credentials; for a TCP client the owner of its socket, if the kernel
+// reports it.
 Peer peer_of(int socket);
 
 }  // namespace mdof::rpc

@@ -1,4 +1,4 @@
-// Sockets to listen on. Private header.
+// Listening sockets. Private header.
 #pragma once
 
 #include <cstdint>
@@ -26,15 +26,16 @@ class Descriptor {
 
 std::string system_error_text(int number);
 
-// Non-blocking and listening. Mode 0660; a socket file that nobody answers on is replaced.
+// Non-blocking and listening. Mode 0660. Replaces a socket file on which no process answers.
 Result<Descriptor> listen_on_unix(const std::string& path);
 // 127.0.0.1 or ::1; port 0: any.
 Result<Descriptor> listen_on_tcp(const std::string& address, std::uint16_t port);
-// Errors: usage, if it is no listening stream socket of these kinds. Does not take it.
+// Error: usage, if the descriptor is no listening stream socket of these kinds. Does not take
+// ownership.
 Status check_listening(int fd);
 std::uint16_t port_of(int socket);
 
-// Blocking. The error number is errno's, for the caller to word.
+// Blocking. The error is errno; the caller makes its message.
 tl::expected<Descriptor, int> connect_to_unix(const std::string& path);
 // Errors: usage, if the path does not fit into a socket address.
 Status check_unix_path(const std::string& path);

@@ -1,4 +1,4 @@
-// The parameters of a method that lists; schema/base/json_page.h fills the page.
+// The parameters of methods that return lists; schema/base/json_page.h fills the page.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace mdof::rpc {
 
-// "offset" and "count": at most `most` items are looked at for a page.
+// "offset" and "count". A page reads at most `most` items.
 Param offset_param();
 Param count_param(std::int64_t most);
 

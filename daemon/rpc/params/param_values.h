@@ -10,14 +10,14 @@
 
 namespace mdof::rpc {
 
-// One value a parameter of the row, in its order; empty: absent or null.
+// One value for each parameter of the row, in its order; empty: absent or null.
 struct ParamValues {
   const Method* method = nullptr;
   std::vector<std::optional<simdjson::dom::element>> values;
 };
 
-// Fills `out` from the request's params: an object by name, an array by position, or none. Errors
-// are of usage and name the parameter.
+// Fills `out` from the request's params (object: by name; array: by position; or none). Errors are
+// `usage` and name the parameter.
 Status check_params(const Method& method, const std::optional<simdjson::dom::element>& params,
                     ParamValues& out);
 

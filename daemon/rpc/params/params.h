@@ -13,9 +13,9 @@ namespace mdof::rpc {
 
 struct ParamValues;  // see param_values.h
 
-// Names are those of the row; to ask for another name, or for another type than the row states, is
-// a bug. What is optional and absent (or null) gives the fallback.
-// Thread-bound, and valid only until the handler returns: keep copies, not views.
+// Use only names of the row, with the type of the row; anything else is a programming error. An
+// optional parameter that is absent or null gives the fallback. Thread-bound, and valid only until
+// the handler returns: keep copies, not views.
 class Params {
  public:
   Params(const ParamValues& values, Caller& caller) : values_(values), caller_(caller) {}
@@ -25,11 +25,12 @@ class Params {
   double number(std::string_view name, double fallback = 0) const;
   std::int64_t integer(std::string_view name, std::int64_t fallback = 0) const;
   bool boolean(std::string_view name, bool fallback = false) const;
-  // Of an array; an element of another type is a usage error that names it. Absent: empty.
+  // The elements of an array. An element of another type gives a usage error that names it. Empty
+  // if absent.
   Result<std::vector<double>> numbers(std::string_view name) const;
   Result<std::vector<std::int64_t>> integers(std::string_view name) const;
   Result<std::vector<std::string>> strings(std::string_view name) const;
-  // Any value as JSON text without spaces. Absent: empty.
+  // Any value as JSON text without spaces. Empty if absent.
   std::string json(std::string_view name) const;
 
   Caller& caller() const { return caller_; }

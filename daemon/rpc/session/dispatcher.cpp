@@ -19,7 +19,7 @@ struct Dispatcher::Parser {
   Parser(std::shared_ptr<Executor> loop, const MethodTable& methods, const ServerOptions& limits)
       : executor(std::move(loop)), table(methods), options(limits) {}
 
-  // One message's way through the calls below.
+  // The data of one message for the calls below.
   struct Message {
     std::string_view text;
     Caller& caller;
@@ -35,7 +35,7 @@ struct Dispatcher::Parser {
   bool begin_batch(const Message& message, std::size_t members) const;
   void call_member(const Message& message, const Request& request,
                    const std::shared_ptr<Exchange>& exchange);
-  // The row and its checked parameters (in `values`), or what is wrong with the request.
+  // The method and its checked parameters (in `values`), or the fault of the request.
   struct Refusal {
     int code;
     std::string message, data;
@@ -123,7 +123,7 @@ tl::expected<const Method*, Dispatcher::Parser::Refusal> Dispatcher::Parser::pre
   return method;
 }
 
-// The way of nearly every call: no allocation of its own.
+// Handles almost every call; it needs no allocation of its own.
 Handled Dispatcher::Parser::handle_single(const Message& message,
                                           const simdjson::dom::element& parsed) {
   const Request request = read_request(parsed, {message.text, std::nullopt}, options.max_id_bytes);

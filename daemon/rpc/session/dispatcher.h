@@ -1,4 +1,4 @@
-// One message of JSON-RPC 2.0 in, its reply out: parsing, the rules of the specification, calling.
+// Handles one JSON-RPC 2.0 message and makes its reply: parsing, rules of the specification, calls.
 // Private header.
 #pragma once
 
@@ -14,18 +14,18 @@
 
 namespace mdof::rpc {
 
-// A batch of which not all members have been called yet.
+// A batch whose members have not all been called yet.
 struct BegunBatch {
-  std::shared_ptr<Exchange> exchange;  // none: no batch is under way
-  std::size_t next = 0;                // member
+  std::shared_ptr<Exchange> exchange;  // null: no batch in progress
+  std::size_t next = 0;                // index of the next member
 };
 
 struct Handled {
   bool open = false;   // the reply comes later, through the sink
-  bool begun = false;  // of a batch there is more to call
+  bool begun = false;  // the batch has more members to call
 };
 
-// Thread-bound: the loop. Not reentrant: a handler must not bring about another handle().
+// Thread-bound: the event loop. Not reentrant: a handler must not cause another handle().
 class Dispatcher {
  public:
   Dispatcher(std::shared_ptr<Executor> executor, const MethodTable& table,
@@ -34,9 +34,10 @@ class Dispatcher {
 
   using Clock = std::chrono::steady_clock;
 
-  // `message` is followed by kPadding readable bytes of any value. Appends the reply to `out` where
-  // it is known at once; it never has a line end in it. No member of a batch is called after
-  // `until`, but the first: the same message with the same `batch` then goes on with it.
+  // `message` must be followed by kPadding readable bytes of any value. Appends the reply to `out`
+  // if it is known at once; it never contains a line end. After `until`, no further member of a
+  // batch is called (the first one always is); call it again with the same message and `batch` to
+  // continue.
   Handled handle(std::string_view message, Caller& caller, std::weak_ptr<ReplySink> sink,
                  std::string& out, BegunBatch& batch, Clock::time_point until);
 

@@ -1,4 +1,4 @@
-// The one thread that sessions run on, as others see it.
+// The thread on which all sessions run, as an interface.
 #pragma once
 
 #include <functional>
@@ -8,8 +8,8 @@ namespace mdof::rpc {
 class Executor {
  public:
   virtual ~Executor() = default;
-  // Thread-safe. Runs `work` on that thread: at once when called there, else in a later turn; once
-  // the thread takes no more work, never.
+  // Thread-safe. Runs `work` on that thread: at once if called there, otherwise later. Drops it if
+  // the thread accepts no more work.
   virtual void dispatch(std::function<void()> work) = 0;
 };
 

@@ -1,4 +1,4 @@
-// Who is at the other end of a transport, taken down when the client connected.
+// The process at the other end of a transport, recorded at connection.
 #pragma once
 
 #include <sys/types.h>
@@ -12,16 +12,16 @@
 namespace mdof::rpc {
 
 struct Peer {
-  std::optional<Credentials> credentials = {};  // nothing where the kernel does not know: TCP
-  std::vector<gid_t> further_groups = {};       // beside that of the credentials
-  // Of a TCP client of this machine: whose socket it is. Counts for places and gives no right, as
-  // that of a Unix socket does.
+  std::optional<Credentials> credentials = {};  // nullopt if the kernel does not report them (TCP)
+  std::vector<gid_t> further_groups = {};       // besides the group of the credentials
+  // Owner of the socket of a TCP client on this machine. It counts for the limit of connections,
+  // like the user of a Unix socket, but gives no permissions.
   std::optional<uid_t> socket_owner = {};
-  // Of a browser each request has its own right: its token, and nothing else, lets it write.
+  // Each request of a browser has its own permission: only its token permits writing.
   enum class Http { no, reads, writes };
   Http http = Http::no;
 
-  bool is_member(gid_t group) const {  // never without credentials
+  bool is_member(gid_t group) const {  // always false without credentials
     const auto& further = further_groups;
     return credentials && (credentials->gid == group ||
                            std::find(further.begin(), further.end(), group) != further.end());

@@ -9,9 +9,9 @@
 namespace mdof::rpc {
 namespace {
 
-// Limits that contradict each other are brought into what can be kept.
+// Changes contradictory limits to possible ones.
 ServerOptions consistent(ServerOptions o) {
-  constexpr std::size_t kLeastReply = 16 * 1024;  // the longest error has room
+  constexpr std::size_t kLeastReply = 16 * 1024;  // fits the longest error
   o.max_reply_bytes = std::max(o.max_reply_bytes, kLeastReply);
   o.max_unsent_bytes = std::max(o.max_unsent_bytes, 2 * o.max_reply_bytes);
   o.max_id_bytes = std::clamp<std::size_t>(o.max_id_bytes, 32, 1024);
@@ -47,9 +47,8 @@ Service::Service(std::shared_ptr<Executor> loop, const MethodTable& table, Serve
       dispatcher_(std::move(loop), table, options_),
       topics_(options_) {}
 
-// The kept place is of use only while it cannot be taken by those who have all the others.
-// Browsers have places of their own, as many as their transport has connections: they cannot keep
-// the machine's control out.
+// The reserved place is given only if no ordinary place is free. Browsers have separate places,
+// limited by their transport, so that they cannot exclude the machine's control.
 Result<Service::Place> Service::place_for(const Peer& peer) const {
   if (peer.http != Peer::Http::no) return Place::http;
   std::size_t of_user = 0, ordinary = 0, kept = 0;

@@ -1,5 +1,5 @@
-// What all clients share, whatever carries their messages: methods, topics, limits and places.
-// README.md has the rules of the wire.
+// Data that all clients share, independent of their transport: methods, topics, limits and
+// connections. README.md describes the protocol.
 #pragma once
 
 #include <chrono>
@@ -19,35 +19,36 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: every call on the loop's thread, or while the loop does not run; from elsewhere
-// through the loop. Outlived by the table, outlives every transport.
+// Thread-bound: call it on the loop's thread (from other threads through the loop), or while the
+// loop does not run. The table must outlive it, and it must outlive all transports.
 class Service {
  public:
-  // `loop` runs what comes of late replies.
+  // `loop` runs the follow-up work of late replies.
   Service(std::shared_ptr<Executor> loop, const MethodTable& table, ServerOptions options = {});
   Service(const Service&) = delete;
   Service& operator=(const Service&) = delete;
 
-  // A session for a client that has connected, or why there is no place for it. It has its place
-  // until nobody holds it any more: the transport releases it when the client has gone.
+  // Returns a session for a connected client, or the reason why there is no free place. The session
+  // keeps its place until it is released: the transport releases it when the client disconnects.
   Result<std::shared_ptr<Session>> admit(Peer peer, Transport& transport);
   std::size_t session_count() const;
-  std::vector<std::string> clients() const;  // their names (Session::name())
+  std::vector<std::string> clients() const;  // from Session::name()
 
   void add_topic(Topic topic);
-  // Is there such a topic?
+  // nullptr if the topic does not exist.
   const Topic* topic(std::string_view name) const { return topics_.topic(name); }
-  // Calls `hear` with each event, subscribed to or not, before subscribers get it: for what keeps
-  // events for those who come back. Nothing: no more.
+  // Calls `hear` with each event, with or without subscribers, before they get it. It serves to
+  // keep events for browsers that reconnect. An empty function ends this.
   using Hear = std::function<void(std::string_view topic, std::string_view json)>;
   void on_event(Hear hear) { hear_ = std::move(hear); }
-  // How often values are to be made, so that none is made in vain and each subscriber gets a fresh
-  // one: at their interval, and as often as the topic allows while one awaits his first or they
-  // have asked for different ones. Nothing: nobody has subscribed.
+  // The interval at which values should be made, so that no value is made in vain and all
+  // subscribers get new ones: the common interval of the subscribers, or the shortest interval of
+  // the topic if a subscriber waits for its first value or the intervals differ. nullopt: no
+  // subscribers.
   std::optional<std::chrono::milliseconds> wanted_every(std::string_view topic) const;
-  // `json` is one JSON value. Cheap: the value is shared by those who wait for it, and sent in a
-  // later turn of the loop. Errors: no such topic, too large for a reply (subscribers then learn
-  // in "missed"). `of`: what it is a value of (topic.h).
+  // `json` is one JSON value. Cheap: all waiting subscribers share the value, and it is sent in a
+  // later turn of the loop. Errors: unknown topic; value too large for a reply (subscribers then
+  // see it in "missed"). `of`: the source of the value (topic.h).
   Status publish(std::string_view topic, std::string json, std::string_view of = "");
 
   const ServerOptions& options() const { return options_; }
@@ -66,7 +67,7 @@ class Service {
   TopicHub topics_;
   std::vector<Holder> holders_;
   Hear hear_;
-  std::string last_refusal_;  // the log, why a client was turned away
+  std::string last_refusal_;  // the last logged reason for which a client was turned away
 };
 
 }  // namespace mdof::rpc

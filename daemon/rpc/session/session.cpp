@@ -71,7 +71,7 @@ void Session::refuse(std::string_view why) {
   end_with(kInvalidRequest, "Invalid Request", why);
 }
 
-// The place is another's from then on; a client that comes back to it learns why.
+// The place becomes free; a client that uses the connection again sees the reason.
 void Session::end_idle() {
   end_with(kBusy,
            "the connection was idle for " +

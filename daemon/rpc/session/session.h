@@ -1,5 +1,5 @@
-// One client, whatever carries its messages: what it may do, which of its calls are open, what it
-// has subscribed to. Private header.
+// One client, independent of its transport: its permissions, open calls and subscriptions. Private
+// header.
 #pragma once
 
 #include <chrono>
@@ -18,26 +18,26 @@
 
 namespace mdof::rpc {
 
-// Carries the messages of one session. Its calls come from the session, on the loop.
+// Transmits the messages of one session. The session calls it on the event loop.
 class Transport {
  public:
   virtual ~Transport() = default;
-  // Takes one message; what marks its end on the wire is the transport's to add.
+  // Sends one message; the transport adds the line end or other framing.
   virtual void send(std::string_view message) = 0;
-  virtual std::size_t unsent() const = 0;  // bytes that the client has not taken yet
-  // Asks for a turn: there is something to send, or room for a request again. Comes from within
-  // other work, so that the turn must be a later one.
+  virtual std::size_t unsent() const = 0;  // bytes that the client has not yet taken
+  // Asks for a turn, because there is something to send or space for a request again. It is called
+  // during other work, so the turn must come later.
   virtual void wake() = 0;
 };
 
-// What the sessions of a daemon share; outlives them.
+// Objects that all sessions of a daemon share; they outlive the sessions.
 struct SessionParts {
   Dispatcher& dispatcher;
   TopicHub& topics;
   const ServerOptions& options;
 };
 
-// Thread-bound: the loop. The transport releases it before it ends itself.
+// Thread-bound: the event loop. The transport releases it before its own end.
 class Session final : public Caller,
                       public ReplySink,
                       public Subscriber,
@@ -50,25 +50,25 @@ class Session final : public Caller,
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  // The rule behind all bounds: a request begins only when its largest reply has room.
+  // The basis of all limits: a request only begins if its largest reply has space.
   bool has_room() const;
-  // Takes one message, followed by Dispatcher::kPadding readable bytes; only with has_room() and
-  // before end(). Appends the reply to `out` where it is known at once; a later one goes to
-  // Transport::send. False: it is a batch that was not done by `until`; the same message has to
-  // be given again, before any other.
+  // Handles one message, followed by Dispatcher::kPadding readable bytes. Call it only with
+  // has_room() and before end(). Appends the reply to `out` if it is known at once; a later reply
+  // goes to Transport::send. False: a batch was not finished by `until`; call it again with the
+  // same message, before any other.
   bool handle(std::string_view message, std::string& out,
               Clock::time_point until = Clock::time_point::max());
-  // Sends the notifications that are due, up to about a reply's bytes. Gives when the next is.
+  // Sends the due notifications, up to about the size of a reply. Returns the time of the next one.
   std::optional<Clock::time_point> send_due(Clock::time_point now);
 
   bool has_subscriptions() const { return !subscriptions.empty(); }
-  bool awaits_nothing() const;                // no open call, no subscription
+  bool awaits_nothing() const;                // no open calls, no subscriptions
   bool is_idle(Clock::time_point now) const;  // for longer than the limit
 
-  // Sends the reason, and ends.
+  // Sends the reason and ends the session.
   void refuse(std::string_view why);
   void end_idle();
-  // No more messages: subscriptions end, and late replies are thrown away.
+  // No further messages: subscriptions end, and late replies are dropped.
   void end();
 
   const Peer& peer() const { return peer_; }
@@ -92,8 +92,8 @@ class Session final : public Caller,
   Transport& transport_;
   bool ended_ = false;
   BegunBatch batch_;
-  std::size_t open_exchanges_ = 0;  // messages whose reply comes later
-  Clock::time_point active_;        // a request came, or was answered
+  std::size_t open_exchanges_ = 0;  // messages with a late reply
+  Clock::time_point active_;        // time of the last request or answer
 };
 
 }  // namespace mdof::rpc

@@ -9,7 +9,7 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::chrono::milliseconds kOld{50};  // none is where they are made every 20 ms
+constexpr std::chrono::milliseconds kOld{50};  // a value made every 20 ms is never that old
 
 }  // namespace
 

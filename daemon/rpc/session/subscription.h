@@ -1,4 +1,4 @@
-// One client's subscription to one topic: what waits to be sent, and when it may. Private header.
+// One client's subscription to one topic: pending messages and their times. Private header.
 #pragma once
 
 #include <chrono>
@@ -14,13 +14,13 @@
 
 namespace mdof::rpc {
 
-// Pure: time comes in from outside.
+// Pure: the caller gives the time.
 class Subscription {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  using Value = std::shared_ptr<const std::string>;  // JSON; shared by all who wait for it
+  using Value = std::shared_ptr<const std::string>;  // JSON, shared by all waiting subscriptions
 
-  // The topic must stay.
+  // The topic must outlive the subscription.
   Subscription(const Topic& topic, std::chrono::milliseconds interval, std::size_t max_queued);
 
   const Topic& topic() const { return topic_; }
@@ -28,22 +28,22 @@ class Subscription {
   bool awaits_first() const;
   void set_interval(std::chrono::milliseconds interval) { interval_ = interval; }
 
-  // A value takes the place of the one that waits, of the same thing: `of` ("X", an axis) has its
-  // own pace, as two that come at the same time would for ever take each other's place. An event
-  // queues, and the oldest goes when full.
+  // A value replaces the pending value of the same source. Each `of` ("X", an axis) has its own
+  // intervals, because values that arrive together would otherwise replace each other for ever. An
+  // event is queued; if the queue is full, the oldest event is dropped.
   void offer(Value value, Time now, std::string_view of = "");
-  void miss() { ++missed_; }  // one that cannot be sent
-  // When the next message may be sent; nothing: none waits. A value that will have grown old by
-  // then is held for another interval, for a newer one to take its place.
+  void miss() { ++missed_; }  // counts a value that cannot be sent
+  // Earliest time of the next message; nullopt: none is pending. A value that would be old at that
+  // time is delayed by one more interval, so that a newer value can replace it.
   std::optional<Time> due() const;
-  // Appends that message.
+  // Appends this message.
   void take(Time now, std::string& out);
 
  private:
   const Topic& topic_;
   std::chrono::milliseconds interval_;
   std::size_t max_queued_;
-  struct Line {  // of one thing
+  struct Line {  // messages of one source
     std::string of;
     std::deque<Value> waiting = {};
     Time next{}, offered{};

@@ -11,7 +11,7 @@
 namespace mdof::rpc {
 namespace {
 
-constexpr std::size_t kEnvelopeBytes = 128;  // around a value, less the topic's name
+constexpr std::size_t kEnvelopeBytes = 128;  // around a value, without the topic's name
 
 }  // namespace
 
@@ -120,7 +120,7 @@ std::optional<Subscription::Time> take_due(Subscriber& who, Subscription::Time n
   for (std::size_t i = all.size(); i > 0; --i) {
     Subscription& first = all.front();
     while (first.due() && *first.due() <= now) {
-      if (sent >= max_bytes) return next;  // and it is the first the next time
+      if (sent >= max_bytes) return next;  // the next call begins with this subscription
       message.clear();
       first.take(now, message);
       send(message);

@@ -1,4 +1,4 @@
-// Who subscribed to what. Private header.
+// The topics and their subscribers. Private header.
 #pragma once
 
 #include <chrono>
@@ -21,18 +21,18 @@ struct Subscriber {
   std::list<Subscription> subscriptions;
 
   virtual ~Subscriber() = default;
-  // Something waits to be sent; comes from within publish().
+  // Called during publish() when a message is pending.
   virtual void wake() = 0;
 };
 
-// Thread-bound: the loop.
+// Thread-bound: the event loop.
 class TopicHub {
  public:
   explicit TopicHub(const ServerOptions& options) : options_(options) {}
 
-  void add(Topic topic);                                           // a name twice is a bug
-  const Topic* topic(std::string_view name) const;                 // none: nullptr
-  bool fits(std::string_view topic, std::string_view json) const;  // into a message
+  void add(Topic topic);                            // a repeated name is a programming error
+  const Topic* topic(std::string_view name) const;  // nullptr if unknown
+  bool fits(std::string_view topic, std::string_view json) const;  // whether it fits into a message
   std::optional<std::chrono::milliseconds> wanted_every(std::string_view topic) const;
   Status publish(std::string_view topic, std::string json, std::string_view of = "");
 
@@ -53,8 +53,8 @@ class TopicHub {
   std::map<std::string, Row, std::less<>> rows_;
 };
 
-// Gives `send` what is due and has room, a message a call: below `max_bytes` in all another one is
-// begun. Gives the time of the next message that waits for nothing but time.
+// Passes due messages to `send`, one in each call. A further message begins while fewer than
+// `max_bytes` were sent. Returns the time of the next message that only waits for its time.
 std::optional<Subscription::Time> take_due(Subscriber& who, Subscription::Time now,
                                            std::size_t max_bytes,
                                            const std::function<void(std::string_view)>& send);

@@ -31,7 +31,7 @@ void HttpConnection::turn_away() {
   close();
 }
 
-// A reply that comes late. What a stream gets has its own form.
+// Takes a late reply. A stream converts messages to events.
 void HttpConnection::send(std::string_view message) {
   if (!is(State::streaming)) {
     reply_ = message;
@@ -63,7 +63,7 @@ void HttpConnection::take_request() {
   if (input_.size() - body_at_ >= head_->body_bytes) answer();
 }
 
-// False: it is not all there, or was refused.
+// False: the head is incomplete or was rejected.
 bool HttpConnection::take_head() {
   const auto& options = server_.service.options();
   const auto end = end_of_head(input_, scanned_, options.max_http_head_bytes);
@@ -83,7 +83,7 @@ bool HttpConnection::take_head() {
   return true;
 }
 
-// Whether a request is taken at all; before its body comes.
+// Checks a request before its body arrives.
 tl::expected<void, HttpError> HttpConnection::judge() const {
   MDOF_CHECK(check_same_site(*head_, server_.setup.hosts));
   const bool rpc = head_->path == "/rpc", stream = head_->path == "/events";
@@ -125,7 +125,7 @@ void HttpConnection::begin_rpc() {
   calling_ = true;
 }
 
-// A batch is called in parts, a turn each.
+// Calls a batch in parts, one for each turn.
 void HttpConnection::go_on_with_rpc() {
   if (calling_) {
     std::string out;
@@ -142,7 +142,7 @@ void HttpConnection::go_on_with_rpc() {
     return reply(
         {.type = "application/json", .body = text, .fields = "Cache-Control: no-store\r\n"});
   }
-  if (session_->awaits_nothing()) reply({.status = 204});  // notifications alone
+  if (session_->awaits_nothing()) reply({.status = 204});  // only notifications
 }
 
 void HttpConnection::begin_stream() {
@@ -153,7 +153,7 @@ void HttpConnection::begin_stream() {
   if (const auto error = subscribe_all()) return refuse(*error);
   const auto resumed = server_.kept.resume(head_->last_event_id);
   seen_ = resumed.after;
-  const int bytes = 128 * 1024;  // what waits in the kernel only grows old
+  const int bytes = 128 * 1024;  // keeps little data in the kernel, where it becomes old
   (void)::setsockopt(socket_.native_handle(), SOL_SOCKET, SO_SNDBUF, &bytes, sizeof bytes);
   append_stream_head(output_.text());
   output_.text() += "retry: 2000\nid: " + std::to_string(seen_) + "\n\n";
@@ -201,7 +201,7 @@ void HttpConnection::reply(const HttpReply& reply) {
   request_ends(head_->keep_alive);
 }
 
-// Says why, lets the client take it, closes. What it still sends is thrown away meanwhile.
+// Sends the reason, lets the client read it, and closes. Input is discarded meanwhile.
 void HttpConnection::refuse(const HttpError& error, std::string fields) {
   append_refusal(output_.text(), error, std::move(fields));
   request_ends(false);
@@ -241,7 +241,7 @@ void HttpConnection::send_events() {
   }
 }
 
-// As long as the browser takes it: what is left waits for the socket, or for its time.
+// Sends while the browser takes the data; the rest waits for the socket or for its time.
 void HttpConnection::send_stream() {
   while (is(State::streaming) && output_.unsent() == 0) {
     send_events();
@@ -257,11 +257,11 @@ void HttpConnection::wait() {
   if (closed_) return;
   if (output_.unsent() > 0) wait_writable();
   if (is(State::draining) && output_.unsent() == 0) end_output();
-  if (is(State::answering)) return;  // until it has its reply
+  if (is(State::answering)) return;  // until the reply is sent
   if (is(State::reading)) {
     if (output_.unsent() > 0) return;
     if (input_ended_) return close();
-    if (!input_.empty() && !head_ && scanned_ == 0) return wake();  // a request behind the last
+    if (!input_.empty() && !head_ && scanned_ == 0) return wake();  // a further request
   }
   wait_readable();
 }
@@ -276,7 +276,7 @@ void HttpConnection::receive() {
     if (is(State::draining) || is(State::streaming)) close();
     return;
   }
-  if (is(State::draining) || is(State::streaming)) return;  // nothing is expected
+  if (is(State::draining) || is(State::streaming)) return;  // no input is expected
   if (input_.empty()) since_ = Clock::now();
   input_.append(bytes, static_cast<std::size_t>(got));
 }

@@ -1,5 +1,5 @@
-// One connection of a browser: requests one after the other, or a stream of events, within the
-// limits that keep a client from harming the others. Private header.
+// One connection of a browser: sequential requests or a stream of events, within limits that
+// protect the other clients. Private header.
 #pragma once
 
 #include <chrono>
@@ -19,12 +19,13 @@ namespace mdof::rpc {
 
 struct HttpServerCore;
 
-// Thread-bound: the loop. A request has a session of its own, and so has a stream. Nothing more is
-// read until a request is answered and the answer is taken; what waits for a stream stays with
-// those who share it (KeptEvents, Subscription), so that a slow browser costs no memory.
+// Thread-bound: the event loop. Each request and each stream has its own session. Nothing more is
+// read until a request is answered and the client has taken the answer. Pending messages of a
+// stream stay in shared objects (KeptEvents, Subscription), so that a slow browser needs no memory.
 class HttpConnection final : public ClientSocket {
  public:
-  HttpConnection(HttpServerCore& server, int socket);  // takes it; connected and non-blocking
+  HttpConnection(HttpServerCore& server, int socket);  // takes ownership; connected and
+                                                       // non-blocking
 
   void start() { wait_readable(); }
   void turn_away();
@@ -33,7 +34,7 @@ class HttpConnection final : public ClientSocket {
   bool is_stream() const { return is(State::streaming); }
   bool is_idle() const { return is(State::reading) && input_.empty(); }
   Clock::time_point since() const { return since_; }
-  // Of a stream: when a value that waits may be sent.
+  // For a stream: the time at which a pending value may be sent.
   std::optional<Clock::time_point> due() const { return due_; }
 
   void send(std::string_view message) override;
@@ -68,16 +69,17 @@ class HttpConnection final : public ClientSocket {
   HttpServerCore& server_;
   const Peer peer_;
   State state_ = State::reading;
-  std::string input_;        // from the beginning of a request
-  std::size_t scanned_ = 0;  // of it
+  std::string input_;        // begins with the present request
+  std::size_t scanned_ = 0;  // number of its bytes that were checked for the end of the head
   std::optional<HttpHead> head_;
-  std::size_t body_at_ = 0;                 // in input_, once the head is read
-  std::optional<std::string> reply_;        // of a call, not yet sent
-  bool calling_ = false;                    // of a batch there is more to call
+  std::size_t body_at_ = 0;                 // offset in input_, once the head was read
+  std::optional<std::string> reply_;        // reply to a call, not yet sent
+  bool calling_ = false;                    // a batch has more members to call
   std::vector<std::string> events_;         // topics of a stream that are events
-  std::uint64_t seen_ = 0;                  // id of the newest event that a stream has
-  Clock::time_point since_ = Clock::now();  // of what goes on: idle, a head, a body, draining
-  Clock::time_point sent_ = since_;         // on a stream
+  std::uint64_t seen_ = 0;                  // id of the newest event that the stream has
+  Clock::time_point since_ = Clock::now();  // begin of the present phase: idle, head, body,
+                                            // draining
+  Clock::time_point sent_ = since_;         // last output on a stream
   std::optional<Clock::time_point> due_;
 };
 

@@ -24,8 +24,8 @@ std::string field(const Fields& fields, Name name) {
   return {value.data(), value.size()};
 }
 
-// What decides where a request goes or ends may be there once: of two, another reader may take the
-// other one.
+// Fields that determine the destination or the end of a request must not be repeated, because
+// another reader may use the other value.
 tl::expected<void, HttpError> check_single(const Fields& fields) {
   for (const auto name : {http::field::host, http::field::content_length, http::field::content_type,
                           http::field::origin, http::field::authorization}) {
@@ -52,7 +52,7 @@ tl::expected<std::size_t, HttpError> body_bytes_of(const Fields& fields, std::si
   return static_cast<std::size_t>(bytes);
 }
 
-// "/path?query", and nothing else: no absolute form, no fragment.
+// Accepts only "/path?query": no absolute form, no fragment.
 tl::expected<void, HttpError> take_target(std::string_view target, HttpHead& out) {
   if (target.empty() || target.front() != '/' || target.find('#') != target.npos)
     return refused(400, "the target of the request must be a path, such as /index.html");
@@ -93,7 +93,7 @@ tl::expected<std::size_t, HttpError> end_of_head(std::string_view received, std:
 tl::expected<HttpHead, HttpError> read_head(std::string_view head, const HttpLimits& limits) {
   http::request_parser<http::empty_body> parser;
   parser.header_limit(static_cast<std::uint32_t>(limits.head_bytes));
-  parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // is judged below
+  parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // checked below
   boost::system::error_code error;
   parser.put(boost::asio::const_buffer(head.data(), head.size()), error);
   if (error && error != http::error::need_more)

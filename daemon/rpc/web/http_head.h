@@ -1,6 +1,6 @@
-// The head of an HTTP/1.1 request, read by the parser of Boost.Beast and held to stricter rules,
-// so that nobody between a browser and mdofd can read another request from the same bytes. Private
-// header.
+// The head of an HTTP/1.1 request, read by the parser of Boost.Beast and checked by stricter rules,
+// so that no proxy between a browser and mdofd can read another request from the same bytes.
+// Private header.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace mdof::rpc {
 struct HttpHead {
   std::string method, path, query;  // "GET", "/events", "topics=a%2Cb"
   std::string host;
-  // Of fields that are not there: "".
+  // Missing fields are "".
   std::string origin, fetch_site, content_type, authorization, if_none_match, last_event_id;
   bool takes_gzip = false;
   bool keep_alive = false;
@@ -24,19 +24,19 @@ struct HttpHead {
 
 struct HttpError {
   int status = 400;
-  std::string text;  // a sentence for people, without a full stop
+  std::string text;  // a sentence without a full stop
 };
 
 struct HttpLimits {
   std::size_t head_bytes, body_bytes;
 };
 
-// Where the head in `received` ends, its empty line included; 0: it goes on. Error: it can become
-// no request, whatever comes. `scanned`: what was looked at before; it is raised.
+// Length of the head in `received` including its empty line; 0: incomplete. Error: the bytes cannot
+// become a valid request. `scanned`: bytes that were checked before; updated.
 tl::expected<std::size_t, HttpError> end_of_head(std::string_view received, std::size_t& scanned,
                                                  std::size_t max_bytes);
 
-// `head`: as far as end_of_head() says.
+// `head`: the bytes up to end_of_head().
 tl::expected<HttpHead, HttpError> read_head(std::string_view head, const HttpLimits& limits);
 
 }  // namespace mdof::rpc

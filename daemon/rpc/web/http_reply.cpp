@@ -27,7 +27,8 @@ constexpr std::array<std::pair<int, std::string_view>, 17> kReasons{{
     {505, "HTTP Version Not Supported"},
 }};
 
-// A page of mdofd runs its own files alone, is shown in no other page, and is read by none.
+// A page of mdofd runs only its own files, cannot be embedded in other pages, and cannot be read by
+// them.
 constexpr std::string_view kSecurity =
     "Content-Security-Policy: default-src 'self'; style-src 'self'; object-src 'none'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r\n"

@@ -1,4 +1,4 @@
-// What mdofd answers over HTTP: heads with the fields that every answer has. Private header.
+// HTTP replies of mdofd, with the header fields of all replies. Private header.
 #pragma once
 
 #include <string>
@@ -12,16 +12,16 @@ struct HttpReply {
   int status = 200;
   std::string_view type = {};  // Content-Type; empty: none
   std::string_view body = {};
-  std::string fields = {};  // further ones, each with its CR LF
+  std::string fields = {};  // further fields, each with CR LF
   bool keep_alive = true;
-  bool head_only = false;  // answers HEAD
+  bool head_only = false;  // reply to HEAD
 };
 
-// Content-Length and security fields included.
+// Adds Content-Length and the security fields.
 void append_http_reply(std::string& out, const HttpReply& reply);
-// A sentence for people, as plain text; closes the connection.
+// A sentence as plain text; closes the connection.
 void append_refusal(std::string& out, const HttpError& error, std::string fields = "");
-// The head of a stream of events, which ends with the connection.
+// The head of an event stream, which ends with the connection.
 void append_stream_head(std::string& out);
 
 // One event: "id", "event" and "data" in the form of server-sent events. `json` has no line end.

@@ -1,5 +1,5 @@
-// The sessions of a service for browsers: the files of the page, POST /rpc for requests of
-// JSON-RPC, GET /events for topics as server-sent events. README.md has the rules of the wire.
+// Serves the sessions of a service to browsers: the files of the page, POST /rpc for JSON-RPC
+// requests, GET /events for topics as server-sent events. README.md describes the protocol.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 namespace mdof::rpc {
 
 struct HttpSetup {
-  std::string token = {};               // of those who may write; empty: nobody
-  std::vector<std::string> hosts = {};  // "name:port", beside the names of this machine's loopback
+  std::string token = {};               // permits writing; empty: nobody may write
+  std::vector<std::string> hosts = {};  // "name:port", besides the loopback names of this machine
   std::span<const PageFile> files = page_files();
 };
 
-// Thread-bound: every call on the loop's thread, or while the loop does not run. The service
-// outlives it, and so does the loop.
+// Thread-bound: call it on the loop's thread, or while the loop does not run. The service and the
+// loop must outlive it.
 class HttpServer {
  public:
   HttpServer(EventLoop& loop, Service& service, HttpSetup setup);
@@ -30,7 +30,7 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  // 127.0.0.1 or ::1; port 0: any. Gives the port.
+  // 127.0.0.1 or ::1; port 0: any. Returns the port.
   Result<std::uint16_t> listen(const std::string& address, std::uint16_t port);
   std::size_t connection_count() const;
 

@@ -30,7 +30,7 @@ void HttpServerCore::adopt(int socket) {
   begin(connection);
 }
 
-// Closes what has been idle longest between two requests, as browsers expect of any server.
+// Closes the connection that has been idle longest between two requests, as browsers expect.
 bool HttpServerCore::make_room() {
   std::shared_ptr<HttpConnection> oldest;
   for (const auto& connection : connections)

@@ -1,4 +1,4 @@
-// What the connections of browsers share. Private header.
+// Data that the connections of browsers share. Private header.
 #pragma once
 
 #include <chrono>
@@ -16,15 +16,15 @@
 
 namespace mdof::rpc {
 
-// Thread-bound: the loop.
+// Thread-bound: the event loop.
 struct HttpServerCore final : ClientSet<HttpConnection> {
   HttpServerCore(std::shared_ptr<EventLoop::Core> event_loop, Service& shared, HttpSetup given);
   ~HttpServerCore() override;
 
-  void adopt(int socket);  // a connected client, or one too many
+  void adopt(int socket);  // a connected client, which is turned away if all places are taken
   void ask_for_turn(std::shared_ptr<HttpConnection> connection);
   std::size_t stream_count() const;
-  static std::string allowed(std::string_view path);  // the field Allow
+  static std::string allowed(std::string_view path);  // value of the field Allow
 
   const HttpSetup setup;
   const ServedFiles files;
@@ -38,7 +38,8 @@ struct HttpServerCore final : ClientSet<HttpConnection> {
   void wake_due() override;
   std::chrono::milliseconds least_limit() const override;
 
-  std::deque<std::shared_ptr<HttpConnection>> waiting_;  // for a turn, one after the other
+  std::deque<std::shared_ptr<HttpConnection>> waiting_;  // connections that wait for a turn, in
+                                                         // order
 };
 
 }  // namespace mdof::rpc

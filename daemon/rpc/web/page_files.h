@@ -1,4 +1,4 @@
-// The files of the web page, as a build puts them into the program (cmake/embed_page.cmake).
+// The files of the web page, which the build embeds in the program (cmake/embed_page.cmake).
 #pragma once
 
 #include <span>

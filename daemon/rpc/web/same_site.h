@@ -1,5 +1,5 @@
-// Which requests come from mdofd's own page or from a program, and which from the page of somebody
-// else. Private header.
+// Distinguishes requests of mdofd's own page or of programs from those of foreign pages. Private
+// header.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@
 
 namespace mdof::rpc {
 
-// Host has to be a name of this machine's loopback, with any port (a tunnel may have another), or
-// one of `hosts` ("name:port"): else a foreign name was made to point here (DNS rebinding). Origin,
-// where there is one, has to be that host: else another page asks. Error: 421 or 403.
+// Host must be a loopback name of this machine with any port (a tunnel may change it), or one of
+// `hosts` ("name:port"); otherwise a foreign name points to this machine (DNS rebinding). Origin,
+// if present, must be the same host; otherwise a foreign page sent the request. Error: 421 or 403.
 tl::expected<void, HttpError> check_same_site(const HttpHead& head,
                                               const std::vector<std::string>& hosts);
 

@@ -30,7 +30,7 @@ std::string_view type_of(std::string_view name) {
   return "application/octet-stream";
 }
 
-// Without a time or a name in it. Empty where it would not be shorter.
+// gzip without a time or name; empty if it would not be shorter.
 std::string compressed(std::string_view text) {
   constexpr int kGzip = 15 + 16, kMemory = 9;
   z_stream stream{};
@@ -38,7 +38,7 @@ std::string compressed(std::string_view text) {
       Z_OK)
     return {};
   std::string out(text.size(), '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));  // is only read
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));  // zlib only reads it
   stream.avail_in = static_cast<uInt>(text.size());
   stream.next_out = reinterpret_cast<Bytef*>(out.data());
   stream.avail_out = static_cast<uInt>(out.size());

@@ -13,16 +13,16 @@ namespace mdof::rpc {
 struct ServedFile {
   std::string_view type;  // "text/css; charset=utf-8"
   std::string_view text;
-  std::string gzip;             // of the text; empty: not shorter
-  std::string etag, etag_gzip;  // in quotes; of the content
+  std::string gzip;             // compressed text; empty: not shorter
+  std::string etag, etag_gzip;  // hash of the content, in quotes
 };
 
 class ServedFiles {
  public:
-  // A name without a known type is a bug.
+  // A name without a known type is a programming error.
   explicit ServedFiles(std::span<const PageFile> files);
-  // "/NAME", or "/" for index.html. Names are compared as they are, without decoding: there is no
-  // way out of the list. None: nullptr.
+  // "/NAME", or "/" for index.html. Names are compared without decoding, so that only listed files
+  // can be read. nullptr if unknown.
   const ServedFile* find(std::string_view path) const;
 
  private:

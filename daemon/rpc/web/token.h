@@ -9,13 +9,13 @@
 
 namespace mdof::rpc {
 
-// The token in `file`, which is made (mode 0600) where it is not there. Errors: io; check: others
-// can read the file, or it holds no token.
+// The token in `file`, which is created (mode 0600) if missing. Errors: io; check: others can read
+// the file, or it contains no token.
 Result<std::string> load_token(const std::filesystem::path& file);
-// The same without making one.
+// The same, but does not create the file.
 Result<std::string> read_token(const std::filesystem::path& file);
 
-// Whether this is "Bearer TOKEN". Takes the same time for every wrong token of that length.
+// Whether this is "Bearer TOKEN". Takes the same time for all wrong tokens of the same length.
 bool bears_token(std::string_view authorization, std::string_view token);
 
 }  // namespace mdof::rpc

@@ -33,7 +33,7 @@ std::optional<std::string> decoded(std::string_view text) {
   return out;
 }
 
-// What is before the next `separator`, which is taken off with it.
+// Returns the text before the next `separator` and removes both from `rest`.
 std::string_view cut(std::string_view& rest, char separator) {
   const auto at = rest.find(separator);
   const auto part = rest.substr(0, at);

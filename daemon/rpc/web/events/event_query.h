@@ -1,4 +1,4 @@
-// What GET /events asks for. Private header.
+// The query of GET /events. Private header.
 #pragma once
 
 #include <chrono>
@@ -12,10 +12,10 @@ namespace mdof::rpc {
 
 struct EventQuery {
   std::vector<std::string> topics;
-  std::chrono::milliseconds interval{100};  // least time between two values of a topic
+  std::chrono::milliseconds interval{100};  // shortest time between two values of a topic
 };
 
-// "topics=live.update,run.event&interval_ms=100", percent-encoded or not. Error: 400.
+// "topics=live.update,run.event&interval_ms=100", also percent-encoded. Error: 400.
 tl::expected<EventQuery, HttpError> read_event_query(std::string_view query);
 
 }  // namespace mdof::rpc

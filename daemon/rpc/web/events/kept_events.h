@@ -1,5 +1,5 @@
-// The latest events of all topics, for browsers that come back and say what they saw last. Private
-// header.
+// The latest events of all topics, for browsers that reconnect and state the last event that they
+// saw. Private header.
 #pragma once
 
 #include <chrono>
@@ -13,8 +13,8 @@
 
 namespace mdof::rpc {
 
-// Ids rise by 1, and from one life of mdofd to the next: they begin at its start in microseconds.
-// Below 2^53, so that a page may take one as a number.
+// Ids increase by 1. They begin at the start time of mdofd in microseconds, so that they also
+// increase over restarts. They are below 2^53, so that JavaScript can use them as numbers.
 class KeptEvents {
  public:
   struct Limits {
@@ -27,13 +27,13 @@ class KeptEvents {
 
   KeptEvents(std::chrono::system_clock::time_point start, Limits limits);
 
-  // The oldest go when there are too many. A line end in `json` becomes a space.
+  // Drops the oldest events if there are too many. A line end in `json` becomes a space.
   void add(std::string_view topic, std::string_view json);
   std::uint64_t last_id() const { return next_ - 1; }
   std::size_t size() const { return events_.size(); }
 
-  // Where a client goes on that saw `id` last, and how many it has lost. What another life of mdofd
-  // had after it nobody knows.
+  // The position at which a client with the last event `id` continues, and the number of lost
+  // events. It is unknown if `id` is from an earlier start of mdofd.
   struct Resumed {
     std::uint64_t after;
     bool lost = false;
@@ -41,9 +41,9 @@ class KeptEvents {
   };
   Resumed resume(std::string_view id) const;
 
-  // The first event behind `after`, of any topic, unless `lost` of them are gone.
+  // The first event after `after`, of any topic, unless `lost` events are no longer kept.
   struct Next {
-    const Event* event = nullptr;  // none: that was the last
+    const Event* event = nullptr;  // nullptr: no further event
     std::uint64_t lost = 0;
   };
   Next next(std::uint64_t after) const;

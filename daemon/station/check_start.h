@@ -1,5 +1,5 @@
-// What would keep mdofd from starting with a configuration that is right in itself: said before
-// anything is opened, each with file, line, key and remedy.
+// Checks whether mdofd can start with a valid configuration, before anything is opened. Errors
+// state file, line, key and remedy.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace mdof::daemon {
 
-// Folders of database, recordings and socket that are not there and cannot be made, or not be
-// written to; files in their place; devices that are one and the same.
+// Errors: folders of the database, the recordings or the socket that are missing and cannot be
+// created, or are not writable; other files with these paths; two axes with the same device.
 Status check_start(const Config& config);
 
-// Makes the folder of the socket, and those above it, for all to pass and its owner to write to.
-// One that is there stays as it is.
+// Creates the folder of the socket and its parents, searchable by all and writable by the owner. An
+// existing folder does not change.
 Status make_socket_folder(const std::string& socket);
 
-// What to do where there is no configuration at `file`: a first one to copy, with the simulator.
+// The message if `file` does not exist. It contains a first configuration with the simulator.
 std::string first_configuration(const std::string& file);
 
 }  // namespace mdof::daemon

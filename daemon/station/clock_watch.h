@@ -1,5 +1,5 @@
-// Whether somebody set the time of day: what was measured has monotonic times and is not affected,
-// but the times that people read jump, and that is reported.
+// Detects changes of the time of day. Measurements have monotonic times and are not affected, but
+// the displayed times jump, so the change is reported.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace mdof::daemon {
 
-// Pure: time comes in from outside, both clocks read at one moment.
+// Pure: the caller reads both clocks at the same moment.
 class ClockWatch {
  public:
-  // By how much the time of day was set since the look before; nothing: it was not. Slower changes
-  // are those of a clock that is being disciplined.
+  // The change of the time of day since the previous call; nullopt if it was not set. Slower
+  // changes are normal clock discipline.
   std::optional<std::int64_t> look(std::int64_t utc_ns, std::int64_t boot_ns) {
     const std::int64_t offset = utc_ns - boot_ns;
     const std::int64_t step = offset - std::exchange(offset_ns_, offset).value_or(offset);

@@ -1,6 +1,6 @@
-// Brings what the encoder of an axis shows to the machine's positions, before it is recorded or
-// measured. An encoder that counts starts at 0 wherever the axis stands: somebody has to say where
-// that is.
+// Converts the readings of an axis' encoder to positions of the machine before they are recorded or
+// measured. An incremental encoder starts at 0 at any position of the axis, so a user must set the
+// position.
 #pragma once
 
 #include <cstdint>
@@ -17,44 +17,46 @@
 
 namespace mdof::daemon {
 
-// What holds now, and what is missing of it or lost. For people the words of that, else what was
-// said; "": nothing.
+// The present datum, and a notice if it is missing or was lost. `note` is the text of the notice,
+// otherwise the text of the setting; "": neither.
 struct EncoderState {
   EncoderDatum datum;
   std::optional<Notice> notice;
   std::string note;
 };
 
-// datum(), state() and device() from any thread, all others from one, the measuring one.
+// datum(), state() and device() are thread-safe. Call all others from the measure thread.
 class EncoderZero {
  public:
-  // `um_per_V`: of an encoder that gives volts. `before`: what was said last before this program
-  // began, which it does not hold any more.
+  // `um_per_V`: for an encoder in volts. `before`: the last setting before this program started,
+  // which is no longer valid.
   explicit EncoderZero(const std::vector<drivers::DriverSpec>& devices,
                        std::optional<DatumSetting> before = std::nullopt,
                        std::optional<double> um_per_V = std::nullopt);
 
-  // Adds the offset to the encoder's values of `block`, where it has any, and keeps what it shows.
+  // Adds the offset to the encoder's values in `block`, if any, and keeps the readings.
   void apply(SampleBlock& block);
-  // What it means that the axis stands at `position_m` now; nothing is changed yet. Error
-  // (conflict): it has not been still for 0.2 s, or nothing has come from its encoder for a second.
+  // The setting for an axis that is now at `position_m`; it is not yet applied. Error (conflict):
+  // the axis has not been at rest for 0.2 s, or its encoder has sent nothing for 1 s.
   Result<DatumSetting> find(Axis axis, double position_m, const std::string& utc);
-  // It holds from now on. Error (conflict): its device has been without power since it was found.
+  // Applies the setting. Error (conflict): the device has lost power, or its reference mark was
+  // passed, since find().
   Result<EncoderDatum> put(const DatumSetting& setting, const std::string& by);
-  // Its device counts from elsewhere from now on.
+  // The device's count has a new, unknown origin.
   void lose(const std::string& device);
-  // Its device counts from its reference mark from now on, whatever held before. False: it is not
-  // the one that gives the encoder, or not asked to look for a mark.
+  // From now on the device counts from its reference mark; this replaces any other datum. False:
+  // the device does not give the encoder, or the configuration uses no mark.
   bool pass_mark(const std::string& device, const std::string& utc);
 
   EncoderDatum datum() const;
   EncoderState state() const;
-  // A run is measured from now on.
+  // A run begins.
   void begins(std::int64_t run);
-  // Has it counted from one place since the run began? False where nobody knows: that was before
-  // this program or before its device was without power. An encoder that does not count is certain.
+  // Whether the encoder has counted from the same origin since the run began. False if unknown: the
+  // run began before this program, or before its device lost power. Always true for an encoder that
+  // does not count.
   bool counts_on_since(std::int64_t run) const;
-  // The device that gives the encoder; "": not known before it gave some.
+  // The device that gives the encoder; "": unknown before its first sample.
   std::string device() const;
 
  private:
@@ -64,17 +66,17 @@ class EncoderZero {
 
   const std::optional<double> um_per_V_;
   mutable std::mutex mutex_;
-  EncoderDatum datum_;             // guarded by mutex_
-  bool counts_ = false;            // guarded by mutex_
-  std::set<std::int64_t> runs_;    // of its present count; guarded by mutex_
-  std::string device_;             // guarded by mutex_
-  std::optional<double> index_m_;  // where the axis is at its encoder's reference mark
-  // What was said last, before this program or since. Guarded by mutex_.
+  EncoderDatum datum_;             // protected by mutex_
+  bool counts_ = false;            // protected by mutex_
+  std::set<std::int64_t> runs_;    // since the present origin of the count; protected by mutex_
+  std::string device_;             // protected by mutex_
+  std::optional<double> index_m_;  // axis position at the encoder's reference mark
+  // The last setting, before or since the start of this program. Protected by mutex_.
   std::optional<DatumSetting> last_;
   bool since_start_ = false;
-  bool found_ = false;  // by find(), and its device has had power since
+  bool found_ = false;  // by find(), while its device keeps power
 
-  // Of the values with their offset, since the axis stopped.
+  // Statistics of the values with their offset since the axis stopped.
   double rest_m_ = 0, sum_m_ = 0;
   std::uint64_t count_ = 0;
   std::int64_t since_ns_ = 0, last_ns_ = 0;

@@ -1,4 +1,4 @@
-// A run under way, as the measure thread holds it. Private to station*.cpp.
+// A run in progress. The measure thread owns it. Private to station*.cpp.
 #pragma once
 
 #include <optional>
@@ -15,21 +15,22 @@ struct Station::OpenRun {
   std::int64_t id;
   RunRequest request;
   Pipeline pipeline;
-  std::vector<MeasuredPoint> stored;               // as handed to the store
-  std::optional<Continuation> continues;           // another run's recording
-  Unrecorded unrecorded;                           // not yet handed to the store
-  std::chrono::steady_clock::time_point recorded;  // when the last were
-  std::uint64_t blocks_not_recorded = 0;           // the store's queue was full
-  std::optional<std::int64_t> left_out_ns = {};    // begin of the last stop reported as left out
-  TroubleLog troubles = {};                        // of the devices, since it began
-  EncoderDatum datum = {};                         // of its positions
+  std::vector<MeasuredPoint> stored;               // as sent to the store
+  std::optional<Continuation> continues;           // the recording of another run
+  Unrecorded unrecorded;                           // not yet sent to the store
+  std::chrono::steady_clock::time_point recorded;  // last time of sending
+  std::uint64_t blocks_not_recorded = 0;           // because the store's queue was full
+  std::optional<std::int64_t> left_out_ns = {};    // begin of the last reported stop that was left
+                                                   // out
+  TroubleLog troubles = {};                        // of the devices, since the run began
+  EncoderDatum datum = {};                         // datum of its positions
   Model model = Model::rigid;
 };
 
-// What a run that goes on from another begins with.
+// The initial state of a run that continues another one.
 struct Station::Beginning {
   Pipeline pipeline;
-  std::int64_t end_ns;  // of its last scan
+  std::int64_t end_ns;  // of the last scan
 };
 
 }  // namespace mdof::daemon

@@ -1,4 +1,4 @@
-// What is announced to clients of a run's new points.
+// Messages to clients about new points of a run.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,15 @@
 
 namespace mdof::daemon {
 
-// For run.event, of the points from `first_row` on: {"type": "points", "run", "axis", "offset",
-// "reference", "u_covers", "points"}. One message, or more where no line holds all: a run that goes
-// on begins with many points. `points` are all of the run so far, stated at the fixture.
+// Messages for run.event with the points from `first_row` on: {"type": "points", "run", "axis",
+// "offset", "reference", "u_covers", "points"}. There are several messages if one line cannot
+// contain all points: a continued run begins with many. `points` are all points of the run so far,
+// stated at the fixture.
 std::vector<std::string> points_messages(std::int64_t run, const Rig& rig, Model model,
                                          const std::vector<MeasuredPoint>& points,
                                          std::size_t first_row);
 
-// {"type": "left_out", "run", "axis", "position_mm", "code", "text"}: a stop that is near no
+// {"type": "left_out", "run", "axis", "position_mm", "code", "text"}: a stop that is not near any
 // target.
 std::string left_out_message(std::int64_t run, Axis axis, double position_m);
 

@@ -1,10 +1,10 @@
-// One axis at work: its devices, each with its thread (device/acquisition.h; where other axes have
-// it too, device/shared_device.h), and its thread "measure-X".
+// One axis: its devices, each with its thread (device/acquisition.h; for devices shared with other
+// axes, device/shared_device.h), and its thread "measure-X".
 //
 //   devices -> queue      measure: queue -> recording (store thread) -> pipeline -> points
 //
-// Live devices are read from the start, for the view; a replay only while a run is under way.
-// A run that goes on from one that was cut off is made ready by the thread "resume-X", then joins.
+// Live devices are read from the start, for the view; a replay is read only during a run. The
+// thread "resume-X" prepares a run that continues another one and then joins.
 #pragma once
 
 #include <atomic>
@@ -31,66 +31,66 @@
 
 namespace mdof::daemon {
 
-// Called on the station's or the store's threads; the receiver posts to its own.
+// Called on threads of the station or the store; the receiver posts to its own thread.
 struct StationEvents {
   std::function<void(std::string json)> live;       // newest instant, for live.update
   std::function<void(std::string json)> run_event;  // for run.event
-  // Of a device; the run under way, 0: none.
+  // Trouble of a device; `run`: the run in progress, 0: none.
   std::function<void(Axis axis, std::int64_t run, const Trouble&)> trouble;
 };
 
-// Called with the id of a run, once it is on the disk, or why there is none; on the store's or a
-// station's thread.
+// Called with the id of a run after it is on the disk, or with the error; on a thread of the store
+// or the station.
 using RunDone = std::function<void(Result<std::int64_t>)>;
 
-// Calls from the main thread only, but for status().
+// Call it from the main thread only. encoder() and run() are thread-safe.
 class Station {
  public:
-  // `before`: where the axis stood when somebody said so last, before this program began.
-  // `shared`: where other stations look for the devices that this axis has together with theirs.
+  // `before`: the last set position of the axis, from before this program started. `shared`: the
+  // devices that this axis shares with other stations.
   Station(AxisConfig config, PipelineOptions options, std::string configuration,
           std::filesystem::path recordings, Storekeeper& keeper, StationEvents events,
           std::optional<DatumSetting> before = std::nullopt, SharedDevices* shared = nullptr);
   ~Station();  // an open run ends as aborted
-  // Asks the devices to stop and waits for none, so that those of all stations stop together.
+  // Asks the devices to stop without waiting, so that all stations stop at the same time.
   void begin_stopping();
 
   void start_run(const RunRequest& request, const RunDone& done);
-  // `done`: the id of the run to read (see Storekeeper::end_run), once it is on the disk.
+  // `done`: the id of the run to read (see Storekeeper::end_run), after it is on the disk.
   void stop_run(bool abort, const HistoryEntry& action, RunDone done);
-  // The axis stands at `position_m` now: holds once it is stored with who says so. Errors
-  // (conflict): a run is under way, the axis moves, nothing comes from its encoder; it is that of a
-  // log. Others: it could not be stored.
+  // Sets the present position of the axis. It is valid after it was stored with its user. Errors
+  // (conflict): a run is in progress, the axis moves, the encoder sends nothing, or the encoder is
+  // that of a log. Other errors: it could not be stored.
   using DatumDone = std::function<void(Result<EncoderDatum>)>;
   void set_encoder(double position_m, const HistoryEntry& action, DatumDone done);
   EncoderState encoder() const { return zero_.state(); }
-  // The run under way: 0 none, -1 about to begin.
+  // The run in progress; 0: none; -1: a run is about to begin.
   std::int64_t run() const { return shared_->run.load(); }
-  // The store gave up on this run.
+  // The store can no longer keep this run.
   void storage_failed(std::int64_t run, const Error& error);
 
-  void wake_devices();  // one was plugged in
-  // How often live() is worth its work; nothing: not at all.
+  void wake_devices();  // call it when a device was plugged in
+  // The interval of live() events; nullopt: none are wanted.
   void watch(std::optional<std::chrono::milliseconds> every) {
     live_every_.store(every.value_or(kNever));
   }
   const AxisConfig& config() const { return config_; }
   std::vector<DeviceStatus> devices() const;
-  // All threads came round within `limit`.
+  // Whether all threads have reported within `limit`.
   bool healthy(std::chrono::steady_clock::duration limit) const;
 
  private:
   struct Beginning;
-  // What the measure thread is given, in order: samples, or what else it has to do.
+  // An item for the measure thread, in order: samples or another job.
   struct Samples {
     SampleBlock block;
-    std::uint64_t pass;  // of a source that is read once a run
+    std::uint64_t pass;  // of a source that is read once per run
   };
   using Job = std::function<void(Station&)>;
   using Item = std::variant<Samples, Job>;
   using Queue = BoundedQueue<Item>;
   struct OpenRun;
-  // What the store's callbacks may still need when the station itself has gone.
+  // Data that callbacks of the store may still use after the station was destroyed.
   struct Shared {
     explicit Shared(StationEvents e) : events(std::move(e)), queue(kQueuedBlocks) {}
     StationEvents events;
@@ -101,13 +101,14 @@ class Station {
   };
   static constexpr std::size_t kQueuedBlocks = 1024;
 
-  // That nothing can begin on the axis, of the value of shared_->run: not 0.
+  // Why nothing can begin on the axis, for a value of shared_->run that is not 0.
   std::string why_occupied(std::int64_t run) const;
   DeviceSink sink();
   NewRun describe_run(const RunRequest& request, const PipelineOptions& options) const;
   PipelineOptions options_for(const RunRequest& request) const;
   PipelineOptions with_devices(PipelineOptions options) const;
-  // `options`: once for description and measuring, so that a replay measures the same.
+  // `options`: the same for the description and the measurement, so that a replay measures the
+  // same.
   using Options = std::shared_ptr<const PipelineOptions>;
   void begin_run(NewRun description, const RunRequest& request, const Options& options,
                  std::shared_ptr<Beginning> beginning, const RunDone& done);
@@ -157,12 +158,12 @@ class Station {
   std::atomic<std::chrono::milliseconds> live_every_{kNever};
   std::atomic<std::chrono::steady_clock::time_point> measure_turn_;
 
-  EncoderZero zero_;               // changed by the measure thread only
+  EncoderZero zero_;               // changed only by the measure thread
   std::unique_ptr<OpenRun> open_;  // measure thread only
   std::optional<Pipeline> view_;   // measure thread only: between runs
-  RecentRange recent_;             // of what the pipeline in use has read
+  RecentRange recent_;             // readings of the present pipeline
   std::chrono::steady_clock::time_point last_live_{};
-  std::int64_t newest_ns_ = 0;  // of the newest instant, and when it came
+  std::int64_t newest_ns_ = 0;  // time of the newest instant
   std::chrono::steady_clock::time_point newest_since_{};
   std::vector<std::unique_ptr<DeviceReader>> acquisitions_;
   std::thread measure_thread_;

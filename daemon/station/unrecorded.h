@@ -1,5 +1,5 @@
-// A run's samples on their way to the store: a few large blocks, which cost it less than many small
-// ones.
+// Samples of a run that are not yet sent to the store. They are combined into a few large blocks,
+// which need less work than many small ones.
 #pragma once
 
 #include <utility>
@@ -14,8 +14,8 @@ class Unrecorded {
  public:
   void add(const SampleBlock& block);
   bool empty() const { return blocks_.empty(); }
-  // All, and leaves none: one block a device, and another from where its scans were lost or its
-  // channels changed.
+  // Removes and returns all blocks: one for each device, and another one after lost scans or a
+  // change of channels.
   std::vector<SampleBlock> take() { return std::exchange(blocks_, {}); }
 
  private:

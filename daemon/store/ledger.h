@@ -1,14 +1,14 @@
-// The chain of hashes over what results, tables and activations rest on. Private header of the
-// store.
+// The chain of hashes over all facts on which results, tables and activations depend. Private
+// header of the store.
 //
 //   hash of link n = SHA-256 of  hash of link n-1 (nothing for n = 1) '\n' fact '\n' row '\n'
 //   values
 //
-// `values` are those of the fact's row and of the rows that it refers to (recording, rig and other
-// texts, temperature, plausibility, runs of a table), in the order of the query in ledger.cpp, each
-// as
-//   n: NULL; i decimal '\n': an integer; d 8 bytes: a double; t length '\n' bytes: text; b the
-//   same: bytes
+// `values` are the values of the fact's row and of the rows to which it refers (recording, rig and
+// other texts, temperature, plausibility, runs of a table), in the order of the query in
+// ledger.cpp, each as
+//   n: NULL; i decimal '\n': an integer; d 8 bytes: a double; t length '\n' bytes: text; b length
+//   '\n' bytes: bytes
 #pragma once
 
 #include <cstdint>
@@ -20,11 +20,11 @@
 
 namespace mdof::store {
 
-inline constexpr int kLedgerSchema = 8;  // the migration that made it
+inline constexpr int kLedgerSchema = 8;  // the migration that created the ledger
 
-// The last link of a chain: its number, from 1, and its hash, which depends on all before it.
+// The last link of a chain: its number, from 1, and its hash, which depends on all earlier links.
 struct ChainHead {
-  std::int64_t link = 0;  // 0: none yet
+  std::int64_t link = 0;  // 0: no links
   std::string sha256;
   bool operator==(const ChainHead&) const = default;
 };
@@ -43,22 +43,23 @@ enum class Fact {
   action_reason,
 };
 
-// Within the transaction that stored the fact.
+// Call it in the transaction that stored the fact.
 Status add_link(sqlite::Connection& connection, Fact fact, std::int64_t row);
-// Links all facts of a database from before it had a ledger; of the later kinds there were none.
+// Adds links for all facts of a database without a ledger; it has no facts of later kinds.
 Status link_old_facts(sqlite::Connection& connection);
 
 Result<ChainHead> chain_head(sqlite::Connection& connection);
-// Whether it is still the head or a link on the way to it: nothing was cut off or calculated anew.
+// Whether `head` is the head or an earlier link, so that the chain was neither cut nor
+// recalculated.
 Result<bool> has_link(sqlite::Connection& connection, const ChainHead& head);
 Result<bool> has_hash(sqlite::Connection& connection, const std::string& sha256);
 
-// Error (bad_input): the fact is not what was stored, or has no link.
+// Error (bad_input): the fact has changed or has no link.
 Status check_link(sqlite::Connection& connection, Fact fact, std::int64_t row);
-// The same of every activation and deactivation, of axes and of the volume, and that none is
+// The same for every activation and deactivation of axes and volume; also checks that none is
 // missing.
 Status check_activations(sqlite::Connection& connection);
-// The whole chain, and that every fact is in it. One sentence a finding.
+// Checks the whole chain, and that every fact is in it. One sentence for each finding.
 Status verify_ledger(sqlite::Connection& connection, std::vector<std::string>& findings);
 
 }  // namespace mdof::store

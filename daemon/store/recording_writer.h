@@ -1,4 +1,4 @@
-// Writes a recording: samples in, chained chunks on disk. Format: schema/recording/recording.h.
+// Writes samples to a recording as chained chunks. Format: schema/recording/recording.h.
 #pragma once
 
 #include <cstdint>
@@ -15,42 +15,42 @@
 
 namespace mdof::store {
 
-// Thread-bound. Nothing is acknowledged before commit() says so; what append() took since the last
-// commit() is lost if the process ends. After an error of commit() (a full disk) everything is kept
+// Thread-bound. Data are safe only after commit(); if the process ends, data that append() took
+// since the last commit() are lost. After an error of commit() (a full disk) everything is kept,
 // and the next commit() tries again.
 class RecordingWriter {
  public:
-  // Makes the file, and its folder where needed; an existing file is refused (conflict). Of one
-  // that cannot be written nothing is left.
+  // Creates the file, and its folder if needed. Error (conflict): the file exists. If it cannot be
+  // written, no file remains.
   static Result<RecordingWriter> create(const std::filesystem::path& file,
                                         const RecordingHeader& header,
                                         sqlite::Durability durability = sqlite::Durability::full);
 
-  // A recording that was begun and is of no use, whose writer has gone.
+  // Removes an incomplete, useless recording that has no writer.
   static void remove(const std::filesystem::path& file);
 
-  // Takes the block into memory. bad_input: time does not increase from block to block of a device.
-  // io: commit() has failed for so long that kMaxWaitingBytes wait; the block is then counted as
-  // lost in the device's next chunk.
+  // Takes the block into memory. bad_input: the time of a device does not increase. io: commit()
+  // has failed until kMaxWaitingBytes are pending; the block is then counted as lost in the
+  // device's next chunk.
   Status append(const SampleBlock& block);
-  // Puts all that was appended on the disk in one transaction; gives the number of the last chunk
-  // that is safe there (0: none). The caller decides how often: a commit costs one disk flush.
+  // Writes all appended data to the disk in one transaction; returns the number of the last safe
+  // chunk (0: none). A commit needs one disk flush, so the caller decides how often.
   Result<std::int64_t> commit();
-  // Commits, seals and leaves one plain file that can be read where nothing may be written.
-  // Gives the recording's SHA-256. To be called once, last.
+  // Commits, seals and leaves a single file that can be read on a read-only disk. Returns the
+  // recording's SHA-256. Call it once, at the end.
   Result<std::string> finish(const std::string& finished_utc);
 
-  std::uint64_t scans() const { return scans_; }  // in chunks, committed or waiting
+  std::uint64_t scans() const { return scans_; }  // in chunks, committed or pending
   std::uint64_t lost() const { return lost_; }    // before, between or after those
 
   static constexpr std::size_t kMaxWaitingBytes = 64u << 20;
 
  private:
-  // Blocks of one device on their way into a chunk.
+  // Blocks of one device that wait for a chunk.
   struct Stream {
     SampleBlock block;
     std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
-    std::uint64_t lost = 0;  // to be stated in the next chunk
+    std::uint64_t lost = 0;  // stated in the next chunk
   };
 
   RecordingWriter(sqlite::Connection connection, std::string hash);
@@ -59,10 +59,10 @@ class RecordingWriter {
   Status write_waiting();
 
   sqlite::Connection connection_;
-  std::map<std::string, Stream> streams_;  // by device; ordered, so that files are reproducible
+  std::map<std::string, Stream> streams_;  // by device; sorted, so that files are reproducible
   std::deque<RecordingChunk> waiting_;
   std::size_t waiting_bytes_ = 0;
-  std::string hash_;  // of the last chunk made
+  std::string hash_;  // hash of the last chunk
   std::int64_t seq_ = 0, committed_seq_ = 0;
   std::uint64_t scans_ = 0, lost_ = 0;
 };

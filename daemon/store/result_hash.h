@@ -1,9 +1,9 @@
-// The SHA-256 of a run's result rows: two runs have the same hash when, and only when, every point,
-// straightness and angle figure is the same to the last bit, whatever machine, compiler or file
-// they came from. Provenance, names of files and times of day are left out.
+// The SHA-256 of a run's result rows. Two runs have the same hash if and only if every point,
+// straightness figure and angle figure is bit-identical, independent of machine, compiler and file.
+// Provenance, file names and times of day are not included.
 //
-// Bytes hashed (i, d, s: schema/base/canonical.h), in the order in which the rows stand: all
-// points, then straightness, then angles:
+// Hashed bytes (i, d, s: schema/base/canonical.h) in the order of the rows: all points, then
+// straightness, then angles:
 //   point         i target, d target_m, i repetition, i direction, i begin_ns, i end_ns, d
 //   position_m,
 //                 i samples, i number of flags, s each flag, i n, d probe_m[n], i n, d
@@ -30,11 +30,11 @@ class ResultHash {
 
  private:
   Sha256 hash_;
-  std::string row_;  // reused
+  std::string row_;  // reused memory
 };
 
 std::string result_sha256(const Run& run);
-// The beginning of the SHA-256 of one row, as above.
+// The first bytes of the SHA-256 of one row, as above.
 std::uint64_t row_hash(const MeasuredPoint& point);
 
 }  // namespace mdof::store

@@ -1,6 +1,6 @@
-// The database of runs, squareness, compensation tables and sensitivity studies: schema/sql/*.sql
-// behind typed calls.
-// Append only. Everything that returns ok is on the disk, as the durability says.
+// The database of runs, squareness, compensation tables and sensitivity studies: typed calls for
+// schema/sql/*.sql. Append only. Everything that returns ok is on the disk, according to the
+// durability.
 #pragma once
 
 #include <cstdint>
@@ -30,26 +30,26 @@ namespace mdof::store {
 using sqlite::Durability;
 
 enum class Access {
-  read_only,   // the file must exist; any number of readers, also while a writer is at work
-  read_write,  // made where absent, brought to the newest schema; one writer at a time
+  read_only,   // the file must exist; any number of readers, also during writing
+  read_write,  // created if missing, migrated to the newest schema; one writer at a time
 };
 
 struct StoreOptions {
   Durability durability = Durability::full;
-  int busy_timeout_ms = 5000;  // how long to wait for another writer to end
+  int busy_timeout_ms = 5000;  // longest wait for the end of another writer
 };
 
-// What is known of a run only when it has ended.
+// Data of a run that are known only after its end.
 struct RunEnd {
   RunState state = RunState::complete;  // not open
   std::uint64_t scans = 0, scans_lost = 0;
   Notices notices;
-  std::string recording_sha256;  // of a recording that was still being written at the start
+  std::string recording_sha256;  // of a recording that was not yet complete at the start
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
   std::optional<Plausibility> plausibility = std::nullopt;
   std::optional<Temperature> temperature = std::nullopt;
-  std::optional<HistoryEntry> action = std::nullopt;         // of who asked for it
+  std::optional<HistoryEntry> action = std::nullopt;         // the user who ended it
   std::optional<RunUncertainty> uncertainty = std::nullopt;  // of its points, for SQL users
 };
 
@@ -59,7 +59,7 @@ struct ActiveTable {
   std::int64_t generation = 0;
   std::string actor;
   std::string activated_utc;
-  bool doubtful = false;  // by its runs; whoever reads it for a client says so
+  bool doubtful = false;  // because of its runs; readers for clients set it
 };
 
 struct ActiveVolumetric {
@@ -67,76 +67,77 @@ struct ActiveVolumetric {
   std::int64_t generation = 0;
   std::string actor;
   std::string activated_utc;
-  bool doubtful = false;  // as of ActiveTable
+  bool doubtful = false;  // as in ActiveTable
 };
 
-// What a controller has to know of a table.
+// Information that a controller needs about a table.
 struct Marks {
   bool simulated = false, doubtful = false;
 };
 
-// What came of activate() or deactivate().
+// Result of activate() or deactivate().
 struct Activation {
   std::int64_t generation = 0;
-  bool changed = false;                       // false: it was so already, and is of that generation
-  std::optional<Marks> marks = std::nullopt;  // of the table that was activated
+  bool changed = false;  // false: it already was in this state, with this generation
+  std::optional<Marks> marks = std::nullopt;  // of the activated table
 };
 
-// {`members`,"generation":7,"changed":true}, with "simulated" and "doubtful" of a table: `members`
-// say of what, as JSON.
+// {`members`,"generation":7,"changed":true}, with "simulated" and "doubtful" for a table. `members`
+// is JSON that names the object.
 std::string activation_json(const std::string& members, const Activation& activation);
 
-// Thread-bound. A message names the file; not_found names the run or table that is not there.
-// What somebody asked for takes a `HistoryEntry`: who did it, stored in the same transaction, with
-// its `detail` as the reason. Doubles come back with the bits that they went in with; a NaN comes
-// back as a NaN.
+// Thread-bound. Messages name the file; not_found names the missing run or table. A requested
+// action takes a `HistoryEntry` with its user; it is stored in the same transaction, with its
+// `detail` as the reason. Doubles are read back bit-identical; a NaN is read back as a NaN.
 class Store {
  public:
   static Result<Store> open(const std::filesystem::path& file, Access access,
                             StoreOptions options = {});
 
   // ---- runs ----
-  // A whole run in one transaction: all of it is stored or nothing. The header's id is not used;
-  // its state must not be open. Gives the run's id.
+  // Stores a complete run in one transaction. The header's id is ignored; its state must not be
+  // open. Returns the run's id.
   Result<std::int64_t> add_run(const Run& run,
                                const std::optional<HistoryEntry>& action = std::nullopt,
                                const std::optional<RunUncertainty>& uncertainty = std::nullopt);
-  // A run that is being measured: begun, filled and ended, each call durable on return. Only this
-  // store can fill it; if it ends before the run does, the run is `aborted` and says "interrupted".
+  // For a run in progress: begin, append, end; each call is durable on return. Only this store can
+  // append to it. If the store is closed before the run ends, the run becomes `aborted` with the
+  // notice "interrupted".
   Result<std::int64_t> begin_run(const RunHeader& header,
                                  const std::optional<HistoryEntry>& action = std::nullopt);
   Status append_points(std::int64_t run, const std::vector<MeasuredPoint>& points);
   Status end_run(std::int64_t run, const RunEnd& end);
-  // Ends it and stores what it turned out to be as a run that supersedes it, in one transaction.
-  // Of the result's header only state and notices count. Gives the new run's id.
+  // Ends the run and stores its final result as a run that supersedes it, in one transaction. Of
+  // the header of `result` only state and notices are used. Returns the new run's id.
   Result<std::int64_t> end_and_supersede(
       std::int64_t run, const RunEnd& end, Run result,
       const std::optional<RunUncertainty>& uncertainty = std::nullopt);
 
   Result<RunHeader> run_header(std::int64_t run);
-  // Newest first; `axis` narrows it to the runs of one axis. `results`: without those that
-  // end_and_supersede() ended, whose result is another run.
+  // Newest first; `axis` selects the runs of one axis. `results`: without runs that
+  // end_and_supersede() ended, because their result is another run.
   enum class Listed { all, results };
   Result<std::vector<RunHeader>> list_runs(std::int64_t offset, std::int64_t count,
                                            std::optional<Axis> axis = std::nullopt,
                                            Listed listed = Listed::all);
   Result<std::int64_t> count_runs(std::optional<Axis> axis = std::nullopt,
                                   Listed listed = Listed::all);
-  Result<std::optional<std::int64_t>> superseded_by(std::int64_t run);  // the last that does
-  // Rows offset ... offset + count - 1 in the order measured, as many as there are. Of a run that
-  // has ended each is checked by the run's hash: the first call reads all of its rows.
+  Result<std::optional<std::int64_t>> superseded_by(std::int64_t run);  // the last run that
+                                                                        // supersedes it
+  // Rows offset ... offset + count - 1 in the order of measurement, as far as they exist. For a
+  // finished run each row is checked by the run's hash; the first call reads all rows.
   Result<std::vector<MeasuredPoint>> points(std::int64_t run, std::int64_t offset,
                                             std::int64_t count);
   Result<std::int64_t> count_points(std::int64_t run);
   Result<Run> run(std::int64_t run);
-  // Of the result rows as they are stored now; see result_hash.h for the bytes.
+  // Of the result rows as stored now; see result_hash.h for the bytes.
   Result<std::string> result_sha256(std::int64_t run);
 
   // ---- squareness ----
   Result<std::int64_t> add_squareness(const Squareness& squareness,
                                       const std::optional<HistoryEntry>& action = std::nullopt);
   Result<std::vector<Squareness>> list_squareness(std::int64_t offset, std::int64_t count);
-  // Of these two runs, newest first.
+  // Squareness of these two runs, newest first.
   Result<std::vector<Squareness>> squareness_of(std::int64_t run_a, std::int64_t run_b);
 
   // ---- compensation tables ----
@@ -145,55 +146,56 @@ class Store {
   Result<CompensationTable> table(std::int64_t id);
   Result<std::vector<CompensationTable>> list_tables(std::int64_t offset, std::int64_t count,
                                                      std::optional<Axis> axis = std::nullopt);
-  // Activates a table on its axis; gives the new generation. Generations rise strictly over all
-  // axes, so that one number shows a client whether anything has changed.
-  // `expected`: the generation() on which the decision was based; checked in the same transaction.
-  // Error (conflict) if it differs: names the active tables, and changes nothing.
+  // Activates a table on its axis; returns the new generation. Generations increase over all axes,
+  // so that one number shows whether anything has changed. `expected`: the generation() on which
+  // the decision was based, checked in the same transaction. Error (conflict) if it differs: the
+  // message names the active tables, and nothing changes.
   Result<Activation> activate(std::int64_t table, const std::string& actor, const std::string& utc,
                               const std::optional<HistoryEntry>& action = std::nullopt,
                               std::optional<std::int64_t> expected = std::nullopt);
-  // No table is active on the axis from then on.
+  // After this call no table is active on the axis.
   Result<Activation> deactivate(Axis axis, const std::string& actor, const std::string& utc,
                                 const std::optional<HistoryEntry>& action = std::nullopt,
                                 std::optional<std::int64_t> expected = std::nullopt);
-  Result<ActiveTable> active(Axis axis);  // not_found where none is active
-  Result<std::int64_t> generation();      // the highest; 0: nothing was ever activated
+  Result<ActiveTable> active(Axis axis);  // not_found if none is active
+  Result<std::int64_t> generation();      // the highest; 0: no activation so far
   Status check_generation(std::optional<std::int64_t> expected);  // see activate()
 
   // ---- volumetric tables ----
-  // Their numbers and generations are of one count with those of compensation tables.
+  // Their ids and generations share one sequence with those of compensation tables.
   Result<std::int64_t> add_volumetric(const VolumetricTable& table,
                                       const std::optional<HistoryEntry>& action = std::nullopt);
   Result<VolumetricTable> volumetric(std::int64_t id);
-  Result<bool> is_volumetric(std::int64_t id);  // false: no such table, or one of an axis
+  Result<bool> is_volumetric(std::int64_t id);  // false: unknown table, or table of an axis
   Result<std::vector<VolumetricTable>> list_volumetric(std::int64_t offset, std::int64_t count);
-  // Activates one; without a table none is active from then on.
+  // Activates a table; without a table it deactivates the active one.
   Result<Activation> change_volumetric(std::optional<std::int64_t> table, const std::string& actor,
                                        const std::string& utc,
                                        const std::optional<HistoryEntry>& action = std::nullopt,
                                        std::optional<std::int64_t> expected = std::nullopt);
-  Result<ActiveVolumetric> active_volumetric();  // not_found where none is active
+  Result<ActiveVolumetric> active_volumetric();  // not_found if none is active
 
-  // ---- where an axis stood when somebody said so ----
-  Result<std::int64_t> add_datum(const DatumSetting& setting,  // its id is not used
+  // ---- set positions of an axis ----
+  Result<std::int64_t> add_datum(const DatumSetting& setting,  // its id is ignored
                                  const std::optional<HistoryEntry>& action = std::nullopt);
   Result<std::optional<DatumSetting>> last_datum(Axis axis);
 
-  // ---- who did it ----
-  // With a run, or with one that it supersedes; in order.
+  // ---- history ----
+  // Actions on a run and on the runs that it supersedes, in order.
   Result<std::vector<HistoryEntry>> actions_of_run(std::int64_t run);
   Result<std::vector<HistoryEntry>> list_actions(std::int64_t offset,
                                                  std::int64_t count);  // newest first
   Result<std::int64_t> count_actions();
 
   // ---- sensitivity studies ----
-  // A study is begun, its checkpoint replaced as it goes on, and ended: complete, or interrupted
-  // with the checkpoint from which it can be continued. Each call is durable on return, and any
-  // store may make it: a study that takes hours need not keep its database open.
-  Result<std::int64_t> begin_study(const StudyRecord& study);  // its id is not used
+  // A study begins, replaces its checkpoint while it runs, and ends: complete, or interrupted with
+  // a checkpoint from which it can continue. Each call is durable on return. Any store may make it,
+  // so that a study of hours need not keep its database open.
+  Result<std::int64_t> begin_study(const StudyRecord& study);  // its id is ignored
   Status save_checkpoint(std::int64_t study, const StudyCheckpoint& checkpoint);
   Status end_study(std::int64_t study, const StudyOutcome& outcome,
-                   const std::optional<StudyCheckpoint>& checkpoint);  // none: removes the last
+                   const std::optional<StudyCheckpoint>& checkpoint);  // nullopt: removes the last
+                                                                       // one
   Result<StudyRecord> study(std::int64_t id);
   Result<std::vector<StudyRecord>> list_studies(std::int64_t offset, std::int64_t count);
   Result<std::int64_t> count_studies();
@@ -201,23 +203,23 @@ class Store {
   Result<std::optional<StudyCheckpoint>> study_checkpoint(std::int64_t study);
 
   // ---- integrity ----
-  // Checks the file, its references, the chain of hashes (ledger.h), the hash of every text, of
-  // every run's result rows and of every study's figures and checkpoint. One sentence a finding;
-  // none: sound.
+  // Checks the file, its references, the chain of hashes (ledger.h), and the hashes of all texts,
+  // of the result rows of all runs, and of the figures and checkpoints of all studies. One sentence
+  // for each finding; empty: no damage.
   Result<std::vector<std::string>> verify();
-  // The head of the chain of hashes, and whether a head of before is still in it.
+  // The head of the chain of hashes, and whether an earlier head is still in the chain.
   Result<ChainHead> chain_head() { return store::chain_head(connection_); }
   Result<bool> has_hash(const std::string& sha256) { return store::has_hash(connection_, sha256); }
-  // Error (bad_input): the chain no longer has the head that mdofd announced last
+  // Error (bad_input): the chain no longer contains the head that mdofd announced last
   // (file/announced_head.h).
   Status check_announced_head();
   Status check_head(const ChainHead& reported);
 
   const std::filesystem::path& file() const { return connection_.file(); }
-  // Of a store that writes: why nothing is stored any more, as -wal or -shm is not what it was
-  // (schema/base/database/journal_watch.h); empty: it is.
+  // For a writing store: why nothing is stored any more, because -wal or -shm has changed
+  // (schema/base/database/journal_watch.h); empty: no fault.
   std::string journal_fault() { return connection_.journal_fault(); }
-  // What SQLite said last of a damaged file; empty: nothing.
+  // The last SQLite message about a damaged file; empty: none.
   const std::string& damage() const { return connection_.damage(); }
   std::int64_t changes() const { return connection_.changes(); }  // rows written by this store
 
@@ -263,7 +265,7 @@ class Store {
   Status mark_damage(RunHeader& header);
   Result<std::vector<Squareness>> checked_squareness(sqlite::Statement& rows);
   enum class RowOf { run, compensation_table, volumetric_table, study };
-  // Error (not_found) with the command that lists what there is.
+  // Error (not_found) with the command that lists the existing rows.
   Status check_exists(RowOf table, std::int64_t id);
   // plausibility_read.cpp
   Result<std::optional<Plausibility>> plausibility(std::int64_t run);
@@ -295,12 +297,12 @@ class Store {
   Status verify_documents(std::vector<std::string>& findings);
   Status verify_runs(std::vector<std::string>& findings);
 
-  WriterLock lock_;  // first made, last given back
+  WriterLock lock_;  // created first, destroyed last
   sqlite::Connection connection_;
   Access access_;
-  std::map<std::int64_t, std::int64_t> open_runs_;  // run begun here -> its next row
-  // Of the run whose points were asked for last: its hash as stored, which its rows had, and the
-  // beginning of the hash of each row.
+  std::map<std::int64_t, std::int64_t> open_runs_;  // runs that began here -> next row
+  // For the run of the last points(): its stored hash, which matched its rows, and the first bytes
+  // of the hash of each row.
   struct CheckedRows {
     std::int64_t run = 0;
     std::string sha256;

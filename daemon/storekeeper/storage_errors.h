@@ -1,4 +1,4 @@
-// What a refusal of the database means for those who want to store. Private to storekeeper*.cpp.
+// Classifies errors of the database for storing. Private to storekeeper*.cpp.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace mdof::daemon {
 
-// A foreign program holds the file: that passes.
+// Another program locks the file; this is temporary.
 inline bool is_busy(const Error& error) {
   return error.message.find("SQLITE_BUSY") != std::string::npos;
 }
@@ -16,7 +16,7 @@ bool is_busy(const Result<T>& done) {
   return !done && is_busy(done.error());
 }
 
-// The disk takes nothing: it is full, read-only, or it errs.
+// The disk accepts no data: it is full, read-only, or fails.
 inline bool is_full(const Error& error) {
   for (const char* sign : {"SQLITE_FULL", "SQLITE_READONLY", "SQLITE_IOERR", "SQLITE_CANTOPEN",
                            "No space left", "Read-only file system"})

@@ -1,5 +1,5 @@
-// The thread "store": the one writer of the database and of recordings. Everything that touches the
-// disk for writing is a job in its queue; the measuring path never waits for it.
+// The thread "store": the only writer of the database and of recordings. All writing to the disk is
+// a job in its queue; the measurement never waits for it.
 #pragma once
 
 #include <atomic>
@@ -25,29 +25,29 @@
 
 namespace mdof::daemon {
 
-// What a run that is being measured needs on the disk.
+// Data for storing a new run.
 struct NewRun {
   RunHeader header;
   std::filesystem::path recording;  // empty: not recorded (a replay)
   RecordingHeader recording_header;
-  std::optional<store::RecordingWriter> begun;        // a recording that has a beginning already
-  std::optional<HistoryEntry> action = std::nullopt;  // who asked for it
+  std::optional<store::RecordingWriter> begun;        // a recording that already has a beginning
+  std::optional<HistoryEntry> action = std::nullopt;  // the requesting user
 };
 
-// How a run ends, beside its result.
+// Data for the end of a run besides its result.
 struct RunEnding {
-  bool differs = false;  // from the points already stored
+  bool differs = false;  // the result differs from the stored points
   std::optional<HistoryEntry> action = std::nullopt;
   std::optional<RunUncertainty> uncertainty = std::nullopt;  // of the result's points
 };
 
-// How it is with storing: "ok"; "lost": the database, its -wal or -shm was deleted, replaced or cut
-// short under us, or its chain of hashes was; "damaged": SQLite found damage in it;
-// "full": the disk takes nothing (it is full, or may not be written); "held": a foreign program
-// holds the database, and points wait.
+// The state of the storage. "ok"; "lost": the database, its -wal or -shm, or its chain of hashes
+// was deleted, replaced or cut while in use; "damaged": SQLite found damage; "full": the disk
+// accepts no data (full or read-only); "held": another program locks the database, and points are
+// pending.
 struct StorageState {
   std::string state = "ok";
-  std::string reason;  // and the remedy
+  std::string reason;  // with the remedy
   bool operator==(const StorageState&) const = default;
 };
 
@@ -57,66 +57,69 @@ class Storekeeper {
     std::filesystem::path database;
     store::Durability durability = store::Durability::full;
     std::chrono::milliseconds commit_interval{50};
-    // For a foreign program that holds the database, each time; what can wait is then tried again,
-    // after as long a time for all other work.
+    // Longest wait for another program that locks the database. Pending data are then tried again
+    // after the same time, which is left for other work.
     std::chrono::milliseconds busy_timeout{1000};
-    std::size_t most_waiting = 4096;  // points, meanwhile
+    std::size_t most_waiting = 4096;  // maximum number of pending points
   };
-  // All called on the store thread.
+  // Called on the store thread.
   struct Events {
     // Chunks up to `seq` of this run's recording are on the disk.
     std::function<void(std::int64_t run, std::int64_t seq)> recorded;
-    // The disk refused (full, gone): the run can no longer be kept.
+    // The disk rejected data (full, removed): the run can no longer be kept.
     std::function<void(std::int64_t run, const Error& error)> failed;
-    // The database is not what it was any more, or is again; see storage().
+    // The state of the storage has changed; see storage().
     std::function<void(const StorageState& now)> storage_changed = nullptr;
-    // The chain of hashes has another head; also once at the start.
+    // The head of the chain of hashes has changed; also called once at the start.
     std::function<void(const store::ChainHead& head)> head_changed = nullptr;
   };
 
-  // Opens the database and starts the thread. One that can be read but not written now is taken as
-  // well, since tables are to be served: it is opened again and again. Else errors as Store::open:
-  // what cannot be read could be anything, and "no table is active" must not be a guess.
+  // Opens the database and starts the thread. A database that is readable but not yet writable is
+  // also accepted, because its tables must be served; opening is then tried again and again.
+  // Otherwise errors as from Store::open: for an unreadable database it is unknown whether a table
+  // is active.
   static Result<std::unique_ptr<Storekeeper>> start(const Options& options, Events events);
-  // Ends the queue, writes out what waits, joins.
+  // Finishes the queue, writes pending data, and joins the thread.
   ~Storekeeper();
 
   // Thread-safe from here on. Callbacks run on the store thread.
   using Job = std::function<void(store::Store&)>;
-  // False: the queue is full or closing; the job is not kept.
+  // False: the queue is full or closing; the job is dropped.
   bool post(Job job);
-  // Waits for its result. Errors: those of the job, a full or closing queue, no store to write to.
+  // Waits for the result. Errors: those of the job; a full or closing queue; a store that is not
+  // writable.
   Result<std::string> run(std::function<Result<std::string>(store::Store&)> job);
-  // Errors as RecordingWriter::create(). Whoever calls it may write until it is a run's.
+  // Errors as from RecordingWriter::create(). The caller may write to it until it belongs to a run.
   Result<store::RecordingWriter> create_recording(const NewRun& run) const;
   bool begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done);
-  // `wait`: for a source that can wait; otherwise a full queue drops the blocks, counted as one.
+  // `wait`: for a source that can wait; otherwise a full queue drops the blocks and counts them as
+  // one.
   bool record(std::int64_t run, std::vector<SampleBlock> blocks, bool wait);
-  // Where a foreign program holds the database, points and ends wait until it is released: the
-  // recording has them meanwhile, and `done` comes when they are stored. Points beyond
-  // `most_waiting`, and all later ones of their run, are dropped (`done`: an error) and counted:
-  // they are stored when the run ends, as in a run that supersedes it.
+  // If another program locks the database, points and ends wait for its release. Meanwhile the
+  // recording contains the samples, and `done` is called after storing. Points beyond
+  // `most_waiting`, and all later points of their run, are dropped (`done` gets an error) and
+  // counted. They are stored at the end of the run, in a run that supersedes it.
   void append_points(std::int64_t run, std::vector<MeasuredPoint> points,
                      std::function<void(Status)> done);
-  // Seals the recording and ends the run. If the result differs from the points already stored,
-  // they stay, and the whole result is stored as a new run that supersedes them; gives the id to
-  // read.
+  // Seals the recording and ends the run. If the result differs from the stored points, these stay,
+  // and the complete result is stored as a new run that supersedes the run. `done` gets the id of
+  // the run to read.
   void end_run(std::int64_t run, Run result, RunEnding how,
                std::function<void(Result<std::int64_t>)> done);
 
   StorageState storage() const;
-  // Why nothing can be stored: the database is lost, or could not be opened for writing yet. Empty:
-  // it can.
+  // Why nothing can be stored: the database is lost, or could not yet be opened for writing. Empty:
+  // it can be stored.
   std::string fault() const;
-  // Why a run whose measuring has ended stands as open; empty: it does not.
+  // Why a run whose measurement has ended is still stored as open; empty: it is not.
   std::string why_open(std::int64_t run) const;
-  // The head of the chain of hashes, as announced last.
+  // The last announced head of the chain of hashes.
   store::ChainHead chain_head() const;
-  // Thread-safe: a reader found damage in the database. Says so until mdofd ends.
+  // Thread-safe. Reports damage that a reader found; the state stays until mdofd ends.
   void note_damage(const std::string& what);
   std::uint64_t dropped_blocks() const { return queue_.dropped(); }
-  std::uint64_t dropped_points() const { return dropped_points_.load(); }  // of append_points()
-  // When the thread last came round; for the watchdog.
+  std::uint64_t dropped_points() const { return dropped_points_.load(); }  // by append_points()
+  // Time of the thread's last report, for the watchdog.
   std::chrono::steady_clock::time_point last_turn() const { return last_turn_.load(); }
 
  private:
@@ -158,7 +161,7 @@ class Storekeeper {
   struct Recording {
     store::RecordingWriter writer;
     store::FileWatch file;
-    bool waiting = false;  // holds blocks that are not committed yet
+    bool waiting = false;  // contains blocks that are not yet committed
   };
 
   Status commit(std::int64_t run, Recording& recording);
@@ -174,32 +177,34 @@ class Storekeeper {
     Run result;
     RunEnding how;
     std::function<void(Result<std::int64_t>)> done;
-    std::size_t dropped = 0;  // points of it
+    std::size_t dropped = 0;  // number of its dropped points
   };
   struct Unended {
     std::int64_t run;
     store::RunEnd end;
   };
 
-  std::optional<store::Store> store_;  // none: it cannot be written yet
+  std::optional<store::Store> store_;  // nullopt: not yet writable
   const Options options_;
   Events events_;
   std::map<std::int64_t, Recording> recordings_;
   store::FileWatch database_;
   std::chrono::steady_clock::time_point files_watched_{};
   std::chrono::steady_clock::time_point tried_{};
-  mutable std::mutex fault_mutex_;  // guards the next seven
+  mutable std::mutex fault_mutex_;  // protects the next seven
   std::string lost_, full_, held_, damaged_;
-  StorageState unopened_;  // why there is no store_ yet; "ok": there is one
+  StorageState unopened_;  // why store_ is missing; "ok": it exists
   store::ChainHead announced_;
   std::map<std::int64_t, std::string> open_because_;
   std::int64_t changes_announced_ = -1;  // of the database, when its head was announced
   std::vector<Unended> unended_;
-  std::deque<Points> waiting_points_;  // for a foreign program to release the database
-  std::size_t waiting_count_ = 0;      // points in them
-  std::deque<Ending> waiting_ends_;    // for the same
-  std::chrono::steady_clock::time_point next_try_{};  // to store what waits
-  // Run -> points of it that were not kept: the disk refused one, or too many waited.
+  std::deque<Points> waiting_points_;  // wait until another program releases the database
+  std::size_t waiting_count_ = 0;      // number of points in waiting_points_
+  std::deque<Ending> waiting_ends_;    // likewise
+  std::chrono::steady_clock::time_point next_try_{};  // time of the next attempt to store pending
+                                                      // data
+  // Run -> number of its points that were not kept, because the disk rejected one or too many were
+  // pending.
   std::map<std::int64_t, std::size_t> incomplete_, overflowed_;
   std::atomic<std::uint64_t> dropped_points_{0};
   BoundedQueue<std::function<void()>> queue_;

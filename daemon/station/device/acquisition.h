@@ -1,6 +1,6 @@
-// One device at work: its thread "acq-<device>" makes the driver, opens it, reads it, and opens it
-// again after an error, with growing pauses. What was lost on the way is reported with the next
-// block; that a device is lost, back, suspect or slow is reported at once.
+// Reads one device. The thread "acq-<device>" creates the driver, opens it, reads it, and opens it
+// again after an error, with increasing waiting times. Lost scans are reported with the next block;
+// that a device is lost, back, suspect or slow is reported at once.
 #pragma once
 
 #include <atomic>
@@ -28,10 +28,10 @@ class Acquisition final : public DeviceReader {
   ~Acquisition() override;
 
   void start() override;
-  void stop() override;  // joins: at most a read's time-out and an open later
+  void stop() override;  // joins the thread, after at most a read timeout and an open
   void cease() override { acquiring_ = false; }
   void trust_count() override { trust_count_of(kEncoderChannel); }
-  // Of this channel of the device.
+  // For this channel of the device.
   void trust_count_of(const std::string& encoder);
   void wake() override { woken_ = true; }
 
@@ -66,27 +66,27 @@ class Acquisition final : public DeviceReader {
   std::atomic<bool> acquiring_{false}, woken_{false};
   std::atomic<std::chrono::steady_clock::time_point> turn_;
   mutable std::mutex status_mutex_;
-  DeviceStatus status_;  // guarded by status_mutex_
-  std::set<std::string>
-      trusted_;  // encoders, the driver does not know it yet; guarded by status_mutex_
+  DeviceStatus status_;            // protected by status_mutex_
+  std::set<std::string> trusted_;  // encoders that the driver does not yet know as trusted;
+                                   // protected by status_mutex_
 
-  // Acquiring thread only.
+  // Used by the acquisition thread only.
   std::chrono::milliseconds backoff_{0};
-  std::optional<std::int64_t> last_ns_;  // of the last scan that was read
-  bool just_opened_ = false;             // no block since
-  std::int64_t opened_ns_ = 0;           // of the first scan since, and how many there were
+  std::optional<std::int64_t> last_ns_;  // time of the last scan that was read
+  bool just_opened_ = false;             // no block since opening
+  std::int64_t opened_ns_ = 0;           // time of the first scan since opening
   std::uint64_t scans_since_opened_ = 0;
   std::chrono::steady_clock::time_point next_refresh_;
-  std::uint64_t dropped_scans_ = 0;  // to be reported with the next block
+  std::uint64_t dropped_scans_ = 0;  // reported with the next block
   std::optional<std::chrono::steady_clock::time_point> lost_since_;
-  std::set<std::string> datum_lost_;  // of these encoders
+  std::set<std::string> datum_lost_;  // encoders with a lost datum
   int marks_passed_ = 0;
   bool clock_is_uncertain_ = false;
   std::uint64_t clock_steps_ = 0;
-  std::chrono::steady_clock::time_point window_end_;  // of watch_rate()
+  std::chrono::steady_clock::time_point window_end_;  // end of the window of watch_rate()
   std::uint64_t scans_in_window_ = 0, lost_in_window_ = 0;
 
-  std::uint64_t pass_ = 0;  // by whoever calls start()
+  std::uint64_t pass_ = 0;  // changed by the caller of start()
   std::thread thread_;
 };
 

@@ -1,4 +1,4 @@
-// Reports when a device was plugged in, so that whoever waits to open one need not wait longer.
+// Reports plugged-in devices, so that a device can be opened without further waiting.
 #pragma once
 
 #include <memory>
@@ -10,15 +10,15 @@ struct udev_monitor;
 
 namespace mdof::daemon {
 
-// Events of udev, after its rules: the permissions are set. Thread-bound.
+// Events of udev after its rules, so that the permissions are set. Thread-bound.
 class Hotplug {
  public:
-  // Of USB, hidraw, serial ports, counters and IIO. Error: the kernel refuses a monitor. Where no
-  // udevd runs, as in most containers, no event ever comes.
+  // Watches USB, hidraw, serial ports, counters and IIO. Error: the kernel rejects a monitor.
+  // Without udevd, as in most containers, there are no events.
   static Result<Hotplug> watch();
 
-  int descriptor() const;  // readable when something happened
-  // Takes all events that wait; whether a device came.
+  int descriptor() const;  // readable if there are events
+  // Reads all pending events; returns whether a device was plugged in.
   bool take_arrivals();
 
  private:

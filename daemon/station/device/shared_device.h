@@ -1,5 +1,5 @@
-// A device that several axes have: read once, by one thread, for all of them. Each is given the
-// channels that are for it, under the names of its rig, as if it had a device of its own.
+// A device that several axes share. One thread reads it for all of them. Each axis gets its
+// channels with the names of its rig, as from its own device.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +15,25 @@
 
 namespace mdof::daemon {
 
-// Replaces `taken` by the channels of `block` that `part` (DriverSpec::part) is of, under their
+// Replaces `taken` by the channels of `block` that are in `part` (DriverSpec::part), with their
 // names there.
 void take_part(const SampleBlock& block, const drivers::ChannelPart& part, SampleBlock& taken);
 
-// Parts come and go on the main thread.
+// Parts are added and removed on the main thread.
 class SharedDevice {
  public:
   explicit SharedDevice(const drivers::DriverSpec& spec);
 
  private:
   friend class DevicePart;
-  // Of one axis, as the acquiring thread sees it.
+  // The part of one axis, as seen by the acquisition thread.
   struct Taker {
     drivers::DriverSpec spec;
     DeviceSink sink;
-    SampleBlock block;  // for its part of the next
+    SampleBlock block;  // for its part of the next block
     bool ceased = false;
-    std::uint64_t dropped_scans = 0;      // to be reported with the next block
-    std::uint64_t dropped = 0, lost = 0;  // blocks and scans, as of DeviceStatus
+    std::uint64_t dropped_scans = 0;      // reported with the next block
+    std::uint64_t dropped = 0, lost = 0;  // blocks and scans, as in DeviceStatus
   };
   DeviceSink fan_out();
   void hand_out(const SampleBlock& block, std::uint64_t pass);
@@ -43,11 +43,12 @@ class SharedDevice {
   DeviceStatus status_of(const Taker& taker) const;
 
   mutable std::mutex mutex_;
-  std::vector<std::shared_ptr<Taker>> takers_;  // guarded by mutex_, and what they hold
-  Acquisition acquisition_;                     // goes first
+  std::vector<std::shared_ptr<Taker>> takers_;  // protected by mutex_, including their content
+  Acquisition acquisition_;                     // destroyed first
 };
 
-// Those of several axes, by name: each is made with its first part and lives as long as one.
+// The devices that several axes share, by name. A device is created with its first part and
+// destroyed with its last.
 class SharedDevices {
  public:
   std::unique_ptr<DeviceReader> part(const drivers::DriverSpec& spec, DeviceSink sink);
@@ -56,8 +57,8 @@ class SharedDevices {
   std::map<std::string, std::weak_ptr<SharedDevice>> devices_;
 };
 
-// The name of a device that gives both axes the same probes: only one of them can be measured at a
-// time. "": there is none.
+// The name of a device that gives both axes the same probes, so that only one of them can be
+// measured at a time. "": none.
 std::string same_probes(const AxisConfig& a, const AxisConfig& b);
 
 }  // namespace mdof::daemon

@@ -1,4 +1,4 @@
-// Blocks that were processed: the thread of their device takes them back and reuses their memory.
+// Processed blocks. The thread of their device reuses their memory.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class SpareBlocks {
     const std::lock_guard lock(mutex_);
     if (blocks_.size() < kMost) blocks_.push_back(std::move(block));
   }
-  // The newest block of this device, with memory of the right size; without it, an empty block.
+  // The newest block of this device, whose memory has the right size; otherwise an empty block.
   SampleBlock take(const std::string& device) {
     const std::lock_guard lock(mutex_);
     const auto last = std::find_if(blocks_.rbegin(), blocks_.rend(),

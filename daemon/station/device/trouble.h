@@ -1,5 +1,4 @@
-// What goes wrong with a device, by its cause: shown at once where somebody looks, and kept with
-// the run.
+// Faults of devices by kind. They are shown at once and stored with the run.
 #pragma once
 
 #include <chrono>
@@ -18,17 +17,17 @@ namespace mdof::daemon {
 
 struct Trouble {
   enum class Kind {
-    lost,      // the device does not answer or has gone
-    back,      // and is well again
-    suspect,   // its values are not to be trusted: an encoder has lost its datum
+    lost,      // the device does not respond or was removed
+    back,      // it works again
+    suspect,   // its values cannot be trusted: an encoder has lost its datum
     slow,      // it gives fewer scans than it should
     clock,     // the time of its samples is uncertain
-    unsolved,  // a stop has no errors, for want of readings
+    unsolved,  // a stop has no errors because readings are missing
   } kind = Kind::lost;
-  std::string device;  // "": no single one
+  std::string device;  // "": no single device
   std::string text;    // what happened and what to do, without the device's name
   std::string utc;
-  std::string channel = {};  // of the device, where it is of that alone: an encoder; "": of all
+  std::string channel = {};  // encoder concerned; "": the whole device
 };
 
 const char* to_string(Trouble::Kind kind);
@@ -37,14 +36,13 @@ std::string trouble_line(const Trouble& trouble);
 // For run.event: {"type": "trouble", "axis", "run": id | null, "device", "kind", "text", "utc"}.
 std::string trouble_json(Axis axis, std::int64_t run, const Trouble& trouble);
 
-// Which probes of a point gave nothing usable, and whose they are. `channels` of each device by its
-// name; a point that is solved gives nothing.
+// The probes of a point without usable readings, and their device. `channels`: the channels of each
+// device by its name. nullopt for a solved point.
 using ChannelsByDevice = std::map<std::string, std::vector<std::string>>;
 std::optional<Trouble> unsolved(const MeasuredPoint& point, const Rig& rig,
                                 const ChannelsByDevice& channels, const std::string& utc);
 
-// The troubles of a run, to be reported at its end: a line for each device and kind, however many
-// there were.
+// The troubles of a run, reported at its end: one line for each device and kind.
 class TroubleLog {
  public:
   void add(const Trouble& trouble);
@@ -55,16 +53,16 @@ class TroubleLog {
     Trouble first, last;
     std::size_t times = 0;
   };
-  std::vector<std::string> order_;  // devices, as they came
+  std::vector<std::string> order_;  // devices in order of their first trouble
   std::map<std::string, std::map<Trouble::Kind, Story>> devices_;
 };
 
-// What of a stream of lines is worth the journal: of lines with one key one in a while, and then
-// how many were left out. Pure.
+// Limits a stream of lines for the journal: of lines with the same key it admits one per interval,
+// with the number of omitted lines. Pure.
 class JournalLimit {
  public:
   using Time = std::chrono::steady_clock::time_point;
-  // The line as it is to be written; nothing: it is left out.
+  // The line to be written; nullopt: omit it.
   std::optional<std::string> admit(const std::string& key, const std::string& line, Time now);
 
  private:

@@ -1,6 +1,6 @@
-// "FILE.head": the head of the chain of hashes that mdofd announced last (journal, server.info),
-// beside the database and not in it. A chain that was cut, calculated anew, or lost with a -wal
-// file is then noticed at the next start, and no older table is served as the active one.
+// "FILE.head", a file beside the database: the head of the chain of hashes that mdofd announced
+// last (journal, server.info). With it, the next start detects a chain that was cut, recalculated
+// or lost with a -wal file, so that no older table is served as active.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +12,12 @@ namespace mdof::store {
 
 std::filesystem::path announced_head_file(const std::filesystem::path& database);
 struct AnnouncedHead {
-  ChainHead head;               // link 0: none was announced, or the file cannot be read
+  ChainHead head;               // link 0: none was announced, or the file is unreadable
   std::int64_t generation = 0;  // of the active tables
 };
 AnnouncedHead read_announced_head(const std::filesystem::path& database);
-// Replaces the file in one step. Not flushed: after a power cut an older head is as good.
+// Replaces the file atomically. Not flushed, because an older head is sufficient after a power
+// failure.
 Status write_announced_head(const std::filesystem::path& database, const AnnouncedHead& announced);
 
 }  // namespace mdof::store

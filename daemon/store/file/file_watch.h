@@ -1,5 +1,5 @@
-// Whether a file that is open is still the one that its name means: one that was deleted or
-// replaced takes every write and keeps none for those who come after.
+// Detects whether an open file was deleted or replaced. Writes to such a file succeed, but are lost
+// for later readers of its name.
 #pragma once
 
 #include <sys/types.h>
@@ -11,9 +11,9 @@ namespace mdof::store {
 
 class FileWatch {
  public:
-  // As it is now. It grows, and never becomes shorter.
+  // Records the present state of the file. The file may only grow.
   explicit FileWatch(std::filesystem::path file);
-  // "FILE was deleted ..."; empty: it is there, the same, and not shorter than it was.
+  // "FILE was deleted ..."; empty: the file is the same and not shorter than before.
   std::string fault();
 
  private:

@@ -1,4 +1,4 @@
-// Brings a database to the schema of this program, or says why it must not be touched.
+// Migrates a database to the schema of this program, or rejects it.
 #pragma once
 
 #include <span>
@@ -11,12 +11,12 @@ namespace mdof::store {
 
 inline constexpr int kApplication = 0x6d646f66;  // SQLite's application_id: "mdof"
 
-// Ok for a database of ours and for an empty one. bad_input: of another application, or of a newer
-// schema than `known` (both versions named). Changes nothing.
+// Accepts an empty database and one of mdof. Error (bad_input): a database of another application,
+// or of a newer schema than `known` (the message states both versions). Changes nothing.
 Status check_kind(sqlite::Connection& connection, int known);
 
-// Applies the migrations that are missing, each in one transaction. Before the first of them a
-// database that holds something is copied to "FILE.schema-N.backup".
+// Applies the missing migrations, each in one transaction. Before the first one, a database with
+// content is copied to "FILE.schema-N.backup".
 Status migrate(sqlite::Connection& connection, std::span<const sql::Migration> migrations);
 
 }  // namespace mdof::store

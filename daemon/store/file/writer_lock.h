@@ -1,6 +1,6 @@
-// One writer a database: SQLite before 3.51.3 can damage a WAL database when two connections write
-// or checkpoint at the same moment, so a second one is never opened. The lock is on the database
-// itself, whatever name or link it was opened by.
+// Permits one writer per database: SQLite before 3.51.3 can damage a WAL database if two
+// connections write or checkpoint at the same moment. The lock is on the database itself,
+// independent of the name or link that opened it.
 #pragma once
 
 #include <cstdint>
@@ -12,16 +12,17 @@ namespace mdof::store {
 
 class WriterLock {
  public:
-  // Waits up to `timeout_ms` for another writer to end; then `conflict`.
+  // Waits up to `timeout_ms` for the end of another writer; then Error `conflict`.
   static Result<WriterLock> acquire(const std::filesystem::path& database, int timeout_ms);
-  // Whether some process, or another lock of this one, holds it.
+  // Whether any process, or another lock of this one, holds the lock.
   static bool held(const std::filesystem::path& database);
 
-  // From now on runs without an end are this writer's; before that those that a kill has cut off.
+  // After this call, open runs belong to this writer; before it, they are runs that a crash
+  // interrupted.
   Status claim_open_runs();
   static bool open_runs_claimed(const std::filesystem::path& database);
 
-  WriterLock() = default;  // holds nothing
+  WriterLock() = default;  // holds no lock
   WriterLock(WriterLock&& other) noexcept;
   WriterLock& operator=(WriterLock&& other) noexcept;
   ~WriterLock();

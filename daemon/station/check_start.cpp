@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr mode_t kFolderMode = 0755;
 
-// The folder itself, or the nearest above it that there is.
+// The folder itself, or its nearest existing parent.
 fs::path nearest_folder(fs::path folder) {
   std::error_code failed;
   folder = fs::absolute(folder, failed);
@@ -29,7 +29,7 @@ std::string remedy_of_permission(const fs::path& folder) {
          folder.string() + ")";
 }
 
-// `folder` is there or can be made, and can be written to.
+// Checks that `folder` exists or can be created, and is writable.
 Status check_folder(const std::string& key, const fs::path& folder) {
   const fs::path nearest = nearest_folder(folder);
   std::error_code failed;
@@ -102,7 +102,7 @@ Status make_socket_folder(const std::string& socket) {
     if (::mkdir(made.c_str(), kFolderMode) != 0 && errno != EEXIST)
       return io_error("rpc.socket: the folder " + made.string() +
                       " cannot be created: " + std::strerror(errno) + remedy_of_permission(folder));
-    (void)::chmod(made.c_str(), kFolderMode);  // whatever the umask
+    (void)::chmod(made.c_str(), kFolderMode);  // independent of the umask
   }
   return {};
 }

@@ -12,11 +12,11 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr int kDigits = 9;        // nanometres of a metre
-constexpr double kRest_m = 5e-6;  // an axis that holds its place may tremble so far
+constexpr int kDigits = 9;        // digits of a metre in nanometres
+constexpr double kRest_m = 5e-6;  // an axis at rest may vibrate by this
 constexpr std::int64_t kRest_ns = 200'000'000, kStale_ns = 1'000'000'000;
 
-// Of what was said and does not hold any more.
+// Notice that the last setting is no longer valid.
 Notice position_lost(const DatumSetting& said, bool since_start, const EncoderDatum& now) {
   return notice(NoticeCode::position_lost, std::string(1, letter(said.axis)),
                 {{"position_mm", to_mm(said.position_m)},
@@ -81,7 +81,7 @@ std::string EncoderZero::device() const {
   return device_;
 }
 
-// Of the raw values of this unit.
+// Factor from raw values of this unit to metres.
 double EncoderZero::metres_per(Unit unit) const {
   switch (unit) {
     case Unit::um:
@@ -93,7 +93,7 @@ double EncoderZero::metres_per(Unit unit) const {
     case Unit::volt:
       return from_um(um_per_V_.value_or(0));
     default:
-      return 0;  // no length; the calibration says so
+      return 0;  // no length; the calibration reports it
   }
 }
 
@@ -178,7 +178,7 @@ void EncoderZero::lose(const std::string& device) {
   runs_.clear();
   counts_ = true;
   found_ = false;
-  if (datum_.kind == EncoderDatum::Kind::index) datum_.offset_m = 0;  // of counts from the mark
+  if (datum_.kind == EncoderDatum::Kind::index) datum_.offset_m = 0;  // belonged to the mark
   datum_.kind = EncoderDatum::Kind::none;
   datum_.device = device;
   datum_.utc = datum_.by = "";
@@ -189,7 +189,7 @@ bool EncoderZero::pass_mark(const std::string& device, const std::string& utc) {
   if (!index_m_ || (!device_.empty() && device != device_)) return false;
   datum_ = {EncoderDatum::Kind::index, *index_m_, device, utc, ""};
   found_ = false;
-  count_ = 0;  // what it showed at rest was counted from elsewhere
+  count_ = 0;  // the readings at rest had another origin
   return true;
 }
 

@@ -11,7 +11,7 @@
 namespace mdof::daemon {
 namespace {
 
-// The points to be announced, behind the run's first one: its drift counts from there.
+// The new points, after the run's first point, at which its drift begins.
 Run first_and_new(std::int64_t run, const Rig& rig, Model model,
                   const std::vector<MeasuredPoint>& points, std::size_t first_row) {
   Run part;
@@ -26,8 +26,8 @@ Run first_and_new(std::int64_t run, const Rig& rig, Model model,
   return part;
 }
 
-// As many points as a line holds, from the index `next` on, which is moved on. The index 0 is the
-// run's first point.
+// Writes as many points as a line can contain, from the index `next` on, and advances `next`. Index
+// 0 is the run's first point.
 std::string points_json(const Run& part, const RunUncertainty& uncertainty, std::size_t first_row,
                         std::size_t& next) {
   JsonWriter json;

@@ -62,15 +62,16 @@ Station::~Station() {
   if (config_.live())
     for (auto& acquisition : acquisitions_) acquisition->stop();
   shared_->queue.close();
-  measure_thread_.join();  // an open run ends there; from here nobody else starts or stops a reader
+  measure_thread_.join();  // ends an open run; after this nothing else starts or stops a reader
   acquisitions_.clear();
 }
 
-// What the devices' threads do with their samples.
+// The functions with which the devices' threads deliver samples.
 DeviceSink Station::sink() {
   DeviceSink sink;
   sink.samples = [this](SampleBlock& block, std::uint64_t pass, milliseconds wait) {
-    // Frames are on the encoder's time: it wakes the measuring thread, the other devices do not.
+    // Frames are on the encoder's time line, so only the device of the encoder wakes the measure
+    // thread.
     const auto wake = has_encoder(block) ? Queue::Wake::yes : Queue::Wake::no;
     SampleBlock spare = shared_->spare.take(block.device);
     Item item(Samples{std::move(block), pass});
@@ -83,7 +84,8 @@ DeviceSink Station::sink() {
     shared_->post([=](Station& s) { s.source_ended(pass, reason, source); });
   };
   sink.trouble = [this](const Trouble& trouble) {
-    // Who hears of it and stops the run finds it in the run.
+    // Posted first, so that a client that hears of the trouble and stops the run finds it in the
+    // run.
     shared_->post([=](Station& s) { s.take_trouble(trouble); });
     shared_->events.trouble(config_.rig.axis, run(), trouble);
   };
@@ -103,8 +105,8 @@ PipelineOptions Station::options_for(const RunRequest& request) const {
   return options;
 }
 
-// With the delays of their channels, and what is known of their rates now: some state theirs only
-// once they are open, or never.
+// Adds the delays of the channels, and the present rates of the devices: some devices state their
+// rate only when open, or never.
 PipelineOptions Station::with_devices(PipelineOptions options) const {
   options = with_delays(std::move(options), config_.rig, config_.delays);
   std::vector<drivers::DeviceInfo> infos;
@@ -181,7 +183,7 @@ void Station::start_run(const RunRequest& request, const RunDone& done) {
   });
 }
 
-// On the thread "resume-X".
+// Runs on the thread "resume-X".
 void Station::resume_run(NewRun description, const RunRequest& request, const Options& options,
                          const RunDone& done) {
   start_thread_as(std::string("resume-") + letter(config_.rig.axis));

@@ -1,5 +1,5 @@
-// Station: somebody says where the axis stands. Found by the measuring thread, stored, and only
-// then valid; meanwhile no run can begin. Or the axis goes over the encoder's reference mark.
+// Station: set positions of an axis, which the measure thread finds and the store keeps before they
+// are valid; no run can begin meanwhile. Also the reference marks of encoders.
 #include "daemon/history.h"
 #include "daemon/paths.h"
 #include "daemon/station/open_run.h"
@@ -22,7 +22,7 @@ void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDo
   });
 }
 
-// ---- measuring thread; no run is under way: set_encoder() has seen to it ----
+// ---- measure thread; set_encoder() has made sure that no run is in progress ----
 
 void Station::take_datum(double position_m, const HistoryEntry& action, const DatumDone& done) {
   const auto found = zero_.find(config_.rig.axis, position_m, action.utc);
@@ -44,7 +44,7 @@ void Station::store_datum(const DatumSetting& setting, const HistoryEntry& actio
   if (!posted) put(io_error("too many writes to the database are pending; try again"));
 }
 
-// The live view begins afresh, as the axis does not jump.
+// The live view restarts, because the axis itself does not jump.
 void Station::put_datum(const Result<DatumSetting>& stored, const HistoryEntry& action,
                         const DatumDone& done) {
   const auto set = stored ? zero_.put(*stored, actor_text(action.by))
@@ -58,15 +58,16 @@ void Station::put_datum(const Result<DatumSetting>& stored, const HistoryEntry& 
   done(set);
 }
 
-// The axis does not jump: the live view begins afresh. A run cannot go on, as what it has measured
-// was counted from elsewhere, by how much is not known to better than the way between two readings.
+// The live view restarts, because the axis itself does not jump. A run cannot continue: its
+// positions had another origin, and the difference is only known to the distance between two
+// readings.
 void Station::take_mark(const std::string& device) {
   if (!zero_.pass_mark(device, utc_now())) return;
   view_.reset();
   if (open_) end_unless_from_mark();
 }
 
-// One that was counted from the mark before its device lost power goes on.
+// A run that was counted from the mark before its device lost power continues.
 void Station::end_unless_from_mark() {
   if (zero_.datum().kind != EncoderDatum::Kind::index ||
       open_->datum.kind == EncoderDatum::Kind::index)

@@ -1,4 +1,4 @@
-// The thread "measure-X" of a station: samples in, points out.
+// The thread "measure-X" of a station: processes samples to points.
 
 #include <algorithm>
 #include <deque>
@@ -33,14 +33,14 @@ using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kPopTimeout{100};
-constexpr milliseconds kRecordInterval{20};  // each hand-over wakes the store's thread
+constexpr milliseconds kRecordInterval{20};  // each call wakes the store's thread
 
 PipelineOptions without_points(PipelineOptions options) {
   options.keep_points = false;
   return options;
 }
 
-// What of a run's rows the store has already acknowledged is the result to the last bit.
+// Whether the rows that the store has acknowledged are bit-identical with the result.
 bool same_points(const std::vector<MeasuredPoint>& stored,
                  const std::vector<MeasuredPoint>& result) {
   store::ResultHash a, b;
@@ -49,12 +49,13 @@ bool same_points(const std::vector<MeasuredPoint>& stored,
   return a.hex() == b.hex();
 }
 
-// The motion that follows will show the approach of this point; it is not yet to be stored.
+// Whether the next motion will show the approach of this point; until then it is not stored.
 bool approach_assumed(const MeasuredPoint& p) {
   return algo::has_flag(p.point, Flag::approach_assumed);
 }
 
-// How many of the points asked for there are: solved, each target as often as asked, both ways.
+// Number of requested points that are done: solved, each target at most `repeats` times from each
+// side.
 std::size_t done(const RunRequest& request, const std::vector<MeasuredPoint>& points) {
   std::vector<int> ways(2 * request.targets_m.size());
   std::size_t done = 0;
@@ -66,7 +67,7 @@ std::size_t done(const RunRequest& request, const std::vector<MeasuredPoint>& po
   return done;
 }
 
-// The target that comes after the last point: onward in its direction, and at an end back again.
+// The expected next target: onward in the direction of the last point, and back at an end.
 std::optional<std::size_t> awaited_target(const RunRequest& request,
                                           const std::vector<MeasuredPoint>& points) {
   if (request.targets_m.empty()) return std::nullopt;
@@ -77,7 +78,7 @@ std::optional<std::size_t> awaited_target(const RunRequest& request,
   return last > 0 ? last - 1 : 0;
 }
 
-// The result is what the store has already got, and more.
+// Whether the result consists of the stored points and possibly more.
 bool begins_with(const std::vector<MeasuredPoint>& result,
                  const std::vector<MeasuredPoint>& stored) {
   if (result.size() < stored.size()) return false;
@@ -95,7 +96,7 @@ std::string event_json(const char* type, std::int64_t run, Axis axis) {
   return json.take();
 }
 
-// The run to read, and what has become of it.
+// The run to read, and its state.
 std::string ended_json(std::int64_t run, Axis axis, RunState state) {
   JsonWriter json;
   json.begin_object()
@@ -107,8 +108,8 @@ std::string ended_json(std::int64_t run, Axis axis, RunState state) {
   return json.take();
 }
 
-// Point k of n and what is awaited next. n is not known without repeats, and neither is the next
-// target without targets.
+// Point k of n, and the expected next target. n is unknown without repeats, the next target without
+// targets.
 std::string progress_json(std::int64_t run, Axis axis, const RunRequest& request,
                           const std::vector<MeasuredPoint>& points) {
   JsonWriter json;
@@ -143,7 +144,8 @@ void Station::measure() {
       measure_turn_ = steady_clock::now();
     }
     note_newest();
-    show_live();  // once it has all samples that came; where none came, it shows that they stopped
+    show_live();  // after all available samples; without samples the view shows that they have
+                  // stopped
   }
   if (open_) finish(RunState::aborted, {notice(NoticeCode::daemon_stopped)});
 }
@@ -154,7 +156,8 @@ void Station::handle(Samples& samples) {
   shared_->spare.put(std::move(samples.block));
 }
 
-// A replay is read once a run; what an earlier reading left in the queue is not of this run.
+// A replay is read once per run; samples of an earlier reading in the queue do not belong to this
+// run.
 bool Station::is_this_pass(std::uint64_t pass) const {
   return config_.live() || pass == acquisitions_.front()->pass();
 }
@@ -185,7 +188,7 @@ void Station::attach(std::int64_t run, const RunRequest& request, const Options&
   std::optional<Continuation> continues;
   auto pipeline =
       beginning ? std::move(beginning->pipeline) : Pipeline::create(config_.rig, *options);
-  if (!pipeline) {  // the configuration was checked with the same rig: only given targets differ
+  if (!pipeline) {  // the configuration was checked with the same rig; only the targets differ
     shared_->run = 0;
     return done(tl::unexpected(pipeline.error()));
   }
@@ -195,13 +198,13 @@ void Station::attach(std::int64_t run, const RunRequest& request, const Options&
   watch_range(open_->pipeline);
   open_->datum = options->datum;
   open_->model = options->model;
-  if (beginning) open_->left_out_ns = beginning->end_ns;  // those before were reported then
+  if (beginning) open_->left_out_ns = beginning->end_ns;  // earlier ones were reported in that run
   zero_.begins(run);
   shared_->run = run;
   shared_->events.run_event(event_json("started", run, config_.rig.axis));
   done(run);
   if (!config_.live()) acquisitions_.front()->start();
-  // Between the question and now the mark may have been passed.
+  // The mark may have been passed since the check.
   end_unless_from_mark();
 }
 
@@ -214,7 +217,7 @@ void Station::take_samples(SampleBlock& block) {
       view_.emplace(std::move(*view));
       watch_range(*view_);
     }
-    // A view that trips over its input starts afresh with the next block.
+    // After an error the view restarts with the next block.
     if (!view_->push(block)) view_.reset();
     return;
   }
@@ -266,7 +269,7 @@ void Station::report_unsolved(const std::vector<MeasuredPoint>& points) {
   }
 }
 
-// A client that waits for the next point learns why this stop gives none.
+// Informs clients that wait for the next point why this stop gives none.
 void Station::report_left_out() {
   for (const StopLeftOut& stop : open_->pipeline.left_out()) {
     if (stop.reason != to_string(NoticeCode::stop_near_no_target)) continue;
@@ -276,7 +279,7 @@ void Station::report_left_out() {
   }
 }
 
-// Hands to the store what it has not got of these points, after the samples that they come from.
+// Sends the points that the store does not have yet, after the samples from which they come.
 void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   const std::size_t first = open_->stored.size();
   if (points.size() <= first) return;
@@ -288,7 +291,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
   const std::int64_t run = open_->id;
   auto messages = points_messages(run, config_.rig, open_->model, open_->stored, first);
   std::string progress = progress_json(run, config_.rig.axis, open_->request, open_->stored);
-  // Announced to clients only once it is on the disk.
+  // Clients hear of the points after they are on the disk.
   keeper_.append_points(run, std::move(fresh),
                         [shared = shared_, messages = std::move(messages),
                          progress = std::move(progress)](const Status& kept) {
@@ -301,9 +304,9 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
 void Station::finish(RunState state, Notices why, const drivers::SourceInfo& source, RunDone done,
                      const std::optional<HistoryEntry>& action) {
   if (!config_.live())
-    acquisitions_.front()->cease();  // what is still on its way belongs to this pass
+    acquisitions_.front()->cease();  // samples that still arrive belong to this pass
   auto result = open_->pipeline.finish();
-  // The stop at which the run ended has become a point only now.
+  // The stop at which the run ended becomes a point only now.
   record();
   if (result && begins_with(result->points, open_->stored)) keep_new_points(result->points);
   const std::unique_ptr<OpenRun> open = std::move(open_);
@@ -314,7 +317,7 @@ void Station::finish(RunState state, Notices why, const drivers::SourceInfo& sou
     append(run.header.notices, failure(words::text(result.error())));
     if (state == RunState::complete) state = RunState::failed;
   }
-  // Else as it turned out: complete or partial.
+  // Otherwise the state of the result: complete or partial.
   if (state != RunState::complete) run.header.state = state;
   Notices& notices = run.header.notices;
   if (run.header.state == RunState::partial && config_.recorded())
@@ -352,7 +355,7 @@ const Pipeline* Station::pipeline() const {
   return open_ ? &open_->pipeline : view_ ? &*view_ : nullptr;
 }
 
-// Whoever looks or not: the first who does is to see how old it is.
+// Always updated, so that the first viewer sees the age.
 void Station::note_newest() {
   const Pipeline* from = pipeline();
   if (!from || from->newest().size() == 0 || from->newest().time_ns[0] == newest_ns_) return;

@@ -7,7 +7,7 @@
 namespace mdof::daemon {
 
 void Unrecorded::add(const SampleBlock& block) {
-  constexpr std::size_t kRoom_scans = 128;  // what most devices have until it is taken
+  constexpr std::size_t kRoom_scans = 128;  // typical number of scans of a device until take()
   const auto last = std::find_if(blocks_.rbegin(), blocks_.rend(),
                                  [&](const auto& b) { return b.device == block.device; });
   if (last != blocks_.rend() && last->channels == block.channels && block.lost == 0)

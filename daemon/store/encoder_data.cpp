@@ -1,4 +1,4 @@
-// Store: where an axis stood when somebody said so.
+// Store: set positions of an axis.
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 

@@ -1,4 +1,4 @@
-// Store: the history, who did what.
+// Store: the history of actions and their users.
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
 

@@ -1,11 +1,11 @@
-// Store: a run's plausibility, read back from the JSON in which it is stored.
+// Store: reads the plausibility of a run from its stored JSON.
 #include "daemon/store/store.h"
 #include "schema/plausibility/plausibility_json.h"
 
 namespace mdof::store {
 
 Result<std::optional<Plausibility>> Store::plausibility(std::int64_t run) {
-  // A reader takes a database as it is, also one of an older schema.
+  // A reader does not migrate, so the schema may be older.
   MDOF_TRY(const std::int64_t table, connection_.integer("SELECT count(*) FROM sqlite_master "
                                                          "WHERE name = 'run_plausibility'"));
   if (table == 0) return std::optional<Plausibility>();

@@ -1,4 +1,4 @@
-// Store: what is known of the errors of a run's points, for the views of schema/sql/013_views.sql.
+// Store: uncertainties of a run's points, for the views of schema/sql/013_views.sql.
 #include "daemon/store/store.h"
 #include "schema/base/json_writer.h"
 

@@ -1,4 +1,4 @@
-// Store: what reads runs.
+// Store: reading of runs.
 #include <algorithm>
 
 #include "daemon/store/bytes.h"
@@ -33,7 +33,7 @@ constexpr std::string_view kPoints =
     "probe_m, probe_u_m, reason, dy_m, dz_m, ex_rad, ey_rad, ez_rad, residual_m, covariance_m_rad "
     "FROM point WHERE id BETWEEN (?1 << 32) + ?2 AND (?1 << 32) + 4294967295 ORDER BY id LIMIT ?3";
 
-// One that end_and_supersede() ended is failed and began with the run that supersedes it.
+// A run that end_and_supersede() ended is failed and has the start time of the superseding run.
 constexpr const char* kResults =
     " AND run.id NOT IN (SELECT given_up.id FROM run AS later "
     "JOIN run AS given_up ON given_up.id = later.supersedes "
@@ -67,7 +67,8 @@ Provenance provenance_of(const Statement& row) {
   return from;
 }
 
-// What follows from other columns: runs of older versions, and open ones, do not store it.
+// Adds notices that follow from other columns; runs of older versions and open runs do not store
+// them.
 void add_missing(Notices& notices, Notices derived) {
   for (Notice& each : derived)
     if (std::find(notices.begin(), notices.end(), each) == notices.end())
@@ -76,7 +77,7 @@ void add_missing(Notices& notices, Notices derived) {
 
 AxisErrors errors_of(const Statement& row, int first) {
   AxisErrors errors;
-  errors.valid = row.is_null(first);  // no reason why there are none
+  errors.valid = row.is_null(first);  // the column contains the reason for missing errors
   errors.reason = row.text(first);
   if (!errors.valid) return errors;
   for (int k = 0; k < kErrorCount; ++k)
@@ -137,7 +138,7 @@ Result<RunHeader> Store::header_of(Statement& row) {
     MDOF_TRY(header.notices, read_notices(row.text(17)));
     MDOF_TRY(header.temperature, temperature(header.id));
   } else if (!open_runs_.contains(header.id) && !WriterLock::open_runs_claimed(file())) {
-    header.state = RunState::aborted;  // the next writer will store it so
+    header.state = RunState::aborted;  // the next writer will store this state
     header.notices = {notice(NoticeCode::interrupted)};
   }
   EncoderDatum datum;
@@ -148,7 +149,7 @@ Result<RunHeader> Store::header_of(Statement& row) {
   return header;
 }
 
-// The hash of the result rows that was stored with the run's end; empty: it has not ended.
+// The hash of the result rows that was stored at the run's end; empty: the run has not ended.
 Result<std::string> Store::stored_sha256(std::int64_t run) {
   MDOF_TRY(Statement row, connection_.prepare("SELECT result_sha256 FROM run_end WHERE run = ?"));
   MDOF_TRY(const bool found, row.bind(run).step());
@@ -161,7 +162,7 @@ Status Store::check_run(std::int64_t run) {
   return ended.empty() ? Status() : check_link(connection_, Fact::run_end, run);
 }
 
-// A run whose stored facts no longer match their hashes is listed as failed, with the reason.
+// Lists a run whose stored facts do not match their hashes as failed, with the reason.
 Status Store::mark_damage(RunHeader& header) {
   Status whole = check_run(header.id);
   if (whole) return {};
@@ -250,7 +251,7 @@ Result<std::vector<MeasuredPoint>> Store::points(std::int64_t run, std::int64_t 
   return list;
 }
 
-// A page alone has no hash. So the whole run is checked once, and each row is remembered.
+// A single page has no hash, so the whole run is checked once, and the hash of each row is kept.
 Status Store::check_points(std::int64_t run, std::int64_t offset,
                            const std::vector<MeasuredPoint>& points) {
   MDOF_TRY(const std::string stored, stored_sha256(run));
@@ -328,7 +329,7 @@ Result<std::vector<AngleFigure>> Store::angles(std::int64_t run) {
 Result<Run> Store::run(std::int64_t run) {
   Run whole;
   MDOF_TRY(whole.header, run_header(run));
-  MDOF_TRY(whole.points, read_points(run, 0, -1));  // a negative limit is none
+  MDOF_TRY(whole.points, read_points(run, 0, -1));  // a negative limit means no limit
   MDOF_TRY(whole.straightness, straightness(run));
   MDOF_TRY(whole.angles, angles(run));
   MDOF_TRY(whole.plausibility, plausibility(run));

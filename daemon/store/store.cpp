@@ -27,7 +27,7 @@ Status make_parent(const fs::path& file) {
   if (!file.has_parent_path()) return {};
   std::error_code ec;
   fs::create_directories(file.parent_path(), ec);
-  std::error_code ignored;  // what cannot be looked at is not there for us
+  std::error_code ignored;  // unreadable folders are treated as missing
   if (ec && !fs::is_directory(file.parent_path(), ignored))
     return io_error(file.parent_path().string() +
                     ": the folder of the database cannot be created: " + ec.message() +
@@ -35,7 +35,8 @@ Status make_parent(const fs::path& file) {
   return {};
 }
 
-// SQLite keeps its journal beside the name that it was given: by another name it would not find it.
+// SQLite names its journal after the database, so that it is not found with another name of the
+// file.
 Status check_one_name(const fs::path& file) {
   std::error_code ec;
   const auto names = fs::hard_link_count(file, ec);
@@ -45,8 +46,8 @@ Status check_one_name(const fs::path& file) {
                    "names; remove the other names, or copy the file if you need a copy");
 }
 
-// Another user's database that no mdof writes now is a foreign file: to read it with a -shm of our
-// own beside it would write where that user may.
+// A database of another user that no mdof writes is opened as a snapshot, because creating our own
+// -shm would write to that user's folder.
 OpenMode way_to_read(const fs::path& file) {
   struct stat now {};
   const bool foreign = ::stat(file.c_str(), &now) == 0 && now.st_uid != ::geteuid();
@@ -99,7 +100,7 @@ Result<Store> Store::open(const fs::path& file, Access access, StoreOptions opti
   }
   MDOF_CHECK(make_parent(file));
   MDOF_TRY(WriterLock lock, WriterLock::acquire(file, options.busy_timeout_ms));
-  // Looked at before anything is written, so that a file named by mistake stays as it is.
+  // Checked before anything is written, so that a file that was named by mistake does not change.
   if (!absent_or_empty(file)) MDOF_CHECK(open_reader(file, options.busy_timeout_ms));
   MDOF_TRY(Connection connection, open_writer(file, options));
   Store store(std::move(lock), std::move(connection), access);

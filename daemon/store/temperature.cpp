@@ -1,4 +1,4 @@
-// Store: the temperature of a run, where one was read.
+// Store: the temperature of a run, if it was measured.
 #include "daemon/store/store.h"
 
 namespace mdof::store {

@@ -1,4 +1,4 @@
-// Store: volumetric tables and which of them is active; whether what is active has changed.
+// Store: volumetric tables, their activation, and the check of the expected generation.
 #include "daemon/store/bytes.h"
 #include "daemon/store/ledger.h"
 #include "daemon/store/store.h"
@@ -54,7 +54,7 @@ Status check_shape(const VolumetricTable& t) {
                   std::to_string(t.nodes()) + " nodes");
 }
 
-// The bytes are not copied: what is bound has to live until the statement has run.
+// Bound bytes are not copied, so that this object must exist until the statement has run.
 struct FlatNodes {
   explicit FlatNodes(const VolumetricTable& t)
       : correction(flat(t.correction_m)),
@@ -163,7 +163,7 @@ Result<VolumetricTable> Store::volumetric_of(Statement& row) {
   if (!row.is_null(26)) {
     MDOF_TRY(t.doubtful, read_notices(row.text(26)));
   }
-  // The chain of hashes has the hash of the table, not each of its columns.
+  // The chain of hashes contains the hash of the table, not each column.
   if (volumetric_sha256(t) != t.sha256)
     return bad_input(file().string() + ": volumetric table " + std::to_string(t.id) +
                          " was changed after it was stored (the hash differs)",

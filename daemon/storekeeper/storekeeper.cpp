@@ -13,9 +13,9 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::chrono::milliseconds kLongestPop{500};    // the watchdog wants to see the thread
-constexpr std::chrono::milliseconds kBetweenLooks{200};  // at whether the files are still there
-constexpr std::chrono::seconds kBetweenTries{1};         // to open the database for writing
+constexpr std::chrono::milliseconds kLongestPop{500};    // the thread must report to the watchdog
+constexpr std::chrono::milliseconds kBetweenLooks{200};  // between checks of the files
+constexpr std::chrono::seconds kBetweenTries{1};         // between attempts to open the database
 constexpr std::size_t kQueueLength = 4096;  // jobs: blocks of samples, points, calls of clients
 
 Result<store::Store> open_database(const Storekeeper::Options& options) {
@@ -45,21 +45,21 @@ StorageState not_writable(const Storekeeper::Options& options, const Error& erro
               "database is open, mdofd stores nothing"};
 }
 
-// What is there can be served, though nothing can be stored.
+// Whether existing data can be served although nothing can be stored.
 bool can_only_be_read(const Storekeeper::Options& options, const Error& why) {
   if (why.code != ErrorCode::io) return false;
   const store::StoreOptions how{options.durability, static_cast<int>(options.busy_timeout.count())};
   return store::Store::open(options.database, store::Access::read_only, how).has_value();
 }
 
-// "No table is active" would be a guess, after which a controller would not correct.
+// "No table is active" would be a guess, and a controller would then not correct.
 Error not_readable(const Storekeeper::Options& options, Error why) {
   if (!is_busy(why)) return why;
   return {ErrorCode::io,
           another_locks(options, ", so mdofd cannot read the active tables and does not start")};
 }
 
-// A mdofd that is just ending still holds it for a while.
+// An ending mdofd may still lock the database for a short time.
 Result<store::Store> open_patiently(const Storekeeper::Options& options) {
   constexpr std::chrono::seconds kPatience{5};
   const auto end = std::chrono::steady_clock::now() + kPatience;
@@ -122,7 +122,7 @@ void Storekeeper::work() {
   end_finished_runs();
 }
 
-// One transaction a recording and interval: durable at the price of one disk flush.
+// One transaction for each recording and interval, so that durability costs one disk flush.
 void Storekeeper::commit_recordings() {
   for (auto& [run, recording] : recordings_) {
     const Status kept = commit(run, recording);
@@ -144,7 +144,7 @@ void Storekeeper::open_again() {
   set_unopened({});
 }
 
-// A refusal of the disk holds until there is room again.
+// An error of the disk holds until there is free space again.
 void Storekeeper::note_full(const Error& error) {
   if (is_full(error)) set(full_, words::text(error));
 }
@@ -207,7 +207,7 @@ void Storekeeper::watch_files() {
   }
 }
 
-// What another program did to the chain since its head was announced.
+// Changes of the chain by another program since its head was announced.
 std::string Storekeeper::chain_fault() {
   if (!store_) return {};
   const Status whole = store_->check_head(announced_);
@@ -216,7 +216,7 @@ std::string Storekeeper::chain_fault() {
          ", and restart mdofd; until the restart, mdofd stores nothing";
 }
 
-// One that no longer has what was announced before is not announced anew: see watch_database().
+// If the chain lacks the announced head, no new head is announced: see watch_database().
 void Storekeeper::begin_chain() {
   if (!store_) return;
   const std::lock_guard guard(fault_mutex_);
@@ -229,7 +229,7 @@ void Storekeeper::announce_head() {
   changes_announced_ = store_->changes();
   const auto head = store_->chain_head();
   if (!head || *head == announced_ || !store_->check_head(announced_)) return;
-  // With less durability a power cut may take what was announced, which is no fault then.
+  // With less durability, a power failure may remove the announced head without a fault.
   const auto generation = store_->generation();
   if (options_.durability == store::Durability::full && generation) {
     const Status written = store::write_announced_head(options_.database, {*head, *generation});
@@ -282,7 +282,7 @@ Status Storekeeper::commit(std::int64_t run, Recording& recording) {
   return {};
 }
 
-// The samples are on the disk before what is made of them.
+// The samples are stored before the points made from them.
 Status Storekeeper::keep_points(std::int64_t run, const std::vector<MeasuredPoint>& points) {
   if (const auto found = incomplete_.find(run); found != incomplete_.end()) {
     found->second += points.size();
@@ -302,7 +302,7 @@ Status Storekeeper::keep_points(std::int64_t run, const std::vector<MeasuredPoin
 
 bool Storekeeper::post(Job job) {
   return queue_.try_push([this, job = std::move(job)] {
-    if (store_) job(*store_);  // else refused before: see fault()
+    if (store_) job(*store_);  // otherwise already rejected: see fault()
   });
 }
 
@@ -315,7 +315,7 @@ Result<std::string> Storekeeper::run(std::function<Result<std::string>(store::St
     return io_error("too many writes to the database are pending; try again");
   try {
     return result.get();
-  } catch (const std::future_error&) {  // destroyed without being run: see post()
+  } catch (const std::future_error&) {  // the job was destroyed without being run: see post()
     return io_error("mdofd cannot store data at present: " + storage().reason);
   }
 }
@@ -334,7 +334,7 @@ Result<std::int64_t> Storekeeper::begin(NewRun& run) {
   return id;
 }
 
-// Of a run that did not begin nothing is left.
+// Removes all data of a run that could not begin.
 Result<std::int64_t> Storekeeper::begin_or_clear(NewRun& run) {
   const bool made =
       !run.recording.empty() && (run.begun || !std::filesystem::exists(run.recording));

@@ -1,4 +1,4 @@
-// Storekeeper: points and ends of runs, at once or when the database can take them.
+// Storekeeper: points and ends of runs, stored at once or when the database accepts them.
 #include "daemon/paths.h"
 #include "daemon/storekeeper/storage_errors.h"
 #include "daemon/storekeeper/storekeeper.h"
@@ -30,7 +30,7 @@ store::RunEnd end_of(const Run& run) {
   return end;
 }
 
-// The end of a run whose targets were renumbered: `why` says what became of its points.
+// The end of a run whose targets were renumbered; `why` states what happened to its points.
 store::RunEnd provisional_of(store::RunEnd whole, NoticeCode why) {
   whole.state = RunState::failed;
   whole.straightness.clear();
@@ -48,7 +48,7 @@ store::RunEnd refused_at_first(store::RunEnd whole, const Error& error) {
 
 }  // namespace
 
-// Runs whose end the disk refused: tried again until it takes it.
+// Repeats ends that the disk rejected, until it accepts them.
 void Storekeeper::end_finished_runs() {
   std::erase_if(unended_, [&](Unended& waiting) {
     waiting.end.state = RunState::failed;
@@ -58,7 +58,7 @@ void Storekeeper::end_finished_runs() {
   });
 }
 
-// In the order in which they came.
+// Points are stored in the order of their arrival.
 void Storekeeper::take(Points points) {
   if (overflowed_.contains(points.run)) return drop(points);
   if (waiting_points_.empty()) {
@@ -88,14 +88,15 @@ void Storekeeper::wait_for_database(Points points) {
   waiting_points_.push_back(std::move(points));
 }
 
-// And all that come after it of the same run, which are stored in order.
+// Drops these points; all later points of the run are also dropped, because they are stored in
+// order.
 void Storekeeper::drop(const Points& points) {
   overflowed_[points.run] += points.points.size();
   dropped_points_ += points.points.size();
   points.done(io_error("this point is not stored yet" + too_many(options_.most_waiting)));
 }
 
-// Their number is asked for once, when the run ends.
+// Called once, at the end of the run; also forgets the count.
 std::size_t Storekeeper::dropped_of(std::int64_t run) {
   std::size_t dropped = 0;
   for (auto* runs : {&incomplete_, &overflowed_}) {
@@ -114,7 +115,7 @@ void Storekeeper::wait_for_database(Ending ending) {
   waiting_ends_.push_back(std::move(ending));
 }
 
-// `why` it stands as open; empty: it does not any more.
+// `why`: why the run is still stored as open; empty: it is not.
 void Storekeeper::explain(std::int64_t run, const std::string& why) {
   const std::lock_guard guard(fault_mutex_);
   if (why.empty())
@@ -129,7 +130,7 @@ void Storekeeper::refused_end(Unended unended, const Error& error) {
   unended_.push_back(std::move(unended));
 }
 
-// Else all the time would go into waiting, and the samples of the runs would not be recorded.
+// Without a pause all time would be spent on waiting, and samples would not be recorded.
 void Storekeeper::try_later() {
   next_try_ = std::chrono::steady_clock::now() + options_.busy_timeout;
 }
@@ -151,7 +152,8 @@ void Storekeeper::store_waiting_items() {
   set(held_, "");
 }
 
-// mdofd ends: the runs stay without an end, as after a power cut, and their recordings have all.
+// mdofd ends: the runs stay without an end, as after a power failure; their recordings are
+// complete.
 void Storekeeper::discard_waiting_items() {
   const auto error = io_error(
       "mdofd ended while another program locked the database; the samples of the run are in the "
@@ -161,7 +163,7 @@ void Storekeeper::discard_waiting_items() {
   for (const Ending& ending : waiting_ends_) ending.done(error);
 }
 
-// Once: what the recording says of the run.
+// Seals the recording and adds its hash to the result. Does nothing if called again.
 void Storekeeper::seal(Ending& ending) {
   RunHeader& header = ending.result.header;
   if (const auto recording = recordings_.find(ending.run); recording != recordings_.end()) {
@@ -201,7 +203,7 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
   return superseded;
 }
 
-// A refused end is not given up: it is tried again until the disk takes it.
+// A rejected end is repeated until the disk accepts it.
 Status Storekeeper::end_or_wait(std::int64_t run, const store::RunEnd& end) {
   Status ended = store_->end_run(run, end);
   if (!ended && !is_busy(ended))

@@ -22,11 +22,11 @@ std::string text(const Notice& notice, Language language);
 std::string line(const Notice& notice, Language language = Language::english);
 
 // Replaces the fields of `pattern` by the values of the notice:
-//  {key}          a name, or a number with four digits; all digits before the point are shown
-//  {key:6}        a number with six digits
-//  {key:+.3f}     a number in the format of printf
-//  {key:?a|b}     a if the number is 1 or the name is not empty, otherwise b
-//  {subject}
+//   {key}          a name, or a number with four digits; all digits before the point are shown
+//   {key:6}        a number with six digits
+//   {key:+.3f}     a number in the format of printf
+//   {key:?a|b}     a if the number is 1 or the name is not empty, otherwise b
+//   {subject}
 // A key that the notice lacks (for example, in the database of another version) becomes "unknown".
 std::string filled(const char* pattern, const Notice& notice,
                    Language language = Language::english);

@@ -20,11 +20,11 @@ using std::chrono::steady_clock;
 constexpr milliseconds kReadTimeout{100};
 constexpr milliseconds kFirstBackoff{50}, kLongestBackoff{250};
 constexpr milliseconds kNap{10}, kRefresh{1000};
-// Some devices take seconds to be found, asked and set up; to be in there is no hang-up.
+// Some devices need seconds for opening and set-up; this is no hang-up.
 constexpr milliseconds kOpening{20'000};
 
-// The rate is looked at over this time: below the first share of it a device is slow, above the
-// second it is well again.
+// The rate is checked over this time. A device is slow below kSlow of its rate, and no longer slow
+// above kWell.
 constexpr std::chrono::seconds kWindow{5};
 constexpr double kSlow = 0.8, kWell = 0.95;
 
@@ -34,7 +34,8 @@ std::string with_one_decimal(double x) {
   return text;
 }
 
-// Devices that fail together are not to be asked again together: from 3/4 to all of the pause.
+// 3/4 to all of the waiting time, so that devices that failed together are not opened together
+// again.
 milliseconds jittered(milliseconds pause, const std::string& device, std::uint64_t attempt) {
   const std::size_t hash = std::hash<std::string>{}(device + std::to_string(attempt));
   return pause * 3 / 4 + pause * (hash % 256) / 1024;
@@ -84,15 +85,15 @@ void Acquisition::fail(const std::string& error) {
     status_.state = "failed: reopening";
     status_.error = error;
   }
-  if (lost_since_) return;  // reported once
+  if (lost_since_) return;  // already reported
   lost_since_ = steady_clock::now();
-  // Who it is has been said.
+  // The trouble already names the device.
   const std::string who = "device \"" + spec_.name + "\"";
   const std::size_t begin = error.starts_with(who) ? error.find_first_not_of(": ", who.size()) : 0;
   report(Trouble::Kind::lost, begin == std::string::npos ? error : error.substr(begin));
 }
 
-// What holds now is in the status, too, for those who come later.
+// Present troubles are also in the status, for clients that connect later.
 void Acquisition::report(Trouble::Kind kind, const std::string& text, const std::string& channel) {
   const Trouble trouble{kind, spec_.name, text, utc_now(), channel};
   {
@@ -132,7 +133,7 @@ void Acquisition::acquire(std::uint64_t pass) {
       return sink_.ended(pass, "", spec_.source_info(**driver));
     }
     if (!acquiring_) break;
-    if (!spec_.live) {  // a replay that cannot be read will not recover
+    if (!spec_.live) {  // an unreadable replay cannot recover
       const std::string why = status().error;
       set_state("ended");
       return sink_.ended(pass, why, {});
@@ -142,7 +143,7 @@ void Acquisition::acquire(std::uint64_t pass) {
   set_state("closed");
 }
 
-// True: the source has ended. False: an error (kept in the status) or no longer wanted.
+// True: the source has ended. False: an error (kept in the status), or the device is stopping.
 bool Acquisition::open_and_read(drivers::Driver& driver, std::uint64_t pass) {
   turn_ = steady_clock::now() + kOpening;
   const Status opened = driver.open();
@@ -171,7 +172,7 @@ void Acquisition::forget_suspicion(const std::string& encoder) {
   });
 }
 
-// Reported before the block that is counted from the mark.
+// Reported before the first block that is counted from the mark.
 void Acquisition::watch_mark(const drivers::Driver& driver) {
   const int marks = driver.marks_passed();
   if (std::exchange(marks_passed_, marks) == marks) return;
@@ -196,7 +197,7 @@ void Acquisition::trust_counts(drivers::Driver& driver) {
   }
 }
 
-// What the device says of itself grows with time: its clock.
+// Information of the device that changes with time, such as its clock.
 void Acquisition::refresh_info(const drivers::Driver& driver) {
   next_refresh_ = steady_clock::now() + kRefresh;
   const drivers::DeviceInfo info = driver.info();
@@ -208,7 +209,7 @@ void Acquisition::refresh_info(const drivers::Driver& driver) {
   watch_datum(info);
 }
 
-// A datum that is lost stays lost: reported once.
+// A lost datum stays lost, so it is reported once.
 void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
   std::map<std::string, std::string> lost = info.further_datum_lost;
   lost[kEncoderChannel] = info.datum_lost;
@@ -221,8 +222,8 @@ void Acquisition::watch_datum(const drivers::DeviceInfo& info) {
   }
 }
 
-// While the time of the samples is uncertain, no place belongs to them: they are suspect, in the
-// recording, too.
+// While the time of the samples is uncertain, their position is unknown. They are marked as
+// suspect, also in the recording.
 void Acquisition::watch_clock(const drivers::Driver& driver, SampleBlock& block) {
   if (!spec_.live) return;
   const drivers::DeviceClock* clock = driver.clock();
@@ -263,7 +264,7 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
       return false;
     }
     if (block.scans() > 0) {
-      backoff_ = kFirstBackoff;  // it works; to be opened alone is no proof of that
+      backoff_ = kFirstBackoff;  // it works; opening alone does not prove this
       watch_mark(driver);
       if (steady_clock::now() > next_refresh_) refresh_info(driver);
       note_loss(block);
@@ -279,7 +280,8 @@ bool Acquisition::read_until_trouble(drivers::Driver& driver, std::uint64_t pass
   return false;
 }
 
-// With the first samples: to be open alone is no proof that it works. Whether it was lost.
+// Called with the first samples, because opening alone does not prove that the device works.
+// Returns whether it was lost.
 bool Acquisition::recover(const SampleBlock& block) {
   if (!lost_since_) return false;
   const std::chrono::duration<double> away = steady_clock::now() - *lost_since_;
@@ -296,7 +298,7 @@ bool Acquisition::recover(const SampleBlock& block) {
   return true;
 }
 
-// Fewer scans than the device states, or scans lost on the way.
+// Reports fewer scans than the device states, or lost scans.
 void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
   scans_in_window_ += scans;
   lost_in_window_ += lost;
@@ -321,8 +323,8 @@ void Acquisition::watch_rate(std::uint64_t scans, std::uint64_t lost) {
   scans_in_window_ = lost_in_window_ = 0;
 }
 
-// Scans of a device that was away, at least one, where it cannot count them itself, and those
-// dropped here.
+// Adds dropped scans, and scans that were lost while the device was away: at least one, if the
+// device cannot count them itself.
 void Acquisition::note_loss(SampleBlock& block) {
   const std::lock_guard lock(status_mutex_);
   measure_rate(block);
@@ -337,7 +339,7 @@ void Acquisition::note_loss(SampleBlock& block) {
   status_.scans += block.scans();
 }
 
-// Of devices that do not state their rate: as fast as they answer. status_mutex_ is held.
+// Measures the rate, for devices that do not state it. The caller holds status_mutex_.
 void Acquisition::measure_rate(const SampleBlock& block) {
   if (just_opened_) {
     opened_ns_ = block.time_ns.front();

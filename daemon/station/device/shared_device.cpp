@@ -8,8 +8,8 @@ namespace {
 
 using Part = drivers::ChannelPart;
 
-// Of a whole device: its acquiring thread trusts and reports all encoders by the device's own
-// names.
+// The specification of the complete device, whose acquisition thread uses the device's own names
+// for all encoders.
 drivers::DriverSpec whole(drivers::DriverSpec spec) {
   spec.part.clear();
   return spec;
@@ -42,7 +42,7 @@ void take_part(const SampleBlock& block, const Part& part, SampleBlock& taken) {
   if (!block.quality.empty()) taken.quality.resize(taken.channels.size());
 }
 
-// What one axis has of it.
+// The part of a device that one axis uses.
 class DevicePart final : public DeviceReader {
  public:
   DevicePart(std::shared_ptr<SharedDevice> device, drivers::DriverSpec spec, DeviceSink sink)
@@ -81,7 +81,7 @@ DeviceSink SharedDevice::fan_out() {
   DeviceSink sink;
   sink.samples = [this](SampleBlock& block, std::uint64_t pass, std::chrono::milliseconds) {
     hand_out(block, pass);
-    return true;  // what an axis had no room for is that axis' loss
+    return true;  // blocks without space in the queue of an axis are lost for this axis only
   };
   sink.ended = [this](std::uint64_t pass, const std::string& why, const drivers::SourceInfo& info) {
     const std::lock_guard lock(mutex_);
@@ -127,7 +127,7 @@ void SharedDevice::join(const std::shared_ptr<Taker>& taker) {
   acquisition_.start();
 }
 
-// The lock is free while the thread is waited for: it may stand before it.
+// The mutex is released before joining, because the thread may wait for it.
 void SharedDevice::leave(const std::shared_ptr<Taker>& taker) {
   {
     const std::lock_guard lock(mutex_);

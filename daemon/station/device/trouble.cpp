@@ -31,7 +31,7 @@ std::string join(const std::vector<std::string>& words) {
   return all;
 }
 
-// The one device that gives all of these; "": there is none such, or no other device either.
+// The only device that gives all of these channels; "": none does, or there is only one device.
 std::string source_of(const std::vector<std::string>& ids, const ChannelsByDevice& channels) {
   if (channels.size() < 2) return "";
   for (const auto& [device, of_device] : channels) {

@@ -24,7 +24,7 @@ void flush_to_disk(const fs::path& file) {
   ::close(fd);
 }
 
-// Under its name only once whole: a backup that was cut short must not look like one.
+// Renamed after completion, because an incomplete backup must not look like a complete one.
 Status back_up(Connection& connection, std::int64_t version) {
   const std::string name =
       connection.file().string() + ".schema-" + std::to_string(version) + ".backup";

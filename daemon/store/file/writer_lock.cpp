@@ -20,11 +20,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Bytes of the database that are far beyond its end and those that SQLite locks (1 GiB).
+// Byte offsets far beyond the end of the database and the bytes that SQLite locks (1 GiB).
 constexpr off_t kWriterByte = off_t{1} << 62;
 constexpr off_t kOpenRunsByte = kWriterByte + 1;
 
-// Locks of the open file, not of the process: two stores in one process exclude each other too.
+// Locks of the open file, not of the process, so that two stores in one process also exclude each
+// other.
 struct flock one_byte(off_t byte, short type) {
   struct flock lock {};
   lock.l_type = type;
@@ -34,9 +35,9 @@ struct flock one_byte(off_t byte, short type) {
   return lock;
 }
 
-// Descriptors of databases that are not used now. They are never closed: to close any descriptor of
-// a file drops the locks that SQLite has on it in this process. A child process has its own: those
-// that it inherits share their lock with its parent.
+// Unused descriptors of databases. They are never closed, because closing any descriptor of a file
+// releases the locks that SQLite has on it in this process. A child process has its own list,
+// because inherited descriptors share their lock with the parent.
 class Idle {
  public:
   int take(const struct stat& file, int access) {
@@ -64,7 +65,7 @@ Idle& idle() {
   return descriptors;
 }
 
-// Of the file that has this name now; made where absent.
+// A descriptor of the file that has this name now; the file is created if missing.
 int descriptor_of(const fs::path& database, int flags) {
   struct stat file {};
   if (::stat(database.c_str(), &file) == 0) {
@@ -104,8 +105,8 @@ WriterLock::~WriterLock() {
 }
 
 Result<WriterLock> WriterLock::acquire(const fs::path& database, int timeout_ms) {
-  // O_APPEND: nothing is written by it, and sqlite::is_open_for_writing() distinguishes it from
-  // SQLite's.
+  // O_APPEND: this descriptor never writes, and the flag distinguishes it from SQLite's descriptors
+  // in sqlite::is_open_for_writing().
   WriterLock lock(descriptor_of(database, O_CREAT | O_RDWR | O_APPEND));
   if (lock.fd_ < 0) return not_opened(database);
   constexpr int kStepMs = 10;

@@ -1,4 +1,4 @@
-// Store: what reads studies.
+// Store: reading of studies.
 #include "daemon/store/store.h"
 #include "schema/base/sha256.h"
 

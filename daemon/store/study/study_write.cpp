@@ -1,4 +1,4 @@
-// Store: what writes studies.
+// Store: writing of studies.
 #include "daemon/store/store.h"
 #include "schema/base/sha256.h"
 

@@ -1,10 +1,12 @@
-// The question before a table becomes active or is no longer: why, and that what is wrong with it is known.
+// The question before a table is activated or deactivated: the reason, and the consent to its
+// warnings.
 import {ask, field, h} from "./dom.js";
 import {call} from "./rpc.js";
 
 const consent = (name, text, required) => h("label", {class: "check"}, h("input", {type: "checkbox", name, required}), text);
 
-// marks: {simulated, doubtful} of the table; doubtful null: not known. True: it was done. Throws as call().
+// marks: {simulated, doubtful} of the table; doubtful null: unknown. Returns true if it was done.
+// Throws like call().
 export async function change(method, params, {title, text, action, marks = {}}) {
   const form = await ask(title, [text, field("Reason", h("input", {name: "reason", required: true, maxlength: 500}), "stored in the history"),
     marks.simulated ? consent("simulated", "Activate the table although its data are SIMULATED", true) : null,

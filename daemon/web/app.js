@@ -1,4 +1,4 @@
-// The page: views by the address behind "#", the banner, the token.
+// The page: views selected by the address after "#", the banner, the token.
 import {h, setText} from "./dom.js";
 import * as live from "./live.js";
 import * as machine from "./machine.js";
@@ -8,8 +8,8 @@ const kViews = [
   ["setup", "Set up"], ["capture", "Capture"], ["runs", "Runs"], ["compensation", "Compensation"], ["health", "Health"],
 ];
 const main = document.getElementById("main");
-let close = null;  // of the view that is shown
-let shown = 0;     // counts, so that a view that loads late does not replace a newer one
+let close = null;  // closes the present view
+let shown = 0;     // counts views, so that a slow view does not replace a newer one
 
 const links = kViews.map(([name, title]) => h("a", {href: `#${name}`}, title));
 document.getElementById("tabs").append(...links.map((link) => h("li", {}, link)));
@@ -18,7 +18,7 @@ document.getElementById("token").addEventListener("click", () => askToken());
 // "#runs/2/with/1" -> view "runs", rest ["2", "with", "1"].
 async function show() {
   const [name, ...rest] = location.hash.slice(1).split("/");
-  if (name === "main") return;  // the link for those who use the keyboard
+  if (name === "main") return;  // the link for keyboard users
   const number = ++shown;
   const [view, title] = kViews.find(([known]) => known === name) ?? kViews[0];
   links.forEach((link, i) => kViews[i][0] === view

@@ -1,4 +1,5 @@
-// Charts by dygraphs: errors over position, each approach with its band ± U. Loaded when the first chart is wanted.
+// Charts with dygraphs: errors over position, each approach with its band ± U. Loaded with the
+// first chart.
 import {fixed, h, isNumber, nameOf, unitOf} from "./dom.js";
 
 const kHeight_px = 240;
@@ -15,7 +16,8 @@ function load() {
   });
 }
 
-// Its legend sets inline styles, which the page's security policy forbids; ours is a line below the chart.
+// The legend of dygraphs sets inline styles, which the page's security policy forbids; this legend
+// is a line below the chart.
 function withoutLegend() {
   Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 }
@@ -23,10 +25,11 @@ function withoutLegend() {
 const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 const kDash = [6, 3];
 
-// series: [{label, name, colour, dash, wide, line, marks, points: [[x, low, value, high]]}]: name is said in the legend, wide is
-// seen below another, line has no marks and no band, marks have no line, envelope is a range and its mean; points in any order of x.
-// place: what a place on the x axis is called.
-// Rows for dygraphs with a column a series; a place that a series lacks stays open.
+// series: [{label, name, colour, dash, wide, line, marks, points: [[x, low, value, high]]}]. The
+// legend shows name; wide is visible below another series; line has no marks and no band; marks
+// have no line; envelope is a range with its mean. Points may have any order of x. place: the name
+// of a position on the x axis. Rows for dygraphs with a column for each series; a position that a
+// series lacks stays empty.
 export function rowsOf(series) {
   const rows = new Map();
   series.forEach((one, i) => one.points.forEach(([x, low, value, high]) => {
@@ -39,7 +42,8 @@ export function rowsOf(series) {
 }
 
 export class Chart {
-  // title: what is shown with its unit; summary: the same in words, for those who do not see it.
+  // title: the shown quantity with its unit; summary: the same in words, for users who cannot see
+  // the chart.
   constructor(title, unit, {height_px = kHeight_px, xlabel = "position/mm", place = (x) => `${fixed(x, 3)} mm`} = {}) {
     this.unit = unit;
     this.place = place;
@@ -94,7 +98,7 @@ export class Chart {
   }
 }
 
-const kMostPasses = 4;  // each with its own line and band; the older ones share one
+const kMostPasses = 4;  // each with its own line and band; the older passes share one
 
 export const approach = (direction) => direction > 0 ? {name: "forward", colour: "blue", dash: false}
   : direction < 0 ? {name: "reverse", colour: "orange", dash: true} : {name: "approach unknown", colour: "text", dash: false};
@@ -102,15 +106,16 @@ const sign = (direction) => direction > 0 ? "+" : direction < 0 ? "−" : "?";
 // Values without U as points of a series.
 export const plain = (map) => [...map].map(([x, y]) => [x, y, y, y]);
 
-// Points of run.points -> a series for each of the newest passes and approach, with ± U, after one for all older passes of an
-// approach: their mean, and from the smallest to the largest value, so that no outlier is out of the picture.
+// Points of run.points -> a series with ± U for each of the newest passes and approaches. All older
+// passes of an approach give one series before them: their mean, and the range from the smallest to
+// the largest value, so that outliers stay visible.
 export function passes(points, key, most = kMostPasses) {
   const last = points.reduce((most_so_far, p) => Math.max(most_so_far, p.run), 0);
   const older = new Map(), newest = new Map(), times = new Map();
   for (const p of points) {
     const is_new = p.run > last - most, found = is_new ? newest : older, U = p.U?.[key] ?? 0, x = p.target_mm ?? p.position_mm;
     let id = `${is_new ? p.run : "older "}${sign(p.direction)}`;
-    if (is_new) {  // a place that a pass has twice is in two series: a series has one value at a place
+    if (is_new) {  // a series has one value at each position; a second one needs another series
       const here = `${id} ${x}`;
       times.set(here, (times.get(here) ?? 0) + 1);
       if (times.get(here) > 1) id += ` (${times.get(here)})`;
@@ -128,8 +133,8 @@ export function passes(points, key, most = kMostPasses) {
   return [...older.values(), ...newest.values()];
 }
 
-// Mean over all passes of one approach (or of both, direction 0) at each target: Map target_mm -> value. A reading that does
-// not say its approach counts for both.
+// Mean over all passes of one approach (or of both, direction 0) at each target: Map target_mm ->
+// value. A reading without an approach counts for both.
 export function means(points, key, direction = 0) {
   const sums = new Map();
   for (const p of points) {
@@ -146,7 +151,7 @@ export function means(points, key, direction = 0) {
 
 export const errorKeys = (point) => Object.keys(point ?? {}).filter((key) => /^E[XYZABC][XYZ]_u(m|rad)$/.test(key));
 
-// Five charts, one an error.
+// Five charts, one for each error.
 export class ErrorCharts {
   constructor(keys, options) {
     this.charts = new Map(keys.map((key) => [key, new Chart(`${nameOf(key)} in ${unitOf(key)}`, unitOf(key), options)]));

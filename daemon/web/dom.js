@@ -1,4 +1,4 @@
-// Elements, numbers with units, tables: what every view is made of.
+// Elements, numbers with units and tables for all views.
 
 // h("button", {class: "main", onclick: f}, "Start"): an element. Properties that begin with "on" are listeners;
 // null, undefined and false are left out, true is an attribute without value.
@@ -23,12 +23,12 @@ export function s(tag, attributes = {}, ...children) {
   return element;
 }
 
-// Sets a text only where it differs: the page stays quiet at 30 values a second.
+// Sets a text only if it has changed, so that unchanged values change nothing on the page.
 export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
-// A number is missing, not 0, where the daemon gives null.
+// null from the daemon is shown as a missing number, not as 0.
 export const isNumber = (x) => typeof x === "number" && Number.isFinite(x);
 
 // With a true minus sign, so that columns of numbers keep their width.
@@ -38,22 +38,22 @@ export function fixed(x, digits) {
   return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "−");
 }
 
-// Two significant digits of U decide how many decimals a value has (GUM 7.2.6).
+// Two significant digits of U determine the number of decimals of a value (GUM 7.2.6).
 export function decimals(U, otherwise = 3) {
   if (!isNumber(U) || U <= 0) return otherwise;
   return Math.min(Math.max(1 - Math.floor(Math.log10(U)), 0), 6);
 }
 
-// A value without U, by three significant digits.
+// A value without U has three significant digits.
 export const short = (x) => fixed(x, isNumber(x) && x !== 0 ? Math.min(Math.max(2 - Math.floor(Math.log10(Math.abs(x))), 0), 6) : 3);
 
 export const unitOf = (key) => key.endsWith("_urad") ? "µrad" : key.endsWith("_um") ? "µm" : "";
 export const nameOf = (key) => key.replace(/_(urad|um)$/, "");
 
-// "EYX straightness" of "EYX_straightness_um".
+// "EYX straightness" from "EYX_straightness_um".
 export const titleOf = (key) => nameOf(key).replaceAll("_", " ");
 
-// "1.830 µm, U = 0.089 µm (k = 2.0)"; says where no U is known.
+// "1.830 µm, U = 0.089 µm (k = 2.0)"; states if U is unknown.
 export function measured(figure, unit, {with_k = true} = {}) {
   const U = isNumber(figure?.U) ? figure.U : null;
   const digits = decimals(U);
@@ -62,7 +62,7 @@ export function measured(figure, unit, {with_k = true} = {}) {
   return `${value}, U = ${fixed(U, digits)} ${unit}` + (with_k && isNumber(figure.k) ? ` (k = ${fixed(figure.k, 2)})` : "");
 }
 
-// What U contains; never left out beside a U.
+// What U contains; shown with every U.
 export function covers(of) {
   const missing = of.not_declared ?? [];
   if (!of.u_covers && missing.length === 0) return null;
@@ -73,7 +73,7 @@ export function covers(of) {
       h("p", {}, missing.join(", "))) : null);
 }
 
-// Columns: [head, className]; rows of strings or nodes. The first cell of a row is its head.
+// Columns: [head, className]; rows of strings or nodes. The first cell of a row is its header.
 export function table(caption, columns, rows, attributes = {}) {
   const element = h("div", {class: "scroll", tabindex: "0", role: "region", "aria-label": caption},
     h("table", attributes,
@@ -84,7 +84,7 @@ export function table(caption, columns, rows, attributes = {}) {
   return setRows(element, rows);
 }
 
-// Other rows in a table that stays, with the focus where it is.
+// Replaces the rows of a table without moving the focus.
 export function setRows(element, rows) {
   const cell = (content, i) => i === 0
     ? h("th", {scope: "row", class: element.columns[i][1]}, content ?? "–") : h("td", {class: element.columns[i][1]}, content ?? "–");
@@ -94,7 +94,7 @@ export function setRows(element, rows) {
 
 const kShapes = {invalid: "■", doubtful: "▲", information: "●"};
 
-// The daemon's own words, with a shape and a word for how much it matters.
+// A text of the daemon, with a shape and a word for its severity.
 export function notices(list, title = "Notices") {
   if (!list || list.length === 0) return null;
   return h("section", {class: "notices"}, h("h3", {}, `${title} (${list.length})`),
@@ -121,7 +121,7 @@ export function age(seconds) {
   return seconds < 7200 ? `${Math.round(seconds / 60)} min` : `${Math.round(seconds / 3600)} h`;
 }
 
-// Shows what a promise gives, or its error where it belongs.
+// Shows the result of a promise, or its error in the same place.
 export function fill(element, promise) {
   element.replaceChildren(h("p", {class: "quiet"}, "Loading …"));
   return promise.then((content) => element.replaceChildren(...[content].flat().filter(Boolean)),
@@ -131,7 +131,7 @@ export function fill(element, promise) {
 export const problem = (error) => h("p", {class: "notice invalid", role: "alert"},
   h("span", {class: "shape", "aria-hidden": "true"}, "■"), ` ${error.message}`);
 
-// A modal dialog with a form: resolves to its FormData, or to null where it was cancelled.
+// A modal dialog with a form: resolves to its FormData, or to null if it was cancelled.
 export function ask(title, content, action) {
   const dialog = document.getElementById("dialog");
   const form = h("form", {method: "dialog"}, h("h2", {id: "dialog-title"}, title), content,

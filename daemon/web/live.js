@@ -1,18 +1,19 @@
-// What comes by itself: live values and events, over ONE stream a browser. A browser has six connections to a
-// server, whatever the number of tabs: the tab that holds a lock has the stream and passes all on to the others;
-// when it is closed, another one gets the lock.
+// Live values and events over ONE stream for each browser. A browser opens at most six connections
+// to a server for all its tabs. The tab that has a lock has the stream and sends everything to the
+// other tabs; when it is closed, another tab gets the lock.
 const kTopics = ["live.update", "run.event"];
 const kInterval_ms = Number(new URLSearchParams(location.search).get("interval_ms")) || 50;
-const kReopen_ms = 2000;  // where the browser gave up: an HTTP error
-const kSay_ms = 1000;     // how often the one with the stream says how it is with it
+const kReopen_ms = 2000;  // after an HTTP error the browser does not retry by itself
+const kSay_ms = 1000;     // interval at which the tab with the stream reports its state
 
 const listeners = new Map();  // name -> set of functions
-// Without locks (no secure context) each tab has a stream of its own.
+// Without locks (no secure context) each tab has its own stream.
 const channel = navigator.locks && "BroadcastChannel" in window ? new BroadcastChannel("mdof-live") : null;
 let connected = false;
-let saidAt = -Infinity;       // performance.now() of the last word of the tab with the stream
+let saidAt = -Infinity;  // performance.now() of the last report of the tab with the stream
 
-// Names: the topics; "connected" (true, false); "gap": events may have been missed, read anew.
+// Names: the topics; "connected" (true, false); "gap": events may be missing, so read the data
+// again.
 export function on(name, listener) {
   if (!listeners.has(name)) listeners.set(name, new Set());
   listeners.get(name).add(listener);
@@ -37,7 +38,7 @@ export const isConnected = () => connected && performance.now() - saidAt < 5 * k
 
 function open() {
   const source = new EventSource(`/events?topics=${kTopics.join(",")}&interval_ms=${kInterval_ms}`);
-  let before = saidAt > -Infinity;  // was it open once, here or in the tab that had it?
+  let before = saidAt > -Infinity;  // whether the stream was open before, here or in another tab
   source.onopen = () => {
     send("connected", true);
     if (before) send("gap");
@@ -45,7 +46,7 @@ function open() {
   };
   source.onerror = () => {
     send("connected", false);
-    if (source.readyState !== EventSource.CLOSED) return;  // it tries again by itself
+    if (source.readyState !== EventSource.CLOSED) return;  // the browser retries by itself
     setTimeout(() => { open(); send("gap"); }, kReopen_ms);
   };
   for (const topic of kTopics)

@@ -1,21 +1,22 @@
-// What all views share: axes, the newest value of each, fixtures, and what must be said on every view.
+// State that all views share: axes, the newest value of each, fixtures, and the warnings that every
+// view shows.
 import {age} from "./dom.js";
 import * as live from "./live.js";
 import {call} from "./rpc.js";
 
 const kStale_s = 2;          // without a new value
-const kFirst_ms = 3000;      // no word of the stream is missing before
-const kRefresh_ms = 10_000;  // server.info also changes without an event: storage
+const kFirst_ms = 3000;      // before this time a silent stream is no fault
+const kRefresh_ms = 10_000;  // server.info also changes without an event (storage)
 
 export const state = {
   info: null,         // server.info
   newest: new Map(),  // axis -> {value: live.update, at: performance.now()}
   rigs: new Map(),    // axis -> rig.get
-  error: null,        // of the last call
+  error: null,        // error of the last call
 };
 const changed = new Set();
 
-// Called when server.info or a fixture was read again.
+// Called after server.info or a fixture was read again.
 export function onChange(listener) {
   changed.add(listener);
   return () => changed.delete(listener);
@@ -41,7 +42,8 @@ export async function refresh() {
   for (const listener of changed) listener();
 }
 
-// [{kind, text, age}]: kind is the class of its line; the age changes all the time and is not read aloud.
+// [{kind, text, age}]: kind is the class of its line. The age changes all the time and is not read
+// aloud.
 export function warnings() {
   const found = [];
   const all = axes();

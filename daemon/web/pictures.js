@@ -1,4 +1,4 @@
-// Pictures of figures: budget as bars, the angle between two axes.
+// Pictures of figures: a budget as bars, the angle between two axes.
 import {fixed, h, isNumber, s, short, table} from "./dom.js";
 
 // budget: a figure of run.budget or squareness.budget.
@@ -16,12 +16,13 @@ export function budgetBars(budget, unit) {
       isNumber(c.value) ? `${c.key ?? ""} ${c.value} ${c.unit ?? ""}` : "–"]));
 }
 
-const kShown_deg = 8;  // the angle is drawn so large, whatever it is
+const kShown_deg = 8;  // the angle is always drawn with this size
 
-// The angle from the first axis to the second one is 90° + this sign times the error: EB0Z turns X towards -Z (ISO 230-1).
+// The angle from the first axis to the second is 90° + this sign times the error: EB0Z turns X
+// towards -Z (ISO 230-1).
 export const squarenessSign = (first, second) => first === "X" && second === "Z" ? -1 : 1;
 
-// Axes in the order X, Y, Z; the error as it is named: EC0Y, EB0Z, EA0Z.
+// Axes in the order X, Y, Z; the error by its name: EC0Y, EB0Z, EA0Z.
 export function squarenessPicture(first, second, error_urad) {
   const beyond_urad = squarenessSign(first, second) * error_urad, sign = Math.sign(beyond_urad);
   const angle = (90 + kShown_deg * sign) * Math.PI / 180, length = 130;

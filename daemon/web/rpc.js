@@ -1,9 +1,10 @@
-// The daemon's methods by POST /rpc. The token is kept in this tab alone, and sent only as a header.
+// Calls the daemon's methods by POST /rpc. The token is kept only in this tab and sent only as a
+// header.
 import {ask, field, h} from "./dom.js";
 
 const kForbidden = -32003;
 let id = 0;
-let asking = null;  // the dialog, while it is open
+let asking = null;  // the dialog while it is open
 
 export class RpcError extends Error {
   constructor(error) {
@@ -49,7 +50,8 @@ export async function askToken(reason) {
   return true;
 }
 
-// The result; throws RpcError with the daemon's message. Without token, or with a wrong one, asks once for it.
+// Returns the result; throws RpcError with the daemon's message. Without a valid token it asks once
+// for it.
 export async function call(method, params = {}) {
   try {
     return await post(method, params);
@@ -59,7 +61,7 @@ export async function call(method, params = {}) {
   }
 }
 
-// All items of a method that lists by pages.
+// All items of a method that lists in pages.
 export async function pages(method, params, key, most = 100_000) {
   const items = [];
   for (;;) {

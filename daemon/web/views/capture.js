@@ -1,4 +1,4 @@
-// Capture: the request for a run, then the five errors as they grow, point by point.
+// Capture: the request for a run, then the five errors point by point during the run.
 import {ErrorCharts, errorKeys} from "../charts.js";
 import {ask, covers, field, fixed, h, notices, problem, select, setText} from "../dom.js";
 import * as live from "../live.js";
@@ -8,7 +8,7 @@ import {kResumable} from "./run_detail.js";
 
 const number = (form, key) => form.get(key) === "" || form.get(key) === null ? undefined : Number(form.get(key));
 
-// A comma between digits is a decimal sign to some readers and a separator to others.
+// A comma between digits is a decimal sign for some readers and a separator for others.
 export function targetsFrom(text) {
   return text.split(/[\s;]+/).map((word) => word.replace(/,$/, "")).filter(Boolean).map((word) => {
     if (word.includes(",")) throw new Error(`target "${word}" may be one number or several; write a point in decimals and a space between targets`);
@@ -17,7 +17,8 @@ export function targetsFrom(text) {
   });
 }
 
-// The parameters of run.start from the form; what was left empty is left out. Throws where targets are not clear.
+// The parameters of run.start from the form, without empty fields. Throws if the targets are
+// ambiguous.
 export function request(form) {
   const params = {axis: form.get("axis"), note: form.get("note") || undefined, repeats: number(form, "repeats"),
     scale_period_um: number(form, "scale_period_um")};
@@ -29,11 +30,11 @@ export function request(form) {
   return params;
 }
 
-// The fields without which the chosen kind of targets has none: a run without targets would be a free one.
+// Fields that the selected kind of targets needs; without them the run would have no targets.
 const kNeeded = {even: [["from_mm", "From/mm"], ["to_mm", "To/mm"], ["interval_mm", "Interval/mm"]], list: [["targets_mm", "Targets/mm"]], free: []};
 export const emptyFields = (form) => kNeeded[form.get("kind")].filter(([key]) => !form.get(key)?.trim()).map(([, label]) => label);
 
-// How many stops the axis has to make; null: not known before.
+// Number of stops of the axis; null: unknown.
 export function expected({from_mm, to_mm, interval_mm, targets_mm, repeats}) {
   const targets = targets_mm ? targets_mm.length
     : interval_mm > 0 && to_mm >= from_mm ? Math.floor((to_mm - from_mm) / interval_mm + 1e-9) + 1 : null;
@@ -127,7 +128,7 @@ class Progress {
       const page = await pages("run.points", {run: this.run}, "points");
       this.points = page.points;
       this.draw(page);
-      // A daemon that was restarted sends no event of the end.
+      // A restarted daemon sends no event for the end.
       const {state} = await call("run.get", {run: this.run});
       if (state === "ended") setText(this.where, `Run ${this.run} has ended; mdofd has not stored the end of the run yet, because the storage is not available`);
       else if (state !== "open" && !this.over) this.ended({state, run: this.run});
@@ -150,7 +151,7 @@ class Progress {
   }
   event(e) {
     if (e.type === "trouble" && e.axis === this.axis) this.tell(`${e.device ? `${e.device}: ` : ""}${e.kind}: ${e.text}`);
-    // Its id may be another one: of the run that supersedes it.
+    // The id may differ: it is then the id of the superseding run.
     if (e.type === "ended" && e.axis === this.axis && !this.over) return this.ended(e);
     if (e.type === "storage" && !this.over) this.read();
     if (e.run !== this.run) return;
@@ -162,7 +163,7 @@ class Progress {
     }
     if (e.type === "progress") this.progress(e);
   }
-  // The newest ones; all are in the notices of the run.
+  // Only the newest; the notices of the run contain all.
   tell(problem) {
     this.trouble.append(h("p", {class: "notice doubtful"}, `▲ ${problem}`));
     while (this.trouble.childElementCount > kMostProblems) this.trouble.firstElementChild.remove();

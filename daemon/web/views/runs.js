@@ -1,4 +1,4 @@
-// Runs: the list, one run whole, two laid over each other, squareness of two, control charts.
+// Runs: the list, one run, two compared runs, the squareness of two runs, control charts.
 import {field, h, problem, select, setRows, table, time} from "../dom.js";
 import * as live from "../live.js";
 import {call} from "../rpc.js";

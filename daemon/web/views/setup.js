@@ -1,27 +1,28 @@
-// Set up: each gap against its range, what to shim, whether the signs are right, the devices behind.
+// Set-up: each gap and its range, the required shims, the check of the signs, and the devices.
 import {age, field, fixed, h, isNumber, problem, select, setRows, setText, table} from "../dom.js";
 import * as live from "../live.js";
 import * as machine from "../machine.js";
 import {call} from "../rpc.js";
 
-const kText_ms = 120;      // numbers change no faster than they can be read
-const kNoise = 60;         // values at rest that make the noise
-const kLeastFreedom = 9;   // below it the noise is not shown
+const kText_ms = 120;      // numbers must not change faster than they can be read
+const kNoise = 60;         // number of values at rest for the noise
+const kLeastFreedom = 9;   // with fewer degrees of freedom the noise is not shown
 const kOffCentre = 0.5, kNearEnd = 0.8;  // shares of half the range
 const kCentred = 0.1;      // no shim within this share
 const kUsable = ["good", "simulated"];
 
-// "+Z", or the vector where it is along none of the axes.
+// "+Z", or the vector if it is not along an axis.
 export function along(direction) {
   const k = direction.findIndex((x) => Math.abs(Math.abs(x) - 1) < 1e-6);
   return k < 0 ? `(${direction.map((x) => fixed(x, 3)).join(", ")})` : (direction[k] < 0 ? "−" : "+") + "XYZ"[k];
 }
 const opposite = (direction) => along(direction.map((x) => -x));
 
-// Standard deviation about the mean of each stop, pooled over the last ones: what the axis does between two stops is no noise.
+// Standard deviation about the mean of each stop, pooled over the last stops. The motion between
+// two stops is not noise.
 export class Noise {
-  values = [];  // of the stop that lasts
-  stops = [];   // before: [degrees of freedom, sum of squares]
+  values = [];  // of the present stop
+  stops = [];   // earlier stops: [degrees of freedom, sum of squares]
   add(x, still) {
     if (still && isNumber(x)) {
       this.values.push(x);
@@ -55,7 +56,8 @@ export function stateOf(um, quality, low, high, stale) {
   return share > kOffCentre ? ["doubtful", "◆", "off centre"] : ["good", "●", "in range"];
 }
 
-// Beyond the end of the range the reading is the end: the way back is longer by what is not seen.
+// Beyond its range the probe shows the end of the range, so the way back is longer by an unknown
+// distance.
 export function shimText(um, probe, quality = "good") {
   if (!isNumber(um) || !(kUsable.includes(quality) || quality === "over_range")) return "Shim: not known, because the probe has no usable reading";
   const off = um - (probe.low_um + probe.high_um) / 2, least = quality === "over_range" ? "at least " : "";
@@ -65,7 +67,7 @@ export function shimText(um, probe, quality = "good") {
   return `Shim ${least}${fixed(Math.abs(off), 1)} µm: move the probe towards ${probeTowards}, or the target towards ${targetTowards}`;
 }
 
-// Lowest and highest reading of the last second; between two pictures there are many more readings.
+// Minimum and maximum reading of the last second; there are many readings between two updates.
 export function rangeText(low_um, high_um) {
   return isNumber(low_um) && isNumber(high_um) ? `Last second: ${fixed(low_um, 2)} to ${fixed(high_um, 2)} µm` : "Last second: no reading";
 }
@@ -112,7 +114,7 @@ class ProbeCard {
   }
 }
 
-// Push the target and see whether each probe goes the way that the rig says.
+// Push the target and check that each probe changes in the direction that the rig declares.
 class SignCheck {
   base = null;
   constructor(cards) {
@@ -258,7 +260,7 @@ export function open(place, [asked]) {
       draw(last.value);
     }, 300)];
   const off = live.on("live.update", take);
-  // mdofd was restarted with another rig: other directions, ranges, probes.
+  // mdofd was restarted with another rig, which has other directions, ranges or probes.
   const offRig = machine.onChange(() => {
     const now = machine.state.rigs.get(axis);
     if (now && JSON.stringify(now) !== drawn_of) window.dispatchEvent(new HashChangeEvent("hashchange"));

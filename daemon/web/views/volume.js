@@ -1,4 +1,5 @@
-// The corrections over a plane or a volume: arrows and heat map, as seen from before the machine.
+// The corrections over a plane or a volume: arrows and heat map, seen from the front of the
+// machine.
 import {change} from "../activation.js";
 import {covers, decimals, field, fixed, h, isNumber, problem, s, select, table, time} from "../dom.js";
 import * as live from "../live.js";
@@ -6,7 +7,7 @@ import {call} from "../rpc.js";
 import {facts} from "./run_detail.js";
 
 const kAxes = "XYZ";
-// To the right, up, and from where one looks.
+// The axes to the right, upwards, and towards the viewer.
 const kPlanes = {XY: [0, 1, "from above: X to the right, Y to the back"], XZ: [0, 2, "from the front: X to the right, Z up"],
   YZ: [1, 2, "from the right side: Y to the right, Z up"]};
 const kWidth = 760, kEdge = 60;
@@ -14,7 +15,7 @@ const kMostRows = 1000;  // of the table of nodes
 
 const size = ([, , , x, y, z]) => Math.hypot(x, y, z);
 
-// The nodes of one layer: those where the third axis is at `at_mm`.
+// The nodes of one layer, where the third axis is at `at_mm`.
 export function layer(nodes, plane, at_mm) {
   const third = [0, 1, 2].find((k) => k !== kPlanes[plane][0] && k !== kPlanes[plane][1]);
   return nodes.filter((n) => Math.abs(n[third] - at_mm) < 1e-6);
@@ -28,7 +29,8 @@ function arrow(x, y, dx, dy) {
   return s("path", {class: "ink", d: `M${x} ${y}L${tx} ${ty}M${bx - head / 2 * uy} ${by + head / 2 * ux}L${tx} ${ty}L${bx + head / 2 * uy} ${by - head / 2 * ux}`});
 }
 
-// True proportions: a millimetre is as long to the right as upwards. Largest arrow: one grid step.
+// True to scale: a millimetre has the same length along both axes. The largest arrow is one grid
+// step.
 export function planePicture(nodes, plane, largest_um) {
   const [a, b, view] = kPlanes[plane];
   const values = (k) => [...new Set(nodes.map((n) => n[k]))].sort((x, y) => x - y);
@@ -51,7 +53,7 @@ export function planePicture(nodes, plane, largest_um) {
   h("p", {class: "quiet"}, `Seen ${view}. Longest arrow: ${fixed(largestInPlane, 3)} µm in the plane. A stronger blue shows a larger correction in space (0 to ${fixed(largest_um, 3)} µm).`)];
 }
 
-// Of one generation: mdofd refuses a page of another one.
+// All pages must be of one generation: mdofd rejects a page of another one.
 async function grid(generation) {
   const nodes = [];
   for (;;) {
@@ -103,7 +105,8 @@ function activeOf(volume, nodes) {
       nodes.slice(0, kMostRows).map((n) => n.slice(0, 9).map((x, i) => fixed(x, i < 3 ? 3 : 4)))))];
 }
 
-// Activating one of the volume while one of an axis is active is refused by mdofd: both would correct twice.
+// mdofd rejects the activation of a volumetric table while a table of an axis is active, because
+// both would correct twice.
 function stored(tables, active, generation, done) {
   const act = async (method, params, question) => {
     try {
@@ -131,7 +134,7 @@ export function openVolume(place) {
     const [{volume, generation}, {tables}] = await Promise.all([call("compensation.status"), call("compensation.list", {axis: "volume"})]);
     const now = volume ? activeOf(volume, await grid(volume.generation))
       : [h("p", {class: "notice"}, "No table of the volume is active. To build a table, use: ", h("code", {}, "mdof compensation build --machine"), ". Then activate the table on this page.")];
-    if (mine !== turn) return;  // a newer reading is under way
+    if (mine !== turn) return;  // a newer reading is in progress
     body.replaceChildren(...now, tables.length ? stored(tables, volume, generation, again) : "");
   }
   function again(error) {

@@ -48,7 +48,7 @@ struct FoundBudgets {
   StatedAt stated;
   std::optional<double> at_m;  // position of the target that was used
   std::vector<Budget> budgets;
-  Notices notices;  // of the runs
+  Notices notices;  // notices of the runs
   bool simulated = false;
 };
 // Errors: unknown run; run without error values; figure that the run does not have.
@@ -64,7 +64,7 @@ Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessReq
 struct FoundSquareReversal {
   SquareReversal found;
   std::vector<std::string> not_declared;  // keys of the rigs
-  Notices notices;                        // of the runs
+  Notices notices;                        // notices of the runs
   bool simulated = false;
 };
 Result<FoundSquareReversal> square_reversal(store::Store& store, const SquarenessRequest& first,
@@ -76,7 +76,7 @@ struct ParallelismRequest {
 };
 struct FoundParallelism {
   Parallelism parallelism;
-  Notices notices;  // of the runs
+  Notices notices;  // notices of the runs
 };
 // Parallelism with its budgets. Nothing is stored. Errors: those of algo::parallelism(), and rigs
 // that cannot be read.

@@ -52,7 +52,7 @@ struct TableRequest {
 };
 struct BuiltTable {
   CompensationTable table;
-  Notices notices;   // of the source runs
+  Notices notices;   // notices of the source runs
   Notices doubtful;  // those notices that prevent the use by a controller
 };
 // Calculates and stores the table. Errors: those of algo::build_table() and algo::check_limits();
@@ -73,7 +73,8 @@ struct ActivationRequest {
   std::int64_t table = 0;
   Consent consent;
   HistoryEntry action;                                             // the requesting user
-  std::optional<std::int64_t> expected_generation = std::nullopt;  // of all active tables
+  std::optional<std::int64_t> expected_generation = std::nullopt;  // generation of all active
+                                                                   // tables
 };
 // Activates the table. Rejects a table that does not match its hash, and everything that
 // check_gate() rejects, because a controller sees only the numbers.

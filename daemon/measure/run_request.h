@@ -24,7 +24,7 @@ struct CutOffRun {
 struct RunRequest {
   std::string note;
   std::vector<double> targets_m;                      // empty: targets are recognised
-  int repeats = 0;                                    // from both sides; 0: until stopped
+  int repeats = 0;                                    // repeats from both sides; 0: until stopped
   Notices notices;                                    // stored with the run
   std::optional<CutOffRun> resumes;                   // the run that this run continues
   std::optional<HistoryEntry> action = std::nullopt;  // the requesting user

@@ -15,8 +15,8 @@ namespace mdof::daemon {
 struct LogStops {
   std::vector<Point> stops;  // probes in the order of the rig; unusable readings are NaN
   std::vector<Unit> units;   // units of the probes in the log
-  std::string sha256;        // of the log
-  std::string started_utc;   // of a recording, otherwise empty
+  std::string sha256;        // SHA-256 of the log
+  std::string started_utc;   // start time of a recording, otherwise empty
   Notices notices;
 };
 

@@ -49,7 +49,7 @@ struct Methods {
   std::string database;
   std::string started_utc;
   std::chrono::steady_clock::time_point started;
-  std::int64_t generation = 0;    // of the active tables; rises with each change
+  std::int64_t generation = 0;    // generation of the active tables; rises with each change
   Replayer* replayer = nullptr;   // nullptr: run.replay is rejected
   std::optional<Page> page = {};  // nullopt: the page is not served
   std::function<void(std::int64_t generation)> announce = {};  // announces a change of the active
@@ -70,7 +70,8 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 // Shared by all nouns.
 HistoryEntry action_of(const rpc::Params& params, std::string name);  // by the caller, at the
                                                                       // present time
-HistoryEntry action_with_reason(const rpc::Params& params, std::string name);  // with its "reason"
+// As action_of(), with the parameter "reason".
+HistoryEntry action_with_reason(const rpc::Params& params, std::string name);
 Result<Axis> axis_param(const rpc::Params& params);
 // Parameters for the limits of a deviation or correction.
 std::vector<rpc::Param> limit_params();

@@ -33,7 +33,7 @@ struct TablesRequest {
   rpc::ListPage page;
   Listed listed = Listed::both;
   std::optional<Axis> axis;
-  std::int64_t generation = 0;  // of all active tables
+  std::int64_t generation = 0;  // generation of all active tables
 };
 
 Result<std::string> tables_json(store::Store& store, const TablesRequest& request,

@@ -31,7 +31,8 @@ class Caller {
   // permission to write.
   virtual bool over_http() const = 0;
   virtual bool in_group(gid_t group) const = 0;           // false without credentials
-  virtual std::vector<gid_t> further_groups() const = 0;  // besides the group of the credentials
+  virtual std::vector<gid_t> further_groups() const = 0;  // groups besides the group of the
+                                                          // credentials
 
   // Holds until unsubscribe() or the end of the connection. A second call for the same topic
   // changes the interval. Errors: not_found (topic); usage (interval below the topic's minimum, too

@@ -12,7 +12,7 @@ namespace mdof::rpc {
 namespace {
 
 constexpr std::size_t kEnvelopeBytes =
-    512;  // of the JSON-RPC reply around the document, including the id
+    512;  // size of the JSON-RPC reply around the document, including the id
 constexpr std::size_t kEndBytes = 64;  // text after the methods
 constexpr const char* kLeftOut =
     R"({"description":"the schema does not fit into max_bytes; give a larger max_bytes"})";

@@ -21,8 +21,8 @@ const char* to_string(ParamType type);  // as in JSON Schema
 // Limits of numbers also hold for the numbers of an array.
 struct Bounds {
   double least = -9007199254740992.0, most = 9007199254740992.0;  // 2^53
-  std::size_t items = 64;                                         // of an array
-  std::size_t bytes = 1024;                                       // of a string
+  std::size_t items = 64;    // maximum number of elements of an array
+  std::size_t bytes = 1024;  // maximum length of a string
 };
 
 struct Param {

@@ -15,28 +15,30 @@ struct ServerOptions {
   using milliseconds = std::chrono::milliseconds;
 
   // Limits of lines and messages.
-  std::size_t max_line_bytes = 64 * 1024;   // of a request, without its line end
-  std::size_t max_reply_bytes = 48 * 1024;  // of any sent line, with its line end
-  std::size_t max_depth = 32;               // nesting of a request
-  std::size_t max_batch = 100;              // members
-  std::size_t max_id_bytes = 256;           // of an id, as JSON text
+  std::size_t max_line_bytes = 64 * 1024;   // one request, without its line end
+  std::size_t max_reply_bytes = 48 * 1024;  // one sent line, with its line end
+  std::size_t max_depth = 32;               // nesting depth of a request
+  std::size_t max_batch = 100;              // members of a batch
+  std::size_t max_id_bytes = 256;           // one id as JSON text
 
   // Limits of one client.
   std::size_t max_unsent_bytes = 1024 * 1024;  // a request only begins if its reply fits
   std::chrono::microseconds turn{100};         // after this time the other clients get a turn
   std::size_t max_subscriptions = 32;
-  std::size_t max_queued_events = 64;  // for each subscription to events; then the oldest are
+  std::size_t max_queued_events = 64;  // length of the queue of one subscription to events; when
+                                       // full, the oldest event is dropped
                                        // dropped
-  milliseconds request_timeout{5000};  // for a whole line, from its first byte
+  milliseconds request_timeout{5000};  // limit for a whole line, from its first byte
   milliseconds stall_timeout{10000};   // time during which the client takes none of the unsent
                                        // output
-  milliseconds idle_timeout{0};        // without request and subscription; 0: no limit
+  milliseconds idle_timeout{0};        // limit without request and subscription; 0: no limit
   milliseconds drain_timeout{1000};    // time for the client to read the last line before the
                                        // connection closes
 
   // Limits of the server.
   std::size_t max_connections = 64;
-  std::size_t max_connections_of_user = 32;  // of one uid, over Unix and TCP sockets together
+  std::size_t max_connections_of_user = 32;  // connections of one uid, over Unix and TCP sockets
+                                             // together
   // One of max_connections is reserved for this group, the group of the machine's control, even if
   // other users have all other connections.
   std::optional<gid_t> kept_for_group;
@@ -54,7 +56,7 @@ struct ServerOptions {
                                            // is closed
   std::size_t max_http_streams = 64;       // maximum number of connections with GET /events
   std::size_t max_http_head_bytes = 8 * 1024;
-  milliseconds http_idle_timeout{15000};  // between two requests
+  milliseconds http_idle_timeout{15000};  // limit between two requests
   milliseconds http_heartbeat{10000};     // on a stream without events
   std::size_t max_kept_events = 4096;     // for streams that resume
   std::size_t max_kept_event_bytes = 1024 * 1024;

@@ -19,18 +19,19 @@ struct Station::OpenRun {
   std::optional<Continuation> continues;           // the recording of another run
   Unrecorded unrecorded;                           // not yet sent to the store
   std::chrono::steady_clock::time_point recorded;  // last time of sending
-  std::uint64_t blocks_not_recorded = 0;           // because the store's queue was full
-  std::optional<std::int64_t> left_out_ns = {};    // begin of the last reported stop that was left
-                                                   // out
-  TroubleLog troubles = {};                        // of the devices, since the run began
-  EncoderDatum datum = {};                         // datum of its positions
+  std::uint64_t blocks_not_recorded = 0;  // number of blocks for which the store's queue had no
+                                          // space
+  std::optional<std::int64_t> left_out_ns = {};  // begin of the last reported stop that was left
+                                                 // out
+  TroubleLog troubles = {};                      // troubles of the devices since the run began
+  EncoderDatum datum = {};                       // datum of its positions
   Model model = Model::rigid;
 };
 
 // The initial state of a run that continues another one.
 struct Station::Beginning {
   Pipeline pipeline;
-  std::int64_t end_ns;  // of the last scan
+  std::int64_t end_ns;  // time of the last scan
 };
 
 }  // namespace mdof::daemon

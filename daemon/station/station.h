@@ -84,7 +84,7 @@ class Station {
   // An item for the measure thread, in order: samples or another job.
   struct Samples {
     SampleBlock block;
-    std::uint64_t pass;  // of a source that is read once per run
+    std::uint64_t pass;  // number of the reading of a source that is read once per run
   };
   using Job = std::function<void(Station&)>;
   using Item = std::variant<Samples, Job>;

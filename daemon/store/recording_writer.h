@@ -40,8 +40,8 @@ class RecordingWriter {
   // recording's SHA-256. Call it once, at the end.
   Result<std::string> finish(const std::string& finished_utc);
 
-  std::uint64_t scans() const { return scans_; }  // in chunks, committed or pending
-  std::uint64_t lost() const { return lost_; }    // before, between or after those
+  std::uint64_t scans() const { return scans_; }  // scans in chunks, committed or pending
+  std::uint64_t lost() const { return lost_; }    // lost scans before, between or after those
 
   static constexpr std::size_t kMaxWaitingBytes = 64u << 20;
 
@@ -59,7 +59,8 @@ class RecordingWriter {
   Status write_waiting();
 
   sqlite::Connection connection_;
-  std::map<std::string, Stream> streams_;  // by device; sorted, so that files are reproducible
+  std::map<std::string, Stream> streams_;  // streams by device, sorted so that files are
+                                           // reproducible
   std::deque<RecordingChunk> waiting_;
   std::size_t waiting_bytes_ = 0;
   std::string hash_;  // hash of the last chunk

@@ -44,13 +44,14 @@ struct RunEnd {
   RunState state = RunState::complete;  // not open
   std::uint64_t scans = 0, scans_lost = 0;
   Notices notices;
-  std::string recording_sha256;  // of a recording that was not yet complete at the start
+  std::string recording_sha256;  // SHA-256 of a recording that was not yet complete at the start
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
   std::optional<Plausibility> plausibility = std::nullopt;
   std::optional<Temperature> temperature = std::nullopt;
   std::optional<HistoryEntry> action = std::nullopt;         // the user who ended it
-  std::optional<RunUncertainty> uncertainty = std::nullopt;  // of its points, for SQL users
+  std::optional<RunUncertainty> uncertainty = std::nullopt;  // uncertainty of its points, for SQL
+                                                             // users
 };
 
 // An active table.
@@ -59,7 +60,7 @@ struct ActiveTable {
   std::int64_t generation = 0;
   std::string actor;
   std::string activated_utc;
-  bool doubtful = false;  // because of its runs; readers for clients set it
+  bool doubtful = false;  // whether its runs are doubtful; readers for clients set it
 };
 
 struct ActiveVolumetric {
@@ -79,7 +80,7 @@ struct Marks {
 struct Activation {
   std::int64_t generation = 0;
   bool changed = false;  // false: it already was in this state, with this generation
-  std::optional<Marks> marks = std::nullopt;  // of the activated table
+  std::optional<Marks> marks = std::nullopt;  // marks of the activated table
 };
 
 // {`members`,"generation":7,"changed":true}, with "simulated" and "doubtful" for a table. `members`

@@ -38,7 +38,7 @@ struct NewRun {
 struct RunEnding {
   bool differs = false;  // the result differs from the stored points
   std::optional<HistoryEntry> action = std::nullopt;
-  std::optional<RunUncertainty> uncertainty = std::nullopt;  // of the result's points
+  std::optional<RunUncertainty> uncertainty = std::nullopt;  // uncertainty of the result's points
 };
 
 // The state of the storage. "ok"; "lost": the database, its -wal or -shm, or its chain of hashes
@@ -196,7 +196,7 @@ class Storekeeper {
   StorageState unopened_;  // why store_ is missing; "ok": it exists
   store::ChainHead announced_;
   std::map<std::int64_t, std::string> open_because_;
-  std::int64_t changes_announced_ = -1;  // of the database, when its head was announced
+  std::int64_t changes_announced_ = -1;  // changes of the database when its head was announced
   std::vector<Unended> unended_;
   std::deque<Points> waiting_points_;  // wait until another program releases the database
   std::size_t waiting_count_ = 0;      // number of points in waiting_points_

@@ -34,7 +34,7 @@ struct ListedTables {
   std::vector<CompensationTable> tables;
   std::vector<VolumetricTable> volumes;
   std::vector<std::int64_t> generations, volume_generations;
-  std::int64_t generation = 0;  // of all active tables
+  std::int64_t generation = 0;  // generation of all active tables
   std::int64_t offset = 0;
   bool only_volumes = false;  // only volumes are requested; the document lists them as "tables"
 };

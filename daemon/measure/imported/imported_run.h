@@ -18,7 +18,7 @@ TableRequest table_of_imported(const Run& run, const Run& other);
 
 // Adds notices about the readings: no approach, one reading a target.
 Run with_positioning_notices(Run run);
-// What u of the readings includes.
+// The contributions that u of the readings includes.
 Covers covers_of_readings(const Run& run);
 
 // The document of `mdof show` and run.get for an imported run, like run_document() for other runs.

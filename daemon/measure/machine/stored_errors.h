@@ -15,7 +15,7 @@ namespace mdof::daemon {
 
 struct StoredErrors {
   std::vector<std::int64_t> runs;  // source runs of the errors, also through tables
-  Notices notices;                 // of the tables that were built
+  Notices notices;                 // notices of the tables that were built
   Notices doubtful;                // those notices that prevent the use by a controller
 };
 

@@ -31,13 +31,13 @@ class ReplayLog {
   drivers::Driver& driver() { return *driver_; }
   const std::string& path() const { return path_; }
   const char* kind() const { return recording_ ? "recording" : "csv"; }
-  std::string rig_text() const;       // of a recording, otherwise empty
-  std::string started_utc() const;    // of a recording, otherwise empty (unknown)
+  std::string rig_text() const;       // rig of a recording, otherwise empty
+  std::string started_utc() const;    // start of a recording, otherwise empty (unknown)
   std::string configuration() const;  // mdofd.toml of a recording, otherwise empty
   // The options of the recorded run: its mdofd.toml, overridden by the request of the run. Defaults
   // for a CSV log.
   Result<AskedFor> asked_for() const;
-  std::vector<std::string> comments() const;  // of a CSV log
+  std::vector<std::string> comments() const;  // comments of a CSV log
   Progress progress() const;                  // in bytes of a CSV log, in chunks of a recording
   // Valid after the end of the log:
   std::string sha256() const;

@@ -22,7 +22,7 @@ constexpr double kManyReadings = std::numeric_limits<double>::infinity();
 // The mean of one approach at a target.
 struct ApproachMean {
   double value = kNaN, u_random = kNaN;
-  double freedom = kManyReadings;  // of u_random
+  double freedom = kManyReadings;  // degrees of freedom of u_random
   double u_declared = 0;
   double u() const { return std::hypot(u_random, u_declared); }
 };

@@ -20,7 +20,7 @@ struct ComparedValue {
 // forward, reverse: mean of this approach; reversal: forward - reverse.
 inline constexpr std::array<const char*, 3> kComparedSides = {"forward", "reverse", "reversal"};
 struct ComparedPoint {
-  double position_m = 0;                                               // of the run before
+  double position_m = 0;  // position of the target in the run before
   std::array<std::vector<ComparedValue>, kComparedSides.size()> side;  // [side][error]
 };
 struct ComparedPoints {

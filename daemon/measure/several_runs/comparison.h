@@ -40,8 +40,8 @@ struct Comparison {
   Axis axis = Axis::x;
   StatedAt stated;
   std::vector<ComparedFigure> figures;  // figures that both runs have
-  Notices differences;                  // between the two runs, besides the action
-  Notices notices;                      // of the runs
+  Notices differences;                  // differences between the two runs besides the action
+  Notices notices;                      // notices of the runs
   bool simulated = false;
   bool is_imported = false;  // positioning: `stated` has no meaning
   ComparedPoints points;
@@ -52,7 +52,7 @@ struct Comparison {
 // run of another error than positioning; no common figure.
 Result<Comparison> compare_runs(store::Store& store, const ComparisonRequest& request);
 
-// What u of the changes includes.
+// The contributions that u of the changes includes.
 Covers covers(const Comparison& comparison);
 
 // The document of `mdof compare --json` and the RPC.

@@ -26,7 +26,7 @@ struct TrendRequest {
 
 struct TrendValue {
   std::vector<std::int64_t> runs;  // one, or two for a squareness
-  std::string started_utc;         // of the last run
+  std::string started_utc;         // start of the last run
   // SI units. u: combined, NaN if it cannot be calculated. u_random: the part of noise and
   // repeatability. The chart uses u_random, because declared uncertainties are the same in all
   // runs.
@@ -35,13 +35,14 @@ struct TrendValue {
 struct Trend {
   std::string figure;
   std::size_t baseline = 0;           // as requested
-  std::vector<TrendValue> values;     // in order of time
+  std::vector<TrendValue> values;     // values in order of time
   std::optional<algo::Chart> chart;   // nullopt: too few values
   std::vector<std::string> left_out;  // sentences: the runs that were left out, with the reason
-  Notices notices;                    // what is mixed
-  // What u includes, from the budget of the newest value with noise only, otherwise of the first.
+  Notices notices;                    // notices on mixed rigs and models
+  // Contributions to u, from the budget of the newest value with noise only, otherwise of the
+  // first.
   Covers u_covers;
-  NoiseOnly noise_only = NoiseOnly::none;  // of all values
+  NoiseOnly noise_only = NoiseOnly::none;  // common value for all values of the trend
   std::vector<std::string> u_not_declared;
 };
 

@@ -21,7 +21,8 @@ struct FileUser {
 
 struct ClientFile {
   rpc::Descriptor file;
-  rpc::Descriptor wal;  // of a recording with changes that are not yet in the file; -1: none
+  rpc::Descriptor wal;  // the WAL file of a recording whose changes are not yet in the file; -1:
+                        // none
 };
 
 // Opens the file for reading. Never becomes the controlling process of a terminal and does not wait

@@ -10,8 +10,8 @@
 namespace mdof::charts {
 namespace {
 
-constexpr double kSignPx = 26, kItemGapPx = 22, kLegendRowPx = 20;  // of a legend
-constexpr double kAbovePx = 34, kBelowPx = 48, kGapPx = 28;         // around a panel
+constexpr double kSignPx = 26, kItemGapPx = 22, kLegendRowPx = 20;  // dimensions of a legend
+constexpr double kAbovePx = 34, kBelowPx = 48, kGapPx = 28;         // margins around a panel
 
 constexpr double kBold = 1.12;  // ratio of the widths of bold and normal letters
 

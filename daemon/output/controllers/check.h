@@ -42,8 +42,8 @@ struct CheckedError {
 struct Check {
   std::vector<CheckedError> errors;
   std::vector<std::string> not_judged;    // written, but the sign of the correction is unknown
-  double most_residual_m = 0, share = 0;  // from ExportOptions, including the tolerance
-  bool passed() const;                    // of the errors that could be judged
+  double most_residual_m = 0, share = 0;  // limits from ExportOptions, including the tolerance
+  bool passed() const;                    // whether all errors that could be judged pass
   bool nothing_to_correct() const;        // no error exceeds a step of the numbers
 };
 

@@ -84,7 +84,7 @@ struct ControllerFile {
 struct Written {
   std::string error;
   std::size_t points = 0, points_before = 0;
-  double largest_deviation = 0;  // by thinning, m or rad
+  double largest_deviation = 0;  // largest change by thinning, m or rad
 };
 
 struct Export {
@@ -107,7 +107,7 @@ struct AppliedCorrection {
 struct SquareAxes {
   std::int64_t id = 0;  // id of the stored squareness
   double EC0Y_rad = 0;
-  Budget budget;  // for EC0Y
+  Budget budget;  // budget of EC0Y
   Chain machine;
   StatedAt at = kAtFixture;  // point at which the angle holds
 };

@@ -85,7 +85,7 @@ Result<Export> write_klipper(const SquareAxes& axes, const ExportOptions& option
   MDOF_TRY(const double k, shear_of(axes));
   // The machine's square ABCD with A as origin: B is along X; D is along Y, and by -k of it along
   // X.
-  const double cosine = k / std::hypot(1, k);  // of the angle at B between BA and BC
+  const double cosine = k / std::hypot(1, k);  // cosine of the angle at B between BA and BC
   const double AC = kSide_mm * std::sqrt(2 - 2 * cosine);
   const double BD = kSide_mm * std::sqrt(2 + 2 * cosine);
   return exported(axes, options, kGcode, ";",

@@ -39,7 +39,7 @@ bool is_stated(double u) {
 struct Characteristic {
   std::string key;  // "EYX_straightness_um", "EYX_um"
   std::string where;
-  std::optional<double> limit;  // in the unit of the key
+  std::optional<double> limit;  // limit in the unit of the key
   std::string sense = "error: actual - nominal";
   bool angle() const { return key.ends_with("_urad"); }
   std::string kind() const {

@@ -25,7 +25,7 @@ struct Decided {
 struct ReportRun {
   charts::StatedResults results;
   Rig rig;
-  std::vector<Decided> decided;  // for the figures that have a tolerance
+  std::vector<Decided> decided;  // decisions on the figures that have a tolerance
   std::string result_sha256;
   std::optional<std::int64_t> superseded_by;
   std::string against_decision;  // why no conformity is decided for this run; empty: it can be
@@ -43,7 +43,7 @@ struct Report {
   std::vector<ReportRun> runs;
   std::vector<daemon::Comparison> comparisons;       // before and after, one for each axis
   std::vector<charts::SquarenessOfPair> squareness;  // XY, XZ, YZ, if both axes have one run
-  std::vector<Decided> decided;                      // for squareness with a tolerance
+  std::vector<Decided> decided;                      // decisions on squareness that has a tolerance
   std::vector<Attachment> attachments;
   std::string software_version;  // version that made the report
   Language language = Language::english;

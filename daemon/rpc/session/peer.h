@@ -13,7 +13,7 @@ namespace mdof::rpc {
 
 struct Peer {
   std::optional<Credentials> credentials = {};  // nullopt if the kernel does not report them (TCP)
-  std::vector<gid_t> further_groups = {};       // besides the group of the credentials
+  std::vector<gid_t> further_groups = {};       // groups besides the group of the credentials
   // Owner of the socket of a TCP client on this machine. It counts for the limit of connections,
   // like the user of a Unix socket, but gives no permissions.
   std::optional<uid_t> socket_owner = {};

@@ -32,7 +32,7 @@ class Service {
   // keeps its place until it is released: the transport releases it when the client disconnects.
   Result<std::shared_ptr<Session>> admit(Peer peer, Transport& transport);
   std::size_t session_count() const;
-  std::vector<std::string> clients() const;  // from Session::name()
+  std::vector<std::string> clients() const;  // names of the clients (Session::name())
 
   void add_topic(Topic topic);
   // nullptr if the topic does not exist.

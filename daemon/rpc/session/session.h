@@ -63,7 +63,7 @@ class Session final : public Caller,
 
   bool has_subscriptions() const { return !subscriptions.empty(); }
   bool awaits_nothing() const;                // no open calls, no subscriptions
-  bool is_idle(Clock::time_point now) const;  // for longer than the limit
+  bool is_idle(Clock::time_point now) const;  // whether it was idle for longer than the limit
 
   // Sends the reason and ends the session.
   void refuse(std::string_view why);
@@ -72,7 +72,7 @@ class Session final : public Caller,
   void end();
 
   const Peer& peer() const { return peer_; }
-  std::string name() const;  // for the log
+  std::string name() const;  // name for the log
 
   std::optional<Credentials> credentials() const override { return peer_.credentials; }
   bool may_write() const override;

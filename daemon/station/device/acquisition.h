@@ -31,7 +31,7 @@ class Acquisition final : public DeviceReader {
   void stop() override;  // joins the thread, after at most a read timeout and an open
   void cease() override { acquiring_ = false; }
   void trust_count() override { trust_count_of(kEncoderChannel); }
-  // For this channel of the device.
+  // `encoder`: a channel of the device.
   void trust_count_of(const std::string& encoder);
   void wake() override { woken_ = true; }
 

@@ -16,13 +16,13 @@ namespace mdof::daemon {
 
 struct DeviceStatus {
   std::string state = "closed";  // "open", "closed", "failed: reopening", "ended"
-  std::string error;             // of the present failure; "": no failure
-  std::string last_error;        // of the last failure that is over, which ended at recovered_utc
+  std::string error;             // text of the present failure; "": no failure
+  std::string last_error;        // text of the last failure that is over; it ended at recovered_utc
   std::string recovered_utc;
   std::vector<Trouble> standing;  // present troubles
   drivers::DeviceInfo info;
   double measured_hz = 0;      // scans per second since opening; 0: unknown
-  std::uint64_t scans = 0;     // since the start
+  std::uint64_t scans = 0;     // number of scans since the start
   std::uint64_t lost = 0;      // scans known to be lost
   std::uint64_t dropped = 0;   // blocks for which the queue of the measure thread had no space
   std::uint64_t reopened = 0;  // number of reopenings

@@ -30,7 +30,7 @@ class SharedDevice {
   struct Taker {
     drivers::DriverSpec spec;
     DeviceSink sink;
-    SampleBlock block;  // for its part of the next block
+    SampleBlock block;  // memory for its part of the next block
     bool ceased = false;
     std::uint64_t dropped_scans = 0;      // reported with the next block
     std::uint64_t dropped = 0, lost = 0;  // blocks and scans, as in DeviceStatus

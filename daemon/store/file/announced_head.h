@@ -13,7 +13,7 @@ namespace mdof::store {
 std::filesystem::path announced_head_file(const std::filesystem::path& database);
 struct AnnouncedHead {
   ChainHead head;               // link 0: none was announced, or the file is unreadable
-  std::int64_t generation = 0;  // of the active tables
+  std::int64_t generation = 0;  // generation of the active tables
 };
 AnnouncedHead read_announced_head(const std::filesystem::path& database);
 // Replaces the file atomically. Not flushed, because an older head is sufficient after a power

@@ -30,7 +30,7 @@ struct StudyOutcome {
   double elapsed_s = 0;
   std::string ended_utc;
   std::string software_version;
-  std::string figures_json;  // without data that differ between equal studies
+  std::string figures_json;  // figures without data that differ between equal studies
 };
 
 struct StudyCheckpoint {

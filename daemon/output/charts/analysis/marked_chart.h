@@ -21,7 +21,7 @@ struct NamedLine {
 
 struct MarkedPanel {
   std::string key;    // attribute data-panel
-  std::string title;  // of y; empty: the key
+  std::string title;  // title of y; empty: the key
   std::string note;   // above the upper right corner
   std::vector<Mark> marks;
   std::vector<NamedLine> lines;      // y must be inside the panel
@@ -30,7 +30,7 @@ struct MarkedPanel {
 
 struct MarkedChart {
   std::string title, about;
-  std::vector<std::string> warnings;  // in the alarm colour
+  std::vector<std::string> warnings;  // texts in the alarm colour
   std::string x_key, x_label;         // key of the data; label of the axis, with its unit
   std::vector<MarkedPanel> panels;    // at least one
   std::optional<Legend> legend;       // nullopt: derived from the marks

@@ -23,7 +23,7 @@ using output::Language;
 // A run with everything that the commands state about it.
 struct StatedResults {
   Run run;
-  RunUncertainty uncertainty;            // of its points
+  RunUncertainty uncertainty;            // uncertainty of its points
   StatedFigures figures;                 // budgets, or the reason why there are none
   std::vector<StraightnessLines> lines;  // reference lines of the straightness
 };
@@ -54,7 +54,7 @@ std::string table_svg(const CompensationTable& table, const std::vector<std::str
 // Two axes that were measured against one square; the chart enlarges their errors.
 struct SquarenessResults {
   Squareness squareness;
-  Budget budget;     // of EC0Y, EB0Z or EA0Z
+  Budget budget;     // budget of EC0Y, EB0Z or EA0Z
   Run run_a, run_b;  // stated at the fixture
 };
 // Squareness of two axes with one run each; nullopt if it cannot be calculated.

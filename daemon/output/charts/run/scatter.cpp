@@ -27,7 +27,7 @@ constexpr double kScatterLegendPx = 44;
 using Visited = std::pair<int, int>;  // target, direction
 
 struct Visits {
-  double sum = 0, squares = 0;  // of the differences
+  double sum = 0, squares = 0;  // sums over the differences
   std::size_t n = 0;
 };
 

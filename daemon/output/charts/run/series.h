@@ -25,7 +25,8 @@ struct Mark {
   std::string reason;   // reason of a point without errors, whose y is NaN
 };
 
-inline constexpr std::size_t kMostMarks = 2000;  // for each approach; more are drawn as columns
+inline constexpr std::size_t kMostMarks = 2000;  // limit for each approach; more marks are drawn as
+                                                 // columns
 
 // Range of y - U to y + U of all marks.
 Range range_of_marks(std::span<const Mark> marks);

@@ -23,9 +23,9 @@ constexpr const char* kHead = "%_N_NC_CEC_INI";
 // One table of the control.
 struct CecTable {
   char input = 'X', output = 'X';
-  int direction = 0;  // of the input axis: 1 positive, -1 negative, 0 both
+  int direction = 0;  // direction of the input axis: 1 positive, -1 negative, 0 both
   double first_m = 0, step_m = 0;
-  std::vector<double> correction_m;  // for a product: one of its factors
+  std::vector<double> correction_m;  // correction, or one factor of a product
   std::size_t multiply_by = 0;       // index + 1 of the table with the other factor
 };
 

@@ -10,7 +10,7 @@
 namespace mdof::daemon {
 
 // Errors: folders of the database, the recordings or the socket that are missing and cannot be
-// created, or are not writable; other files with these paths; two axes with the same device.
+// created, or are not writable; other files with these paths; two entries for the same device.
 Status check_start(const Config& config);
 
 // Creates the folder of the socket and its parents, searchable by all and writable by the owner. An

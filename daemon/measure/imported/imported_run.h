@@ -11,9 +11,9 @@
 
 namespace mdof::daemon {
 
-// The request for a table of this run alone, to compare it with `other`. If both runs state the
-// same sense and neither is against the command, the deviations stay as they are; otherwise each
-// run's sense is used.
+// The request for a table of this run alone, to compare it with `other`. If both runs have the same
+// sense and neither states its travel, travel "+" is assumed for both; otherwise the statement of
+// each run is used.
 TableRequest table_of_imported(const Run& run, const Run& other);
 
 // Adds notices about the readings: no approach, one reading a target.

@@ -11,9 +11,9 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr double kRangeUsed = 0.9995;  // beyond this share of the range a reading is at its end
+constexpr double kRangeUsed = 0.9995;  // a reading beyond this share of the range is at its end
 
-// Raw readings in µm outside these are at the end of the probe's range.
+// Limits of valid raw readings, µm. A reading at or outside a limit is at the end of the range.
 struct Window {
   double low_um, high_um;
 };
@@ -48,11 +48,11 @@ std::array<double, 2> displacement_window_m(const Probe& probe) {
 
 namespace {
 
-// Raw values to displacements. True: some are outside the window, or NaN. Loops without branches,
-// so that they become vectors.
+// Converts raw values to displacements. Returns true if a value is outside the window or NaN. The
+// loops have no branches, so that the compiler can vectorise them.
 using Displace = bool (*)(double um_per_unit, Window window, std::span<double> values);
 
-// For a probe without offset, linearity table or gap.
+// For a probe without offset, linearity table, polynomial or gap.
 [[gnu::always_inline]] inline bool scale(double um_per_unit, Window window,
                                          std::span<double> values) {
   unsigned outside = 0;
@@ -105,7 +105,7 @@ Status reject_encoder(const SampleBlock& block, const Channel& encoder, const st
 
 }  // namespace
 
-// The driver has turned the volts into a length by a scale of its own.
+// The driver has converted the volts to a length with its own scale.
 Notices unused_scales(const Rig& rig, const std::vector<Channel>& channels) {
   Notices found;
   for (const Channel& channel : channels)
@@ -157,7 +157,8 @@ Status Calibrator::apply_probe(const Probe& probe, std::size_t channel, SampleBl
   }
   auto& column = block.value[channel];
   if (!displace(c, um_per_unit, valid_window(probe), column)) return {};
-  // The rare second pass: the raw value is asked again through its displacement.
+  // Rare second pass. The raw values were overwritten, so it compares displacements with the
+  // limits.
   const Window window = valid_window(probe);
   const double low_m = displacement_m(c, window.low_um), high_m = displacement_m(c, window.high_um);
   for (std::size_t i = 0; i < column.size(); ++i) {

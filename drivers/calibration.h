@@ -1,5 +1,5 @@
-// Raw numbers of a device -> metres of displacement, with the quality each value has earned. The
-// last step of every driver; nothing after it knows volts or gaps.
+// Converts raw readings of a device to displacements in metres and sets their quality. This is the
+// last step after every driver: later code needs no volts or gaps.
 #pragma once
 
 #include <array>
@@ -15,28 +15,28 @@
 
 namespace mdof::drivers {
 
-// Displacement along `measures` in m for a raw reading in µm (schema/rig/rig.h, Calibration).
+// Displacement along `measures`, m, for a raw reading in µm (schema/rig/rig.h, Calibration).
 double displacement_m(const Calibration& calibration, double raw_um);
 
-// Displacements along `measures` in m between which a reading of the probe is not at the end of its
-// range, the lower one first.
+// The lower and the upper displacement along `measures`, m. A reading between them is not at the
+// end of the range of the probe.
 std::array<double, 2> displacement_window_m(const Probe& probe);
 
-// One for each probe of these channels whose calibration record states um_per_V and that gives a
-// length: its sensitivity is then that of the amplifier, and u is that of the record.
+// One notice for each probe whose calibration record states um_per_V although its channel gives a
+// length. The amplifier then sets the sensitivity, but u still comes from the record.
 Notices unused_scales(const Rig& rig, const std::vector<Channel>& channels);
 
-// Reentrant; holds a copy of what it needs of the rig.
+// Reentrant. Copies the parts of the rig that it needs.
 class Calibrator {
  public:
   explicit Calibrator(const Rig& rig);
 
-  // Turns the probes and the encoder of `block` into Unit::metre, in place. A reading at the end of
-  // its probe's range (within 0.05 % of it) becomes Quality::over_range, a NaN Quality::missing.
-  // Channels the rig does not know are left as they are. Error: volts without um_per_V, a probe or
-  // the encoder in a unit that is no length.
+  // Converts the probes and the encoder of `block` to Unit::metre, in place. A reading at the end
+  // of its probe's range (within 0.05 % of it) gets Quality::over_range, a NaN gets
+  // Quality::missing. Channels that are not in the rig are left unchanged. Errors: a channel in
+  // volts without um_per_V; a probe or the encoder in a unit that is not a length.
   Status apply(SampleBlock& block) const;
-  // The same error for a device with these channels, before it gives anything.
+  // Reports the same errors for the channels of a device, before the device gives samples.
   Status check(const std::vector<Channel>& channels) const;
 
  private:

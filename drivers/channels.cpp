@@ -6,7 +6,7 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr double kMostOffset_mm = 1e6;  // a kilometre of slide
+constexpr double kMostOffset_mm = 1e6;  // 1 km, longer than any machine axis
 
 Status check_id(const ChannelInput& channel, const Rig& rig) {
   std::vector<std::string> known = {kEncoderChannel};

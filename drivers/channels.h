@@ -1,4 +1,4 @@
-// Which input of a device is which channel of the rig: [[axis.device.channel]].
+// Assigns inputs of a device to channels of the rig: [[axis.device.channel]].
 #pragma once
 
 #include <functional>
@@ -17,58 +17,60 @@ namespace mdof::drivers {
 
 struct ChannelInput {
   std::string id;           // a probe of the rig, or "encoder"
-  std::string input;        // as the device calls it: "AIN0", "1", "encoder2"
-  double um_per_count = 0;  // of an encoder that counts: signed; 0: not given
+  std::string input;        // name of the input at the device: "AIN0", "1", "encoder2"
+  double um_per_count = 0;  // signed, of a counting encoder; 0: not given
   std::string where;        // "mdofd.toml:12: axis.device.channel.input", for messages
-  std::optional<double> offset_mm = std::nullopt;  // of the encoder: added to its position
-  std::optional<double> index_mm = std::nullopt;   // of the encoder: where its mark is
+  std::optional<double> offset_mm = std::nullopt;  // encoder only: added to its position
+  std::optional<double> index_mm = std::nullopt;   // encoder only: position of its mark
   std::string index_where = {};
-  std::optional<Axis> further = std::nullopt;  // of this further axis
+  std::optional<Axis> further = std::nullopt;  // set for a channel of this further axis
 };
 
-// Reads `channel` of a device's table. Errors: none, an id that is no probe of the rig (with the
-// nearest) nor "encoder", an id or an input given twice.
-// `more` reads the keys that only this family has of each channel's table, and may reject.
+// Reads the `channel` tables of a device. Errors: no channel; an id that is neither a probe of the
+// rig (the message names the nearest) nor "encoder"; an id or an input that is given twice. `more`
+// reads the keys of each channel's table that only this driver has, and may reject them.
 using ChannelKeys = std::function<void(TomlTable& channel)>;
 Result<std::vector<ChannelInput>> read_channels(TomlTable& device, const Rig& rig,
                                                 const ChannelKeys& more = {});
 
-// Another axis that takes channels of the same device, besides those that both have.
+// Another axis that uses channels of the same device, in addition to the channels that both axes
+// use.
 struct FurtherAxis {
   Rig rig;
-  TomlTable table;  // its `channel`: [[axis.device.channel]]
+  TomlTable table;  // contains the `channel` tables of the axis: [[axis.device.channel]]
 };
-// What a channel of it is called among those of the device: "encoder_Y".
+// Name of a further axis' channel among the channels of the device: "encoder_Y".
 std::string further_id(const std::string& id, Axis axis);
-// Adds theirs to `channels`, under those names. Errors as of read_channels().
+// Appends the channels of further axes to `channels`, with these names. Errors as in
+// read_channels().
 Status read_further_channels(std::vector<FurtherAxis> axes, const ChannelKeys& more,
                              std::vector<ChannelInput>& channels);
 
-// The channels of a device that are for one of its axes, by what the device calls them, and what
-// the rig of that axis does. Empty: all are, under their names.
+// The channels of a device that belong to one axis: name at the device -> name in the rig of the
+// axis. Empty: all channels belong to the axis and keep their names.
 using ChannelPart = std::map<std::string, std::string>;
 std::vector<Channel> of_part(std::vector<Channel> channels, const ChannelPart& part);
 
-// Of DriverSpec.
+// For DriverSpec::channels.
 std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels);
 
-// Whether the encoder `id` is at one of these inputs, which count; volts at another have no
-// beginning to lose.
+// Whether the encoder `id` is at one of the inputs `counters`. Only a counter can lose its datum;
+// an encoder in volts cannot.
 bool counts_at(const std::vector<ChannelInput>& channels, const std::vector<std::string>& counters,
                const std::string& id = kEncoderChannel);
-// Of the encoder `id` among them; `counts`: this family's encoders count from where they were
-// switched on.
+// Origin of the encoder `id`. `counts`: encoders of this driver count from the position at which
+// they were switched on.
 EncoderOrigin encoder_origin(const std::vector<ChannelInput>& channels, bool counts,
                              const std::string& id = kEncoderChannel);
-// Of those of further axes, by channel.
+// Origins of the encoders of further axes, by channel.
 std::map<std::string, EncoderOrigin> further_encoders(const std::vector<ChannelInput>& channels,
                                                       const std::vector<FurtherAxis>& axes,
                                                       const std::vector<std::string>& counters);
 
-// The error that an input is unknown to the device, with those that it has.
+// Error: the device has no such input. The message lists the inputs of the device.
 tl::unexpected<Error> no_such_input(const ChannelInput& channel,
                                     const std::vector<std::string>& inputs);
-// Needed of an encoder that counts.
+// Error if um_per_count is 0; a counting encoder needs it.
 Status check_um_per_count(const ChannelInput& channel);
 
 }  // namespace mdof::drivers

@@ -1,5 +1,5 @@
-// A driver turns a device into SampleBlocks. Three calls and a destructor; simulator and replay are
-// drivers like any other, so everything after a driver runs without hardware.
+// A driver turns the data of a device into SampleBlocks. The simulator and the replay are drivers
+// too, so all later code runs without hardware.
 #pragma once
 
 #include <chrono>
@@ -18,59 +18,60 @@
 namespace mdof::drivers {
 
 struct DeviceInfo {
-  std::string name;                 // from the configuration, unique
-  std::string driver;               // of registry.cpp: "qsb"; of "replay": "csv" or "recording"
-  std::string description;          // one line for people
-  std::vector<Channel> channels;    // empty until open() where the device has to be asked
-  double rate_hz = 0;               // scans a second; 0: not known
-  bool simulated = false;           // no machine behind it: said on every result
-  std::optional<ClockState> clock;  // of a device that counts or stamps its samples
-  // Of an encoder that counts from where it was switched on, once it has been without power since
-  // it was first opened: why. Its places are suspect from then on, for the life of
-  // the driver. "": its datum holds, or it is absolute.
+  std::string name;               // from the configuration, unique
+  std::string driver;             // name in registry.cpp: "qsb"; for "replay": "csv" or "recording"
+  std::string description;        // one line, for users
+  std::vector<Channel> channels;  // empty until open(), if only the device knows its channels
+  double rate_hz = 0;             // scans a second; 0: not known
+  bool simulated = false;         // no machine behind it; every result is marked as simulated
+  std::optional<ClockState> clock;  // if the device counts or stamps its samples
+  // Why the datum of an incremental encoder is lost: the encoder had no power at some time since
+  // the driver first opened it. Its positions stay suspect for the life of the driver (see
+  // trust_count() and marks_passed()). "": the datum is valid, or the encoder is absolute.
   std::string datum_lost = {};
-  // Of its settings, that a result should carry: what it does to the readings by itself.
+  // Settings of the device that change the readings; results must state them.
   Notices notices = {};
-  // As datum_lost, of the encoders of further axes (DriverContext::further), by channel.
+  // As datum_lost, for the encoders of further axes (DriverContext::further), by channel.
   std::map<std::string, std::string> further_datum_lost = {};
-  Remedy datum_remedy = Remedy::set_encoder;  // where a datum is lost, of all its encoders
+  Remedy datum_remedy = Remedy::set_encoder;  // for a lost datum of any of its encoders
 };
 
-// What positions an encoder of a device shows.
+// How the positions of an encoder are referred to the axis.
 struct EncoderOrigin {
-  bool counts = false;              // from where it was switched on, wherever that was
-  std::optional<double> offset_mm;  // to be added, by the configuration
-  // Where the axis is at the encoder's reference mark, which the driver is to look for.
+  bool counts = false;              // counts from the position at which it was switched on
+  std::optional<double> offset_mm;  // added to its position, from the configuration
+  // Axis position at the encoder's reference mark, which the driver must detect.
   std::optional<double> index_mm = std::nullopt;
   std::string index_where = {};  // "mdofd.toml:12: axis.device.channel.index_mm", for messages
 };
 
 enum class ReadState {
-  more,  // block holds scans, or is empty because nothing came within the time-out
-  end,   // the source has ended (a file); nothing more will come
+  more,  // block holds scans, or is empty because none arrived before the time-out
+  end,   // the source has ended (a file); no more scans follow
 };
 
-// Thread-bound: made, used and destroyed on its reader's thread.
+// Thread-bound: created, used and destroyed on the thread of its reader.
 class Driver {
  public:
   virtual ~Driver() = default;  // releases the device; never throws
   virtual DeviceInfo info() const = 0;
-  // The clock whose state is in info(); nullptr: none. Asked for at each block, as it costs
-  // nothing.
+  // The clock whose state is in info(); nullptr: no clock. Must be cheap: it is called for each
+  // block.
   virtual const DeviceClock* clock() const { return nullptr; }
   // May be called again after an error of read().
   virtual Status open() = 0;
-  // Replaces `block` (its capacity is reused). Waits at most `timeout`. An error means the device
-  // is gone or its stream is not to be trusted; the caller closes, backs off and opens again.
+  // Replaces `block` (its capacity is reused). Waits at most `timeout`. An error means that the
+  // device is gone or that its stream is invalid; the caller closes the driver, waits and opens it
+  // again.
   virtual Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) = 0;
-  // Somebody has said where the axis stands: its encoder's count is to be trusted as it is now,
-  // whatever DeviceInfo::datum_lost says.
+  // The user has set the position of the axis: the present count of the encoder is valid, even if
+  // DeviceInfo::datum_lost gives a reason.
   virtual void trust_count() {}
-  // How often its encoder has passed the reference mark that EncoderOrigin::index_mm is of. It
-  // grows with the block from whose first scan on positions are counted from the mark; what
-  // datum_lost said is over then.
+  // How often the encoder has passed the reference mark of EncoderOrigin::index_mm. The number
+  // grows with the block from whose first scan on positions are counted from the mark.
+  // DeviceInfo::datum_lost is cleared then.
   virtual int marks_passed() const { return 0; }
-  // The same of the encoder of another axis (DriverContext::further).
+  // As trust_count(), for the encoder of a further axis (DriverContext::further).
   virtual void trust_further_count(const std::string& /*channel*/) {}
 };
 

@@ -1,4 +1,4 @@
-// A driver as the configuration has it: what a family of devices gets, and what it gives back.
+// A configured driver: the inputs of a driver's configure function and its result.
 #pragma once
 
 #include <functional>
@@ -17,40 +17,41 @@
 namespace mdof::drivers {
 
 struct DriverContext {
-  std::string name;  // of the device
+  std::string name;  // name of the device
   Rig rig;
   ForwardModel forward;   // for the simulator
-  std::string base_path;  // folder of the configuration, to which file names are relative
-  double settle_s = 0;    // that a stop is given before it counts; 0: not known
-  // Who else takes channels of this device. A driver that can give them adds them to its own.
+  std::string base_path;  // folder of the configuration; file names are relative to it
+  double settle_s = 0;    // settling time of a stop; 0: not known
+  // Further axes that use channels of this device. A driver that supports them adds their channels.
   std::vector<FurtherAxis> further = {};
 };
 
-// What a source that is a file knows of itself once it has been read to its end.
+// Facts about a source file, known after the driver has read the file to its end.
 struct SourceInfo {
   std::string sha256;
   Notices notices;
 };
 
-// A driver as configured, ready to be made on the thread that will own it.
+// A configured driver. make() creates it on the thread that will own it.
 struct DriverSpec {
   std::string driver, name;
-  bool live = true;      // samples come as time passes; false: as fast as they are taken
-  bool recorded = true;  // its samples go into a recording; false: they come from one
+  bool live = true;      // samples arrive in real time; false: as fast as they are read
+  bool recorded = true;  // its samples are recorded; false: they come from a recording
   bool simulated = false;
-  std::vector<std::string> channels;  // ids it gives; empty: all of the rig
-  EncoderOrigin encoder;              // where it gives one
+  std::vector<std::string> channels;  // ids of its channels; empty: all channels of the rig
+  EncoderOrigin encoder;              // if it has an encoder
   std::map<std::string, EncoderOrigin> further_encoders = {};  // of further axes, by channel
-  // Of a device of several axes what is for this one. Empty: it is this axis' alone.
+  // The channels of this axis, if the device serves several axes. Empty: it serves this axis only.
   ChannelPart part = {};
-  bool of_other_axis = false;  // the table of another axis has its keys; `same_as`
-  std::string source_path;     // of a replay
-  // The device itself, whatever it is called in the configuration (io/device_lock.h): while a
-  // driver that make() made has it open, nobody else opens it. Empty: its bus sees to that.
+  bool of_other_axis = false;  // `same_as`: the table of another axis holds its keys
+  std::string source_path;     // of a replayed file
+  // Identity of the device, independent of its name in the configuration (io/device_lock.h). While
+  // a driver that make() created has the device open, no other driver can open it. Empty: the bus
+  // of the device ensures this.
   std::function<std::string()> identity;
-  bool shared = false;  // a device that speaks with several drivers of one program at a time
+  bool shared = false;  // the device serves several drivers of one program at a time
   std::function<Result<std::unique_ptr<Driver>>()> make;
-  std::function<SourceInfo(const Driver&)> source_info;  // of the driver that make() made
+  std::function<SourceInfo(const Driver&)> source_info;  // for a driver that make() created
 };
 
 }  // namespace mdof::drivers

@@ -1,5 +1,6 @@
-// A driver may take long over a step, as to ask a slow slave for all its registers. It then says by
-// when the step will have ended, so that the watch on its thread does not take the thread for hung.
+// A step of a driver may take long, for example when it reads all registers of a slow slave. The
+// driver then announces the latest end of the step, so that the watchdog of its thread does not
+// report a hung thread.
 #pragma once
 
 #include <chrono>
@@ -10,7 +11,7 @@ namespace mdof::drivers {
 
 using LongStepWatcher = std::function<void(std::chrono::steady_clock::time_point until)>;
 
-// Of the calling thread; empty: nobody watches.
+// Watcher of the calling thread; empty: none.
 inline LongStepWatcher& long_step_watcher() {
   thread_local LongStepWatcher watcher;
   return watcher;

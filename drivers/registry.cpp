@@ -41,7 +41,7 @@ Status check_index(const DriverRow& row, const EncoderOrigin& encoder) {
 
 }  // namespace
 
-// A new driver: one row.
+// A new driver needs one row here.
 const std::vector<DriverRow>& driver_rows() {
   static const std::vector<DriverRow> rows = {
       {
@@ -175,7 +175,7 @@ const std::vector<DriverRow>& driver_rows() {
           .devices = "US Digital QSB-D, QSB-S: one encoder, streamed over a serial port",
           .configure = configure_qsb,
           .node = UsbDevice{.name = "US Digital QSB",
-                            .vendor = 0x0403,  // of its FTDI chip, as of many other devices
+                            .vendor = 0x0403,  // id of the FTDI chip, shared by many devices
                             .product = 0x6001,
                             .node = UsbNode::tty,
                             .manufacturer = "US Digital",

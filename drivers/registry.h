@@ -1,4 +1,4 @@
-// Every driver by the name that it has in the configuration: one row each in registry.cpp.
+// All drivers, by their names in the configuration: one row each in registry.cpp.
 #pragma once
 
 #include <cstddef>
@@ -14,31 +14,31 @@
 
 namespace mdof::drivers {
 
-// The simulated twin of a device, as mdof-simulate serves it: a kind of the name of its driver.
+// The simulated twin of a device. mdof-simulate serves it as a kind with the name of its driver.
 struct SimulatedKind {
   std::size_t most_inputs;
-  const char* inputs;   // for people: "up to 14 probes, in volts, and the encoder"
-  const char* reached;  // where a program reaches it: "TCP: command, stream"
+  const char* inputs;   // for users: "up to 14 probes, in volts, and the encoder"
+  const char* reached;  // how a program connects to it: "TCP: command, stream"
   MakeSimulated make;
 };
 
-// All that mdof knows of a driver outside its folder.
+// All facts about a driver that other folders need.
 struct DriverRow {
   const char* name;     // in the configuration
-  const char* folder;   // of drivers/
-  const char* devices;  // one line: which devices, and through what
+  const char* folder;   // in drivers/
+  const char* devices;  // one line: the devices and their connection
   Result<DriverSpec> (*configure)(TomlTable&, const DriverContext&);
-  std::optional<LinuxNode> node = std::nullopt;           // none: on a network, a file, a script
-  std::optional<SimulatedKind> simulated = std::nullopt;  // none: it needs the kernel, or no device
-  // Why `index_mm` of an encoder is refused; null: the driver knows for certain that its mark was
-  // passed (counter/index_mark.h).
+  std::optional<LinuxNode> node = std::nullopt;  // none: a network device, a file, a script
+  std::optional<SimulatedKind> simulated = std::nullopt;  // none: no twin (README.md)
+  // Why `index_mm` of an encoder is refused; nullptr: the driver reliably detects that the axis
+  // passes the mark (counter/index_mark.h).
   const char* no_index = "this device has no counter and detects no reference mark";
 };
 const std::vector<DriverRow>& driver_rows();  // by name
 const DriverRow* find_driver(const std::string& name);
 
-// Reads the driver's keys from `table` (whose `driver` and `name` the caller has taken) and
-// finishes it. Errors name file, line and key; for an unknown driver the known ones.
+// Reads the driver's keys from `table` (the caller has read `driver` and `name`) and finishes the
+// table. Errors name file, line and key; the error of an unknown driver lists the known drivers.
 Result<DriverSpec> configure_driver(const std::string& driver, TomlTable& table,
                                     const DriverContext& context);
 

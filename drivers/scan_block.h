@@ -1,4 +1,4 @@
-// Filling a SampleBlock scan by scan.
+// Fills a SampleBlock scan by scan.
 #pragma once
 
 #include <cassert>
@@ -26,14 +26,14 @@ inline void start_block(SampleBlock& block, const std::string& device,
   for (auto& column : block.quality) column.clear();
 }
 
-// Room for so many scans, so that a block of a few costs few allocations.
+// Reserves memory for `scans` scans, so that a small block needs few allocations.
 inline void reserve_scans(SampleBlock& block, std::size_t scans) {
   block.time_ns.reserve(scans);
   for (auto& column : block.value) column.reserve(scans);
   for (auto& column : block.quality) column.reserve(scans);
 }
 
-// One value a channel; NaN is missing, all others are of `quality`.
+// `values`: one for each channel. NaN gets Quality::missing, all others get `quality`.
 inline void add_scan(SampleBlock& block, std::int64_t time_ns, std::span<const double> values,
                      Quality quality = Quality::good) {
   assert(values.size() == block.channels.size());

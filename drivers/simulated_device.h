@@ -1,7 +1,7 @@
-// A simulated device: it sends the bytes that a real one would send. Beside each driver stands the
-// simulated twin of its device, simulated_<driver>.h: a class Simulated<Device>, made from what its
-// inputs sense and from its Options, which hold its Faults. mdof-simulate serves twins on TCP
-// ports, serial lines, the USB and in files; tests do so too, or call them directly.
+// A simulated device sends the same bytes as the real device. Each driver's folder contains the
+// simulated twin of its device (simulated_<driver>.h): a class Simulated<Device>, made from the
+// signals at its inputs and from its Options, which contain its Faults. mdof-simulate serves twins
+// on TCP ports, serial lines, USB and in files; tests do so too, or call twins directly.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,13 @@ namespace usb {
 class SimulatedUsb;
 }
 
-// What the inputs of a simulated device sense at a time on its own clock: volts, µm or counts, as
-// the device's page says. Pure.
+// Signal at an input of a simulated device at a time of the device's clock, in volts, µm or counts;
+// the header of the device states the unit. Pure.
 using Senses = std::function<double(std::size_t input, std::int64_t t_ns)>;
 
-// No clock; the time is handed in and never goes backwards. Thread-bound. A device overrides what
-// belongs to its own wires: ports, or on_usb(), or turn() alone where it is a folder of files.
+// Has no clock: the caller gives the time, which never decreases. Thread-bound. A device overrides
+// only the functions of its connection: ports, or on_usb(), or only turn() if it is a folder of
+// files.
 class SimulatedDevice {
  public:
   struct Port {
@@ -31,21 +32,21 @@ class SimulatedDevice {
   virtual ~SimulatedDevice() = default;
   virtual std::vector<Port> ports() const { return {}; }
 
-  // A client has connected to ports()[port], or has gone. `client` is unique.
+  // A client has connected to ports()[port], or has disconnected. `client` is unique.
   virtual void opened(std::size_t /*port*/, int /*client*/, std::int64_t /*now_ns*/) {}
   virtual void closed(std::size_t /*port*/, int /*client*/) {}
-  // What this client is sent now, after `received` (maybe nothing) came from it. Called whenever
-  // something came, and every millisecond or so besides.
+  // Returns the bytes for this client, after it has sent `received` (may be empty). Called whenever
+  // bytes arrive, and about every millisecond.
   virtual std::string exchange(std::size_t /*port*/, int /*client*/, std::string_view /*received*/,
                                std::int64_t /*now_ns*/) {
     return "";
   }
-  // The device breaks this connection after what exchange() gave.
+  // Whether the device closes this connection after the bytes from exchange() are sent.
   virtual bool hangs_up(std::size_t /*port*/, int /*client*/) { return false; }
 
-  // The device as it looks from the USB; nullptr: it is not on the USB.
+  // The USB side of the device; nullptr: it is not a USB device.
   virtual usb::SimulatedUsb* on_usb() { return nullptr; }
-  // Every millisecond or so, whoever is there.
+  // Called about every millisecond, even without clients.
   virtual void turn(std::int64_t /*now_ns*/) {}
 };
 

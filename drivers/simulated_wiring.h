@@ -1,5 +1,5 @@
-// How a simulated device is wired to the simulated machine: the channels of a rig at its inputs,
-// and the keys of its own, as a plan of mdof-simulate has them.
+// Connects a simulated device to the simulated machine: the channels of the rig at the inputs of
+// the device, and the keys of the device in a plan of mdof-simulate.
 #pragma once
 
 #include <filesystem>
@@ -16,21 +16,21 @@
 
 namespace mdof::drivers {
 
-// What a channel of the rig looks like at a device's input.
+// The signal of a rig's channel at an input of the device.
 struct SensedInput {
-  std::string channel;  // of the rig, or "encoder"; "": nothing is connected
-  double per_unit = 1;  // input = raw µm (of the encoder: µm of travel) * per_unit + offset
+  std::string channel;  // of the rig, or "encoder"; "": not connected
+  double per_unit = 1;  // input = raw µm (encoder: µm of travel) * per_unit + offset
   double offset = 0;    // µm/V become V with per_unit = 1 / um_per_V
 };
 
-// Thread-bound. What is wrong in the plan is rejected by its key; the caller finishes table().
+// Thread-bound. Errors in the plan are rejected at their keys. The caller finishes table().
 class SimulatedWiring {
  public:
-  // What a device senses of the machine at such inputs.
+  // Makes the signals of the machine at these inputs.
   using Machine = std::function<Senses(std::vector<SensedInput>)>;
 
-  // `folder`: of the plan. `inputs`: channels of the rig, "encoder" or "", at the inputs 0, 1 ...
-  // All are to live longer.
+  // `folder`: folder of the plan. `inputs`: a channel of the rig, "encoder" or "" for each input 0,
+  // 1 ... All arguments must outlive the object.
   SimulatedWiring(const Rig& rig, const std::filesystem::path& folder, const Machine& machine,
                   const std::vector<std::string>& inputs, TomlTable& table)
       : rig_(rig), folder_(folder), machine_(machine), inputs_(inputs), table_(table) {}
@@ -41,13 +41,13 @@ class SimulatedWiring {
   TomlTable& table() { return table_; }
 
   SensedInput um(const std::string& channel) const { return {channel, 1, 0}; }
-  // Behind an amplifier, as the rig's calibration has it.
+  // As volts behind an amplifier, by the rig's calibration.
   SensedInput volt(const std::string& channel);
-  // As a counter of the encoder counts it: key um_per_count.
+  // As counts of the encoder's counter; reads the key um_per_count.
   SensedInput counts(const std::string& channel);
   // All inputs as volts.
   std::vector<SensedInput> volts();
-  // The channel at the first input; the encoder where none is given.
+  // The channel at the first input; the encoder if the plan lists no inputs.
   std::string first_or_encoder() const;
 
   Senses senses(std::vector<SensedInput> inputs) const { return machine_(std::move(inputs)); }
@@ -63,7 +63,7 @@ class SimulatedWiring {
   double um_per_count_ = 0;
 };
 
-// Makes the simulated device of a family from its own keys. Errors name file, line and key.
+// Makes the simulated device of a driver from the device's keys. Errors name file, line and key.
 using MakeSimulated = Result<std::unique_ptr<SimulatedDevice>> (*)(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

@@ -1,4 +1,4 @@
-// The rules of udev that let the group mdof, and whoever is logged in, use the devices of mdof.
+// The udev rules that permit the group mdof and the logged-in user to use the devices of mdof.
 #pragma once
 
 #include <string>

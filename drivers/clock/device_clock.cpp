@@ -11,14 +11,14 @@ namespace {
 
 constexpr double kStretch_ns = 0.25e9;
 constexpr std::size_t kStretches = 256;       // 64 s
-constexpr std::size_t kStretchesToFit = 16;   // 4 s: before, the nominal rate
-constexpr std::size_t kStretchesToBegin = 4;  // 1 s: what was late when it was opened is soon over
-constexpr std::size_t kShareToRefit = 32;     // as small a share of new ones hardly moves the line
-constexpr double kMostDrift = 1e-3;           // 1000 ppm: no clock is that wrong
-constexpr double kSlew = 2e-3;                // of the time, on top of the drift
-constexpr double kFirstSlew = 0.2;            // as long as quicker packets still show the offset
-constexpr double kStep_ns = 0.1e9;            // no jitter: later than this a packet is uncertain
-constexpr std::int64_t kLongestLateness_ns = 60'000'000'000;  // from here on a step
+constexpr std::size_t kStretchesToFit = 16;   // 4 s; before that, the nominal rate is used
+constexpr std::size_t kStretchesToBegin = 4;  // 1 s: packets that were late at the opening soon end
+constexpr std::size_t kShareToRefit = 32;     // refit when 1/32 of the stretches are new
+constexpr double kMostDrift = 1e-3;           // 1000 ppm: no clock deviates more
+constexpr double kSlew = 2e-3;                // share of the elapsed time, in addition to the drift
+constexpr double kFirstSlew = 0.2;            // before the first fit
+constexpr double kStep_ns = 0.1e9;            // not explained by jitter: such a packet is late
+constexpr std::int64_t kLongestLateness_ns = 60'000'000'000;  // then it is a step
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -49,11 +49,11 @@ void DeviceClock::add(std::int64_t ticks, std::int64_t received_ns) {
     first_ticks_ = ticks;
     first_ns_ = received_ns;
   }
-  // Its count has begun anew.
+  // A decreasing count means that the device has restarted its count.
   if (std::exchange(last_ticks_, ticks).value_or(ticks) > ticks) return step(ticks, received_ns);
   const double nominal = nominal_ns(ticks);
   const double offset = static_cast<double>(received_ns - *first_ns_) - nominal;
-  // Sooner than it can have been sent, by far: the device's time has jumped ahead.
+  // The packet arrived long before it can have been sent: the device's time has jumped ahead.
   if (offset < intercept_ns_ + slope_ * nominal - kStep_ns) return step(ticks, received_ns);
   if (!best_.empty() && is_late(offset, nominal, received_ns)) {
     if (received_ns - *late_since_ns_ > kLongestLateness_ns) step(ticks, received_ns);
@@ -62,7 +62,7 @@ void DeviceClock::add(std::int64_t ticks, std::int64_t received_ns) {
   take(ticks, received_ns, offset, nominal);
 }
 
-// Late packets show nothing of the line.
+// Late packets are not used for the line.
 bool DeviceClock::is_late(double offset_ns, double nominal_ns, std::int64_t received_ns) {
   late_ns_ = offset_ns - (intercept_ns_ + slope_ * nominal_ns);
   if (late_ns_ <= kStep_ns) {
@@ -85,7 +85,7 @@ void DeviceClock::take(std::int64_t ticks, std::int64_t received_ns, double offs
     b.latest_ns = std::max(b.latest_ns, offset);
     if (offset < b.offset_ns) b = {stretch, ticks, received_ns, offset, b.latest_ns};
   }
-  if (!fitted_) intercept_ns_ = std::min(intercept_ns_, offset);  // of the first packet: 0
+  if (!fitted_) intercept_ns_ = std::min(intercept_ns_, offset);  // the first packet has offset 0
 }
 
 void DeviceClock::step(std::int64_t ticks, std::int64_t received_ns) {
@@ -97,7 +97,7 @@ void DeviceClock::step(std::int64_t ticks, std::int64_t received_ns) {
   add(ticks, received_ns);
 }
 
-// Through the best of each complete stretch.
+// Fits the line to the quickest packet of each complete stretch.
 void DeviceClock::fit() {
   if (best_.size() < kStretchesToFit) return;
   unfitted_ = 0;
@@ -138,7 +138,7 @@ std::int64_t DeviceClock::host_ns(std::int64_t ticks) {
 
 ClockState DeviceClock::state() const {
   ClockState state;
-  // A fast device counts more nominal time than passes: its offset falls.
+  // A fast device clock counts more nominal time than elapses, so its offset falls.
   state.drift_ppm = -slope_ * 1e6;
   state.settled = fitted_;
   state.steps = steps_;

@@ -1,4 +1,4 @@
-// Now, on the clock of all samples.
+// The present time of the clock that all samples use.
 #pragma once
 
 #include <chrono>

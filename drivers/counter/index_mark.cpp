@@ -5,12 +5,12 @@
 namespace mdof::drivers {
 namespace {
 
-// A wrong polarity loads once a period, which is four counts at most. A single reading may be
-// damaged.
+// With a wrong polarity the counter loads once a period, which is at most four counts. A single
+// reading may be wrong, so several are needed.
 constexpr std::int64_t kGoneOn_counts = 16;
 constexpr int kReadings = 3;
-// Shares of a quarter of the range: how far motion is believed without the mark and, between two
-// readings, beyond it; and when to arm anew.
+// Divisors of a quarter of the range: largest plausible motion without the mark; largest plausible
+// motion beyond the mark between two readings; distance at which to arm again.
 constexpr std::int64_t kMotion = 2, kBeyondMark = 64, kFar = 4;
 
 }  // namespace

@@ -1,31 +1,33 @@
-// The reference mark (index, Z) of an encoder that counts: when the axis goes over it, the counter
-// loads the value it was given, and from there the same count is the same place each time.
+// The reference mark (index, Z) of an incremental encoder. When the axis passes the mark, the
+// counter loads a preset number; from then on equal counts mean equal positions.
 #pragma once
 
 #include <cstdint>
 
 namespace mdof::drivers {
 
-// Finds from the counts alone whether the counter has loaded at the mark. It has to load a
-// number a quarter of its range away from where it stands: no motion between two readings leads
-// there, and a count that jumps to elsewhere was not at the mark. Pure; thread-bound.
+// Detects from the counts alone whether the counter has loaded its preset at the mark. The preset
+// is a quarter of the counter's range away from the present count, so no motion between two
+// readings can reach it. A count that jumps elsewhere was not loaded at the mark. Pure;
+// thread-bound.
 //
-// With the polarity of the index the wrong way round the counter loads at every place but the mark,
-// again and again. So the mark counts as passed only once the count has gone on from it, and until
+// If the polarity of the index is wrong, the counter loads the preset again and again at all
+// positions except the mark. Therefore the mark counts as passed only after the count has moved on
+// from the preset. Until then positions are unknown.
 // then no place is known.
 class IndexMark {
  public:
   enum class State {
     off,      // not armed
-    awaited,  // the axis has not been there
-    at_mark,  // the counter has loaded, and has not gone on since
-    passed,   // counts are from the mark, until armed anew
-    astray,   // the count is where neither motion nor the mark brings it; as before with the next
+    awaited,  // the axis has not reached the mark
+    at_mark,  // the counter has loaded the preset and has not moved on
+    passed,   // counts are relative to the mark, until armed again
+    astray,   // neither motion nor the mark explains this count; the next is judged afresh
   };
-  // Of a counter of `bits` bits (8 ... 62) whose counts are handed in unwrapped.
+  // `bits`: width of the counter (8 ... 62). take() and arm() expect unwrapped counts.
   explicit IndexMark(int bits) : bits_(bits), quarter_(std::int64_t{1} << (bits - 2)) {}
 
-  // The counter stands at `count`. What it is to load at the mark: `bits` bits.
+  // Arms the detection at the present `count`. Returns the preset to load at the mark, `bits` wide.
   std::uint64_t arm(std::int64_t count);
   // The next reading.
   State take(std::int64_t count);
@@ -33,9 +35,10 @@ class IndexMark {
   State state() const { return state_; }
   bool armed() const { return state_ == State::awaited || state_ == State::at_mark; }
   std::uint64_t load() const;
-  // How far a count of State::passed is from the mark.
+  // Distance of a count in State::passed from the mark, counts.
   std::int64_t from_mark(std::int64_t count) const { return count - loaded_; }
-  // The axis went so far without the mark that it is to be armed anew; only where bits are few.
+  // Whether the axis has moved so far without the mark that arm() is needed again. Only counters
+  // with few bits need this.
   bool far_from_armed(std::int64_t count) const;
 
  private:

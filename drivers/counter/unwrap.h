@@ -1,12 +1,13 @@
-// Counters of devices wrap; these make them whole.
+// Extends the range of counters that wrap.
 #pragma once
 
 #include <cstdint>
 
 namespace mdof::drivers {
 
-// A counter of `bits` bits (1 ... 63) that moves less than half its range between two readings, up
-// or down: the first reading stands for itself (as a two's complement number where `is_signed`).
+// Unwraps a counter of `bits` bits (1 ... 63) that moves less than half its range between two
+// readings in either direction. The first reading is taken as it is (as a two's complement number
+// if `is_signed`).
 class Unwrap {
  public:
   explicit Unwrap(int bits, bool is_signed = false) : bits_(bits), is_signed_(is_signed) {}

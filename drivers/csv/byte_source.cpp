@@ -23,7 +23,7 @@ std::string text_of(int error) {
 
 Result<int> open_descriptor(const std::string& path, int given) {
   if (given >= 0) {
-    (void)::lseek(given, 0, SEEK_SET);  // of a pipe there is no other place
+    (void)::lseek(given, 0, SEEK_SET);  // fails for a pipe, which has only one position
     return ::fcntl(given, F_DUPFD_CLOEXEC, 0);
   }
   if (path == "-") return ::dup(STDIN_FILENO);
@@ -79,7 +79,7 @@ Status ByteSource::refill() {
   return {};
 }
 
-// Fills `to` but for the end of the file, however small the pieces of a pipe are.
+// Fills `to` completely except at the end of the file, even if a pipe gives small pieces.
 Result<std::size_t> ByteSource::read_stored(char* to, std::size_t capacity) {
   std::size_t count = 0;
   while (count < capacity) {

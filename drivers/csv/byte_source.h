@@ -1,4 +1,4 @@
-// The bytes of a file or of the standard input, unpacked where they are gzip.
+// Reads the bytes of a file or of the standard input, and unpacks them if they are gzip.
 #pragma once
 
 #include <atomic>
@@ -19,24 +19,25 @@ class Gunzip;
 // An open file descriptor, read in order.
 class ByteSource {
  public:
-  // "-" is the standard input; only regular files are opened. With `hash` the SHA-256 of gzip data
-  // is computed on the way; that of plain text is left to the caller, who has all of it. A
-  // `descriptor`, open already, is read from the beginning of its file, and `path` is its name.
+  // `path` "-" is the standard input; otherwise only regular files are opened. With `hash` the
+  // SHA-256 of gzip data is computed while reading; the caller, who gets all bytes of plain text,
+  // hashes plain text itself. A `descriptor` that is already open is read from the beginning of its
+  // file; `path` is then only its name.
   static Result<std::unique_ptr<ByteSource>> open(const std::string& path, bool hash,
                                                   int descriptor = -1);
   ~ByteSource();
   ByteSource(const ByteSource&) = delete;
   ByteSource& operator=(const ByteSource&) = delete;
 
-  // Fills `to` with up to `capacity` bytes of text; 0: the end. Errors: reading failed, gzip data
-  // damaged or ending too early.
+  // Fills `to` with up to `capacity` bytes of text; 0: the end. Errors: reading failed; the gzip
+  // data are damaged or truncated.
   Result<std::size_t> read(char* to, std::size_t capacity);
 
   bool is_gzip() const { return gunzip_ != nullptr; }
   const std::string& name() const { return name_; }           // for messages
   std::uint64_t bytes() const { return bytes_.load(); }       // stored bytes read; any thread
   std::uint64_t bytes_total() const { return bytes_total_; }  // 0: not known (a pipe)
-  // Of gzip data as stored, once read() gave 0; else "".
+  // SHA-256 of the stored gzip data, after read() has returned 0; otherwise "".
   std::string sha256() const { return hash_ ? hash_->hex() : ""; }
 
  private:
@@ -51,9 +52,9 @@ class ByteSource {
   std::uint64_t bytes_total_;
   std::atomic<std::uint64_t> bytes_{0};
   std::unique_ptr<Sha256> hash_;
-  std::vector<char> buffer_;        // stored bytes: the file's beginning; all of a gzip file
-  std::string_view pending_;        // of buffer_: not used yet
-  std::unique_ptr<Gunzip> gunzip_;  // nullptr: plain
+  std::vector<char> buffer_;  // stored bytes: the beginning of a plain file, all of a gzip file
+  std::string_view pending_;  // bytes in buffer_ that are not used yet
+  std::unique_ptr<Gunzip> gunzip_;  // nullptr: plain text
 };
 
 }  // namespace mdof::drivers

@@ -14,7 +14,7 @@ bool ChunkRing::may_read(Role role) const {
   return room && !reading_ && !ended_ && (parser_reads_ || role == Role::companion);
 }
 
-// The lock is not held while reading; no other role touches lines_ or that chunk meanwhile.
+// Reads without the lock; meanwhile the other role uses neither lines_ nor this chunk.
 void ChunkRing::read_one(std::unique_lock<std::mutex>& lock) {
   reading_ = true;
   LineChunk& chunk = chunks_[read_ % kChunks];

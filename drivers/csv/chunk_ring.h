@@ -1,6 +1,6 @@
-// The chunks of a CSV text, read once for two that go through all of them: the one that parses and
-// the one that hashes. Whoever comes first to a chunk reads it, so that both share that work as
-// their own leaves them time.
+// The chunks of a CSV text, read once for two threads that both go through all of them: one parses,
+// one hashes. The thread that needs a chunk first reads it, so the two share the reading according
+// to their load.
 #pragma once
 
 #include <array>
@@ -19,17 +19,17 @@ class ChunkRing {
  public:
   enum class Role { parser, companion };
 
-  // With `companion` a chunk is kept until that role has done with it too; of a source that may
-  // have to wait (a pipe) `parser_reads` is false, and the companion alone reads.
+  // With `companion`, a chunk is kept until that role has finished with it too. `parser_reads` is
+  // false for a source that may block (a pipe); then only the companion reads.
   ChunkRing(ByteSource& source, std::size_t chunk_bytes, bool companion, bool parser_reads);
 
-  // The role's next chunk, which is its own until done(); nullptr: none came within `timeout`, or
-  // there is no more, or stop(). Each role is one thread.
+  // The role's next chunk, valid until done(). nullptr: no chunk within `timeout`, no more chunks,
+  // or stop() was called. Each role is one thread.
   const LineChunk* next(Role role, std::chrono::milliseconds timeout);
   void done(Role role);
-  bool ended() const;     // all was read, or could not be; what there is may be still to be taken
-  Status status() const;  // why it could not be
-  void stop();            // nobody waits any more
+  bool ended() const;     // all was read or reading failed, and the parser has taken all chunks
+  Status status() const;  // why reading failed
+  void stop();            // ends all waiting
 
  private:
   static constexpr std::size_t kChunks = 6;
@@ -41,13 +41,13 @@ class ChunkRing {
 
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  LineReader lines_;  // of the role that reads just now
+  LineReader lines_;  // used only by the role that reads now
   bool parser_reads_;
   bool reading_ = false, ended_ = false, stopped_ = false;
   Status status_;
   std::array<LineChunk, kChunks> chunks_;
-  std::size_t read_ = 0;               // chunks so far
-  std::array<std::size_t, 2> done_{};  // by each role
+  std::size_t read_ = 0;               // number of chunks read
+  std::array<std::size_t, 2> done_{};  // number of chunks finished, by role
 };
 
 }  // namespace mdof::drivers

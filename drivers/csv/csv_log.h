@@ -1,4 +1,4 @@
-// A recorded probe log (CSV, plain or gzip) as a driver: the replay of what a device once said.
+// Driver that replays a recorded probe log (CSV, plain or gzip).
 #pragma once
 
 #include <chrono>
@@ -13,21 +13,21 @@
 
 namespace mdof::drivers {
 
-// Thread-bound but for bytes() and bytes_total(), which any thread may call after open(). While
-// open it has the thread of CsvRows, "csv read", and no other.
+// Thread-bound except bytes() and bytes_total(), which any thread may call after open(). While open
+// it uses one thread, "csv read" of CsvRows.
 class CsvLog : public Driver {
  public:
-  // `path` "-" is the standard input, which can be opened once.
+  // `path` "-" is the standard input, which can be opened only once.
   explicit CsvLog(std::string path, CsvRowsOptions options = {});
 
-  DeviceInfo info() const override;  // channels after open(); simulated where a comment says so
-  Status open() override;            // again: from the beginning of the file
+  DeviceInfo info() const override;  // channels after open(); simulated if a comment says so
+  Status open() override;            // a second call starts again at the beginning of the file
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 
   std::vector<std::string> comments() const;  // of the header, without '#'; after open()
   std::string sha256() const;                 // of the file as stored, after the end; else ""
-  Notices notices() const;                    // after the end or an error: as of CsvRows
-  std::uint64_t bytes() const;                // read so far, as stored
+  Notices notices() const;                    // after the end or an error; see CsvRows
+  std::uint64_t bytes() const;                // stored bytes read so far
   std::uint64_t bytes_total() const;          // 0: not known
 
  private:

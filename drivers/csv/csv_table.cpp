@@ -28,7 +28,7 @@ tl::unexpected<Error> no_column(const CsvHeader& header, const std::string& name
                    "); add this column, or rename the column that contains these values");
 }
 
-// Channel of each of the columns.
+// Index of the channel for each column name.
 Result<std::vector<std::size_t>> channels_of(const CsvHeader& header,
                                              const std::vector<std::string>& names) {
   std::vector<std::size_t> channels;
@@ -42,7 +42,7 @@ Result<std::vector<std::size_t>> channels_of(const CsvHeader& header,
   return channels;
 }
 
-// A column of that name in another unit is wanted too: channels_of() says that it is not read.
+// A column with the same stem but another unit is requested too, so that channels_of() reports it.
 std::vector<std::string> with_those_there(const CsvHeader& header, std::vector<std::string> names,
                                           const std::vector<std::string>& optional) {
   for (const std::string& name : optional)
@@ -60,8 +60,8 @@ std::string folded(const std::string& name) {
   return text;
 }
 
-// Whether `column` is `name` in other letters: "Direction", "runs", "dirction". A short name, and
-// one with a capital letter (EYX_um), has neighbours that mean something else.
+// Whether `column` is a misspelt `name`: "Direction", "runs", "dirction". For short names and names
+// with a capital letter (EYX_um), a name that differs by one letter can be another quantity.
 bool is_meant(const std::string& column, const std::string& name) {
   constexpr std::size_t kLongName = 5;
   const std::string is = folded(column), wanted = folded(name);
@@ -71,7 +71,7 @@ bool is_meant(const std::string& column, const std::string& name) {
   return plain && wanted.size() > kLongName && edit_distance(is, wanted) <= 1;
 }
 
-// An optional column whose name is written in another way would be lost in silence.
+// Without this check, an optional column with a misspelt name would be ignored without a message.
 Status check_not_misspelt(const CsvHeader& header, const std::vector<std::string>& names,
                           const std::vector<std::string>& optional) {
   const auto is_read = [&](const std::string& column) {
@@ -105,7 +105,7 @@ bool has_no_value(double x) {
   return std::isnan(x);
 }
 
-// Columns from `required` on may be empty in all rows.
+// Columns from index `required` on are optional and may be empty in all rows.
 Status check_values(CsvTable& table, const std::vector<std::string>& names, std::size_t required) {
   for (std::size_t k = 0; k < names.size(); ++k) {
     std::vector<double>& value = table.columns[k];
@@ -132,7 +132,7 @@ Status append(CsvTable& table, const SampleBlock& block, const std::vector<std::
 
 }  // namespace
 
-// No line between the rows is left out.
+// Valid because no line between the rows is skipped (bad_lines = 0).
 std::string CsvTable::where(std::size_t row) const {
   return source + ":" + std::to_string(header_line + 1 + row) + ": ";
 }

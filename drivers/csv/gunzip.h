@@ -1,4 +1,4 @@
-// Unpacks gzip data (RFC 1952), one member after another, checking each CRC and length.
+// Unpacks gzip data (RFC 1952) member by member and checks each CRC and length.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ class Gunzip {
 
   Gunzip();
   ~Gunzip();
-  // Unpacks from `input`, takes what it used off it, gives the number of bytes put out: 0 where it
-  // needs more input. Errors say how far it got, not which file.
+  // Unpacks from `input` and removes the used bytes from it. Returns the number of bytes written;
+  // 0: more input is needed. Errors state the position, not the file.
   Result<std::size_t> unpack(std::string_view& input, char* to, std::size_t capacity);
-  // To be asked at the end of the input: it may only end between members.
+  // Call at the end of the input. Error: the input ends within a member.
   Status check_end() const;
 
  private:
@@ -30,7 +30,7 @@ class Gunzip {
   std::unique_ptr<z_stream_s> stream_;
   std::uint64_t unpacked_ = 0;
   bool between_members_ = true;
-  bool padding_ = false;  // zeros behind the last member, as tapes have them
+  bool padding_ = false;  // zeros after the last member, as on tapes
 };
 
 }  // namespace mdof::drivers

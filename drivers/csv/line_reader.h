@@ -1,4 +1,4 @@
-// Cuts a ByteSource into pieces of whole lines.
+// Cuts a ByteSource into chunks of whole lines.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,9 @@ namespace mdof::drivers {
 class LineChunk {
  public:
   std::string_view text() const { return text_; }
-  // What was read of the source for it: the text begins with what the chunk before had too much,
-  // and lacks what goes to the next.
+  // The bytes that were read from the source for this chunk. In contrast to text(), they lack the
+  // beginning of the first line, which was read with the previous chunk, and contain the incomplete
+  // last line.
   std::string_view read() const { return read_; }
 
  private:
@@ -26,10 +27,10 @@ class LineChunk {
 
 class LineReader {
  public:
-  // Pieces are of up to `chunk_bytes`; a longer line is an error.
+  // A chunk has up to `chunk_bytes` bytes; a longer line is an error.
   LineReader(ByteSource& source, std::size_t chunk_bytes);
-  // Replaces `chunk`, reusing its memory; an empty text is the end. A last line without LF gets
-  // one.
+  // Replaces `chunk`, reusing its memory; an empty text means the end. Adds LF to a last line
+  // without LF.
   Status read(LineChunk& chunk);
 
  private:
@@ -37,7 +38,7 @@ class LineReader {
 
   ByteSource& source_;
   std::size_t chunk_bytes_;
-  std::vector<char> carry_;  // the beginning of the line that the next piece starts with
+  std::vector<char> carry_;  // incomplete line with which the next chunk begins
   bool ended_ = false;
 };
 

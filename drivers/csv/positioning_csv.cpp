@@ -20,7 +20,7 @@ constexpr const char* kWhatDirectionIs =
     "1 if the target was approached in the + direction (forward), -1 if it was approached in the "
     "- direction";
 
-// The number of its first line.
+// Target, direction, run -> index of the row.
 using Seen = std::map<std::tuple<double, int, int>, std::size_t>;
 
 Result<PositioningReading> reading_of(const CsvTable& table, std::size_t row) {
@@ -50,7 +50,7 @@ std::vector<double> targets_of(const CsvTable& table) {
   return distinct_targets(std::move(positions_m));
 }
 
-// A word where the direction must be: what to write instead.
+// Adds the valid values to the error of a direction that is not a number.
 Error with_remedy(Error error) {
   if (error.message.find(": column direction: \"") != std::string::npos)
     error.message += std::string("; the direction is ") + kWhatDirectionIs;

@@ -1,5 +1,5 @@
-// Readings of a test to ISO 230-2 as CSV: columns target_mm, direction (1 or -1), run,
-// deviation_um, one row a reading, in any order.
+// Readings of a test according to ISO 230-2 as CSV: columns target_mm, direction (1 or -1), run,
+// deviation_um; one row for each reading, in any order.
 #pragma once
 
 #include <string>
@@ -16,9 +16,10 @@ struct PositioningCsv {
   std::vector<PositioningReading> readings;
 };
 
-// Errors name file, line, column and remedy: those of read_csv_table(); a direction that is not 1
-// or -1; a run that is no whole number; a run that has a target from one side twice; more readings
-// than `most`, of which each takes some 120 bytes of memory. `descriptor`: as there.
+// Errors name file, line, column and remedy: the errors of read_csv_table(); a direction other than
+// 1 and -1; a run that is not an integer; two readings with the same target, direction and run;
+// more than `most` readings (each needs about 120 bytes of memory). `descriptor`: as in
+// read_csv_table().
 inline constexpr std::size_t kMostReadings = 1'000'000;
 Result<PositioningCsv> read_positioning_csv(const std::string& path,
                                             std::size_t most = kMostReadings, int descriptor = -1);

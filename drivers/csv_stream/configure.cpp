@@ -66,7 +66,7 @@ CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
     return rig.check(channels);
   };
   read_header(table, options);
-  // Longer, and the watchdog would take the thread for dead.
+  // At most 5 s: the watchdog would report a longer wait as a hung thread.
   options.start = read_seconds(table, "start_s", options.start, 5);
   options.silence = read_seconds(table, "silence_s", options.silence, 3600);
   options.absolute = table.boolean("absolute", false);
@@ -76,7 +76,7 @@ CsvStreamOptions read_options(TomlTable& table, const DriverContext& context) {
   return options;
 }
 
-// A program that is started may open a device: it is not to run twice.
+// A started program may open a device, so two drivers must not run the same program.
 std::string identity(const CsvStreamOptions& options) {
   if (options.server) return identity_of(*options.server);
   if (!options.fifo.empty()) return identity_of_path(options.fifo);

@@ -15,9 +15,9 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr milliseconds kConnect{2000};
-constexpr std::int64_t kTogether_ns = 50'000'000;     // rows behind such a pause: of unknown age
-constexpr std::int64_t kPaceOver_ns = 2'000'000'000;  // time_s is compared with the host's over it
-constexpr std::size_t kMostScans = 4096;              // of a block
+constexpr std::int64_t kTogether_ns = 50'000'000;     // after a longer pause, rows are suspect
+constexpr std::int64_t kPaceOver_ns = 2'000'000'000;  // period of checking time_s
+constexpr std::size_t kMostScans = 4096;              // in a block
 
 constexpr const char* kDatumLost =
     "the source was started or connected again, so the zero of its positions may have changed (if "
@@ -86,7 +86,7 @@ Status CsvStream::open() {
 }
 
 Status CsvStream::connect() {
-  if (waits_for_writer_) return {};  // stays: a writer that has just come must not be cut off
+  if (waits_for_writer_) return {};  // keeps the FIFO open: a writer may have just connected
   child_.reset();
   stream_.reset();
   if (options_.server) {
@@ -174,7 +174,7 @@ Result<ReadState> CsvStream::read(SampleBlock& block, milliseconds timeout) {
     return ReadState::more;
   }
   const Quality good = header.says_simulated() ? Quality::simulated : Quality::good;
-  // What was lost was lost before a block.
+  // Lost lines are counted in the block that follows them, so a loss starts a new block.
   while (!rows_.empty() && block.scans() < kMostScans &&
          (block.scans() == 0 || rows_.front().lost == 0)) {
     const Row& row = rows_.front();
@@ -186,14 +186,14 @@ Result<ReadState> CsvStream::read(SampleBlock& block, milliseconds timeout) {
   return ReadState::more;
 }
 
-// The encoder's value of the last scan.
+// Marks the encoder's value of the last scan as suspect.
 void CsvStream::mark_unplaced(SampleBlock& block) {
   for (std::size_t c = 0; c < block.channels.size(); ++c)
     if (block.channels[c].id == kEncoderChannel)
       block.quality[c].back() = std::max(block.quality[c].back(), Quality::suspect);
 }
 
-// What comes within `timeout` goes to rows_; an error is for when they are given out.
+// Appends rows that arrive within `timeout` to rows_. read() reports the error after these rows.
 Status CsvStream::fetch(milliseconds timeout) {
   if (child_) child_->take_errors();
   std::array<char, 65'536> bytes;
@@ -220,7 +220,8 @@ Status CsvStream::fetch(milliseconds timeout) {
 tl::unexpected<Error> CsvStream::ended(const Error& why) {
   if (child_) return io_error(source_ + " " + child_->how_it_ended());
   if (!options_.fifo.empty()) {
-    // Opened anew before the old end is closed: what the next writer has sent by now is not lost.
+    // The FIFO is opened again before the old descriptor is closed, so that no bytes of the next
+    // writer are lost.
     if (auto again = open_fifo(options_.fifo)) {
       stream_ = std::move(*again);
       waits_for_writer_ = true;
@@ -248,8 +249,8 @@ void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) 
   }
 }
 
-// Rows that arrive together, as of a serial adapter that sends every 16 ms, were made one after the
-// other since the arrival before.
+// Rows that arrive together (a serial adapter sends every 16 ms) were made one after the other
+// since the previous arrival.
 void CsvStream::spread(std::vector<CsvStreamRow>& rows, std::int64_t since_ns,
                        std::int64_t received_ns) {
   const auto n = static_cast<std::int64_t>(rows.size());
@@ -258,7 +259,7 @@ void CsvStream::spread(std::vector<CsvStreamRow>& rows, std::int64_t since_ns,
         received_ns - (received_ns - since_ns) / n * (n - 1 - i);
 }
 
-// Device times become the host's; each start of the script is a clock of its own.
+// Converts device times to host times. Each start of the script has its own clock.
 void CsvStream::take_device_times(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
   for (auto begin = rows.begin(); begin != rows.end();) {
     const auto end =
@@ -269,7 +270,7 @@ void CsvStream::take_device_times(std::vector<CsvStreamRow>& rows, std::int64_t 
   }
 }
 
-// time_s in milliseconds, or a backlog of old rows, is not to be taken for live.
+// Rejects time_s in milliseconds and a backlog of old rows.
 Status CsvStream::check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
   const bool restarted =
       std::any_of(rows.begin(), rows.end(), [](const CsvStreamRow& row) { return row.restarted; });

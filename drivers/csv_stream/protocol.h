@@ -1,5 +1,5 @@
-// Live rows of a probe log (schema/recording/probe_log.h, CsvKind::stream) out of bytes as they
-// come.
+// Parses live rows of a probe log (schema/recording/probe_log.h, CsvKind::stream) from received
+// bytes.
 #pragma once
 
 #include <cstdint>
@@ -16,28 +16,30 @@
 namespace mdof::drivers {
 
 struct CsvStreamRow {
-  std::int64_t time_ns = 0;    // time_s; 0 where the header has none
+  std::int64_t time_ns = 0;    // time_s; 0 if the header has no time_s
   std::vector<double> values;  // [channel]; NaN: missing
-  std::uint64_t lost = 0;      // lines skipped just before
-  bool restarted = false;      // the header came again just before: time_s starts anew
+  std::uint64_t lost = 0;      // number of lines skipped before this row
+  bool restarted = false;      // the header came again before this row: time_s starts again
 };
 
-// Pure; survives any bytes. Thread-bound.
+// Pure; accepts any bytes. Thread-bound.
 class CsvStreamProtocol {
  public:
   static constexpr std::size_t kLongestLine = 65'536;
   static constexpr std::uint64_t kBadLinesWindow = 10'000;  // lines
 
-  // Up to `bad_lines` of 10,000 lines are skipped; one more is an error. `source` is for messages.
+  // Skips up to `bad_lines` of 10,000 lines; one more is an error. `source` is used in messages.
   CsvStreamProtocol(std::string source, std::size_t bad_lines);
 
-  // Appends the rows that `bytes` complete. Errors, after the rows before them: no header, too many
-  // bad lines, a line without end, time_s that does not grow, a decimal comma. Final.
+  // Appends the rows that `bytes` complete. Errors come after the rows before them and are final:
+  // no header, too many bad lines, a line that is too long, time_s that does not increase, a
+  // decimal comma.
   Status give(std::string_view bytes, std::vector<CsvStreamRow>& rows);
 
-  const std::optional<CsvHeader>& header() const { return header_; }  // once it has come
+  const std::optional<CsvHeader>& header() const { return header_; }  // after it was received
   std::uint64_t bad_lines() const { return bad_; }
-  // "source:line: reason" of the first in this window of 10,000 lines, at most three.
+  // Reasons "source:line: reason" of the first bad lines, at most three, in the present window of
+  // 10,000 lines.
   const std::vector<std::string>& bad_line_reasons() const { return reasons_; }
 
  private:
@@ -48,9 +50,9 @@ class CsvStreamProtocol {
 
   std::string source_;
   std::size_t bad_lines_allowed_;
-  std::string unfinished_;   // line
+  std::string unfinished_;   // incomplete line
   std::string head_;         // comments and header
-  std::string header_line_;  // as it came
+  std::string header_line_;  // as received
   std::optional<CsvHeader> header_;
   std::uint64_t line_ = 0, bad_ = 0, window_begin_ = 0, lost_ = 0;
   std::size_t bad_in_window_ = 0;

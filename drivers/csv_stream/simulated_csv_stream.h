@@ -11,16 +11,17 @@
 
 namespace mdof::drivers {
 
-// Sends the header to each client, then a row each 1/rate_hz: `senses` gives each column.
+// Sends the header to each client, then a row each 1/rate_hz s. `senses` gives the value of each
+// column.
 class SimulatedCsvStream final : public SimulatedDevice {
  public:
-  // Row numbers count from 0 for each client; -1: never.
+  // Row numbers start at 0 for each client; -1: never.
   struct Faults {
     bool no_header = false;
-    int bad_line_every = 0;  // of rows: one that ends in a word; 0: none
-    int cut_row = -1;        // only half of it, and the connection breaks
-    int silent_from = -1;    // row
-    int restart_at = -1;     // row: the header comes again, time_s from 0
+    int bad_line_every = 0;  // each n-th row ends in a word; 0: none
+    int cut_row = -1;        // row that is sent half, then the connection breaks
+    int silent_from = -1;    // no rows from this row on
+    int restart_at = -1;     // before this row the header comes again, and time_s starts at 0
     double time_scale = 1;   // 1000: milliseconds in time_s
   };
   struct Options {
@@ -52,7 +53,7 @@ class SimulatedCsvStream final : public SimulatedDevice {
   std::map<int, Client> clients_;
 };
 
-// As a plan of mdof-simulate has it. Rows "time_s,encoder_mm,A_um,..." at rate_hz.
+// Makes the twin from a plan of mdof-simulate. Rows "time_s,encoder_mm,A_um,..." at rate_hz.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_csv_stream(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

@@ -1,4 +1,4 @@
-// A series of deviations that another instrument measured, from a file.
+// A file with a series of deviations that another instrument measured.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@ namespace mdof::drivers {
 
 struct AskedError {
   bool angle = false;
-  bool is_stated = false;  // by its name; else it is positioning by default
+  bool is_stated = false;  // the user named the error; false: positioning by default
 };
 
-// `format`: "csv" (position_mm, deviation_um or _urad, and direction, run where there are such),
-// "iso230-2" (target_mm, direction, run, deviation_um), "rtl" (rtl.h); empty: by what the file
-// contains. An angle is read from CSV alone. What a file says of its kind counts unless the error
-// is stated (rtl.h). `descriptor`: of the file where it is open already, -1: not. Errors name
-// file, line, column and remedy.
+// `format`: "csv" (position_mm, deviation_um or _urad, optionally direction and run), "iso230-2"
+// (target_mm, direction, run, deviation_um), "rtl" (rtl.h); empty: detected from the contents.
+// Angles can be read from CSV only. If the error is not stated, the type that the file states is
+// checked (rtl.h). `descriptor`: of the open file, or -1. Errors name file, line, column and
+// remedy.
 Result<ImportedSeries> read_imported_file(const std::string& path, const std::string& format,
                                           const AskedError& error, int descriptor = -1);
 

@@ -46,7 +46,7 @@ std::optional<double> number_from(std::string_view word) {
   return x;
 }
 
-// A whole number from 1 to `most`; 0: it is none.
+// An integer from 1 to `most`; 0: not such a number.
 std::size_t count_from(std::string_view word, std::size_t most) {
   const auto x = number_from(word);
   if (!x || *x != std::floor(*x) || *x < 1 || *x > static_cast<double>(most)) return 0;
@@ -61,7 +61,7 @@ bool contains_word(std::string_view text, std::string_view lower_case) {
          text.end();
 }
 
-// What a line "key : value" has before its first colon, and behind it.
+// The parts of a line "key : value" before and after its first colon.
 std::pair<std::string_view, std::string_view> key_and_value(std::string_view line) {
   const std::size_t colon = line.find(':');
   if (colon == line.npos) return {trimmed(line), {}};
@@ -89,7 +89,7 @@ class Rtl {
     if (section_ == "TARGET DATA") return take_target_line(line);
     if (section_ == "RUNS") return take_run_count(line);
     if (section_ == "DEVIATIONS") return take_deviation_line(line);
-    return {};  // EQUIPMENT, ENVIRONMENT: kept in the file
+    return {};  // EQUIPMENT, ENVIRONMENT: not read
   }
 
   Result<ImportedSeries> finish() {
@@ -127,7 +127,7 @@ class Rtl {
 
   Status take_about(std::string_view line) {
     const auto [key, value] = key_and_value(line);
-    // The program that wrote the file: "Linear", "Angular", "Rotary", "Straightness".
+    // Type written by the program: "Linear", "Angular", "Rotary", "Straightness".
     if (key == "File type" || key == "Owner") MDOF_CHECK(check_linear(key, value));
     if (!value.empty())
       series_.about.push_back(utf8_from_latin1(key) + ": " + utf8_from_latin1(value));
@@ -149,7 +149,7 @@ class Rtl {
   Status take_target_line(std::string_view line) {
     const auto [key, value] = key_and_value(line);
     if (key == "Filetype") MDOF_CHECK(check_linear(key, value));
-    // What a flag says is not public; it is kept with the run.
+    // The meaning of the flags is not public; they are stored with the run.
     if (key == "Flags" && !value.empty())
       series_.about.push_back("Flags: " + utf8_from_latin1(value));
     if (key == "Target-count") {
@@ -215,8 +215,8 @@ class Rtl {
     return {};
   }
 
-  // Forward and reverse are known by the run's number alone: the order of its targets must say so
-  // too.
+  // Only the run number distinguishes forward from reverse, so the order of the targets must agree
+  // with it.
   Status check_way(std::size_t run, std::size_t target) {
     const bool same = run == last_run_;
     const bool right = run % 2 == 1 ? target > last_target_ : target < last_target_;
@@ -229,8 +229,8 @@ class Rtl {
                  "test to CSV with columns target_mm,direction,run,deviation_um");
   }
 
-  // Programs write a run that was not measured, as the reverse runs of a test in one direction,
-  // with zeros. Where these are all the runs of a direction, the other one is the whole test.
+  // Programs write runs that were not measured, such as the reverse runs of a unidirectional test,
+  // with zeros. If these are all runs of one direction, the other direction is the complete test.
   Status leave_out_filled(bool descending) {
     std::vector<bool> measured(run_count_ + 1, target_count_ < 2);
     for (const ImportedReading& r : series_.readings)
@@ -258,7 +258,7 @@ class Rtl {
                 {"runs", static_cast<std::int64_t>(filled[odd])}}));
     return {};
   }
-  // The run's number in the file.
+  // Number of the run in the file.
   static std::size_t number_of(const ImportedReading& r) {
     return 2 * static_cast<std::size_t>(r.run) - (r.direction > 0 ? 1 : 0);
   }
@@ -270,7 +270,7 @@ class Rtl {
   std::size_t target_count_ = 0, run_count_ = 0, last_run_ = 0, last_target_ = 0;
   std::vector<double> targets_;  // mm
   std::set<std::pair<std::size_t, std::size_t>> seen_;
-  ImportedSeries series_;  // positions: the target's place, until all targets are known
+  ImportedSeries series_;  // position_m holds the target's index until all targets are known
 };
 
 }  // namespace
@@ -281,7 +281,7 @@ Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& sourc
   const std::string_view ending = name.size() < 4 ? "" : name.substr(name.size() - 4);
   if (contains_word(ending, ".rta"))
     return bad_input(source + ": an .rta file contains angles, " + kConvertAngles);
-  // The family has a letter for each kind of test: l is linear.
+  // The last letter of the extension is the kind of test: l means linear.
   if (!error_is_stated && contains_word(ending.substr(0, 3), ".rt") &&
       !contains_word(ending, ".rtl"))
     return bad_input(source + ": a file that ends in " + std::string(ending) +

@@ -1,7 +1,7 @@
-// Renishaw's text form of a test (.rtl): sections HEADER::, TARGET DATA::, USER-TEXT::, RUNS::,
+// Renishaw's text format of a test (.rtl): sections HEADER::, TARGET DATA::, USER-TEXT::, RUNS::,
 // DEVIATIONS::. Targets are in mm, deviations in µm. There is no public description; the layout is
-// that of independent programs which read and write it. Odd runs go from the first target to the
-// last, even ones back. Of angles (.rta) the scale is not known.
+// taken from independent programs that read and write the format. Odd runs go from the first target
+// to the last, even runs go back. The scale of angles (.rta) is not known.
 #pragma once
 
 #include <string>
@@ -12,13 +12,14 @@
 
 namespace mdof::drivers {
 
-// Readings in the order of the file, and what it says of machine, date and place (a legacy code
-// page is taken as Latin-1). Errors name file, line and what was expected: counts that do not hold,
-// targets that neither rise nor fall, a deviation or a count that is given twice or missing, a run
-// that does not go its way or has only zeros, a file of angles (by its name, its type or its
-// Owner), or likewise of straightness, flatness or squareness unless `error_is_stated`: the import
-// names the measured error. All runs of one direction with only zeros are left out, with a notice;
-// so is said that targets fall, where the odd runs go in the - direction.
+// Returns the readings in the order of the file, and the file's statements on machine, date and
+// place (a legacy code page is read as Latin-1). Errors name file, line and the expected contents:
+// wrong counts; targets that neither increase nor decrease; a deviation or a count that is given
+// twice or missing; a run in the wrong direction or with zeros only; a file of angles (by its name,
+// its type or its Owner); unless `error_is_stated`, also a file of straightness, flatness or
+// squareness, because the import names the measured error. If all runs of one direction contain
+// zeros only, they are left out, with a notice. Decreasing targets also give a notice: odd runs
+// then go in the - direction.
 Result<ImportedSeries> parse_rtl(std::string_view text, const std::string& source,
                                  bool error_is_stated = false);
 

@@ -17,7 +17,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Waits until fd is ready or `until`. poll() and no select(): a descriptor may be above 1023.
+// Waits until fd is ready or until `until`. Uses poll() because select() cannot use descriptors
+// above 1023.
 bool ready(int fd, short events, steady_clock::time_point until) {
   for (;;) {
     const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
@@ -28,7 +29,7 @@ bool ready(int fd, short events, steady_clock::time_point until) {
   }
 }
 
-// A closed connection is an error to be read, not a signal.
+// MSG_NOSIGNAL: a closed connection gives an error instead of a signal. A pipe needs write().
 ssize_t put(int fd, std::string_view bytes) {
   const ssize_t n = ::send(fd, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   return n < 0 && errno == ENOTSOCK ? ::write(fd, bytes.data(), bytes.size()) : n;
@@ -61,7 +62,7 @@ ByteStream& ByteStream::operator=(ByteStream&& other) noexcept {
 Result<std::size_t> ByteStream::read(std::span<char> into, milliseconds timeout) {
   const auto until = steady_clock::now() + timeout;
   for (;;) {
-    // A stream is mostly waited for: to ask first saves a read that finds nothing.
+    // Usually no bytes are pending, so polling first saves a failing read.
     const bool came = timeout > milliseconds(0) && ready(fd_, POLLIN, until);
     const ssize_t n = ::read(fd_, into.data(), into.size());
     if (n > 0) return static_cast<std::size_t>(n);

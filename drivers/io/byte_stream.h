@@ -1,5 +1,5 @@
-// A two-way stream of bytes to a device: TCP, a serial port, a pipe. The only place where drivers
-// meet the operating system's descriptors; protocols see bytes.
+// A two-way byte stream to a device: TCP, a serial port, a pipe. Only this class uses the
+// descriptors of the operating system; protocols work on bytes.
 #pragma once
 
 #include <chrono>
@@ -13,21 +13,21 @@
 
 namespace mdof::drivers {
 
-// Thread-bound. Closes its descriptor when it goes.
+// Thread-bound. The destructor closes the descriptor.
 class ByteStream {
  public:
-  explicit ByteStream(int fd, std::string name);  // owns fd, which it makes non-blocking
+  explicit ByteStream(int fd, std::string name);  // owns fd and makes it non-blocking
   ~ByteStream();
   ByteStream(ByteStream&& other) noexcept;
   ByteStream& operator=(ByteStream&& other) noexcept;
 
-  // What has come, at most into.size() bytes; 0: nothing within the time-out. Error: the other side
-  // has closed, or the descriptor failed; the stream is of no more use.
+  // Reads at most into.size() received bytes; 0: none arrived before the time-out. Error: the other
+  // side has closed the connection, or the descriptor failed. The stream is then unusable.
   Result<std::size_t> read(std::span<char> into, std::chrono::milliseconds timeout);
-  // All of `bytes`, or an error: nothing is known then of how much was sent.
+  // Sends all of `bytes`. After an error it is unknown how many bytes were sent.
   Status write(std::string_view bytes, std::chrono::milliseconds timeout);
-  // Throws away what has come until nothing has for `quiet`, at most for `limit`; gives the number
-  // of bytes. Error as read().
+  // Discards received bytes until none has arrived for `quiet`, for at most `limit`. Returns the
+  // number of bytes. Errors as in read().
   Result<std::size_t> drain(std::chrono::milliseconds quiet, std::chrono::milliseconds limit);
 
   int fd() const { return fd_; }
@@ -44,12 +44,12 @@ struct Endpoint {
   int port = 0;
   std::string text() const;
 };
-// `default_port` where the text has none. Error: no host, a port that is none.
+// Uses `default_port` if the text has no port. Errors: no host, an invalid port.
 Result<Endpoint> parse_endpoint(const std::string& text, int default_port);
 
-// Connects within `timeout`, each address of a name in turn. A peer that falls silent with data
-// unacknowledged is given up after 5 s (TCP_USER_TIMEOUT), an idle one is asked every 5 s
-// (keep-alive): a dead link ends in an error of read().
+// Connects within `timeout`; tries each address of a name in turn. A peer that does not acknowledge
+// data is given up after 5 s (TCP_USER_TIMEOUT); keep-alive tests an idle peer every 5 s. Therefore
+// a dead link causes an error of read().
 Result<ByteStream> connect_tcp(const Endpoint& to, std::chrono::milliseconds timeout);
 
 struct SerialSettings {
@@ -58,11 +58,11 @@ struct SerialSettings {
   int stop_bits = 1;  // 1, 2
   bool rts = true, dtr = true;
 };
-// Raw mode, no flow control, exclusive; what had been received is thrown away. Errors name the
-// remedy: not there, no permission, in use, a rate that Linux has not.
+// Raw mode, no flow control, exclusive; received bytes are discarded. Errors state the remedy: the
+// port does not exist, no permission, in use, a rate that Linux does not support.
 Result<ByteStream> open_serial(const std::string& path, const SerialSettings& settings);
-// Pulls DTR low for 10 ms: resets a device that is wired so. Not every line has it (a pty):
-// ignored.
+// Sets DTR low for 10 ms, which resets a device that is wired for it. Has no effect on a line
+// without DTR (a pty).
 void pulse_dtr(const ByteStream& serial);
 
 }  // namespace mdof::drivers

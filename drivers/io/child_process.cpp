@@ -22,8 +22,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kGrace{500};        // to end after SIGTERM
-constexpr milliseconds kExit{300};         // to exit after its output has ended
+constexpr milliseconds kGrace{500};        // from SIGTERM to SIGKILL
+constexpr milliseconds kExit{300};         // from the end of the output to the exit
 constexpr std::size_t kLongestLine = 500;  // of standard error
 
 struct Pipe {
@@ -33,12 +33,12 @@ Result<Pipe> make_pipe(const std::string& name) {
   std::array<int, 2> fds{};
   if (::pipe2(fds.data(), O_CLOEXEC) != 0) return io_error(name + ": " + std::strerror(errno));
   Pipe pipe{ByteStream(fds[0], name), ByteStream(fds[1], name)};
-  // The program expects to wait where its output is not taken at once.
+  // Programs expect that a write blocks while the pipe is full.
   ::fcntl(fds[1], F_SETFL, ::fcntl(fds[1], F_GETFL) & ~O_NONBLOCK);
   return pipe;
 }
 
-// What the program finds when it starts.
+// Descriptors, folder and signals of the program when it starts.
 class Surroundings {
  public:
   Surroundings(const std::string& folder, int output, int errors) {
@@ -102,11 +102,11 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const std::vector<std:
 ChildProcess::~ChildProcess() {
   ::kill(-pid_, SIGTERM);
   exited(kGrace);
-  ::kill(-pid_, SIGKILL);  // what it has started may be left
+  ::kill(-pid_, SIGKILL);  // for remaining child processes of the program
   ::waitpid(pid_, nullptr, 0);
 }
 
-// Leaves it unreaped, so that its number stays its own until the destructor.
+// Does not reap the process, so that its process id stays reserved until the destructor.
 std::optional<siginfo_t> ChildProcess::exited(milliseconds within) const {
   const auto until = std::chrono::steady_clock::now() + within;
   for (;;) {

@@ -1,4 +1,5 @@
-// A program started for its standard output; and a FIFO, for programs that start by themselves.
+// Starts a program to read its standard output; opens a FIFO for programs that are started
+// separately.
 #pragma once
 
 #include <sys/types.h>
@@ -15,12 +16,12 @@
 
 namespace mdof::drivers {
 
-// Thread-bound. The destructor ends the program and what it has started in its process group:
-// SIGTERM, half a second later SIGKILL.
+// Thread-bound. The destructor ends all processes in the program's process group: SIGTERM, half a
+// second later SIGKILL.
 class ChildProcess {
  public:
-  // `command[0]` is looked up in PATH unless it has a '/'; no shell takes part. Runs in `folder`,
-  // standard input empty. Error: it cannot be started.
+  // `command[0]` is searched in PATH unless it contains '/'; no shell is used. The program runs in
+  // `folder` with empty standard input. Error: it cannot be started.
   static Result<std::unique_ptr<ChildProcess>> start(const std::vector<std::string>& command,
                                                      const std::string& folder);
   ~ChildProcess();
@@ -28,11 +29,11 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   ByteStream& output() { return output_; }
-  // Takes what it has written to its standard error, of which the last line is kept. To be called
-  // now and then, or the program stands still once 64 KiB wait.
+  // Reads the program's standard error and keeps its last line. Call it regularly: the program
+  // blocks when 64 KiB are unread.
   void take_errors();
-  // How the program ended, once its output has ended: "has exited with status 3; its last line of
-  // standard error: ...". Waits for its exit, but not for long.
+  // How the program ended, after its output has ended: "has exited with status 3; its last line of
+  // standard error: ...". Waits briefly for the exit.
   std::string how_it_ended();
 
  private:
@@ -45,10 +46,10 @@ class ChildProcess {
   std::string unfinished_, last_line_;
 };
 
-// Opens it for reading. Error: not there, or no FIFO.
+// Opens the FIFO for reading. Errors: it does not exist, or it is not a FIFO.
 Result<ByteStream> open_fifo(const std::string& path);
-// True: bytes have come, or the writer has gone. A FIFO that nobody has opened for writing yet must
-// not be read: that looks like its end.
+// Returns true if bytes have arrived or the writer has closed the FIFO. Do not read a FIFO before a
+// writer has opened it: read() would report its end.
 bool wait_for_bytes(const ByteStream& stream, std::chrono::milliseconds timeout);
 
 }  // namespace mdof::drivers

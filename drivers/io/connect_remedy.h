@@ -1,4 +1,4 @@
-// Why a device on a network cannot be reached, and what to do.
+// Error text and remedy for a network device that cannot be reached.
 #pragma once
 
 #include "drivers/io/byte_stream.h"
@@ -6,8 +6,8 @@
 
 namespace mdof::drivers {
 
-// `error` of connect(2). `service`: this program was started by systemd, which may keep it from the
-// network: packets are then refused, or dropped without a word.
+// `error`: errno of connect(2). `service`: systemd started this program and may block its network
+// access: packets are then refused or dropped silently.
 Error connect_error(const Endpoint& to, int error, bool service);
 
 }  // namespace mdof::drivers

@@ -20,7 +20,7 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr int kAskers = 64;  // that may wait for answer_inquiries()
+constexpr int kAskers = 64;  // pending connections before answer_inquiries()
 constexpr int kKind = SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK;
 
 struct Name {
@@ -29,7 +29,7 @@ struct Name {
   sockaddr* get() { return reinterpret_cast<sockaddr*>(&address); }
 };
 
-// A first byte of 0 makes the name abstract.
+// A first byte of 0 makes the socket name abstract.
 Name name_of(const std::string& identity) {
   Name name;
   name.address.sun_family = AF_UNIX;
@@ -40,7 +40,7 @@ Name name_of(const std::string& identity) {
   return name;
 }
 
-// The process that listens there; 0: not known.
+// The process that holds the lock; 0: not known.
 pid_t holder_of(Name& name) {
   const int fd = ::socket(AF_UNIX, kKind, 0);
   if (fd < 0) return 0;

@@ -1,4 +1,4 @@
-// That no two programs open one device: for buses that have no lock of their own.
+// Prevents two programs from opening one device, for buses that have no lock.
 #pragma once
 
 #include <string>
@@ -8,25 +8,27 @@
 
 namespace mdof::drivers {
 
-// The device whatever name it goes by: host names become addresses, links the file they lead to.
+// Identity of a device independent of the spelling: host names are resolved to addresses, links to
+// files.
 std::string identity_of(const Endpoint& at);
 std::string identity_of_path(const std::string& path);
 
-// Held from take() to the destructor, and gone with the program, however that ends. It is a name of
-// the kernel's (an abstract Unix socket) and no file: it needs no folder and no permission, nothing
-// of it is left over, and the kernel says who has it. It holds within one network namespace.
+// Held from take() to the destructor; the kernel releases it when the program ends. It is an
+// abstract Unix socket, not a file: it needs no folder and no permission, leaves nothing behind,
+// and the kernel knows which process holds it. It is valid within one network namespace.
 class DeviceLock {
  public:
-  // Error: another has it, with its name and process id. Where the kernel gives no such names the
-  // lock is none: it is advisory.
-  // `shared`: this program may have it more than once, as a device that speaks with several.
+  // Error: another program holds the lock; the message gives its name and process id. If the kernel
+  // does not support such names, take() succeeds without a lock, because the lock is advisory.
+  // `shared`: this program may take the lock several times, for a device that serves several
+  // drivers.
   static Result<DeviceLock> take(const std::string& identity, bool shared = false);
   ~DeviceLock();
   DeviceLock(DeviceLock&& other) noexcept;
   DeviceLock& operator=(DeviceLock&& other) noexcept;
 
-  // Ends the connections of programs that asked who holds the device. To be called about every
-  // second: once too many wait, further programs get no message.
+  // Closes the connections of programs that asked which process holds the device. Call it about
+  // every second: when too many are pending, further programs get no message.
   void answer_inquiries() const;
 
  private:

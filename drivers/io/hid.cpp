@@ -26,7 +26,7 @@ std::string narrow(const wchar_t* text) {
   return ascii;
 }
 
-// hidapi does not say in a form that can be judged: opened once more, without it.
+// hidapi gives no error code, so the device is opened again without hidapi to get errno.
 tl::unexpected<Error> not_opened(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
   const int error = fd < 0 ? errno : 0;
@@ -41,7 +41,7 @@ tl::unexpected<Error> not_opened(const std::string& path) {
 }  // namespace
 
 Result<HidDevice> HidDevice::open(const std::string& path) {
-  auto own = DeviceLock::take(path);  // hidapi and udev give /dev/hidrawN: no link to follow
+  auto own = DeviceLock::take(path);  // hidapi and udev give /dev/hidrawN, which is not a link
   if (!own) return in_context(path, own.error());
   const std::lock_guard lock(library());
   if (hid_device* const device = ::hid_open_path(path.c_str()))
@@ -55,7 +55,7 @@ void HidDevice::Close::operator()(void* device) const {
 }
 
 Status HidDevice::write(std::string_view report) {
-  std::string numbered(1, '\0');  // 0: its reports have no numbers
+  std::string numbered(1, '\0');  // number 0: reports without numbers
   numbered += report;
   const auto* bytes = reinterpret_cast<const unsigned char*>(numbered.data());
   if (::hid_write(handle(device_.get()), bytes, numbered.size()) >= 0) return {};

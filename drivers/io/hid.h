@@ -1,9 +1,9 @@
-// HID devices through hidapi's hidraw back end: the only place that calls it. They are found by
-// libudev (hid_list.cpp says why).
+// HID devices through hidapi with the hidraw back end. Only this file calls hidapi. libudev finds
+// the devices (hid_list.cpp gives the reason).
 //
-// hidapi keeps global state (its last error) and is not thread-safe: devices are opened and closed
-// one at a time in the process, and the library is never shut down, as another driver may be using
-// it. An open device is used by one thread without that lock.
+// hidapi has global state (its last error) and is not thread-safe. Therefore a mutex of the process
+// serialises opening and closing, and the library is never shut down, because another driver may
+// use it. An open device is used by one thread without this mutex.
 #pragma once
 
 #include <chrono>
@@ -21,21 +21,22 @@ namespace mdof::drivers {
 struct HidEntry {
   std::string path;  // "/dev/hidraw3"
   std::uint16_t product = 0;
-  std::string serial;  // as the device's string has it; "" where it has none
-  int interface = -1;  // -1: the bus has none (uhid)
+  std::string serial;  // string of the device; "": it has none
+  int interface = -1;  // -1: the bus has no interfaces (uhid)
 };
 
-// Every HID interface of this vendor that is plugged in. By any thread.
+// Every connected HID interface of this vendor. Any thread may call it.
 std::vector<HidEntry> list_hid(std::uint16_t vendor);
 
 // Thread-bound.
 class HidDevice {
  public:
-  // Errors name the path and the remedy; also where another program has it (device_lock.h).
+  // Errors name the path and the remedy, also if another program uses the device (device_lock.h).
   static Result<HidDevice> open(const std::string& path);
-  // Output report without a number. Error: the device is gone.
+  // Sends an output report without report number. Error: the device is gone.
   Status write(std::string_view report);
-  // The next input report, at most `most` bytes; "": none within the time-out. Error: gone.
+  // The next input report, at most `most` bytes; "": none before the time-out. Error: the device is
+  // gone.
   Result<std::string> read(std::size_t most, std::chrono::milliseconds timeout);
   const std::string& path() const { return path_; }
 
@@ -45,7 +46,7 @@ class HidDevice {
   };
   HidDevice(DeviceLock lock, void* device, std::string path)
       : lock_(std::move(lock)), device_(device), path_(std::move(path)) {}
-  DeviceLock lock_;  // goes after the device
+  DeviceLock lock_;  // released after the device is closed
   std::unique_ptr<void, Close> device_;
   std::string path_;
 };

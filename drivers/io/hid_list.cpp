@@ -1,5 +1,5 @@
-// Which HID interfaces there are, by libudev and not by hid_enumerate(): that of Debian 12 (hidapi
-// 0.13.1) reads at a null pointer when a device goes meanwhile (libusb/hidapi pull request 580).
+// Lists HID interfaces with libudev instead of hid_enumerate(): hidapi 0.13.1 of Debian 12 reads a
+// null pointer if a device is unplugged during the listing (libusb/hidapi pull request 580).
 #include <libudev.h>
 
 #include <cstdio>
@@ -24,7 +24,7 @@ struct Ids {
   unsigned bus = 0, vendor = 0, product = 0;
 };
 
-// As the kernel writes them: "0003:00001DC3:00001001".
+// The kernel's format: "0003:00001DC3:00001001".
 std::optional<Ids> parse_ids(const char* text) {
   Ids ids;
   if (!text || std::sscanf(text, "%x:%x:%x", &ids.bus, &ids.vendor, &ids.product) != 3)
@@ -40,7 +40,8 @@ int interface_of(udev_device* node) {
   return number ? static_cast<int>(std::strtol(number, nullptr, 16)) : -1;
 }
 
-// None: of another vendor, or it has gone since it was listed. All that is asked may be gone.
+// nullopt: another vendor, or the device was unplugged after it was listed. Every property may be
+// missing.
 std::optional<HidEntry> entry_of(udev_device* node, std::uint16_t vendor) {
   const char* const path = ::udev_device_get_devnode(node);
   udev_device* const hid = ::udev_device_get_parent_with_subsystem_devtype(node, "hid", nullptr);

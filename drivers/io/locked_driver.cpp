@@ -53,7 +53,7 @@ class LockedDriver final : public Driver {
   const std::string name_;
   const std::function<std::string()> identity_;
   const bool shared_;
-  std::optional<DeviceLock> lock_;  // goes after the driver, which has by then let the device go
+  std::optional<DeviceLock> lock_;  // destroyed after the driver, which then has closed the device
   std::unique_ptr<Driver> driver_;
   steady_clock::time_point dismiss_at_{};
 };

@@ -1,12 +1,12 @@
-// A driver whose device nobody else opens meanwhile.
+// A driver that holds the lock of its device.
 #pragma once
 
 #include "drivers/driver_spec.h"
 
 namespace mdof::drivers {
 
-// The same, with drivers that take the device's lock when they are first opened and keep it for
-// their life, also while the device is away: it is theirs. open() fails while another has it.
+// Returns `spec` with drivers that take the device's lock at the first open() and keep it for life,
+// even while the device is absent. open() fails while another program holds the lock.
 DriverSpec locked(DriverSpec spec);
 
 }  // namespace mdof::drivers

@@ -1,4 +1,4 @@
-// Who is at the other end of a connection.
+// The peer of a connection.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 namespace mdof::drivers {
 
-// The address of the other side, 192.168.0.5 as 0xC0A80005; 0: not by IPv4.
+// IPv4 address of the peer, 192.168.0.5 as 0xC0A80005; 0: the connection is not IPv4.
 std::uint32_t peer_ipv4(const ByteStream& connection);
 
 }  // namespace mdof::drivers

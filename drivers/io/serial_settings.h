@@ -1,4 +1,4 @@
-// A serial line in mdofd.toml: the keys baud, parity and stop_bits of a device.
+// Keys of a serial line in mdofd.toml: baud, parity and stop_bits of a device.
 #pragma once
 
 #include "drivers/io/byte_stream.h"
@@ -6,7 +6,7 @@
 
 namespace mdof::drivers {
 
-// What is not given stays as it is in `line`. What is wrong is rejected by its key.
+// Missing keys leave `line` unchanged. Invalid values are rejected at their keys.
 void read_serial_settings(TomlTable& table, SerialSettings& line);
 
 }  // namespace mdof::drivers

@@ -26,7 +26,7 @@ constexpr int kIdle_s = 5, kInterval_s = 2, kProbes = 3;
 
 template <class T>
 void set(int fd, int level, int option, T value) {
-  ::setsockopt(fd, level, option, &value, sizeof value);  // a comfort: works without
+  ::setsockopt(fd, level, option, &value, sizeof value);  // optional, so errors are ignored
 }
 
 void keep_watch(int fd) {
@@ -38,7 +38,7 @@ void keep_watch(int fd) {
   set(fd, IPPROTO_TCP, TCP_KEEPCNT, kProbes);
 }
 
-// 0: connected; else the errno of the failure.
+// Returns 0 if connected, otherwise the errno of the failure.
 int finish_connect(int fd, steady_clock::time_point until) {
   const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
   pollfd p{fd, POLLOUT, 0};
@@ -101,7 +101,7 @@ Result<ByteStream> connect_tcp(const Endpoint& to, milliseconds timeout) {
     if (error == EINPROGRESS) error = finish_connect(fd, until);
     if (error == 0) return stream;
   }
-  const bool service = std::getenv("INVOCATION_ID") != nullptr;  // systemd's
+  const bool service = std::getenv("INVOCATION_ID") != nullptr;  // systemd sets this variable
   return tl::unexpected(connect_error(to, error, service));
 }
 

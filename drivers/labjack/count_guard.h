@@ -1,5 +1,5 @@
-// LabJack's firmware counts the edges of an encoder one by one: faster than it can, it loses some
-// without a word, and the position is wrong from then on.
+// The firmware of a LabJack counts each edge of an encoder. If edges come too fast, it loses some
+// without a report, and all later positions are wrong.
 #pragma once
 
 #include <algorithm>
@@ -11,15 +11,15 @@
 
 namespace mdof::drivers::labjack {
 
-// Watches that a count stays below what can be counted. Over 10 ms, so that the few counts of one
-// scan give a speed. Thread-bound.
+// Checks that the counting rate stays below its limit. The rate is measured over 10 ms, because one
+// scan has too few counts. Thread-bound.
 class CountGuard {
  public:
-  // 0: nothing is watched.
+  // 0: no check.
   explicit CountGuard(double most_counts_per_s = 0) : most_counts_per_s_(most_counts_per_s) {}
 
-  // `time_s` is the device's own. From the first step that is too fast on, false: counts may be
-  // lost.
+  // `time_s`: time of the device. Returns false from the first interval with too high a rate on,
+  // because counts may be lost.
   bool take(std::int64_t count, double time_s) {
     if (most_counts_per_s_ <= 0) return true;
     if (!begun_) mark(count, time_s);
@@ -30,12 +30,12 @@ class CountGuard {
     return sure_;
   }
   bool sure() const { return sure_; }
-  // Whatever was lost has been found again.
+  // Call after the position was set again: the count is valid again.
   void restart() {
     begun_ = false;
     sure_ = true;
   }
-  // The next count is the first of another stream: what was between is not known.
+  // The next count belongs to another stream; the motion in between is unknown.
   void interrupt() { begun_ = false; }
 
  private:
@@ -54,9 +54,10 @@ class CountGuard {
   double mark_s_ = 0;
 };
 
-// `most_counts_per_s` of a channel; 0: not given. Rejects what is not above 0.
+// Key `most_counts_per_s` of a channel; 0: not given. Rejects values that are not above 0.
 double read_most_counts_per_s(TomlTable& channel);
-// For people: "counts up to 3.5 mm/s", the speed of the axis that a counter can follow; "" for 0.
+// Text for users: "counts up to 3.5 mm/s", the highest axis speed that the counter can follow; ""
+// for 0.
 std::string speed_text(double most_counts_per_s, double um_per_count);
 inline constexpr const char* kCountsLost =
     "the encoder moved faster than most_counts_per_s, so counts may have been lost; move the axis "

@@ -1,5 +1,5 @@
-// One quadrature counter of a LabJack, as its stream shows it: the count made whole, and whether it
-// is still counted from the same place.
+// One quadrature counter of a LabJack stream: unwraps the count and checks that its zero is
+// unchanged.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,28 @@
 
 namespace mdof::drivers::labjack {
 
-// For the life of a driver. Thread-bound.
+// Exists as long as the driver. Thread-bound.
 class Counter {
  public:
-  // 0: however fast it goes.
+  // 0: no limit of the counting rate.
   explicit Counter(double most_counts_per_s = 0) : guard_(most_counts_per_s) {}
 
-  // The device was opened; `went_on`: its count goes on from before.
+  // The device was opened. `went_on`: the counter kept its count since the device was last open.
   void take_up(bool went_on) {
     zero_lost_ = zero_lost_ || (used_ && !went_on);
     used_ = true;
     if (!went_on) count_.reset();
   }
   bool used() const { return used_; }
-  void interrupt() { guard_.interrupt(); }  // it was closed
-  // Of 32 bits as the device gives them; `time_s` is the device's own.
+  void interrupt() { guard_.interrupt(); }  // the device was closed
+  // `raw`: the 32-bit count of the device; `time_s`: time of the device.
   std::int64_t take(std::uint32_t raw, double time_s) {
     const std::int64_t count = count_(raw);
     (void)guard_.take(count, time_s);
     return count;
   }
   bool sure() const { return guard_.sure() && !zero_lost_; }
-  // "": its zero holds. `without_power`: what to say where it began from 0 again.
+  // "": the zero is valid. `without_power`: text for a count that has started again from 0.
   std::string why_unsure(const char* without_power) const {
     return zero_lost_ ? without_power : guard_.sure() ? "" : kCountsLost;
   }
@@ -43,7 +43,7 @@ class Counter {
  private:
   Unwrap count_{32, true};
   CountGuard guard_;
-  bool used_ = false;  // since this object was made
+  bool used_ = false;  // since this object was created
   bool zero_lost_ = false;
 };
 

@@ -1,4 +1,4 @@
-// Keys of a channel that LabJack's devices share: differential inputs, and counters.
+// Channel keys that LabJack devices share: differential inputs and counters.
 #pragma once
 
 #include <string>
@@ -10,27 +10,26 @@
 
 namespace mdof::drivers::labjack {
 
-// Besides those of every family's channels.
+// In addition to the keys that all drivers have.
 struct InputKeys {
   double most_counts_per_s = 0, range_v = 0;  // 0: not given
   std::string negative;
 };
 InputKeys read_input_keys(TomlTable& channel);
 
-// Of "10, 1, 0.1 or 0.01" the index; -1: none of them.
+// Index of `range_v` in "10, 1, 0.1, 0.01"; -1: not one of them.
 int range_of(double range_v);
 inline constexpr const char* kRangesText = "must be 10, 1, 0.1 or 0.01";
 
-// LabJack's pairs: the even input `ain` against the one after it.
+// The negative input of the even input `ain`: the next input. Other pairs are impossible.
 Result<int> negative_of(const std::string& device, const ChannelInput& channel, int ain,
                         const std::string& negative);
 
 struct InputUse {
-  int ain = -1;       // -1: it counts
+  int ain = -1;       // -1: a counter
   int negative = -1;  // -1: single-ended
 };
-// Errors: what one input is measured against is an input of its own; a second counter of
-// one axis.
+// Errors: the negative input of one channel is a channel itself; a second counter of one axis.
 Status check_uses(const std::vector<ChannelInput>& channels, const std::vector<InputUse>& uses);
 
 }  // namespace mdof::drivers::labjack

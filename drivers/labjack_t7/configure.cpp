@@ -13,9 +13,9 @@ namespace {
 using namespace labjack_t7;
 
 constexpr int kCommandPort = 502, kStreamPort = 702;
-constexpr double kMostSamples_Hz = 100'000;  // of all inputs
-// Its firmware serves each edge. Recalled of LabJack's support for a T7 that streams; not looked
-// up.
+constexpr double kMostSamples_Hz = 100'000;  // samples of all inputs together
+// The firmware handles each edge. The value is remembered from LabJack's support for a T7 that
+// streams; it was not verified.
 constexpr double kMostCounts_per_s = 70'000;
 constexpr int kMostResolution = 8, kMostSettling_us = 4400;
 

@@ -15,7 +15,7 @@ using std::chrono::steady_clock;
 
 constexpr std::int64_t kSilence_ns = 2'000'000'000;
 constexpr int kClockReads = 5;
-constexpr double kEnable_s = 2;  // to write STREAM_ENABLE, at most
+constexpr double kEnable_s = 2;  // longest time for writing STREAM_ENABLE
 constexpr const char* kZeroLost = "the LabJack T7 lost power, and its counter restarted at 0";
 
 std::int64_t now_ns() {
@@ -30,7 +30,7 @@ bool counts(const Input& input) {
   return input.ain < 0;
 }
 
-// Of each counter.
+// Text of the highest speed of each counter.
 std::string speeds(const Settings& settings) {
   std::string text;
   for (const Input& input : settings.inputs)
@@ -102,7 +102,7 @@ Status LabjackT7::open() {
   return {};
 }
 
-// The stream is stopped so that the device is free for others; that this fails is no news.
+// Stops the stream, so that other programs can use the device. A failure is ignored.
 void LabjackT7::close() {
   if (registers_ && stream_) (void)registers_->write(reg::stream_enable, 0);
   registers_.reset();
@@ -140,7 +140,7 @@ Status LabjackT7::take_up_counters() {
   return {};
 }
 
-// Several reads, of which DeviceClock takes the one that came soonest.
+// Several reads; DeviceClock uses the one with the smallest delay.
 Status LabjackT7::start_clock() {
   core_.reset();
   for (int i = 0; i < kClockReads; ++i) {
@@ -153,7 +153,7 @@ Status LabjackT7::start_clock() {
   return {};
 }
 
-// The first scan begins a period after STREAM_ENABLE, which took no longer than a reply may.
+// The first scan begins one period after STREAM_ENABLE, which takes at most kEnable_s.
 Status LabjackT7::take_start() {
   MDOF_TRY(const std::uint32_t stamp, registers_->u32(reg::stream_start_time));
   const std::int64_t start = core_(stamp);
@@ -175,7 +175,7 @@ Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
   return ReadState::more;
 }
 
-// What came before an error is handed out first.
+// Scans received before an error are returned first.
 Status LabjackT7::next_scans(milliseconds timeout) {
   scans_.clear();
   handed_out_ = 0;
@@ -186,7 +186,7 @@ Status LabjackT7::next_scans(milliseconds timeout) {
   return scans_.empty() ? broken_ : Status{};
 }
 
-// Until a packet has come, at most for `timeout`.
+// Returns when scans have arrived, or after `timeout`.
 Status LabjackT7::receive(milliseconds timeout) {
   const auto until = steady_clock::now() + timeout;
   do {
@@ -221,7 +221,7 @@ std::int64_t LabjackT7::ticks_of(std::uint64_t scan) const {
   return *start_ticks_ + std::llround(static_cast<double>(scan) * ticks_per_scan_);
 }
 
-// A block ends before lost scans; they stand before the next one.
+// A block ends before lost scans; the next block counts them as lost.
 void LabjackT7::fill_block(SampleBlock& block) {
   reserve_scans(block, scans_.size() - handed_out_);
   while (handed_out_ < scans_.size()) {
@@ -264,7 +264,7 @@ void LabjackT7::append_count(SampleBlock& block, std::size_t channel, std::uint3
   block.quality[channel].push_back(counter.sure() ? Quality::good : Quality::suspect);
 }
 
-// Scans that would have come since the last one.
+// The number of scans that the device would have taken since the last returned scan.
 std::uint64_t LabjackT7::lost_while_closed(std::int64_t time_ns) const {
   const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
   return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));

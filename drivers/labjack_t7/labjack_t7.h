@@ -1,12 +1,12 @@
 // LabJack T7 over Ethernet: amplifier outputs and the quadrature encoders of one or more axes in
 // one hardware-timed scan.
 //
-// Port 502 (Modbus TCP) configures and says who it is, port 702 streams. The device counts its
-// scans on CORE_TIMER, 40 MHz: scan k was taken at STREAM_START_TIME_STAMP + k / rate. That count
-// is brought to the host's clock by DeviceClock from the arrivals of packets, begun with a few
-// reads of CORE_TIMER. The stamp is read with the first packet: until the first scan has begun it
-// is that of the stream before. Inside a scan the inputs follow each other by some 10 us; the scan
-// has one time.
+// Port 502 (Modbus TCP) configures and identifies the device, port 702 streams. The device times
+// its scans with CORE_TIMER, 40 MHz: scan k was taken at STREAM_START_TIME_STAMP + k / rate.
+// DeviceClock converts this time to the host's clock from the arrivals of packets; a few reads of
+// CORE_TIMER start it. The stamp is read with the first packet, because until the first scan begins
+// the register holds the stamp of the previous stream. Within a scan the inputs follow each other
+// by about 10 us; the scan has one time.
 #pragma once
 
 #include <cstdint>
@@ -27,9 +27,9 @@ namespace mdof::drivers::labjack_t7 {
 
 // Thread-bound. Channels: Unit::volt of an AIN, Unit::um of a counter.
 //
-// A counter is left running over a re-open, so its zero stays. If it had stopped (the T7 lost
-// power), or went faster than it can count, its zero is lost: from then on its values are
-// Quality::suspect, until it is trusted again.
+// A counter keeps running when the driver is opened again, so its zero is kept. If the counter had
+// stopped (the T7 lost power) or the count was faster than the limit, its zero is lost: its values
+// are Quality::suspect until trust_count() or trust_further_count().
 class LabjackT7 final : public Driver {
  public:
   explicit LabjackT7(Settings settings);
@@ -66,22 +66,22 @@ class LabjackT7 final : public Driver {
   std::optional<ByteStream> stream_;
   PacketReader reader_;
   PacketLine line_;
-  std::vector<AinCalibration> calibrations_;  // one an input
+  std::vector<AinCalibration> calibrations_;  // one for each input
   double rate_hz_, ticks_per_scan_ = 0;
 
   DeviceClock clock_;
   Unwrap core_{32};                          // CORE_TIMER, since open()
-  std::int64_t enabled_ticks_ = 0;           // a little before STREAM_ENABLE
-  std::optional<std::int64_t> start_ticks_;  // of scan 0; none before the first packet
-  std::int64_t last_packet_ns_ = 0;          // host time; at first of the start
+  std::int64_t enabled_ticks_ = 0;           // taken shortly before STREAM_ENABLE
+  std::optional<std::int64_t> start_ticks_;  // of scan 0; empty before the first packet
+  std::int64_t last_packet_ns_ = 0;          // host time; initially the time of the start
   std::vector<Scan> scans_;                  // received
   Status broken_;                            // the error that ended the stream
-  std::size_t handed_out_ = 0;               // of them
+  std::size_t handed_out_ = 0;               // number of scans_ already returned
   std::vector<char> buffer_;
 
-  std::vector<labjack::Counter> counters_;  // one an input; of an AIN not used
-  std::int64_t last_time_ns_ = 0;           // of the last scan handed out
-  bool reopened_ = false;                   // since then
+  std::vector<labjack::Counter> counters_;  // one for each input; unused for an AIN
+  std::int64_t last_time_ns_ = 0;           // of the last returned scan
+  bool reopened_ = false;                   // since the last returned scan
 };
 
 }  // namespace mdof::drivers::labjack_t7

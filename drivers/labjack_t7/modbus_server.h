@@ -1,4 +1,4 @@
-// The server side of Modbus TCP, as far as a T7 answers it: functions 03, 06 and 16. Pure.
+// Server side of Modbus TCP, limited to what a T7 supports: functions 03, 06 and 16. Pure.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ struct ModbusRequest {
   std::uint8_t function = 0;
   int address = 0, count = 0;         // of registers
   std::vector<std::uint16_t> values;  // to be written
-  bool well_formed = false;           // false: a count or length that cannot be
+  bool well_formed = false;           // false: impossible count or length
 };
 
-// Takes the first request off `bytes`; none: it is not complete yet. What is no Modbus TCP empties
-// `bytes`.
+// Removes the first request from `bytes`; nullopt: it is not complete yet. Clears `bytes` if they
+// are not Modbus TCP.
 std::optional<ModbusRequest> take_request(std::string& bytes);
 
 std::string read_reply(const ModbusRequest& request, const std::vector<std::uint16_t>& values);
-std::string write_reply(const ModbusRequest& request);  // of a well-formed one
+std::string write_reply(const ModbusRequest& request);  // request must be well-formed
 std::string exception_reply(const ModbusRequest& request, int code);
 
 }  // namespace mdof::drivers::labjack_t7

@@ -6,7 +6,7 @@
 namespace mdof::drivers::labjack_t7 {
 namespace {
 
-// LabJack's error codes that a stream or its configuration may meet (ljm_constants.json).
+// LabJack's error codes that concern streams and their configuration (ljm_constants.json).
 struct CodeText {
   int code;
   const char* text;

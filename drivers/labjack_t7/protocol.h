@@ -1,6 +1,6 @@
 // LabJack T7: registers (Modbus TCP, port 502) and the stream (TCP, port 702), bytes <-> values.
 // Sources: LabJack's Modbus map (ljm_constants.json) and T-Series Datasheet 3.1, 3.2, 3.2.4, 13.2,
-// 14. All numbers are big-endian, of a 32-bit value the more significant word comes first.
+// 14. All numbers are big-endian; the high word of a 32-bit value comes first.
 #pragma once
 
 #include <array>
@@ -17,26 +17,27 @@ namespace mdof::drivers::labjack_t7 {
 
 inline constexpr int kAins = 14;          // AIN0 ... AIN13
 inline constexpr double kCore_Hz = 40e6;  // of CORE_TIMER
-inline constexpr std::uint8_t kUnit = 1;  // of a request, and in a packet of the stream
+inline constexpr std::uint8_t kUnit = 1;  // unit id of requests and of stream packets
 
 struct Register {
   int address;
-  const char* name;  // LabJack's, without the number of the input
+  const char* name;  // LabJack's name, without the number of the input
 };
 constexpr Register operator+(Register first, int by) {
   return {first.address + by, first.name};
 }
 
-// 32 bits wide (two registers) unless said otherwise; an input n has its own at + 2n.
+// Registers are 32 bits wide (two addresses) unless stated otherwise; input n has address + 2n.
 namespace reg {
-// f32, volts; in a scan list 16 bits, raw.
+// f32, V; as a scan list entry 16 bits, raw.
 inline constexpr Register ain{0, "AIN"};
-// Count of a pair of lines, under the even one; in a scan list its lower word ...
+// Count of a pair of lines, at the even line. As a scan list entry it gives the lower word of the
+// count.
 inline constexpr Register dio_ef_read_a{3000, "DIO_EF_READ_A"};
-// ... and this entry, next in the list, the upper word of the same count.
+// As the next scan list entry it gives the upper word of the same count.
 inline constexpr Register capture_16{4899, "STREAM_DATA_CAPTURE_16"};
 
-inline constexpr Register stream_rate{4002, "STREAM_SCANRATE_HZ"};  // f32; reads as the true one
+inline constexpr Register stream_rate{4002, "STREAM_SCANRATE_HZ"};  // f32; returns the true rate
 inline constexpr Register stream_addresses{4004, "STREAM_NUM_ADDRESSES"};
 inline constexpr Register stream_samples{4006, "STREAM_SAMPLES_PER_PACKET"};
 inline constexpr Register stream_settling{4008, "STREAM_SETTLING_US"};  // f32
@@ -45,24 +46,24 @@ inline constexpr Register stream_buffer{4012, "STREAM_BUFFER_SIZE_BYTES"};
 inline constexpr Register stream_clock_source{4014, "STREAM_CLOCK_SOURCE"};
 inline constexpr Register stream_target{4016, "STREAM_AUTO_TARGET"};  // 1: client of port 702
 inline constexpr Register stream_data_type{4018, "STREAM_DATATYPE"};
-inline constexpr Register stream_scans{4020, "STREAM_NUM_SCANS"};  // 0: without end
-// CORE_TIMER of the first scan, written when that scan begins, one period after STREAM_ENABLE;
-// until then it is of the stream before. From firmware 1.0214 on.
+inline constexpr Register stream_scans{4020, "STREAM_NUM_SCANS"};  // 0: endless
+// CORE_TIMER at the first scan. The device writes it when that scan begins, one period after
+// STREAM_ENABLE; before that it holds the stamp of the previous stream. Firmware 1.0214 or later.
 inline constexpr Register stream_start_time{4026, "STREAM_START_TIME_STAMP"};
-// From firmware 1.026 on.
+// Firmware 1.026 or later.
 inline constexpr Register stream_no_recovery{4028, "STREAM_AUTORECOVER_DISABLE"};
 inline constexpr Register stream_scan_list{4100, "STREAM_SCANLIST_ADDRESS"};
 inline constexpr Register stream_enable{4990, "STREAM_ENABLE"};
 
-// Of one input: at + 2n, and, 16 bits wide, at + n.
-inline constexpr Register ain_range{40000, "AIN_RANGE"};                      // f32, volts
+// Registers of one input: at address + 2n; 16-bit registers at address + n.
+inline constexpr Register ain_range{40000, "AIN_RANGE"};                      // f32, V
 inline constexpr Register ain_negative_ch{41000, "AIN_NEGATIVE_CH"};          // u16
-inline constexpr Register ain_all_range{43900, "AIN_ALL_RANGE"};              // f32, volts
+inline constexpr Register ain_all_range{43900, "AIN_ALL_RANGE"};              // f32, V
 inline constexpr Register ain_all_negative_ch{43902, "AIN_ALL_NEGATIVE_CH"};  // u16
 inline constexpr Register dio_ef_enable{44000, "DIO_EF_ENABLE"};
 inline constexpr Register dio_ef_index{44100, "DIO_EF_INDEX"};
 
-inline constexpr Register last_error{55000, "LAST_ERR_DETAIL"};  // u16: why it was refused
+inline constexpr Register last_error{55000, "LAST_ERR_DETAIL"};  // u16: reason of the last refusal
 inline constexpr Register test{55100, "TEST"};
 inline constexpr Register product_id{60000, "PRODUCT_ID"};      // f32
 inline constexpr Register firmware{60004, "FIRMWARE_VERSION"};  // f32
@@ -77,8 +78,8 @@ inline constexpr Register flash_read{61812, "INTERNAL_FLASH_READ"};
 inline constexpr std::uint32_t kTestValue = 0x00112233;
 inline constexpr std::uint32_t kTestSwapped = 0x22330011;
 inline constexpr std::uint32_t kQuadrature = 10;
-inline constexpr std::array kQuadratureLines{0, 2, 6};  // the even ones of pairs that can count so
-inline constexpr std::uint32_t kHasWifi = 2;            // of HARDWARE_INSTALLED
+inline constexpr std::array kQuadratureLines{0, 2, 6};  // even lines of counter pairs
+inline constexpr std::uint32_t kHasWifi = 2;            // bit of HARDWARE_INSTALLED
 inline constexpr std::uint16_t kSingleEnded = 199;
 
 using Words = std::array<std::uint16_t, 2>;
@@ -87,48 +88,48 @@ Words words_of_float(float value);
 std::uint32_t u32_of(std::uint16_t high, std::uint16_t low);
 float float_of(std::uint16_t high, std::uint16_t low);
 
-// What an error code of LabJack's means, with the number; for an unknown one the number.
+// Text of a LabJack error code, with its number; only the number of an unknown code.
 std::string error_text(int code);
 
 // --- Volts ---------------------------------------------------------------------------------------
 
 using labjack::AinCalibration;
 inline constexpr std::array<double, 4> kRanges_v{10, 1, 0.1, 0.01};
-// Index into kRanges_v; none: the device has no such range.
+// Index in kRanges_v; nullopt: the device has no such range.
 std::optional<std::size_t> range_index(double range_v);
 
-// Flash: 13 numbers (26 registers) are read at a time; block i is at this address.
+// The flash is read in blocks of 13 numbers (26 registers). Returns the address of block i.
 inline constexpr int kFlashNumbers = 13;
 std::uint32_t flash_address(int block);
 
 // --- Stream --------------------------------------------------------------------------------------
 
 namespace status {
-inline constexpr int recovering = 2940;         // the buffer was full, scans are being dropped
-inline constexpr int recovered = 2941;          // `info` scans were; a scan of 0xFFFF marks where
-inline constexpr int scan_overlap = 2942;       // too fast
-inline constexpr int recovery_overflow = 2943;  // more than can be counted
+inline constexpr int recovering = 2940;    // the buffer was full; scans are being dropped
+inline constexpr int recovered = 2941;     // `info` scans were dropped; a scan of 0xFFFF is there
+inline constexpr int scan_overlap = 2942;  // rate too high
+inline constexpr int recovery_overflow = 2943;  // more scans were dropped than can be counted
 inline constexpr int burst_complete = 2944;
 inline constexpr int buffer_full = 2945;
 }  // namespace status
 
-inline constexpr std::size_t kMostSamples = 512;  // in a packet on TCP
+inline constexpr std::size_t kMostSamples = 512;  // in a TCP packet
 
 struct StreamPacket {
-  std::uint16_t transaction = 0;  // from 0, one more each packet
-  std::uint16_t backlog = 0;      // bytes left in the device
+  std::uint16_t transaction = 0;  // starts at 0, increases by 1
+  std::uint16_t backlog = 0;      // bytes remaining in the device
   std::uint16_t status = 0;
   std::uint16_t info = 0;
   std::vector<std::uint16_t> samples;
 };
 std::string encode(const StreamPacket& packet);
 
-// Cuts the bytes of port 702 into packets. Bytes may come in any portions.
+// Cuts the bytes of port 702 into packets. Bytes may arrive in any portions.
 class PacketReader {
  public:
   void append(std::string_view bytes);
-  // True: `packet` is the next one (its capacity is reused); false: it is not complete yet. Error:
-  // these bytes are no stream; nothing more can be had from it.
+  // Returns true if `packet` is the next packet (its capacity is reused); false: it is not complete
+  // yet. Error: the bytes are not a stream; the reader is then unusable.
   Result<bool> next(StreamPacket& packet);
 
  private:
@@ -140,12 +141,12 @@ class PacketReader {
 
 using labjack::Scan;
 
-// Puts packets on the time line of the device: counts scans, also those dropped by auto-recovery.
+// Numbers the scans of the packets, including scans that auto-recovery dropped.
 class PacketLine {
  public:
   explicit PacketLine(std::size_t words_per_scan) : words_(words_per_scan), line_(words_per_scan) {}
-  // Adds the packet's scans to `scans`. Error: packets are missing, the device stopped, or what was
-  // dropped is not known: start the stream anew.
+  // Appends the packet's scans to `scans`. Error: packets are missing, the device has stopped, or
+  // the position of dropped scans is unknown. The stream must then be started again.
   Status take(const StreamPacket& packet, std::vector<Scan>& scans);
 
  private:
@@ -153,7 +154,7 @@ class PacketLine {
 
   std::size_t words_;
   labjack::ScanSplitter line_;
-  std::uint16_t transaction_ = 0;  // expected
+  std::uint16_t transaction_ = 0;  // next transaction id
 };
 
 }  // namespace mdof::drivers::labjack_t7

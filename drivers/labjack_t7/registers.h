@@ -1,5 +1,4 @@
-// The registers of a T7 over Modbus TCP, 32 bits at a time, with LabJack's own words for what it
-// refuses.
+// The registers of a T7 over Modbus TCP, 32 bits at a time. Refusals carry LabJack's error text.
 #pragma once
 
 #include <chrono>
@@ -13,10 +12,10 @@
 
 namespace mdof::drivers::labjack_t7 {
 
-inline constexpr std::chrono::milliseconds kConnect{2000};  // to either port, at most
+inline constexpr std::chrono::milliseconds kConnect{2000};  // longest wait, for both ports
 
-// Thread-bound. Errors name the register; a refusal carries the text of LAST_ERR_DETAIL. After one
-// the connection may be of no more use.
+// Thread-bound. Errors name the register; a refusal contains the text of LAST_ERR_DETAIL. After an
+// error the connection may be unusable.
 class Registers {
  public:
   static Result<Registers> connect(const Endpoint& to);
@@ -27,7 +26,7 @@ class Registers {
   Status write(Register at, std::uint32_t value);
   Status write_f32(Register at, float value);
   Status write_u16(Register at, std::uint16_t value);
-  // Of the device, as it is connected; 0: not by IPv4.
+  // Address of the connected device; 0: the connection is not IPv4.
   std::uint32_t peer_ipv4() const { return peer_ipv4_; }
 
  private:

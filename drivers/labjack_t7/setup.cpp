@@ -10,8 +10,8 @@ namespace mdof::drivers::labjack_t7 {
 namespace {
 
 constexpr float kProduct = 7;
-constexpr std::uint32_t kBufferBytes = 32768;  // the most a T7 has; at 4 kHz x 7 half a second
-constexpr int kLines = 2;                      // of a quadrature pair
+constexpr std::uint32_t kBufferBytes = 32768;  // the maximum; 0.5 s at 4 kHz with 7 samples
+constexpr int kLines = 2;                      // lines of a quadrature pair
 constexpr double kStampFirmware = 1.0214, kRecoveryFirmware = 1.026;
 
 Status check_words(std::uint32_t test) {
@@ -30,7 +30,7 @@ Status check_product(float product) {
                   ", not 7, so this LabJack is not a T7");
 }
 
-// What older ones lack would be missed later, and in other words.
+// Without this check, old firmware would cause less clear errors later.
 Status check_firmware(float firmware) {
   const auto is_older = [&](double than) { return firmware < than - 1e-5; };
   const char* lacks =
@@ -42,7 +42,7 @@ Status check_firmware(float firmware) {
                   "; update the firmware with LabJack Kipling");
 }
 
-// A T7-Pro sends no stream by itself over WiFi.
+// A T7-Pro cannot stream over WiFi.
 Status check_wire(Registers& registers) {
   MDOF_TRY(const std::uint32_t installed, registers.u32(reg::hardware_installed));
   if ((installed & kHasWifi) == 0) return {};
@@ -71,7 +71,8 @@ Result<Identity> identify(Registers& registers, const Settings& settings) {
   return Identity{serial, firmware};
 }
 
-// Asked first: to stop what does not run is refused, and a refusal may cost the connection.
+// Reads STREAM_ENABLE first: the T7 refuses to stop a stream that does not run, and a refusal may
+// make the connection unusable.
 Status stop_stream(Registers& registers) {
   MDOF_TRY(const std::uint32_t running, registers.u32(reg::stream_enable));
   return running ? registers.write(reg::stream_enable, 0) : Status{};
@@ -113,7 +114,7 @@ Status set_up_ain(Registers& registers, const Input& input) {
 
 }  // namespace
 
-// First all alike, whatever another program has left, then what differs.
+// First resets all inputs, because another program may have changed them; then sets single inputs.
 Result<std::vector<AinCalibration>> set_up_ains(Registers& registers, const Settings& settings) {
   MDOF_CHECK(registers.write_u16(reg::ain_all_negative_ch, kSingleEnded));
   MDOF_CHECK(registers.write_f32(reg::ain_all_range, static_cast<float>(settings.range_v)));

@@ -1,4 +1,4 @@
-// Makes a T7 ready to stream. Each step is a few registers; the order is that of the T-Series
+// Prepares a T7 for streaming. Each step writes a few registers, in the order of the T-Series
 // Datasheet 3.2.4.
 #pragma once
 
@@ -15,21 +15,21 @@ struct Identity {
   std::uint32_t serial = 0;
   float firmware = 0;
 };
-// Errors: words swapped on the way, no T7, another serial number than `settings` asks for, firmware
-// too old to stream as is needed, connected by WiFi.
+// Errors: swapped words, not a T7, a serial number that differs from `settings`, firmware that is
+// too old for streaming, a connection by WiFi.
 Result<Identity> identify(Registers& registers, const Settings& settings);
 
-// Ends a stream that runs, of whoever's.
+// Ends a running stream, also that of another program.
 Status stop_stream(Registers& registers);
 
-// Range and negative channel of each input; gives the constants of each, in their order.
+// Sets range and negative channel of each input. Returns one set of constants for each input.
 Result<std::vector<AinCalibration>> set_up_ains(Registers& registers, const Settings& settings);
 
-// Lets the counter of `dio` and the line after it run. True: it was running and its count goes on;
-// false: it was started, from 0.
+// Starts the counter of `dio` and the next line. Returns true if the counter was running and keeps
+// its count; false if it was started from 0.
 Result<bool> start_counter(Registers& registers, int dio);
 
-// All but STREAM_ENABLE. Gives the true rate in Hz.
+// Writes all stream registers except STREAM_ENABLE. Returns the true rate in Hz.
 Result<double> set_up_stream(Registers& registers, const Settings& settings);
 
 }  // namespace mdof::drivers::labjack_t7

@@ -13,7 +13,7 @@ constexpr std::size_t kCommandPort = 0, kStreamPort = 1;
 constexpr int kIllegalFunction = 1, kIllegalAddress = 2, kIllegalValue = 3, kFailure = 4;
 constexpr double kMostSamples_Hz = 100'000;
 
-// First and last address of what can be written and read back.
+// First and last address of registers that can be written and read back.
 constexpr int kWritable[][2] = {{4002, 4015},   {4016, 4023},   {4028, 4029},   {4100, 4355},
                                 {4990, 4991},   {40000, 40027}, {41000, 41013}, {43900, 43905},
                                 {44000, 44045}, {44100, 44145}, {61810, 61811}};
@@ -22,7 +22,7 @@ bool writable(int address) {
                      [&](const auto& range) { return address >= range[0] && address <= range[1]; });
 }
 
-// All 32-bit registers start at an even address; of these 16-bit ones some lie among them.
+// 32-bit registers start at even addresses; these 16-bit registers lie between them.
 bool is_16_bit(int address) {
   const int negative = address - reg::ain_negative_ch.address;
   return (negative >= 0 && negative < kAins) || address == reg::ain_all_negative_ch.address ||
@@ -37,7 +37,7 @@ std::uint32_t flash_word(std::uint32_t address) {
   const std::uint32_t i = (address - flash_address(0)) / 4;
   if (i >= 4 * kRanges_v.size()) return bits(0);
   const AinCalibration c = SimulatedLabjackT7::calibration(i / 4);
-  const std::array numbers{c.positive_slope, c.negative_slope, c.centre, 0.0};  // the last: unused
+  const std::array numbers{c.positive_slope, c.negative_slope, c.centre, 0.0};  // last: unused
   return bits(static_cast<float>(numbers[i % 4]));
 }
 
@@ -48,7 +48,7 @@ SimulatedLabjackT7::SimulatedLabjackT7(Senses senses, const Options& options)
   restart();
 }
 
-// Near nominal, each range in its own way, so that a wrong block shows.
+// Near nominal and different for each range, so that tests detect a wrong block.
 AinCalibration SimulatedLabjackT7::calibration(std::size_t range) {
   AinCalibration c = labjack::nominal_calibration(range);
   const auto by = static_cast<double>(range);
@@ -129,7 +129,7 @@ std::optional<std::uint16_t> SimulatedLabjackT7::read(int address, std::int64_t 
   return words_of(*value)[low ? 1 : 0];
 }
 
-// What is not simply what was written.
+// Registers whose value is not simply the written value.
 std::optional<std::uint32_t> SimulatedLabjackT7::computed(int address, std::int64_t now_ns) const {
   const std::size_t ain = static_cast<std::size_t>(address) / 2;
   if (ain < kAins) return bits(static_cast<float>(senses_(ain, now_ns)));
@@ -162,7 +162,7 @@ void SimulatedLabjackT7::store(int address, Words words) {
   registers_[address + 1] = words[1];
 }
 
-// 0, or the code of an exception.
+// Returns 0 or an exception code.
 int SimulatedLabjackT7::write(const ModbusRequest& request, std::int64_t now_ns) {
   const int from = request.address, to = from + request.count;
   for (int a = from; a < to; ++a)
@@ -183,7 +183,7 @@ int SimulatedLabjackT7::write(const ModbusRequest& request, std::int64_t now_ns)
   return code ? refuse(code) : 0;
 }
 
-// What is written for all inputs is so for each.
+// A value written for all inputs is copied to each input.
 void SimulatedLabjackT7::spread(int address) {
   for (int n = 0; n < static_cast<int>(kAins); ++n) {
     if (address == reg::ain_all_range.address)
@@ -210,7 +210,7 @@ int SimulatedLabjackT7::check_stream() const {
   return 0;
 }
 
-// Written when the first scan begins: before, it is that of the stream before.
+// The stamp is written when the first scan begins; before that it is that of the previous stream.
 std::uint32_t SimulatedLabjackT7::start_stamp(std::int64_t now_ns) const {
   const bool begun = stream_ && now_ns >= stream_->start_ns && !options_.faults.stale_stamp;
   return begun ? core_at(stream_->start_ns) : last_stamp_;
@@ -227,7 +227,7 @@ int SimulatedLabjackT7::start_stream(std::int64_t now_ns) {
   Stream stream;
   const double rate = static_cast<double>(stored_f32(reg::stream_rate.address));
   stream.period_ns = 1e9 / rate / (1 + options_.clock_ppm * 1e-6);
-  stream.start_ns = now_ns + std::llround(stream.period_ns);  // one period after it was enabled
+  stream.start_ns = now_ns + std::llround(stream.period_ns);  // one period after STREAM_ENABLE
   const auto entries = static_cast<std::size_t>(stored(reg::stream_addresses.address));
   for (std::size_t i = 0; i < entries; ++i)
     stream.list.push_back(

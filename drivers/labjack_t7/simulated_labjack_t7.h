@@ -15,30 +15,29 @@
 
 namespace mdof::drivers::labjack_t7 {
 
-// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in volts, inputs 14, 15 and 16 the counts of DIO0,
-// DIO2 and DIO6 with the line after it. Inside a scan the entries of the list are taken 10 us
-// apart.
+// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in V; inputs 14, 15 and 16 are the counts of the pairs
+// that begin with DIO0, DIO2 and DIO6. Within a scan the entries of the list are taken 10 us apart.
 class SimulatedLabjackT7 final : public SimulatedDevice {
  public:
-  // What may go wrong, by the number of a packet of the stream; -1: never.
+  // Possible faults, given by the number of a stream packet; -1: never.
   struct Faults {
     bool swapped_words = false;  // a gateway that swaps the words of 32-bit values
     bool erased_flash = false;   // no calibration constants
-    bool stale_stamp = false;    // STREAM_START_TIME_STAMP stays that of the stream before
+    bool stale_stamp = false;    // STREAM_START_TIME_STAMP keeps that of the previous stream
     int refused = -1;            // a write to this register is refused ...
     int refused_code = 0;        // ... with this LabJack error in LAST_ERR_DETAIL
-    int recovery_at = -1;        // three packets say 2940, then 2941 reports `dropped` scans
+    int recovery_at = -1;  // three packets have status 2940, then 2941 reports `dropped` scans
     std::uint16_t dropped = 0;
-    bool unmarked = false;  // 2941 without its scan of 0xFFFF
+    bool unmarked = false;  // 2941 without a scan of 0xFFFF
     int stop_at = -1;       // this packet has `stop_status` and is the last
     int stop_status = status::scan_overlap;
     int skip_at = -1;         // this packet is not sent: a gap in the transaction ids
     int silent_at = -1;       // from this packet on nothing is sent
     int hang_up_at = -1;      // the connection breaks before this packet
-    bool no_capture = false;  // the upper word is of the count when it is read (no T7 does that)
+    bool no_capture = false;  // the upper word is read later than the lower (no T7 does that)
   };
   struct Options {
-    double clock_ppm = 0;  // its crystal, fast: > 0
+    double clock_ppm = 0;  // > 0: its clock is fast
     std::uint32_t core_start = 0;
     std::uint32_t serial = 470012345;
     float product = 7, firmware = 1.0304F;
@@ -57,19 +56,19 @@ class SimulatedLabjackT7 final : public SimulatedDevice {
                        std::int64_t now_ns) override;
   bool hangs_up(std::size_t port, int client) override;
 
-  // For tests: power off and on; faults from here on; its constants.
+  // For tests: a power cycle; faults from now on; the constants of the device.
   void restart();
   void set_faults(const Faults& faults) { options_.faults = faults; }
   static AinCalibration calibration(std::size_t range);
 
  private:
-  struct Stream {               // under way
+  struct Stream {               // a running stream
     std::int64_t start_ns = 0;  // of scan 0
     double period_ns = 0;
     std::vector<int> list;
     std::size_t scans_per_packet = 0;
     std::uint64_t next_scan = 0;
-    int packet = 0;  // next
+    int packet = 0;  // number of the next packet
     bool hangs_up = false;
   };
 
@@ -90,20 +89,21 @@ class SimulatedLabjackT7 final : public SimulatedDevice {
   StreamPacket packet_of(Stream& stream);
   void append_scan(StreamPacket& packet, const Stream& stream, std::uint64_t scan) const;
   std::uint16_t ain_code(std::size_t ain, std::int64_t t_ns) const;
-  static std::optional<int> counter_line(int address);  // of DIO_EF_READ_A of a pair
+  static std::optional<int> counter_line(int address);  // even line of a DIO_EF_READ_A
   std::uint32_t count_at(int line, std::int64_t t_ns) const;
   std::uint32_t core_at(std::int64_t t_ns) const;
 
   Senses senses_;
   Options options_;
   std::map<int, std::uint16_t> registers_;
-  std::map<int, std::string> requests_;  // of each client, not yet complete
+  std::map<int, std::string> requests_;  // incomplete requests, by client
   std::optional<int> reader_;            // client of the stream's port
   std::optional<Stream> stream_;
-  std::uint32_t last_stamp_ = 0;  // STREAM_START_TIME_STAMP of the stream before
+  std::uint32_t last_stamp_ = 0;  // STREAM_START_TIME_STAMP of the previous stream
 };
 
-// As a plan of mdof-simulate has it. Volts at AIN0 ..., and counts of the encoder at DIO0 and DIO1.
+// Makes the twin from a plan of mdof-simulate. Volts at AIN0 ..., counts of the encoder at the pair
+// that the key `counter` names (DIO0).
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_labjack_t7(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::labjack_t7

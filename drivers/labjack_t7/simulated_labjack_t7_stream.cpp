@@ -1,4 +1,4 @@
-// What the simulated T7 sends on port 702.
+// The data that the simulated T7 sends on port 702.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 namespace mdof::drivers::labjack_t7 {
 namespace {
 
-constexpr std::int64_t kSlot_ns = 10'000;  // from one entry of the scan list to the next
+constexpr std::int64_t kSlot_ns = 10'000;  // time between two entries of the scan list
 constexpr int kRecoveryPackets = 3;
 
 }  // namespace
@@ -83,7 +83,7 @@ std::uint16_t SimulatedLabjackT7::ain_code(std::size_t ain, std::int64_t t_ns) c
   return static_cast<std::uint16_t>(std::clamp(code, 0.0, 65535.0));
 }
 
-// Of lines that are not set to count, 0.
+// Returns 0 for lines that are not configured as a counter.
 std::uint32_t SimulatedLabjackT7::count_at(int line, std::int64_t t_ns) const {
   for (const int n : {line, line + 1})
     if (stored(reg::dio_ef_enable.address + 2 * n) != 1 ||

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint8_t kStart = 0xA8, kStop = 0xB0;
 constexpr int kProVersion = 12;
-// Of a channel's options: LabJackPython, src/u6.py, U6.streamConfig.
+// Bits of a channel's options: LabJackPython, src/u6.py, U6.streamConfig.
 constexpr int kGainBits = 4, kDifferential = 0x80;
 constexpr char kConfigureTimer0 = 0x2B, kConfigureTimer1 = 0x2D, kQuadrature = 8;
 
@@ -24,7 +24,7 @@ Status refused(const char* command, int code) {
   return io_error(std::string(command) + " was refused: " + error_text(code));
 }
 
-// The body of a reply whose first byte is an error code.
+// Returns the body of a reply whose first byte is an error code.
 Result<std::string> accepted(const char* name, std::string_view reply, std::uint8_t command,
                              std::size_t size) {
   MDOF_TRY(std::string body, extended_body(reply, command, size));
@@ -77,7 +77,7 @@ std::string read_calibration(int block) {
   return extended(kReadCalibration, std::string{'\0', static_cast<char>(block)});
 }
 
-// Fixed point: 32 bits of fraction, then 32 of a signed whole number.
+// Fixed point: 32 bits of fraction, then a signed integer of 32 bits.
 Result<CalibrationBlock> read_calibration_reply(std::string_view reply) {
   MDOF_TRY(const std::string body,
            accepted("the command that reads the calibration", reply, kReadCalibration, 40));
@@ -124,12 +124,12 @@ Status read_config_io(std::string_view reply, int timers, int pin_offset) {
 }
 
 std::string start_quadrature() {
-  const std::string mode{kQuadrature, 0, 0};  // with its value, 0
+  const std::string mode{kQuadrature, 0, 0};  // with value 0
   const std::string start(1, '\0'), even(1, '\0');
   return extended(kFeedback, start + kConfigureTimer0 + mode + kConfigureTimer1 + mode + even);
 }
 
-// Error, index of what failed, echo, and a byte for an even length.
+// Reply: error, index of the failed command, echo, and a byte for even length.
 Status read_feedback(std::string_view reply) {
   MDOF_TRY(const std::string body, accepted("Feedback", reply, kFeedback, 10));
   return {};

@@ -12,10 +12,10 @@ namespace {
 
 using namespace labjack_u6;
 
-// Two timers may be on any lines; here on the pairs that have terminals of their own.
+// The device allows two timers on any lines; the driver allows the pairs with their own terminals.
 constexpr int kCounterLines[] = {0, 2};
-constexpr double kMostSamples_Hz = 50'000;  // of all inputs
-// Its firmware serves each edge: LabJack's manual of the U3, of the same kind.
+constexpr double kMostSamples_Hz = 50'000;  // samples of all inputs together
+// The firmware handles each edge; the value is from LabJack's manual of the U3, which counts alike.
 constexpr double kMostCounts_per_s = 30'000;
 constexpr int kMostResolution = 8, kMostSettling_us = 2550;
 
@@ -27,7 +27,7 @@ void read_serial(TomlTable& table, Settings& settings) {
   if (serial > 0) settings.serial = std::to_string(serial);
 }
 
-// The gain of all inputs that have no range of their own.
+// The gain of all inputs without their own range.
 int read_gain(TomlTable& table) {
   const int gain = labjack::range_of(table.number("range_v", 10));
   if (gain < 0) table.reject("range_v", labjack::kRangesText);

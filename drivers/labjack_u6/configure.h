@@ -7,7 +7,7 @@
 
 namespace mdof::drivers {
 
-// Takes all keys and finishes the table. Errors name file, line and key.
+// Reads all keys and finishes the table. Errors name file, line and key.
 Result<labjack_u6::Settings> read_labjack_u6(TomlTable& table, const DriverContext& context);
 Result<DriverSpec> configure_labjack_u6(TomlTable& table, const DriverContext& context);
 

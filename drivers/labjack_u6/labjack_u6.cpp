@@ -25,7 +25,7 @@ Result<std::string> ask_serial(usb::Handle& handle) {
   return std::to_string(identity.serial);
 }
 
-// The counter's; none: nothing counts.
+// The input with the counter; nullptr: no counter.
 const Input* counter_of(const Settings& settings) {
   const auto at = std::find_if(settings.inputs.begin(), settings.inputs.end(), counts);
   return at == settings.inputs.end() ? nullptr : &*at;
@@ -90,7 +90,7 @@ Status LabjackU6::open() {
   return {};
 }
 
-// The stream is stopped so that the device is free for others; that this fails is no news.
+// Stops the stream, so that other programs can use the device. A failure is ignored.
 void LabjackU6::close() {
   if (handle_ && stream_ && broken_) (void)ask(*handle_, stream_stop());
   stream_.reset();
@@ -123,8 +123,8 @@ Status LabjackU6::start() {
   return read_stream_start(started);
 }
 
-// What another program has left the timers doing cannot be read: only a counter of this object's is
-// known to count.
+// The U6 does not report in which mode another program has left the timers, so only a counter that
+// this object started is known to count.
 Status LabjackU6::take_up_counter() {
   const Input* counter = counter_of(settings_);
   if (!counter) return {};
@@ -147,7 +147,7 @@ Result<ReadState> LabjackU6::read(SampleBlock& block, milliseconds timeout) {
   return ReadState::more;
 }
 
-// What came before an error is handed out first.
+// Scans received before an error are returned first.
 Status LabjackU6::next_scans(milliseconds timeout) {
   scans_.clear();
   handed_out_ = 0;
@@ -158,7 +158,7 @@ Status LabjackU6::next_scans(milliseconds timeout) {
   return scans_.empty() ? broken_ : Status{};
 }
 
-// Until scans have come, at most for `timeout`.
+// Returns when scans have arrived, or after `timeout`.
 Status LabjackU6::receive(milliseconds timeout) {
   const auto until = steady_clock::now() + timeout;
   const double packet_s =
@@ -172,7 +172,7 @@ Status LabjackU6::receive(milliseconds timeout) {
   return {};
 }
 
-// The packet that says so may wait in a transfer that it does not fill.
+// The packet with the reason may lie in a transfer that is not full.
 Status LabjackU6::why_silent() {
   stream_->cancel();
   if (const auto last = stream_->next(steady_clock::now())) MDOF_CHECK(take(*last));
@@ -194,7 +194,7 @@ Status LabjackU6::take(const usb::InStream::Chunk& chunk) {
   return taken;
 }
 
-// A block ends before lost scans; they stand before the next one.
+// A block ends before lost scans; the next block counts them as lost.
 void LabjackU6::fill_block(SampleBlock& block) {
   while (handed_out_ < scans_.size()) {
     const Scan& scan = scans_[handed_out_];
@@ -229,7 +229,7 @@ void LabjackU6::append(SampleBlock& block, const Scan& scan) {
   }
 }
 
-// Scans that would have come since the last one.
+// The number of scans that the device would have taken since the last returned scan.
 std::uint64_t LabjackU6::lost_while_closed(std::int64_t time_ns) const {
   const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * scan_clock_.rate_hz;
   return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));

@@ -1,9 +1,9 @@
 // LabJack U6 over USB: amplifier outputs and one quadrature encoder in one hardware-timed scan.
 //
-// The device stamps nothing: scan k was taken at the start + k / rate by its own clock, k counted
-// with the scans that it says it dropped. DeviceClock brings that to the host's clock from the
-// arrivals of transfers. Inside a scan the inputs follow each other by some 10 us; the scan has one
-// time.
+// The device sends no time stamps: scan k was taken at the start + k / rate of the device's clock,
+// where k includes the dropped scans that the device reports. DeviceClock converts this time to the
+// host's clock from the arrivals of transfers. Within a scan the inputs follow each other by about
+// 10 us; the scan has one time.
 #pragma once
 
 #include <array>
@@ -22,10 +22,10 @@ namespace mdof::drivers::labjack_u6 {
 
 // Thread-bound. Channels: Unit::volt of an AIN, Unit::um of the counter.
 //
-// The counter is started, from 0, when this object opens the device for the first time and left
-// running over a re-open. If it had stopped (the U6 was unplugged), or went faster than it can
-// count, its zero is lost: from then on its values are Quality::suspect, until it is
-// trusted again.
+// The counter is started from 0 when this object opens the device for the first time, and keeps
+// running when the device is opened again. If the counter had stopped (the U6 was unplugged) or the
+// count was faster than the limit, its zero is lost: its values are Quality::suspect until
+// trust_count().
 class LabjackU6 final : public Driver {
  public:
   explicit LabjackU6(Settings settings);
@@ -53,26 +53,26 @@ class LabjackU6 final : public Driver {
   Settings settings_;
   std::vector<Entry> list_;
   StreamClock scan_clock_;
-  std::size_t samples_;  // of a packet
+  std::size_t samples_;  // in a packet
   std::string description_;
   std::vector<Channel> channels_;
   std::optional<usb::Handle> handle_;
   std::optional<usb::InStream> stream_;
   PacketLine line_;
-  std::array<AinCalibration, 4> calibrations_;  // of the gains
+  std::array<AinCalibration, 4> calibrations_;  // by gain
 
-  DeviceClock clock_;               // ticks are scans
-  std::int64_t last_chunk_ns_ = 0;  // host time; at first of the start
+  DeviceClock clock_;               // a tick is a scan
+  std::int64_t last_chunk_ns_ = 0;  // host time; initially the time of the start
   std::vector<Scan> scans_;         // received
-  std::size_t handed_out_ = 0;      // of them
+  std::size_t handed_out_ = 0;      // number of scans_ already returned
   Status broken_;                   // the error that ended the stream
 
   Unwrap count_{32, true};
   bool counted_ = false;           // the counter was started by this object
   bool zero_lost_ = false;         // of the counter
   labjack::CountGuard guard_;      // of the counter
-  std::int64_t last_time_ns_ = 0;  // of the last scan handed out
-  bool reopened_ = false;          // since then
+  std::int64_t last_time_ns_ = 0;  // of the last returned scan
+  bool reopened_ = false;          // since the last returned scan
 };
 
 }  // namespace mdof::drivers::labjack_u6

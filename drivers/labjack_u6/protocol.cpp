@@ -23,7 +23,7 @@ unsigned sum(std::string_view bytes) {
   return total;
 }
 
-// The head of six bytes before `body`.
+// Adds the header of six bytes before `body`.
 std::string framed(std::uint8_t kind, std::size_t size, std::uint8_t command,
                    std::string_view body) {
   std::string rest{static_cast<char>(kind), static_cast<char>(size), static_cast<char>(command)};
@@ -50,7 +50,7 @@ Status check_order(std::uint8_t counter, std::uint8_t expected) {
 
 }  // namespace
 
-// The sum of the bytes, its quotient by 256 added to its remainder, twice.
+// Sum of the bytes; then twice the quotient by 256 plus the remainder.
 std::uint8_t checksum8(std::string_view bytes) {
   const unsigned total = sum(bytes);
   const unsigned once = total / 256 + total % 256;
@@ -66,7 +66,7 @@ std::string extended(std::uint8_t command, std::string_view body) {
 }
 
 std::string normal(std::uint8_t command) {
-  return std::string(2, static_cast<char>(command));  // nothing but its own checksum
+  return std::string(2, static_cast<char>(command));  // the command consists only of its checksum
 }
 
 Result<std::string> extended_body(std::string_view reply, std::uint8_t command, std::size_t size) {

@@ -21,11 +21,11 @@ inline constexpr std::uint16_t kVendor = 0x0CD5, kProduct = 6;
 inline constexpr std::uint8_t kCommandOut = 0x01, kReplyIn = 0x82, kStreamIn = 0x83;
 
 inline constexpr int kAins = 14;                  // AIN0 ... AIN13
-inline constexpr std::size_t kCommandBytes = 64;  // at most, as of a reply
+inline constexpr std::size_t kCommandBytes = 64;  // longest command or reply
 
-// Entries of a scan list besides 0 ... 13.
-inline constexpr int kTimer0 = 200;   // lower word of timer 0, + 1 for timer 1 ...
-inline constexpr int kCapture = 224;  // the upper word of the entry before it, of the same count
+// Scan list entries other than 0 ... 13.
+inline constexpr int kTimer0 = 200;   // lower word of timer 0; + 1 for timer 1 ...
+inline constexpr int kCapture = 224;  // upper word of the same count as the entry before
 
 enum Command : std::uint8_t {
   kFeedback = 0x00,
@@ -39,9 +39,9 @@ enum ErrorCode : std::uint8_t {
   kNotRunning = 52,
   kScanOverlap = 55,
   kRateInvalid = 58,
-  kRecovering = 59,        // the buffer was full, scans are being dropped
-  kRecovered = 60,         // so many were; a scan of 0xFFFF marks where
-  kRecoveryOverflow = 63,  // more than can be counted
+  kRecovering = 59,        // the buffer was full; scans are being dropped
+  kRecovered = 60,         // `dropped` scans are missing; a scan of 0xFFFF marks where
+  kRecoveryOverflow = 63,  // more scans were dropped than can be counted
 };
 std::string error_text(int code);
 
@@ -52,13 +52,13 @@ inline std::uint8_t byte_at(std::string_view bytes, std::size_t i) {
 }
 std::uint8_t checksum8(std::string_view bytes);
 std::uint16_t checksum16(std::string_view bytes);
-// `body` from byte 6 on, of even length.
+// `body`: the bytes from byte 6 on, an even number.
 std::string extended(std::uint8_t command, std::string_view body);
 std::string normal(std::uint8_t command);
-// What follows byte 5. Errors: B8 B8 (the device found a wrong checksum), too short, checksums,
-// another command.
+// Returns the bytes after byte 5. Errors: B8 B8 (the device detected a wrong checksum), a reply
+// that is too short, a wrong checksum, the reply to another command.
 Result<std::string> extended_body(std::string_view reply, std::uint8_t command, std::size_t size);
-// Error code of a reply of four bytes to a normal command. Errors as above.
+// Returns the error code of a four-byte reply to a normal command. Errors as above.
 Result<int> normal_error(std::string_view reply, std::uint8_t command);
 
 // --- Commands ------------------------------------------------------------------------------------
@@ -75,28 +75,28 @@ inline constexpr int kCalibrationBlocks = 10;
 using CalibrationBlock = std::array<double, 4>;
 std::string read_calibration(int block);
 Result<CalibrationBlock> read_calibration_reply(std::string_view reply);
-// Of a gain 0 ... 3, from blocks 0 ... 3 (slope and offset of each gain, then negative slope and
-// centre). Error: no possible constants.
+// Constants of a gain 0 ... 3 from blocks 0 ... 3 (slope and offset of each gain, then negative
+// slope and centre). Error: impossible constants.
 Result<AinCalibration> calibration_of(const std::array<CalibrationBlock, 4>& blocks,
                                       std::size_t gain);
 
 inline constexpr std::size_t kConfigIoReply = 16;  // bytes
 
 struct Timers {
-  int count = 0, pin_offset = 0;  // the first is on FIO(pin_offset)
+  int count = 0, pin_offset = 0;  // the first timer is on FIO(pin_offset)
 };
 std::string config_io_read();
 Result<Timers> read_timers(std::string_view reply);
 std::string config_io(int timers, int pin_offset);
 Status read_config_io(std::string_view reply, int timers, int pin_offset);
-// Timers 0 and 1, on the first two lines from the offset on, in mode 8: a quadrature counter,
-// started from 0.
+// Sets timers 0 and 1, on the first two lines from the offset on, to mode 8: a quadrature counter
+// that starts at 0.
 std::string start_quadrature();
 Status read_feedback(std::string_view reply);
 
-inline constexpr int kMostSamples = 25;  // of a packet
-// An entry of the scan list. Of a gain 0 ... 3, range 10 V / 10^gain; `differential`: an even AIN
-// against the one after it.
+inline constexpr int kMostSamples = 25;  // in a packet
+// An entry of the scan list. Gain 0 ... 3: range 10 V / 10^gain. `differential`: an even AIN
+// against the next AIN.
 struct Entry {
   int channel = 0;  // 0 ... 13, or kTimer0, kCapture
   int gain = 0;
@@ -111,16 +111,16 @@ struct StreamSetup {
 struct StreamClock {
   std::uint8_t config = 0;
   std::uint16_t interval = 0;
-  double rate_hz = 0;  // true
+  double rate_hz = 0;  // true rate
 };
-// The nearest rate; none: too slow or too fast for any divisor.
+// The nearest possible rate; nullopt: no divisor gives so low or so high a rate.
 std::optional<StreamClock> stream_clock(double rate_hz);
 std::string stream_config(const StreamSetup& setup, const StreamClock& clock);
 Status read_stream_config(std::string_view reply);
 std::string stream_start();
 Status read_stream_start(std::string_view reply);
 std::string stream_stop();
-Status read_stream_stop(std::string_view reply);  // that none was running is no error
+Status read_stream_stop(std::string_view reply);  // no error if no stream was running
 
 // --- Stream --------------------------------------------------------------------------------------
 
@@ -128,27 +128,27 @@ struct StreamData {
   std::uint8_t counter = 0;
   std::uint8_t error = 0;
   std::uint8_t backlog = 0;   // 256ths of the device's buffer
-  std::uint16_t dropped = 0;  // scans, where error is kRecovered
+  std::uint16_t dropped = 0;  // number of scans, if error is kRecovered
   std::vector<std::uint16_t> samples;
 };
 inline constexpr std::size_t stream_bytes(std::size_t samples) {
   return 14 + 2 * samples;
 }
 std::string encode(const StreamData& packet);
-// `bytes` is one packet. Errors: length, kind, checksums.
+// `bytes`: one packet. Errors: a wrong length, type or checksum.
 Result<StreamData> decode(std::string_view bytes, std::size_t samples);
 
-// Puts packets on the time line of the device.
+// Numbers the scans of the packets.
 class PacketLine {
  public:
   explicit PacketLine(std::size_t words_per_scan) : line_(words_per_scan) {}
-  // Adds the scans that end in it to `scans`. Error: packets are missing, the device stopped, or
-  // what was dropped is not known: start the stream anew.
+  // Appends the scans that end in the packet to `scans`. Error: packets are missing, the device has
+  // stopped, or the position of dropped scans is unknown. The stream must then be started again.
   Status take(const StreamData& packet, std::vector<Scan>& scans);
 
  private:
   labjack::ScanSplitter line_;
-  std::uint8_t counter_ = 0;  // expected
+  std::uint8_t counter_ = 0;  // next packet number
 };
 
 }  // namespace mdof::drivers::labjack_u6

@@ -1,4 +1,4 @@
-// Makes a U6 ready to stream; the order is that of LabJack's exodriver.
+// Prepares a U6 for streaming, in the order of LabJack's exodriver.
 #pragma once
 
 #include <array>
@@ -9,18 +9,19 @@
 
 namespace mdof::drivers::labjack_u6 {
 
-// Sends a command; the reply, of whatever is the device's next.
+// Sends a command and returns the next reply of the device, without checking to which command it
+// belongs.
 Result<std::string> ask(usb::Handle& handle, const std::string& command);
 
-// Throws away replies that nobody fetched before.
+// Discards earlier replies that were not read.
 Result<Identity> identify(usb::Handle& handle);
-// Ends a stream that runs, of whoever's, and throws away what is left of it.
+// Ends a running stream, also that of another program, and discards its remaining data.
 Status stop_stream(usb::Handle& handle);
-// Of the gains 0 ... 3.
+// Constants of the gains 0 ... 3.
 Result<std::array<AinCalibration, 4>> read_ain_calibrations(usb::Handle& handle);
-// Whether two timers still run on `fio` and the line after it, as start_counter() leaves them.
+// Whether two timers still run on `fio` and the next line, as start_counter() sets them.
 Result<bool> counter_runs(usb::Handle& handle, int fio);
-// From 0.
+// Starts the counter from 0.
 Status start_counter(usb::Handle& handle, int fio);
 
 }  // namespace mdof::drivers::labjack_u6

@@ -9,7 +9,7 @@
 namespace mdof::drivers::labjack_u6 {
 namespace {
 
-constexpr std::int64_t kSlot_ns = 10'000;  // from one entry of the scan list to the next
+constexpr std::int64_t kSlot_ns = 10'000;  // time between two entries of the scan list
 constexpr int kRecoveryPackets = 3;
 constexpr std::size_t kFewBytes = 20;
 constexpr int kBadConfiguration = 49;
@@ -39,7 +39,8 @@ void append_fixed(std::string& body, double value) {
   for (int i = 0; i < 8; ++i) body += static_cast<char>(fixed >> 8 * i & 0xFF);
 }
 
-// Blocks 0 and 1: slope, offset of gains 0 ... 3; 2 and 3: negative slope, centre; the rest zero.
+// Blocks 0 and 1: slope and offset of gains 0 ... 3; blocks 2 and 3: negative slope and centre; all
+// other numbers are 0.
 std::string constants(int block) {
   std::string body(2, '\0');
   for (std::size_t i = 0; i < 4; ++i) {
@@ -77,7 +78,7 @@ std::string SimulatedLabjackU6::says_who() const {
   return extended(kConfigU6, body);
 }
 
-// Near nominal, each gain in its own way, so that a wrong block shows.
+// Near nominal and different for each gain, so that tests detect a wrong block.
 AinCalibration SimulatedLabjackU6::calibration(std::size_t gain) {
   AinCalibration c = labjack::nominal_calibration(gain);
   c.positive_slope *= 1.001 + 0.0002 * static_cast<double>(gain);
@@ -113,7 +114,7 @@ usb::Reply SimulatedLabjackU6::in(std::uint8_t endpoint, std::size_t max_bytes,
   return reply;
 }
 
-// Whole packets until they fill the transfer; a short one ends it.
+// Returns whole packets until the transfer is full; a short packet ends the transfer.
 usb::Reply SimulatedLabjackU6::stream_in(std::size_t max_bytes) {
   std::size_t bytes = 0, packets = 0;
   bool ends = false;
@@ -169,7 +170,7 @@ std::string SimulatedLabjackU6::answer_extended(std::string_view command, std::i
       if (command[6] & 1) timers_ = command.substr(7, 3);
       return extended(kConfigIo, std::string(2, '\0') + timers_ + std::string(5, '\0'));
     case kFeedback:
-      zero_ = senses_(kCounterInput, now_ns);  // the one Feedback that there is starts the counter
+      zero_ = senses_(kCounterInput, now_ns);  // Feedback is used only to start the counter
       return extended(kFeedback, std::string(4, '\0'));
     case kStreamConfig:
       return configured(command);
@@ -226,8 +227,8 @@ void SimulatedLabjackU6::take_scans(std::int64_t now_ns) {
   }
 }
 
-// The scan of 0xFFFF takes the place of the dropped ones, between two samples of the list's end and
-// start.
+// The scan of 0xFFFF takes the place of the dropped scans. It lies between the end of one scan and
+// the beginning of the next.
 StreamData SimulatedLabjackU6::packet_of(Stream& s) {
   StreamData packet;
   packet.counter = static_cast<std::uint8_t>(s.packet);

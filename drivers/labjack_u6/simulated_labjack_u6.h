@@ -1,4 +1,4 @@
-// A simulated U6, as a program sees it on the USB.
+// A simulated U6: the USB side of the device.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,22 @@
 
 namespace mdof::drivers::labjack_u6 {
 
-// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in volts, input 14 the counts of timers 0 and 1.
-// Entries of a scan are 10 us apart.
+// Senses: inputs 0 ... 13 are AIN0 ... AIN13 in V, input 14 is the count of timers 0 and 1. Entries
+// of a scan are 10 us apart.
 class SimulatedLabjackU6 final : public usb::SimulatedUsb {
  public:
-  // What may go wrong; packets of the stream are counted from 0, -1: never.
+  // Possible faults; stream packets are counted from 0; -1: never.
   struct Faults {
-    bool deaf = false;            // every command is answered B8 B8
-    bool wrong_checksum = false;  // of every reply
+    bool deaf = false;            // every command gets the reply B8 B8
+    bool wrong_checksum = false;  // in every reply
     int recovery_at = -1;         // three packets have error 59, then 60 reports `dropped` scans
     std::uint16_t dropped = 0;
     int stop_at = -1;  // this packet has `stop_error` and is the last
     int stop_error = kScanOverlap;
     int skip_at = -1;        // this packet is not sent
-    int short_at = -1;       // of this packet only 20 bytes come
-    int unplug_at = -1;      // the device is gone before this packet
-    bool streaming = false;  // a stream runs already at the start (of a host that died)
+    int short_at = -1;       // only 20 bytes of this packet arrive
+    int unplug_at = -1;      // the device is unplugged before this packet
+    bool streaming = false;  // a stream already runs at the start (left by a host that crashed)
     bool nameless = false;   // no serial number in its descriptor
   };
   static constexpr std::size_t kCounterInput = kAins;
@@ -49,13 +49,13 @@ class SimulatedLabjackU6 final : public usb::SimulatedUsb {
   bool gone() const override { return gone_; }
 
   void set_faults(const Faults& faults) { faults_ = faults; }
-  void restart();  // power comes again: as new
+  void restart();  // power is switched on again: default state
   static AinCalibration calibration(std::size_t gain);
 
  private:
   struct Stream {
     std::int64_t start_ns = 0;      // of scan 0
-    std::uint64_t next_sample = 0;  // of all samples taken, dropped ones included
+    std::uint64_t next_sample = 0;  // number of samples taken, including dropped samples
     int packet = 0;
   };
   std::string answer(std::string_view command, std::int64_t now_ns);
@@ -73,19 +73,19 @@ class SimulatedLabjackU6 final : public usb::SimulatedUsb {
   Faults faults_;
   std::uint32_t serial_;
   usb::Identity identity_;
-  std::deque<std::string> replies_, packets_;  // that wait to be fetched
+  std::deque<std::string> replies_, packets_;  // not read yet
   double rate_hz_ = 0;
   std::size_t samples_per_packet_ = 25;
   std::vector<int> list_;
-  std::vector<std::uint8_t> options_;  // of the entries: gain, differential
+  std::vector<std::uint8_t> options_;  // gain and differential bit of the entries
   std::optional<Stream> stream_;
-  std::string timers_ = std::string(3, '\0');  // how many, counters, pin offset
+  std::string timers_ = std::string(3, '\0');  // number of timers, counters, pin offset
   double zero_ = 0;                            // of the counter
   std::uint32_t captured_ = 0;
   bool running_ = false, gone_ = false;
 };
 
-// As a plan of mdof-simulate has it. Volts at AIN0 ..., and counts of the encoder at timers 0
+// Makes the twin from a plan of mdof-simulate. Volts at AIN0 ..., counts of the encoder at timers 0
 // and 1.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_labjack_u6(SimulatedWiring& wiring);
 

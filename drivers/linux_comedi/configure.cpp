@@ -17,7 +17,7 @@ constexpr double kLeastRate_Hz = 0.25, kMostRate_Hz = 1e6;  // a period is 32 bi
 constexpr unsigned kMostNumber = 255;
 constexpr std::int64_t kMostSubdevice = 255;
 
-// What channels have of their own, or of the device.
+// Keys that a channel or the whole device may have.
 struct Wiring {
   double low_v = -10, high_v = 10;
   Reference reference = Reference::ground;

@@ -7,7 +7,7 @@
 
 namespace mdof::drivers {
 
-// Takes all keys and finishes the table. Errors name file, line and key.
+// Reads all keys and finishes the table. Errors name file, line and key.
 Result<linux_comedi::Settings> read_linux_comedi(TomlTable& table, const DriverContext& context);
 Result<DriverSpec> configure_linux_comedi(TomlTable& table, const DriverContext& context);
 

@@ -1,4 +1,4 @@
-// The real boards, by comedilib: the only file that knows it.
+// Real boards through comedilib. Only this file uses comedilib.
 #include <comedilib.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -17,7 +17,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// The numbers of board.h are comedi.h's.
+// The numbers of board.h must equal those of comedi.h.
 static_assert(kNone == TRIG_NONE && kNow == TRIG_NOW && kFollow == TRIG_FOLLOW);
 static_assert(kTimer == TRIG_TIMER && kCount == TRIG_COUNT && kWakeEachScan == TRIG_WAKE_EOS);
 static_assert(static_cast<int>(Reference::ground) == AREF_GROUND &&
@@ -29,7 +29,7 @@ static_assert(COMEDI_MAX_NUM_POLYNOMIAL_COEFFICIENTS ==
               std::tuple_size_v<decltype(Polynomial::coefficients)>);
 
 struct Freed {
-  void operator()(char* text) const { std::free(text); }  // NOLINT: comedilib's malloc
+  void operator()(char* text) const { std::free(text); }  // NOLINT: comedilib uses malloc
   void operator()(comedi_t* device) const { comedi_close(device); }
   void operator()(comedi_calibration_t* file) const { comedi_cleanup_calibration(file); }
 };
@@ -71,7 +71,7 @@ unsigned references_of(int flags) {
   return references;
 }
 
-// Valid while `inputs` is.
+// The result is valid as long as `inputs`.
 comedi_cmd raw_command(const Command& command, std::vector<unsigned>& inputs) {
   inputs.clear();
   for (const BoardInput& input : command.inputs)
@@ -153,7 +153,7 @@ class LibraryBoard final : public Board {
                       const std::vector<BoardInput>& inputs);
 
   Device device_;
-  unsigned subdevice_ = 0;  // that has the command
+  unsigned subdevice_ = 0;  // subdevice that executes the command
 };
 
 std::vector<Subdevice> LibraryBoard::subdevices() {
@@ -186,8 +186,8 @@ std::vector<Range> LibraryBoard::ranges(unsigned subdevice, unsigned channel) {
   return all;
 }
 
-// comedi_apply_parsed_calibration also refuses a file of another board, which
-// comedi_get_softcal_converter does not.
+// Compares driver and board with the file, because comedi_get_softcal_converter accepts the file of
+// another board (comedi_apply_parsed_calibration does not).
 Calibration LibraryBoard::calibrate(unsigned subdevice, const std::vector<BoardInput>& inputs) {
   Calibration calibration;
   const std::unique_ptr<char, Freed> path(comedi_get_default_calibration_path(device_.get()));
@@ -256,15 +256,15 @@ Status LibraryBoard::start(const Command& command) {
   return {};
 }
 
-// A board that is gone is never readable, and is found by reading (comedi_poll and comedi_read of
-// the kernel's comedi_fops.c).
+// A board that is gone never becomes readable; only read() reports it (comedi_poll and comedi_read
+// of the kernel's comedi_fops.c).
 Result<Received> LibraryBoard::receive(std::span<char> into, milliseconds timeout) {
   const int fd = comedi_fileno(device_.get());
   pollfd ready{fd, POLLIN, 0};
   const auto longest = milliseconds(std::numeric_limits<int>::max());
   const int woken = ::poll(&ready, 1, static_cast<int>(std::min(timeout, longest).count()));
-  // Nothing has come: a board that keeps samples until its memory is half full is asked to give
-  // them; not every one can.
+  // No data: a board may keep samples until its FIFO is half full, so ask it for them. Not every
+  // board supports this.
   if (woken == 0) (void)comedi_poll(device_.get(), subdevice_);
   const ssize_t bytes = ::read(fd, into.data(), into.size());
   if (bytes > 0) return Received{static_cast<std::size_t>(bytes), StreamState::runs};

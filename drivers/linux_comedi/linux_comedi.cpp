@@ -16,7 +16,7 @@ using std::chrono::steady_clock;
 
 constexpr std::size_t kBuffer = 65536;
 constexpr double kSilence_s = 2;
-constexpr double kBoardKeeps = 1024;  // samples: half of a board's FIFO, which then gives them
+constexpr double kBoardKeeps = 1024;  // samples: a board may keep half of its FIFO
 
 milliseconds left_until(steady_clock::time_point until) {
   return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(until - steady_clock::now()));
@@ -78,7 +78,7 @@ Status LinuxComedi::start() {
   return {};
 }
 
-// An error comes alone: what came before it has been given out.
+// An error is returned after all scans before it.
 Result<ReadState> LinuxComedi::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
   if (!board_) return io_error(place() + " is not open; call open() before read()");
@@ -91,7 +91,7 @@ Result<ReadState> LinuxComedi::read(SampleBlock& block, milliseconds timeout) {
   return ReadState::more;
 }
 
-// Waits for scans, at most until `until`.
+// Waits for scans until `until` at most.
 Status LinuxComedi::receive(Time until) {
   do {
     MDOF_TRY(const Received received, board_->receive(buffer_, left_until(until)));
@@ -146,7 +146,7 @@ void LinuxComedi::append(SampleBlock& block, std::size_t scan) {
   }
 }
 
-// Scans that would have come since the last one.
+// The number of scans that the board would have taken since the last returned scan.
 std::uint64_t LinuxComedi::lost_while_closed(std::int64_t time_ns) const {
   const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
   return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));

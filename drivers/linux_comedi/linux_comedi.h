@@ -1,10 +1,11 @@
-// Amplifier outputs at a board that Linux Comedi drives, by comedilib: up to all its analogue
-// inputs in one hardware-timed scan.
+// Amplifier outputs at a board with a Linux Comedi driver, through comedilib: up to all its
+// analogue inputs in one hardware-timed scan.
 //
-// Comedi neither stamps nor counts scans: they are counted here from the start of the command, and
-// DeviceClock brings scan k, taken at the start + k / rate by the board's clock, to the host's from
-// the arrivals. When a buffer runs over the kernel ends the command, and what came before it is
-// whole; the error begins a new one.
+// Comedi neither stamps nor counts scans. The driver counts them from the start of the command:
+// scan k was taken at the start + k / rate of the board's clock. DeviceClock converts this time to
+// the host's clock from the arrivals. If a buffer overruns, the kernel ends the command; all
+// earlier data are valid. The error makes the caller open the driver again, which starts a new
+// command.
 #pragma once
 
 #include <cstdint>
@@ -45,17 +46,17 @@ class LinuxComedi final : public Driver {
   std::vector<Channel> channels_;
   std::unique_ptr<Board> board_;
   Setup setup_;
-  double rate_hz_;     // true
-  DeviceClock clock_;  // ticks are scans
+  double rate_hz_;     // true rate
+  DeviceClock clock_;  // a tick is a scan
   CodeSplitter line_;
   std::vector<char> buffer_;
-  std::vector<std::uint32_t> codes_;  // of scans received and not yet given out
-  std::uint64_t first_ = 0;           // the scan that codes_ begins with, since the start
-  std::int64_t received_ns_ = 0;      // the newest; at first of the start
+  std::vector<std::uint32_t> codes_;  // of scans received but not yet returned
+  std::uint64_t first_ = 0;           // number of the first scan in codes_ since the start
+  std::int64_t received_ns_ = 0;      // newest arrival; initially the time of the start
   Status broken_;                     // the error that ended the stream
 
-  std::int64_t last_time_ns_ = 0;  // of the last scan given out
-  bool reopened_ = false;          // since then
+  std::int64_t last_time_ns_ = 0;  // of the last returned scan
+  bool reopened_ = false;          // since the last returned scan
 };
 
 }  // namespace mdof::drivers::linux_comedi

@@ -1,4 +1,4 @@
-// What a Comedi board is configured to do: the keys of its table, checked.
+// Settings of a Comedi board: the checked keys of its table.
 #pragma once
 
 #include <optional>
@@ -21,12 +21,12 @@ struct InputSetting {
 struct Settings {
   std::string name;  // of the device
   std::string device = "/dev/comedi0";
-  std::string board;                  // what its name must be; "": any
-  std::optional<unsigned> subdevice;  // none: the first with analogue inputs that streams
+  std::string board;                  // required name of the board; "": any
+  std::optional<unsigned> subdevice;  // nullopt: the first that streams analogue inputs
   double rate_hz = 1000;
-  std::optional<double> convert_us;  // from input to input of a scan
+  std::optional<double> convert_us;  // time from input to input of a scan
   std::vector<InputSetting> inputs;
-  EncoderOrigin encoder = {};  // where an input gives its volts
+  EncoderOrigin encoder = {};  // if an input is the encoder, in volts
   BoardOpener open = open_board;
 };
 

@@ -7,15 +7,15 @@
 namespace mdof::drivers::linux_comedi {
 namespace {
 
-constexpr double kRateOff = 0.01;  // of the rate asked for
+constexpr double kRateOff = 0.01;  // relative to the requested rate
 constexpr const char* kMadeUp = "comedi_test";
-constexpr int kTests = 4;  // a first adjusts, others adjust to that
+constexpr int kTests = 4;  // the first test changes arguments, the next test them again
 
 std::string channel_text(unsigned channel) {
   return "CH" + std::to_string(channel);
 }
 
-// The subdevice itself, and where it is.
+// Returns the number of the subdevice.
 Result<unsigned> find_subdevice(const std::vector<Subdevice>& all, const Settings& settings) {
   const auto fits = [](const Subdevice& one) { return one.analogue_input && one.streams; };
   std::string known;
@@ -59,13 +59,13 @@ Result<BoardInput> board_input(Board& board, unsigned subdevice, const Subdevice
                    text_of({input.low_v, input.high_v}) + "; range_v can be" + known);
 }
 
-// What the board cannot do exactly it does as near as it can, and says so.
+// Uses the nearest values that the board supports. test() changes the command accordingly.
 Status make_fit(Board& board, Command& command) {
   int failed = 0;
   for (int i = 0; i < kTests; ++i) {
     MDOF_TRY(failed, board.test(command));
     if (failed == 0) return {};
-    if (failed != 3 && failed != 4) break;  // 3 and 4: it has changed what did not fit
+    if (failed != 3 && failed != 4) break;  // with 3 and 4 the board has changed the arguments
   }
   const std::string inputs =
       failed == 5 ? "; the board cannot scan these inputs together with these ranges and references"
@@ -88,7 +88,7 @@ Notice uncalibrated(const std::string& why) {
   return notice(NoticeCode::board_not_calibrated, "", {{"reason", why}});
 }
 
-// The conversions by range, or by what the file has for each.
+// Conversions from the calibration file if it is used, otherwise from the ranges.
 Status convert(Board& board, const Subdevice& has, Setup& setup) {
   const Command& command = setup.command;
   const Calibration calibration = board.calibrate(command.subdevice, command.inputs);

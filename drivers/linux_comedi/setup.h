@@ -1,4 +1,4 @@
-// From the settings to a command that a board takes, and to volts of its codes.
+// Makes a command for the board from the settings, and the conversion of its codes to volts.
 #pragma once
 
 #include <string>
@@ -20,12 +20,13 @@ struct Setup {
   Command command;
   bool long_samples = false;
   std::vector<Conversion> conversions;  // [input]
-  double buffer_s = 0;                  // that the kernel's buffer holds
+  double buffer_s = 0;                  // duration that the kernel's buffer holds
   std::string description;
   Notices notices;
 };
 
-// Errors: the board is another, or has not what the settings ask for, with what it has.
+// Errors: another board, or a board without something that the settings need; the message lists
+// what the board has.
 Result<Setup> set_up(Board& board, const Settings& settings);
 
 }  // namespace mdof::drivers::linux_comedi

@@ -12,14 +12,14 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr std::int64_t kSlow_ns = 2'000'000;  // a read that took longer was held up
+constexpr std::int64_t kSlow_ns = 2'000'000;  // a longer read was delayed
 
 struct Count {
   SysfsAttribute file;
   CountUnwrap unwrap;
   double um_per_count;
   std::optional<Quad8Mark> mark = std::nullopt;
-  IndexMark::State state = IndexMark::State::off;  // of `mark`
+  IndexMark::State state = IndexMark::State::off;  // state of `mark`
 };
 
 Result<std::int64_t> counts_now(Count& count) {
@@ -31,7 +31,8 @@ Result<std::int64_t> counts_now(Count& count) {
                   "changed the settings of the counter");
 }
 
-// The reading with which the mark turns out to be passed has no place yet; the next ones have.
+// The position is missing for the reading at which the mark counts as passed; later readings are
+// valid.
 Result<SysfsReading> read_marked(Count& count, std::int64_t counts) {
   using State = IndexMark::State;
   const State before = count.state;

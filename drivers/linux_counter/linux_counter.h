@@ -1,4 +1,4 @@
-// Encoders behind the Linux counter subsystem, polled through sysfs.
+// Encoders at counters of the Linux counter subsystem, polled through sysfs.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@ namespace mdof::drivers {
 struct LinuxCounterOptions {
   std::string sysfs_root = "/sys";
   std::string device = "counter0";
-  std::string chip;           // what its `name` must say; empty: anything
-  std::string function;       // that each count must have; empty: any
-  std::uint64_t ceiling = 0;  // where the device has no such file
+  std::string chip;           // required contents of its file `name`; empty: any
+  std::string function;       // required of each count; empty: any
+  std::uint64_t ceiling = 0;  // used if the device has no such file
   double rate_hz = 500;
   std::vector<ChannelInput> channels;  // input "count0" ...
-  SysfsRead read = sysfs_pread();      // of the counts
+  SysfsRead read = sysfs_pread();      // reads the counts
 };
 
-// Values are µm: counts · um_per_count.
+// Values are in µm: counts · um_per_count.
 std::unique_ptr<SysfsPoller> make_linux_counter(const std::string& name,
                                                 const LinuxCounterOptions& options);
 

@@ -7,7 +7,7 @@ namespace mdof::drivers {
 namespace {
 
 constexpr std::uint64_t kCeiling = 0xFFFFFF;  // LS7267_CNTR_MAX of 104-quad-8.c
-constexpr int kFirstIndexSignal = 16;         // of quad8_signals: that of count0
+constexpr int kFirstIndexSignal = 16;         // index signal of count0 in quad8_signals
 
 }  // namespace
 
@@ -36,7 +36,8 @@ Status Quad8Mark::enable(bool on) const {
   return write_sysfs(path_ + "/preset_enable", on ? "1" : "0");
 }
 
-// Off while it is read and set: else it could load the value of before.
+// Disabled while the count is read and the preset is set; otherwise the counter could load the old
+// preset.
 Status Quad8Mark::arm() {
   MDOF_CHECK(enable(false));
   MDOF_TRY(const std::int64_t count, read_());

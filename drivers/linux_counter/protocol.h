@@ -10,13 +10,14 @@
 
 namespace mdof::drivers {
 
-// A count from 0 to `ceiling` that wraps, and moves by less than half of that between two readings.
-// The first one stands for itself, as a signed number: just below the wrap is just below 0. Pure.
+// Unwraps a count from 0 to `ceiling` that moves by less than half of this range between two
+// readings. The first reading is taken as a signed number: just below the ceiling means just below
+// 0. Pure.
 class CountUnwrap {
  public:
-  // At least 1; 2^64 - 1 is as good as any.
+  // `ceiling` is at least 1; 2^64 - 1 is allowed.
   explicit CountUnwrap(std::uint64_t ceiling) : ceiling_(ceiling) {}
-  // Nothing: beyond the ceiling, which no true count is.
+  // nullopt: `raw` is above the ceiling, so it is not a count.
   std::optional<std::int64_t> operator()(std::uint64_t raw);
 
  private:
@@ -25,17 +26,17 @@ class CountUnwrap {
   std::int64_t total_ = 0;
 };
 
-// The error that a file of the device has to be set up.
+// Error: a file of the device must be set to `value`.
 tl::unexpected<Error> to_be_written(const std::string& file, const std::string& why,
                                     const std::string& value);
 
-// What the files beside `count` say; absent ones are nothing.
+// Contents of the files beside `count`; nullopt: the file does not exist.
 struct CountFiles {
   std::optional<std::string> function, count_mode, enable, ceiling, floor;
 };
-// The ceiling of a count that is fit for a position. Errors say what to write to which file: it is
-// paused, it stops at its limits, `function` is not as wanted (empty: any), its ceiling is not
-// known. `ceiling`: from the configuration, 0: not given. `path`: of the count's folder.
+// Returns the ceiling of a count that can give positions. Errors state which file needs which text:
+// the count is paused, it stops at its limits, `function` is not the required one (empty: any), its
+// ceiling is unknown. `ceiling`: from the configuration; 0: not given. `path`: folder of the count.
 Result<std::uint64_t> check_count(const CountFiles& files, const std::string& path,
                                   const std::string& function, std::uint64_t ceiling);
 

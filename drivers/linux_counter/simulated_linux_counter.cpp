@@ -28,7 +28,7 @@ Result<std::unique_ptr<SimulatedLinuxCounter>> SimulatedLinuxCounter::make(Sense
 
 void SimulatedLinuxCounter::turn(std::int64_t now_ns) {
   const auto count = std::llround(senses_(0, now_ns));
-  // A folder that has been removed is a device that has gone.
+  // A removed folder simulates a device that is gone, so errors are ignored.
   (void)tree_.set("count0/count", std::to_string(static_cast<std::uint32_t>(count)));
 }
 

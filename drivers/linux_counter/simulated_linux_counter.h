@@ -1,4 +1,4 @@
-// A simulated counter of the Linux counter subsystem: its files in sysfs.
+// A simulated counter of the Linux counter subsystem: its sysfs files.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@
 
 namespace mdof::drivers {
 
-// sysfs_root/bus/counter/devices/counter0 with count0, at 0: quadrature x4, `ceiling`.
+// Makes sysfs_root/bus/counter/devices/counter0 with count0: value 0, quadrature x4, `ceiling`.
 Result<SimulatedTree> make_counter_tree(const std::filesystem::path& sysfs_root,
                                         std::uint64_t ceiling);
 
-// Senses: input 0, counts. They are written by turn().
+// Senses: input 0, counts. turn() writes them to the files.
 class SimulatedLinuxCounter final : public SimulatedDevice {
  public:
   struct Options {
@@ -33,7 +33,7 @@ class SimulatedLinuxCounter final : public SimulatedDevice {
   SimulatedTree tree_;
 };
 
-// As a plan of mdof-simulate has it. Counts of the encoder, or of the channel that is given.
+// Makes the twin from a plan of mdof-simulate. Counts of the given channel; default: the encoder.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_linux_counter(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

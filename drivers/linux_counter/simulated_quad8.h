@@ -1,4 +1,4 @@
-// A channel of a 104-QUAD-8 as it looks in sysfs, with an encoder at it that has a reference mark.
+// The sysfs files of a 104-QUAD-8 channel whose encoder has a reference mark.
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,16 @@
 
 namespace mdof::drivers {
 
-// sysfs_root/bus/counter/devices/counter0 with count0: what its driver in the kernel has, after the
-// udev rule that drivers/README.md gives.
+// The folder sysfs_root/bus/counter/devices/counter0 with count0: the files of the kernel's driver,
+// with the rights that the udev rule gives (drivers/README.md).
 class SimulatedQuad8 {
  public:
-  // The mark is at `mark` counts from where the counter was switched on.
+  // `mark`: position of the mark, counts from the position at which the counter was switched on.
   static Result<SimulatedQuad8> make(const std::filesystem::path& sysfs_root, std::int64_t mark);
 
-  // The axis goes to `position`, in counts from where the counter was switched on.
+  // Moves the axis to `position`, counts from the position at which the counter was switched on.
   Status move_to(std::int64_t position);
-  // The counter begins at 0 where the axis stands.
+  // The counter starts again at 0, at the present position.
   Status lose_power();
   const SimulatedTree& tree() const { return tree_; }
 

@@ -16,7 +16,7 @@ std::string folder_of(const LinuxIioOptions& options) {
   return options.sysfs_root + "/bus/iio/devices/" + options.device;
 }
 
-// The unit of a capacitance is what the kernel's driver makes it, so only this driver is taken.
+// The kernel's driver determines the unit of a capacitance, so other converters are refused.
 Result<std::string> check_chip(const std::string& folder) {
   MDOF_TRY(const auto chip, read_sysfs(folder + "/name"));
   if (!chip)
@@ -57,7 +57,7 @@ Status set_sampling(const LinuxIioOptions& options, const std::string& folder) {
                    "; lower rate_hz or raise sampling_hz");
 }
 
-// Counts that the converter's own capacitors take off: one at each of its two inputs.
+// Counts that the converter's capacitors subtract; each of its two inputs has one capacitor.
 Result<std::int64_t> read_capdac(const std::string& folder, const std::string& input) {
   const std::string own = input.substr(0, input.find('-'));
   const std::string other = own == "capacitance0" ? "-capacitance2" : "-capacitance3";

@@ -6,7 +6,7 @@
 namespace mdof::drivers {
 namespace {
 
-// CODATA 2022: 8.8541878188e-12 F/m; 1 pF/m · mm² / pF is 1 µm.
+// CODATA 2022: 8.8541878188e-12 F/m; 1 (pF/m) · mm² / pF = 1 µm.
 constexpr double kEps0_pF_per_m = 8.8541878188;
 
 SysfsReading from_table(const std::vector<std::array<double, 2>>& table, double pF) {

@@ -1,4 +1,4 @@
-// A simulated AD7746 behind Linux' industrial I/O: its files in sysfs.
+// A simulated AD7746 of Linux industrial I/O: its sysfs files.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,17 @@
 
 namespace mdof::drivers {
 
-// sysfs_root/bus/iio/devices/iio:device0, an AD7746 with nothing at its inputs, 9 Hz.
+// Makes sysfs_root/bus/iio/devices/iio:device0: an AD7746 without probes, 9 Hz.
 Result<SimulatedTree> make_ad7746_tree(const std::filesystem::path& sysfs_root);
 
-// Senses: inputs 0 and 1, gaps in µm before guarded electrodes. Capacitances are written by turn().
+// Senses: inputs 0 and 1, gaps in µm in front of guarded electrodes. turn() writes the capacitances
+// to the files.
 class SimulatedLinuxIio final : public SimulatedDevice {
  public:
   struct Options {
     std::filesystem::path sysfs_root;
     double area_mm2 = 0;     // of the electrodes
-    std::size_t inputs = 0;  // that have a probe
+    std::size_t inputs = 0;  // number of inputs with a probe
   };
   // Error: the folder cannot be written.
   static Result<std::unique_ptr<SimulatedLinuxIio>> make(Senses senses, const Options& options);
@@ -35,7 +36,7 @@ class SimulatedLinuxIio final : public SimulatedDevice {
   Options options_;
 };
 
-// As a plan of mdof-simulate has it. Gaps in µm before electrodes of area_mm2.
+// Makes the twin from a plan of mdof-simulate. Gaps in µm in front of electrodes of area_mm2.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_linux_iio(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

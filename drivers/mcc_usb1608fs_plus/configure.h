@@ -7,7 +7,7 @@
 
 namespace mdof::drivers {
 
-// Takes all keys and finishes the table. Errors name file, line and key.
+// Reads all keys and finishes the table. Errors name file, line and key.
 Result<mcc_usb1608fs_plus::Settings> read_mcc_usb1608fs_plus(TomlTable& table,
                                                              const DriverContext& context);
 Result<DriverSpec> configure_mcc_usb1608fs_plus(TomlTable& table, const DriverContext& context);

@@ -17,7 +17,7 @@ constexpr milliseconds kReply{500}, kQuiet{20};
 constexpr milliseconds kStatusEvery{100};
 constexpr double kSilence_s = 2;
 
-// Which word of a scan each channel is: the device sends them by number.
+// Index of each channel in a scan; the device sends channels by number.
 std::vector<std::size_t> words_of(const std::vector<Input>& inputs) {
   std::vector<std::size_t> words;
   const unsigned mask = mask_of(inputs);
@@ -67,7 +67,7 @@ Status MccUsb1608fsPlus::open() {
   return {};
 }
 
-// The scan is stopped so that the device is free for others; that this fails is no news.
+// Stops the scan, so that other programs can use the device. A failure is ignored.
 void MccUsb1608fsPlus::close() {
   if (handle_ && stream_) (void)handle_->vendor_out(kScanStop, 0, 0, "", kReply);
   stream_.reset();
@@ -95,7 +95,7 @@ Status MccUsb1608fsPlus::start() {
   return {};
 }
 
-// Of whoever's; and throws away what is left of it.
+// Stops a running scan, also that of another program, and discards its remaining data.
 Status MccUsb1608fsPlus::stop_scan() {
   MDOF_CHECK(handle_->vendor_out(kScanStop, 0, 0, "", kReply));
   MDOF_CHECK(handle_->vendor_out(kClearFifo, 0, 0, "", kReply));
@@ -124,7 +124,7 @@ Result<ReadState> MccUsb1608fsPlus::read(SampleBlock& block, milliseconds timeou
   return ReadState::more;
 }
 
-// Until there are sound scans, at most until then.
+// Returns when confirmed scans have arrived, or at `until`.
 Status MccUsb1608fsPlus::receive(Time until) {
   do {
     MDOF_CHECK(take_chunk(std::min(until, next_status_)));
@@ -182,7 +182,7 @@ void MccUsb1608fsPlus::fill_block(SampleBlock& block) {
   first_ += std::exchange(sound_, 0);
 }
 
-// Scans that would have come since the last one.
+// The number of scans that the device would have taken since the last returned scan.
 std::uint64_t MccUsb1608fsPlus::lost_while_closed(std::int64_t time_ns) const {
   const double scans = static_cast<double>(time_ns - last_time_ns_) * 1e-9 * rate_hz_;
   return static_cast<std::uint64_t>(std::max(0.0, std::round(scans) - 1));

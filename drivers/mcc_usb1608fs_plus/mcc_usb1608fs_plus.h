@@ -1,12 +1,12 @@
-// Measurement Computing USB-1608FS-Plus over USB: up to eight amplifier outputs, all sampled at the
+// Measurement Computing USB-1608FS-Plus over USB: up to eight amplifier outputs, sampled at the
 // same instant.
 //
-// The device neither stamps nor counts its scans: they are counted here, and DeviceClock brings
-// scan k, taken at the start + k / rate by its clock, to the host's from the arrivals of transfers.
-// That count is right only while no scan is missing. When the device's FIFO runs over it says so in
-// its status alone, and not where. So scans are given out only after a status, asked for later than
-// they came, says that there was no overrun; those behind it are thrown away and the stream is
-// begun anew.
+// The device neither stamps nor counts its scans. The driver counts them: scan k was taken at the
+// start + k / rate of the device's clock. DeviceClock converts this time to the host's clock from
+// the arrivals of transfers. The count is right only while no scan is missing. If the FIFO of the
+// device overruns, only its status reports this, without the position. Therefore scans are returned
+// only after a status that was requested after their arrival reports no overrun. After an overrun
+// the remaining scans are discarded and the stream is started again.
 #pragma once
 
 #include <cstdint>
@@ -46,24 +46,24 @@ class MccUsb1608fsPlus final : public Driver {
 
   Settings settings_;
   ScanSetup setup_;
-  double rate_hz_;                 // true
-  std::vector<std::size_t> word_;  // of a scan, for each channel
+  double rate_hz_;                 // true rate
+  std::vector<std::size_t> word_;  // index in a scan, for each channel
   std::string description_;
   std::vector<Channel> channels_;
   std::optional<usb::Handle> handle_;
   std::optional<usb::InStream> stream_;
   Calibrations calibrations_;
 
-  DeviceClock clock_;  // ticks are scans
+  DeviceClock clock_;  // a tick is a scan
   ScanSplitter line_;
-  std::vector<std::uint16_t> words_;  // of scans received and not yet given out
-  std::uint64_t first_ = 0;           // the scan that words_ begins with, since the start
-  std::size_t sound_ = 0;             // scans of words_ before any overrun
+  std::vector<std::uint16_t> words_;  // of scans received but not yet returned
+  std::uint64_t first_ = 0;           // number of the first scan in words_ since the start
+  std::size_t sound_ = 0;             // number of scans in words_ that a status has confirmed
   Time next_status_;
-  std::int64_t last_chunk_ns_ = 0;  // host time; at first of the start
+  std::int64_t last_chunk_ns_ = 0;  // host time; initially the time of the start
 
-  std::int64_t last_time_ns_ = 0;  // of the last scan given out
-  bool reopened_ = false;          // since then
+  std::int64_t last_time_ns_ = 0;  // of the last returned scan
+  bool reopened_ = false;          // since the last returned scan
 };
 
 }  // namespace mdof::drivers::mcc_usb1608fs_plus

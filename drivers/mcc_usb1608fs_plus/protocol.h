@@ -35,11 +35,11 @@ inline constexpr std::size_t kSerialBytes = 8;
 // --- Ranges --------------------------------------------------------------------------------------
 
 struct Range {
-  double volts;  // of both ends
+  double volts;  // the range is ± volts
   std::uint8_t code;
 };
 inline constexpr std::array<Range, 4> kRanges{{{10, 0}, {5, 1}, {2, 3}, {1, 5}}};
-// None: the device has no such range.
+// nullopt: the device has no such range.
 std::optional<Range> range_of(double volts);
 
 // --- Scans ---------------------------------------------------------------------------------------
@@ -52,16 +52,16 @@ struct ScanSetup {
   std::uint8_t options = 0;
 };
 enum Option : std::uint8_t {
-  kImmediate = 0x01,  // each scan is sent at once
+  kImmediate = 0x01,  // each scan is sent without waiting for a full packet
   kTestPattern = 0x20,
   kNoStall = 0x80,  // an overrun does not stall the endpoint
 };
-// The nearest.
+// Period of the nearest rate.
 std::uint32_t pacer_period(double rate_hz);
 double rate_of(std::uint32_t period);
 std::string scan_start(const ScanSetup& setup);
 std::optional<ScanSetup> read_scan_start(std::string_view bytes);
-// A range code for each input.
+// The same range code for each input.
 std::string config(std::uint8_t code);
 
 struct DeviceStatus {
@@ -70,11 +70,11 @@ struct DeviceStatus {
 Result<DeviceStatus> read_status(std::string_view reply);
 std::string status_reply(const DeviceStatus& status);
 
-// Cuts the samples of transfers, of any lengths, into scans.
+// Cuts the samples of transfers of any length into scans.
 class ScanSplitter {
  public:
   explicit ScanSplitter(std::size_t words) : words_(words) {}
-  // Adds the words of the scans that end in it, one scan after the other.
+  // Appends the words of the scans that end in `bytes`, scan by scan.
   void take(std::string_view bytes, std::vector<std::uint16_t>& words);
 
  private:
@@ -86,20 +86,20 @@ class ScanSplitter {
 
 inline constexpr std::size_t kPairBytes = 8;
 struct Calibration {
-  float slope = 1, offset = 0;  // codes
+  float slope = 1, offset = 0;  // in codes
 };
 using Calibrations = std::array<Calibration, kInputs>;
-// Where the pair of a range and input is in the calibration memory.
+// Address of the constants of a range and input in the calibration memory.
 std::uint16_t calibration_address(std::uint8_t range_code, std::size_t input);
-// Error: constants that cannot be, of memory that was erased or is damaged.
+// Error: impossible constants, because the memory was erased or is damaged.
 Result<Calibration> read_calibration(std::string_view pair);
-// The memory with these constants at every range.
+// A calibration memory with these constants for every range.
 std::string calibration_memory(const Calibrations& calibrations);
 
-// Neither rounded to a code nor clipped at the ends of the range, as in the vendor's own library: a
-// rounded one would add the noise of a second converter.
+// Neither rounded to a code nor clipped at the ends of the range. The vendor's library does the
+// same; rounding would add quantisation noise.
 double volts(std::uint16_t raw, const Calibration& calibration, double range_v);
-// Of the converter, before calibration: it saturates at its range.
+// Whether the uncalibrated code is at an end of the converter's range.
 inline bool at_rail(std::uint16_t raw) {
   return raw == 0 || raw == 0xFFFF;
 }

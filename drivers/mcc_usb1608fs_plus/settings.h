@@ -1,4 +1,4 @@
-// What a USB-1608FS-Plus is configured to do: the keys of its table, checked.
+// Settings of a USB-1608FS-Plus: the checked keys of its table.
 #pragma once
 
 #include <cstdint>
@@ -19,15 +19,15 @@ struct Input {
 
 struct Settings {
   std::string name;    // of the device
-  std::string serial;  // "": the only one there is
+  std::string serial;  // "": the only connected device
   double rate_hz = 1000;
   Range range = kRanges.front();
-  std::vector<Input> inputs;   // in the order of the configuration; the device's is by number
-  EncoderOrigin encoder = {};  // where an input gives its volts
+  std::vector<Input> inputs;   // in the order of the configuration; the device sends them by number
+  EncoderOrigin encoder = {};  // if an input is the encoder, in volts
 };
 
 std::uint8_t mask_of(const std::vector<Input>& inputs);
-// Of a transfer: what comes in 5 ms; a quarter of a second of them waits.
+// A transfer contains the data of 5 ms; transfers for a quarter of a second are pending.
 usb::InStream::Options transfers_for(double samples_hz);
 ScanSetup scan_setup(const Settings& settings);
 

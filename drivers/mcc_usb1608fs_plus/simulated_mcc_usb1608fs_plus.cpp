@@ -131,7 +131,7 @@ void SimulatedMccUsb1608fsPlus::take_scans(std::int64_t now_ns) {
   }
 }
 
-// Whether it has changed which scan is next.
+// Returns whether a fault has changed the next scan.
 bool SimulatedMccUsb1608fsPlus::meets_fault() {
   const auto is_due = [&](std::int64_t scan) {
     return scan >= 0 && static_cast<std::int64_t>(run_->next) >= scan;

@@ -1,4 +1,4 @@
-// A simulated USB-1608FS-Plus, as a program sees it on the USB.
+// A simulated USB-1608FS-Plus: the USB side of the device.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,20 @@
 
 namespace mdof::drivers::mcc_usb1608fs_plus {
 
-// Senses: inputs 0 ... 7 are CH0 ... CH7 in volts, all sampled at the time of the scan.
+// Senses: inputs 0 ... 7 are CH0 ... CH7 in V, all sampled at the time of the scan.
 class SimulatedMccUsb1608fsPlus final : public usb::SimulatedUsb {
  public:
-  // What may go wrong, at a scan or the next one taken; counted from 0 in each run, -1: never.
+  // Possible faults. Each occurs at the first scan taken with this number or a higher one; counted
+  // from 0 in each run; -1: never.
   struct Faults {
-    std::int64_t overrun_at = -1;  // here the FIFO overruns: `overrun` scans are not there
+    std::int64_t overrun_at = -1;  // the FIFO overruns: `overrun` scans are missing
     std::uint64_t overrun = 1000;
-    bool stalls = false;            // at an overrun, though it was asked not to
-    std::int64_t drop_at = -1;      // one scan is missing and nothing says so: no device does this
-    std::size_t short_packets = 0;  // each transfer ends after so many bytes
-    std::int64_t silent_at = -1;    // no more scans come, though it says that it runs
-    std::int64_t unplug_at = -1;    // the device is gone before this scan
-    bool running = false;           // a scan runs already at the start (of a host that died)
+    bool stalls = false;            // stall at an overrun although kNoStall is set
+    std::int64_t drop_at = -1;      // one scan is missing without a report (no device does this)
+    std::size_t short_packets = 0;  // bytes after which each transfer ends
+    std::int64_t silent_at = -1;    // no more scans arrive, although the status is running
+    std::int64_t unplug_at = -1;    // the device is unplugged before this scan
+    bool running = false;  // a scan already runs at the start (left by a host that crashed)
   };
   struct Options {
     std::string serial = "01A2B3C4";
@@ -41,8 +42,8 @@ class SimulatedMccUsb1608fsPlus final : public usb::SimulatedUsb {
   bool gone() const override { return gone_; }
 
   void set_faults(const Faults& faults) { faults_ = faults; }
-  void restart();  // power comes again: as new
-  // The calibration memory as it is.
+  void restart();  // power is switched on again: default state
+  // Replaces the calibration memory.
   void set_memory(const std::string& memory) { memory_ = memory; }
   std::uint64_t runs() const { return runs_; }  // scans started
 
@@ -50,7 +51,7 @@ class SimulatedMccUsb1608fsPlus final : public usb::SimulatedUsb {
   struct Run {
     ScanSetup setup;
     std::int64_t start_ns = 0;
-    std::uint64_t next = 0;  // scan, those that were lost included
+    std::uint64_t next = 0;  // number of the next scan, including lost scans
   };
   usb::Reply read_request(const usb::Setup& setup) const;
   usb::Reply start(std::string_view out, std::int64_t now_ns);
@@ -64,12 +65,12 @@ class SimulatedMccUsb1608fsPlus final : public usb::SimulatedUsb {
   Calibrations calibrations_;
   std::string memory_, ranges_ = std::string(kInputs, '\0');
   std::optional<Run> run_;
-  std::string fifo_;  // bytes that wait to be fetched
+  std::string fifo_;  // not read yet
   std::uint64_t runs_ = 0;
   bool overrun_ = false, halted_ = false, gone_ = false;
 };
 
-// As a plan of mdof-simulate has it. Volts at CH0 ... CH7.
+// Makes the twin from a plan of mdof-simulate. Volts at CH0 ... CH7.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_mcc_usb1608fs_plus(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::mcc_usb1608fs_plus

@@ -98,7 +98,7 @@ Result<SysfsAttribute> SysfsAttribute::open(const std::string& path, SysfsRead r
 }
 
 Result<std::string> SysfsAttribute::read() {
-  std::array<char, 4096> bytes;  // a page is the most that the kernel gives
+  std::array<char, 4096> bytes;  // the kernel returns at most a page
   const ssize_t n = read_(fd_, bytes.data(), bytes.size());
   if (n < 0) return io_error(path_ + ": " + sysfs_error(errno));
   const std::string_view text(bytes.data(), static_cast<std::size_t>(n));

@@ -1,4 +1,4 @@
-// Files of sysfs: small texts that the kernel makes at each read.
+// Files of sysfs: short texts that the kernel generates at each read.
 #pragma once
 
 #include <sys/types.h>
@@ -14,23 +14,24 @@
 
 namespace mdof::drivers {
 
-// As pread(2) from offset 0: bytes, or -1 and errno. Tests hand in their own.
+// pread(2) from offset 0: returns the number of bytes, or -1 and errno. Tests use their own
+// function.
 using SysfsRead = std::function<ssize_t(int fd, char* into, std::size_t size)>;
 SysfsRead sysfs_pread();
 
-// A file that is read again and again through one descriptor: a device that was unplugged and
-// plugged in again is an error (ENODEV), and never another device's value. Thread-bound.
+// A file that is read repeatedly through one descriptor. If the device was unplugged and plugged in
+// again, reads fail (ENODEV) and never return another device's value. Thread-bound.
 class SysfsAttribute {
  public:
-  // Error: not there, no permission.
+  // Errors: the file does not exist, no permission.
   static Result<SysfsAttribute> open(const std::string& path, SysfsRead read = sysfs_pread());
   ~SysfsAttribute();
   SysfsAttribute(SysfsAttribute&& other) noexcept;
   SysfsAttribute& operator=(SysfsAttribute&& other) noexcept;
 
-  // Its first line. Errors name the file, the kernel's error and what it may mean.
+  // Returns the first line. Errors name the file and the kernel's error, with its possible cause.
   Result<std::string> read();
-  // One integer of 64 bits, signed or not (the bits of an unsigned one).
+  // Returns a 64-bit integer; an unsigned one keeps its bits.
   Result<std::int64_t> read_integer();
   const std::string& path() const { return path_; }
 
@@ -41,14 +42,15 @@ class SysfsAttribute {
   SysfsRead read_;
 };
 
-// Reads a file once. Nothing: there is no such file, which is no error: not every device has all.
+// Reads a file once. nullopt: the file does not exist, which is not an error, because devices
+// differ in their files.
 Result<std::optional<std::string>> read_sysfs(const std::string& path);
 Status write_sysfs(const std::string& path, const std::string& text);
 
-// What an error number of a read or write means for a device in sysfs, with the remedy.
+// Cause and remedy of an error number of a read or write of a device's sysfs file.
 std::string sysfs_error(int error);
-std::string sysfs_write_error(int error);  // where a write may be refused by rights alone
-// Decimal, the whole text; from -2^63 to 2^64 - 1. Pure.
+std::string sysfs_write_error(int error);  // if the user may lack the permission to write
+// A decimal integer from -2^63 to 2^64 - 1 that is the whole text. Pure.
 std::optional<std::int64_t> parse_sysfs_integer(std::string_view text);
 
 }  // namespace mdof::drivers

@@ -41,7 +41,7 @@ DeviceInfo SysfsPoller::info() const {
 
 Status SysfsPoller::open() {
   is_open_ = false;
-  device_ = {};  // before it is opened again
+  device_ = {};  // closes the files of the old device first
   MDOF_TRY(device_, open_());
   channels_.clear();
   for (const auto& input : device_.inputs) channels_.push_back(input.channel);
@@ -71,7 +71,7 @@ Result<ReadState> SysfsPoller::read(SampleBlock& block, std::chrono::millisecond
     if (next_ns_ > until_ns) break;
     MDOF_CHECK(poll(block));
     schedule_next(monotonic_ns());
-    // What is lost goes before a block, and a block is counted from one place.
+    // Losses and passed marks are counted at the beginning of a block, so they start a new block.
   } while (next_ns_ < std::max(full_ns, block.scans() == 0 ? until_ns : 0) && lost_ == 0 &&
            !passed_mark_);
   return ReadState::more;
@@ -108,10 +108,10 @@ Status SysfsPoller::count_failure(const Error& why) {
                   " readings in a row failed; the last error: " + why.message);
 }
 
-// The next poll on the even grid that can still be met.
+// Schedules the next poll on the even time grid that is not in the past.
 void SysfsPoller::schedule_next(std::int64_t now_ns) {
   next_ns_ += period_ns_;
-  if (next_ns_ > now_ns - period_ns_) return;  // late, but it can be made up for
+  if (next_ns_ > now_ns - period_ns_) return;  // late, but not lost
   const std::int64_t missed = (now_ns - next_ns_) / period_ns_;
   lost_ += static_cast<std::uint64_t>(missed);
   next_ns_ += missed * period_ns_;

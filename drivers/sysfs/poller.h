@@ -1,5 +1,5 @@
-// The driver of devices that are asked, at an even rate, through files of sysfs: what Linux
-// counters and Linux IIO converters have in common.
+// Driver of devices that are polled at an even rate through sysfs files: the common part of Linux
+// counters and Linux IIO converters.
 #pragma once
 
 #include <chrono>
@@ -13,11 +13,11 @@
 
 namespace mdof::drivers {
 
-// One channel as opened: asks the device for its raw value, in the channel's unit.
+// A channel of an open device. `read` requests the raw value, in the unit of the channel.
 struct SysfsReading {
   double value = 0;
   Quality quality = Quality::good;
-  bool passed_mark = false;  // of an encoder: from the next reading on it is counted from its mark
+  bool passed_mark = false;  // from the next reading on, positions are counted from the mark
 };
 struct SysfsInput {
   Channel channel;
@@ -25,28 +25,28 @@ struct SysfsInput {
 };
 struct SysfsDevice {
   std::string description;
-  // Of an incremental encoder: what is to be said of its datum once it was opened again, from when
-  // on its values are suspect. "": it has none to lose.
+  // Of an incremental encoder: why its datum is lost after the device was opened again; its values
+  // are then suspect. "": no datum to lose.
   std::string datum_lost = {};
   Remedy datum_remedy = Remedy::set_encoder;
   std::vector<SysfsInput> inputs;
 };
 
-// Thread-bound. The time of a scan is the middle between before its first and after its last
-// reading. Polls that were not made in time, or failed, are lost; the scan after a failed one is
-// suspect; five failed ones in a row are an error.
+// Thread-bound. The time of a scan is the middle between the beginning of its first reading and the
+// end of its last. Polls that failed or were not made in time are lost; the scan after a failed
+// poll is suspect; five failed polls in a row are an error.
 class SysfsPoller final : public Driver {
  public:
   static constexpr int kFailuresAllowed = 4;  // in a row
 
-  // `open` finds and checks the device; called at each open(). `slow_ns`: a scan that takes longer
-  // is suspect, as nobody knows when in that time it was taken; 0: the device takes its time.
+  // `open` finds and checks the device; each open() calls it. `slow_ns`: a scan that takes longer
+  // is suspect, because its time is uncertain; 0: no limit.
   SysfsPoller(std::string name, std::string driver, double rate_hz, std::int64_t slow_ns,
               std::function<Result<SysfsDevice>()> open);
 
   DeviceInfo info() const override;
   Status open() override;
-  // Gives what 10 ms bring, at least one scan; takes longer than `timeout` only by one scan.
+  // Returns the scans of 10 ms, at least one. Exceeds `timeout` by at most one scan.
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override { datum_lost_ = false; }
   int marks_passed() const override { return marks_passed_; }
@@ -67,7 +67,7 @@ class SysfsPoller final : public Driver {
   std::uint64_t lost_ = 0;
   int failures_ = 0;  // in a row
   int marks_passed_ = 0;
-  bool passed_mark_ = false;  // with the next block
+  bool passed_mark_ = false;  // counted in marks_passed_ with the next block
   std::int64_t last_time_ns_ = 0;
 };
 

@@ -20,7 +20,7 @@ Result<SimulatedTree> SimulatedTree::make(const std::filesystem::path& folder,
   return tree;
 }
 
-// What a shorter text leaves of a longer one is in the lines after the first, which nobody reads.
+// The rest of a longer old text lies after the first line, which readers ignore.
 Status SimulatedTree::set(const std::string& file, const std::string& text) const {
   const auto path = folder_ / file;
   std::error_code ignored;

@@ -1,5 +1,5 @@
-// A folder that looks like a device in sysfs: files that are rewritten in place while a driver
-// reads them, and reads that fail as the kernel's do.
+// A folder that simulates a device in sysfs: files are rewritten in place while a driver reads
+// them, and reads fail with the errors of the kernel.
 #pragma once
 
 #include <atomic>
@@ -20,15 +20,16 @@ class SimulatedTree {
     std::string text;
   };
   explicit SimulatedTree(std::filesystem::path folder);
-  // Makes the folder with these files in it.
+  // Makes the folder with these files.
   static Result<SimulatedTree> make(const std::filesystem::path& folder,
                                     std::initializer_list<File> files);
 
-  // Makes the file, or replaces its text in one write, as a reader sees it.
+  // Makes the file or replaces its text in one write, so that a reader sees either text.
   Status set(const std::string& file, const std::string& text) const;
   void remove(const std::string& file) const;
 
-  // For a driver's reads. The next `count` of them (-1: all) fail with `error`. Any thread.
+  // Reads for a driver. fail_reads() lets the next `count` of them (-1: all) fail with `error`. Any
+  // thread.
   SysfsRead reads() const;
   void fail_reads(int error, int count = -1);
 

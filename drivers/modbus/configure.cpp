@@ -79,7 +79,7 @@ Status read_uses(TomlTable& table, const Rig& rig, ModbusSettings& settings) {
   return {};
 }
 
-// Modbus TCP is spoken with several units at one address, each by a connection of its own.
+// A Modbus TCP address may serve several units, each with its own connection.
 std::string identity(const ModbusSettings& settings) {
   if (settings.address.empty()) return identity_of_path(settings.port);
   const auto at = parse_endpoint(settings.address, settings.profile.port);

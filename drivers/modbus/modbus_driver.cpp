@@ -14,17 +14,17 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kConnect{2000}, kSilence{2000};
 constexpr int kFailures = 20;
-// Between two attempts, where an adapter that has gone fails at once.
+// Pause between two attempts; without it, a removed adapter would fail in a fast loop.
 constexpr milliseconds kBetweenAttempts{10};
 constexpr const char* kDatumLost =
     "the device was disconnected, and may have stopped counting in the meantime";
-constexpr int kProof_timeouts = 10;  // to prove an RTU line at opening
+constexpr int kProof_timeouts = 10;  // for the test of an RTU line when it is opened
 
 nanoseconds from_ms(double ms) {
   return nanoseconds(std::llround(ms * 1e6));
 }
 
-// Four characters of eleven bits, and never less than the standard's 1.75 ms.
+// Four characters of eleven bits, but at least the standard's 1.75 ms.
 milliseconds gap_of(int baud) {
   return milliseconds(std::max(2L, std::lround(std::ceil(4 * 11 * 1000.0 / baud))));
 }
@@ -97,7 +97,7 @@ Status ModbusDriver::ask(const modbus::Register& from, std::span<std::uint16_t> 
                                              : client_->read_holding(from.address, into);
 }
 
-// An RTU line may have to be proved first; on TCP the first error is the last.
+// An RTU line may need a test first, so it is tried repeatedly; on TCP the first error is final.
 Status ModbusDriver::ask_at_opening(const modbus::Register& from, std::span<std::uint16_t> into) {
   const bool rtu = settings_.profile.framing == modbus::Framing::rtu;
   const auto until = steady_clock::now() + kProof_timeouts * timeout_;
@@ -145,7 +145,7 @@ Result<ReadState> ModbusDriver::read(SampleBlock& block, milliseconds timeout) {
   return ReadState::more;
 }
 
-// A line that has to be proved is tried again at once.
+// A line that needs a test is tried again immediately.
 Status ModbusDriver::poll(SampleBlock& block) {
   const auto start = steady_clock::now();
   for (std::size_t i = 0; i < readings_.blocks().size(); ++i) {

@@ -1,4 +1,4 @@
-// Any Modbus device that a profile describes, polled: one scan a poll.
+// Polls any Modbus device that a profile describes; each poll gives one scan.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@
 namespace mdof::drivers {
 
 struct ModbusSettings {
-  modbus::Profile profile;  // with what the device's own keys have overridden
-  std::string address;      // of TCP; empty: `port`
+  modbus::Profile profile;  // includes the values that the device's keys override
+  std::string address;      // TCP; empty: use `port`
   std::string port;         // a serial line
   std::vector<Channel> channels;
-  std::vector<modbus::Readings::Use> uses;  // of the profile's values, one a channel
+  std::vector<modbus::Readings::Use> uses;  // the profile's value for each channel
   EncoderOrigin encoder;
 };
 
 // Thread-bound. The time of a scan is the middle between the first request and the last reply.
-// Without a reply read() waits one response time-out more than it was given, two and a half on an
-// RTU line that is being proved. A poll that fails is counted as lost; TCP that breaks, or no scan
-// for two seconds (or twenty polls or response time-outs, whichever is longest), is an error.
+// Without a reply, read() takes one response time-out longer than `timeout`, or two and a half
+// during the test of an RTU line. A failed poll is counted as lost. Errors: the TCP connection
+// breaks; no scan for two seconds, twenty polls or twenty response time-outs, whichever is longest.
 class ModbusDriver final : public Driver {
  public:
   ModbusDriver(std::string name, ModbusSettings settings);
@@ -54,9 +54,9 @@ class ModbusDriver final : public Driver {
   std::chrono::nanoseconds period_;
   std::chrono::milliseconds timeout_;
   std::optional<ModbusClient> client_;
-  Time next_, last_;  // poll; scan
+  Time next_, last_;  // time of the next poll; time of the last scan
   bool failing_ = false;
-  // Of encoders that count: whether the device had power while it was away is not known.
+  // For incremental encoders: it is unknown whether the device kept its power while it was away.
   bool opened_before_ = false, datum_lost_ = false;
 };
 

@@ -1,5 +1,5 @@
-// What a Modbus device looks like, in a TOML file: its line, its values, what its status bits mean.
-// The form is described in drivers/README.md; those of drivers/modbus/profiles are built in.
+// Profile of a Modbus device from a TOML file: its connection, its values and its status bits.
+// drivers/README.md describes the format; the files in drivers/modbus/profiles are built in.
 #pragma once
 
 #include <cstdint>
@@ -23,15 +23,15 @@ inline int registers_of(Type type) {
 
 struct Register {
   Function function = kReadHolding;  // kReadHolding, kReadInput
-  int address = 0;                   // as on the wire: 0 is 40001 or 30001 of manuals
+  int address = 0;                   // address on the wire: 0 is 40001 or 30001 of manuals
   bool operator==(const Register&) const = default;
 };
 
-// A register that must read so, or the device is not the one that was meant.
+// A register that must have this value; otherwise the device is not the intended one.
 struct Check {
   Register at;
   std::uint16_t mask = 0xFFFF, equals = 0;
-  std::string says;  // what it means where it differs
+  std::string says;  // message if the value differs
 };
 
 struct Value {
@@ -40,15 +40,15 @@ struct Value {
   Type type = Type::u16;
   bool low_word_first = false;
   double scale = 1, offset = 0;    // value = raw * scale + offset
-  Unit unit = Unit::other;         // of the value; `other` is a count, to become µm
-  double um_per_count = 0;         // where the channel does not say; 0: it must
-  bool incremental = false;        // counts from where it was switched on
+  Unit unit = Unit::other;         // of the value; `other`: a count that is converted to µm
+  double um_per_count = 0;         // if the channel does not give it; 0: the channel must
+  bool incremental = false;        // counts from the position at which it was switched on
   int ring_bits = 0;               // the counter wraps at 2^bits; 0: it does not
   std::vector<double> over_range;  // raw numbers at the ends of the range
-  std::optional<Check> check;      // when the value is used
+  std::optional<Check> check;      // checked if the value is used
 };
 
-// Bits of which any that is set spoils values.
+// If any of these status bits is set, the values are invalid.
 struct StatusBits {
   Register at;
   std::uint16_t mask = 0;
@@ -62,15 +62,16 @@ struct Profile {
   int port = 502, unit = 1;
   SerialSettings serial;
   double poll_ms = 100, response_timeout_ms = 100;
-  int join_gap = 0;  // registers between two that may be read along with them
+  int join_gap = 0;  // highest number of unused registers that are read between two values
   std::vector<Value> values;
   std::vector<StatusBits> statuses;
   std::vector<Check> checks;
 };
 
 Result<Profile> parse_profile(std::string_view text, const std::string& source_name);
-// A built-in profile by its name, or a file: whatever has a slash or ends in ".toml", relative to
-// `base_path`. Errors: no such profile (with the nearest, and all), no such file, its contents.
+// Loads a built-in profile by its name, or a file if the name contains a slash or ends in ".toml"
+// (relative to `base_path`). Errors: no such profile (the message names the nearest and all
+// others), no such file, invalid contents.
 Result<Profile> load_profile(const std::string& name_or_path, const std::string& base_path);
 
 struct BuiltInProfile {

@@ -7,7 +7,7 @@ namespace mdof::drivers::modbus {
 namespace {
 
 constexpr std::size_t kTcpHeader = 7;  // transaction, protocol, length, unit
-constexpr std::size_t kEchoed = 5;     // function, address and count of a write
+constexpr std::size_t kEchoed = 5;     // function, address and count in the reply to a write
 constexpr std::uint16_t kPolynomial = 0xA001;
 
 constexpr std::array<std::uint16_t, 256> crc_table() {

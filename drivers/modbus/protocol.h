@@ -1,5 +1,5 @@
-// Modbus as bytes: application data units of TCP and RTU, requests and answers. Pure; any bytes do.
-// Source: MODBUS Application Protocol Specification V1.1b3, MODBUS over Serial Line V1.02.
+// Modbus as bytes: application data units of TCP and RTU, requests and answers. Pure; accepts any
+// bytes. Source: MODBUS Application Protocol Specification V1.1b3, MODBUS over Serial Line V1.02.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,10 @@ enum class Framing { tcp, rtu };
 enum Function : std::uint8_t { kReadHolding = 3, kReadInput = 4, kWriteOne = 6, kWrite = 16 };
 inline constexpr std::uint8_t kExceptionBit = 0x80;
 inline constexpr int kLastAddress = 65535;
-inline constexpr int kMostRegisters = 125;  // of one read
-inline constexpr int kMostWritten = 123;    // of one write
+inline constexpr int kMostRegisters = 125;  // in one read
+inline constexpr int kMostWritten = 123;    // in one write
 
-// What an application data unit carries. RTU has no transaction.
+// Contents of an application data unit. RTU has no transaction.
 struct Frame {
   std::uint16_t transaction = 0;
   std::uint8_t unit = 1;
@@ -31,19 +31,19 @@ std::uint16_t word_at(std::string_view bytes, std::size_t offset);
 void append_word(std::string& bytes, unsigned word);
 
 std::string wrap(Framing framing, const Frame& frame);
-// `adu` is one whole unit. Errors: too short, protocol, length or CRC are wrong.
+// `adu`: one complete unit. Errors: too short; wrong protocol, length or CRC.
 Result<Frame> unwrap(Framing framing, std::string_view adu);
 
 std::string read_request(Function function, int address, int count);
 std::string write_request(int address, std::span<const std::uint16_t> values);
 
-// The answer to `asked`: what a read brought, or the exception (1 ... 255).
+// The answer to `asked`: the registers of a read, or an exception (1 ... 255).
 struct Answer {
   int exception = 0;
   std::string registers;  // two bytes each
 };
-// Errors: `adu` is no answer to `asked`: of another transaction, unit or function, or of the wrong
-// length, or an echo of other data.
+// Error: `adu` is not an answer to `asked`, because transaction, unit, function, length or the
+// echoed data differ.
 Result<Answer> answer_to(const Frame& asked, Framing framing, std::string_view adu);
 
 const char* exception_name(int code);  // "illegal data address"

@@ -80,7 +80,7 @@ const std::vector<Reading>& Readings::read() {
   return readings_;
 }
 
-// A missing value says nothing of the count.
+// A missing value does not change the count.
 Reading Readings::read(Counter& counter) {
   const Value& value = counter.value;
   Reading reading{kNaN, Quality::good};

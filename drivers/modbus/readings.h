@@ -1,4 +1,4 @@
-// From registers to readings: which blocks a poll reads, and what they mean. Pure.
+// Plans the register reads of a poll and converts registers to readings. Pure.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct Block {
   bool operator==(const Block&) const = default;
 };
 
-// The fewest reads for these registers (each with how many), in the order of their addresses; up to
-// `join_gap` registers in between are read along.
+// The fewest reads that cover these registers, in the order of addresses. Up to `join_gap` unused
+// registers between two of them are read too. Span::count: number of registers.
 struct Span {
   Register from;
   int count = 1;
@@ -31,21 +31,20 @@ struct Reading {
   Quality quality = Quality::missing;
 };
 
-// The values of a profile that are in use, with the status bits that concern them. Keeps the count
-// of wrapping counters, also while the device is away: it moves by less than half a ring meanwhile.
-// Thread-bound.
+// The values of a profile that are used, with the status bits that apply to them. Unwraps counters,
+// also while the device is away, if they move by less than half a ring meanwhile. Thread-bound.
 class Readings {
  public:
   struct Use {
     Value value;              // of the profile
-    double um_per_count = 0;  // of a count; else not used
+    double um_per_count = 0;  // length of a count; unused for other units
   };
   Readings(const Profile& profile, const std::vector<Use>& uses);
 
   const std::vector<Block>& blocks() const { return blocks_; }
-  // To be filled by a read of blocks()[i].
+  // The caller fills it with a read of blocks()[i].
   std::span<std::uint16_t> registers(std::size_t block) { return registers_[block]; }
-  // Of each use, from the registers as they are; once a poll.
+  // Readings of each use from the present registers. Call it once for each poll.
   const std::vector<Reading>& read();
 
  private:
@@ -65,7 +64,7 @@ class Readings {
   std::vector<Reading> readings_;
 };
 
-// The registers that hold `raw`, which fits the type, in the order of the wire.
+// The registers that hold `raw` (it must fit the type), in the order on the wire.
 std::vector<std::uint16_t> encode(const Value& value, double raw);
 
 }  // namespace mdof::drivers::modbus

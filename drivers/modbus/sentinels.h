@@ -1,11 +1,10 @@
-// By which requests an RTU line is proved after an error. Pure.
+// Requests that test an RTU line after an error. Pure.
 //
-// An RTU reply says neither which request nor which register it answers; only its function and its
-// length show. One slave on one wire answers in order, so the reply to a sentinel, a read of a
-// length that no value is asked by, shows that every earlier request has been answered or never
-// will be. A sentinel whose own reply is still owed must not be taken for a later one: after the
-// next error another length is used, as in the alternating bit protocol (Bartlett, Scantlebury and
-// Wilkinson 1969).
+// An RTU reply does not state to which request or register it belongs; only its function and length
+// are known. A slave on one wire answers in order. Therefore the reply to a sentinel, a read of a
+// length that no value uses, shows that no reply to an earlier request can follow. A sentinel whose
+// reply is still pending must not be confused with a later one: after the next error another length
+// is used, as in the alternating bit protocol (Bartlett, Scantlebury and Wilkinson 1969).
 #pragma once
 
 #include <algorithm>
@@ -16,7 +15,7 @@
 
 namespace mdof::drivers::modbus {
 
-// As much as an RTU reply to a read states.
+// The properties of a read that an RTU reply shows.
 struct Shape {
   int function = 0, count = 0;
   auto operator<=>(const Shape&) const = default;
@@ -24,15 +23,15 @@ struct Shape {
 
 class Sentinels {
  public:
-  // Values are asked by this shape. False: the reply to a sentinel of the same shape is still owed,
-  // so the line has to be proved first, by another.
+  // Adds the shape of a request for values. False: a reply to a sentinel of this shape is pending,
+  // so the line must first be tested with another shape.
   bool add_regular(Shape shape) {
     if (!contains(regular_, shape)) regular_.push_back(shape);
     if (shape == now_) now_ = {};
     return !contains(owed_, shape);
   }
-  // The sentinel for a read of these registers: fewer of them, which are known to be there, before
-  // more. The same until proved(). Count 0: reads of all lengths are taken.
+  // The sentinel for a read of these registers, the same until proved(). Prefers fewer registers,
+  // which are known to exist, to more. Count 0: requests for values use all lengths.
   Shape pick(Shape regular) {
     for (int i = 1; now_ == Shape{} && i < kMostRegisters; ++i) {
       const Shape shape{regular.function, i < regular.count ? regular.count - i : i + 1};
@@ -40,11 +39,12 @@ class Sentinels {
     }
     return now_;
   }
-  // What came was not the sentinel's reply.
+  // The received data were not the reply to the sentinel.
   void failed() {
     if (!contains(owed_, now_)) owed_.push_back(now_);
   }
-  // It was, so nothing else is owed but a reply to the same sentinel sent before.
+  // The sentinel's reply has arrived. Only a reply to an earlier sentinel of the same shape may be
+  // pending.
   void proved() {
     const bool repeated = contains(owed_, now_);
     owed_.clear();
@@ -57,7 +57,7 @@ class Sentinels {
     return std::find(shapes.begin(), shapes.end(), shape) != shapes.end();
   }
   std::vector<Shape> regular_, owed_;
-  Shape now_;  // {}: none
+  Shape now_;  // {}: no sentinel
 };
 
 }  // namespace mdof::drivers::modbus

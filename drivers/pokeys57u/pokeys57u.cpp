@@ -17,8 +17,9 @@ using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kTickEvery{1000}, kQuiet{10};
-constexpr int kMostStale = 200;  // reports that may still come of another program's requests
-// Of the device's tick against the host's clock.
+// Reports for the requests of another program that may still arrive.
+constexpr int kMostStale = 200;
+// Tolerances of the device's tick against the host's clock.
 constexpr double kTickSlack_ms = 500, kTickDrift = 0.001;
 constexpr double kStepSlack_counts = 16;
 
@@ -76,8 +77,8 @@ Status PoKeys57u::open() {
   return {};
 }
 
-// By its serial number, which the device itself is asked for: the string that USB has is written in
-// two ways.
+// Finds the device by its serial number. The device itself is asked for it, because its USB string
+// has two formats.
 Status PoKeys57u::connect() {
   std::vector<std::string> others;
   Status failed;
@@ -156,7 +157,7 @@ Status PoKeys57u::set_up_encoders() {
   return check_enabled(now);
 }
 
-// Encoders 1 to 3 may be the fast ones, which have a switch of their own.
+// Encoders 1 to 3 may be fast encoders, which are enabled elsewhere, so they are not checked.
 Status PoKeys57u::check_enabled(const Frame& options) const {
   for (const Input& input : settings_.inputs) {
     if (input.index < 3 || input.index >= kEncoders) continue;
@@ -168,9 +169,9 @@ Status PoKeys57u::check_enabled(const Frame& options) const {
   return {};
 }
 
-// The device's milliseconds since power-on: where they are not as many as passed for the host, it
-// was without power, and its counts began at 0. Modulo 2^32, a restart after more than 24.9 days
-// looks as if the device were ahead.
+// Compares the device's milliseconds since power-on with the time of the host. If they differ, the
+// device has lost power and its counts have started at 0. The difference is taken modulo 2^32, so
+// after more than 24.9 days a restart appears as a tick that is ahead.
 Result<std::optional<PoKeys57u::Span>> PoKeys57u::watch_for_restart() {
   MDOF_TRY(const auto reply, exchange(request(kTick)));
   if (!reply) return std::nullopt;
@@ -202,8 +203,8 @@ Result<std::optional<PoKeys57u::Reply>> PoKeys57u::exchange(Frame asked) {
   return std::nullopt;
 }
 
-// The command byte is not compared: the specification prints another than that of the request for
-// some commands, and the number and the checksum say enough.
+// The command byte is not compared, because the specification prints a different byte for some
+// replies. Number and checksum are sufficient.
 Result<std::optional<Frame>> PoKeys57u::reply_to(std::uint8_t id, Time until) {
   for (;;) {
     const auto left = std::chrono::ceil<milliseconds>(until - steady_clock::now());
@@ -251,7 +252,7 @@ Status PoKeys57u::poll(SampleBlock& block) {
                   " ms; check the cable, and end any other program that uses the device");
 }
 
-// What is needed of the two blocks of counts and of the analogue inputs.
+// Requests the blocks of counts and the analogue inputs that the channels need.
 Result<std::optional<PoKeys57u::Span>> PoKeys57u::fetch() {
   std::array<bool, 3> needed{};
   for (const Input& input : settings_.inputs) needed[input.index / kCountersPerBlock] = true;

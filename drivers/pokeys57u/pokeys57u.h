@@ -1,5 +1,5 @@
 // PoLabs PoKeys57U and 56U: incremental encoders (and analogue inputs) by request and reply over
-// HID, one scan a poll.
+// HID; each poll gives one scan.
 #pragma once
 
 #include <array>
@@ -19,27 +19,27 @@ namespace mdof::drivers::pokeys57u {
 struct Input {
   Channel channel;
   std::string name;       // "encoder1" ... "encoder25", "ultrafast", "analogue1" ... "analogue7"
-  std::size_t index = 0;  // of a counter, or kCounters + of an analogue input
+  std::size_t index = 0;  // of a counter; an analogue input has kCounters + its index
   double um_per_count = 0;
-  std::optional<std::uint8_t> options;  // EncoderOption bits to be set; none: left as they are
-  double most_counts_per_s = 0;         // a faster step is no motion
+  std::optional<std::uint8_t> options;  // EncoderOption bits to set; nullopt: unchanged
+  double most_counts_per_s = 0;         // a faster step cannot be a motion
   bool counts() const { return index < kCounters; }
 };
 
 struct Settings {
   std::string name;
-  std::uint32_t serial = 0;  // 0: the only one there is
+  std::uint32_t serial = 0;  // 0: the only connected device
   double poll_ms = 2;
   std::chrono::milliseconds response_timeout{50};
-  std::chrono::milliseconds slow{20};       // a scan that took longer is suspect
-  std::chrono::milliseconds silence{2000};  // is an error
+  std::chrono::milliseconds slow{20};       // a scan that takes longer is suspect
+  std::chrono::milliseconds silence{2000};  // longest time without a valid scan
   std::vector<Input> inputs;
 };
 
-// Thread-bound. A request whose reply does not come, or not whole, is sent again twice, each time
-// with another number, and counts as a lost scan if that does not help; nothing valid for 2 s, or
-// an unplugged device, is an error. The time of a scan is the middle between request and reply; a
-// slow one is suspect, as nobody knows when in that time it was true.
+// Thread-bound. A request without a complete reply is sent again twice, each time with another
+// number; if all fail, the scan is counted as lost. Errors: no valid reply for 2 s; the device was
+// unplugged. The time of a scan is the middle between request and reply; a slow scan is suspect,
+// because its time is uncertain.
 class PoKeys57u final : public Driver {
  public:
   static constexpr int kSends = 3;
@@ -48,11 +48,12 @@ class PoKeys57u final : public Driver {
 
   DeviceInfo info() const override;
   Status open() override;
-  // Takes up to three response time-outs a request longer than `timeout` where no reply comes.
+  // If no reply arrives, read() takes up to three response time-outs a request longer than
+  // `timeout`.
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override;
 
-  // Reports that were no reply to what was asked: late, damaged, another program's.
+  // Number of reports that were not the expected reply: late, damaged, or for another program.
   std::uint64_t rejected() const { return rejected_; }
 
  private:
@@ -61,7 +62,7 @@ class PoKeys57u final : public Driver {
     Unwrap unwrap{32, true};
     std::optional<std::int64_t> last;
     Time at;           // of `last`
-    bool sure = true;  // of its zero
+    bool sure = true;  // false: its zero may be lost
   };
   struct Span {  // from the request to the reply
     Time from, to;
@@ -80,7 +81,7 @@ class PoKeys57u final : public Driver {
   Status try_candidate(const HidEntry& entry, std::vector<std::string>& others);
   Status set_up_encoders();
   Status check_enabled(const Frame& options) const;
-  // These: nothing where no valid reply came.
+  // The next three return nullopt if no valid reply has arrived.
   Result<std::optional<Span>> watch_for_restart();
   Result<std::optional<Span>> fetch();
   Result<std::optional<Reply>> exchange(Frame asked);
@@ -97,12 +98,12 @@ class PoKeys57u final : public Driver {
   std::optional<HidDevice> device_;
   Identity identity_;
   RequestIds ids_;
-  std::vector<Counter> counters_;  // one an input
+  std::vector<Counter> counters_;  // one for each input
   std::optional<Tick> tick_;
   std::array<Counts, 2> counts_{};  // of the last poll
   Codes analogue_{};
-  Time next_, last_, tick_due_;  // poll, scan
-  std::string zero_problem_;     // what made a zero unsure
+  Time next_, last_, tick_due_;  // next poll; last scan; next check of the tick
+  std::string zero_problem_;     // why a zero may be lost
   bool failing_ = false;
   std::uint64_t rejected_ = 0;
 };

@@ -6,9 +6,9 @@
 namespace mdof::drivers::pokeys57u {
 namespace {
 
-// Offsets within a frame.
+// Offsets in a frame.
 constexpr std::size_t kStart = 0, kCommand = 1, kParameter = 2, kId = 6, kSum = 7, kData = 8;
-// And within the data.
+// Offsets in the data.
 constexpr std::size_t kSerial = 12 - kData, kHardware = 18 - kData;
 
 std::uint8_t byte_at(std::string_view bytes, std::size_t i) {

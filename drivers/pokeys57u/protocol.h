@@ -1,5 +1,5 @@
-// Frames of PoLabs PoKeys57U and 56U: 64 bytes each way, one request in flight (PoKeys protocol
-// specification, 3.1.2018; bytes are numbered from 0 here). Pure; survives any bytes.
+// Frames of PoLabs PoKeys57U and 56U: 64 bytes in each direction, one pending request (PoKeys
+// protocol specification, 3.1.2018; bytes are numbered from 0 here). Pure; accepts any bytes.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ enum Command : std::uint8_t {
 };
 enum EncoderOption : std::uint8_t { kEnabled = 1, kCounts_x4 = 2, kCounts_x2 = 4 };
 
-inline constexpr std::size_t kEncoders = 25;  // and the ultra-fast one after them
+inline constexpr std::size_t kEncoders = 25;  // the ultra-fast encoder follows
 inline constexpr std::size_t kUltraFast = 25;
 inline constexpr std::size_t kCounters = 26, kCountersPerBlock = 13;
 inline constexpr std::size_t kAnalogues = 7;
@@ -40,23 +40,23 @@ struct Frame {
 enum class Way : std::uint8_t { request = 0xBB, reply = 0xAA };
 
 std::string wrap(Way way, const Frame& frame);
-// Nothing: another length, another first byte, a wrong checksum.
+// nullopt: wrong length, first byte or checksum.
 std::optional<Frame> unwrap(Way way, std::string_view bytes);
 
 Frame request(Command command, std::uint8_t parameter = 0);
 
 struct Identity {
   std::uint32_t serial = 0;
-  int hardware = 0;      // 28 PoKeys57U, 10 PoKeys56U, ...; 0: an older board does not say
+  int hardware = 0;      // 28 PoKeys57U, 10 PoKeys56U, ...; 0: not stated by older boards
   std::string firmware;  // "4.2.19"
   std::string model() const;
 };
 Identity identity_of(const Frame& reply);
-// USB serial strings come as "2.12345" and as "12345.2": any part may be the number.
+// USB serial strings have the form "2.12345" or "12345.2", so each part may be the number.
 bool may_be_serial(std::string_view text, std::uint32_t serial);
 
 using Counts = std::array<std::int32_t, kCountersPerBlock>;
-// Block 0: encoders 1 to 13; 1: 14 to 25 and the ultra-fast one.
+// Block 0: encoders 1 to 13; block 1: encoders 14 to 25 and the ultra-fast encoder.
 Counts counts_of(const Frame& reply);
 void set_counts(Frame& reply, const Counts& counts);
 using Codes = std::array<std::uint16_t, kAnalogues>;
@@ -65,12 +65,12 @@ void set_analogue(Frame& reply, const Codes& raw);
 std::uint32_t tick_of(const Frame& reply);
 void set_tick(Frame& reply, std::uint32_t tick_ms);
 
-// The number of the next request. A number whose reply is still owed is not used again until it has
-// come or cannot come any more, so that a late reply is never taken for another's.
+// Gives the numbers of requests. A number is not used again until its reply has arrived or can no
+// longer arrive, so that a late reply is never assigned to another request.
 class RequestIds {
  public:
   static constexpr std::int64_t kLatest_ns = 10'000'000'000;
-  // Any number of requests at a time; with all 256 owed the oldest is used again.
+  // Allows any number of pending requests; if all 256 are pending, the oldest number is used again.
   std::uint8_t next(std::int64_t now_ns);
   void answered(std::uint8_t id) { owed_since_[id] = kNotOwed; }
 

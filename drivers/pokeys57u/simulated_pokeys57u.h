@@ -1,5 +1,5 @@
-// A simulated PoKeys57U, as a program sees it on the USB: a keyboard, the HID interface of the
-// encoders, a joystick.
+// A simulated PoKeys57U: the USB side of the device, with a keyboard, the HID interface of the
+// encoders and a joystick.
 #pragma once
 
 #include <cstdint>
@@ -13,33 +13,33 @@
 
 namespace mdof::drivers::pokeys57u {
 
-// Senses: inputs 0 ... 24 are encoders 1 ... 25, 25 the ultra-fast one, in counts; 26 ... 32 the
-// analogue inputs in volts. A request is answered a millisecond later.
+// Senses: inputs 0 ... 24 are encoders 1 ... 25 and input 25 is the ultra-fast encoder, in counts;
+// inputs 26 ... 32 are the analogue inputs in V. A request is answered after 1 ms.
 class SimulatedPokeys57u final : public usb::SimulatedUsb {
  public:
   static constexpr std::uint8_t kIn = 0x82, kOut = 0x02;
 
-  // What may go wrong; replies are counted from 0, -1: never.
+  // Possible faults; replies are counted from 0; -1: never.
   struct Faults {
-    int wrong_id_at = -1;      // this reply is preceded by the one before it, with its number
-    int bad_checksum_at = -1;  // of so many replies from this one on
+    int wrong_id_at = -1;  // the previous reply, with its number, is sent again before this reply
+    int bad_checksum_at = -1;  // first of `bad_checksums` replies
     int bad_checksums = 1;
-    int late_at = -1;  // this reply comes so much later than the others
+    int late_at = -1;  // this reply is late by late_ns
     std::int64_t late_ns = 50'000'000;
-    int mute_at = -1;  // so many requests from this one on are not answered
+    int mute_at = -1;  // first of `mutes` requests without a reply
     int mutes = 1;
     int index_at = -1;    // before this reply the index sets all counts to 0
-    int restart_at = -1;  // before this reply it was without power
-    int short_at = -1;    // of this reply 20 bytes come
-    int unplug_at = -1;   // it is gone instead
+    int restart_at = -1;  // before this reply the device loses power
+    int short_at = -1;    // only 20 bytes of this reply arrive
+    int unplug_at = -1;   // the device is unplugged instead
     bool deaf_to_options = false;
   };
   struct Options {
     std::uint32_t serial = 12345;
-    std::string usb_serial = {};      // empty: "2." and the number
-    std::int64_t uptime_ms = 60'000;  // when it is first asked
-    std::int64_t count_offset = 0;    // of all counts
-    bool old_board = false;           // states its number as boards before the PoKeys58 did
+    std::string usb_serial = {};      // empty: "2." and the serial number
+    std::int64_t uptime_ms = 60'000;  // at the first request
+    std::int64_t count_offset = 0;    // added to all counts
+    bool old_board = false;           // states its number as boards before the PoKeys58
     Faults faults = {};
   };
   SimulatedPokeys57u(Senses senses, Options options);
@@ -51,12 +51,12 @@ class SimulatedPokeys57u final : public usb::SimulatedUsb {
   void clear_halt(std::uint8_t) override {}
   bool gone() const override { return gone_; }
 
-  // Replies are counted from 0 again.
+  // Also restarts the counting of replies at 0.
   void set_faults(const Faults& faults) {
     options_.faults = faults;
     replies_ = 0;
   }
-  int requests() const { return requests_; }  // with a right checksum
+  int requests() const { return requests_; }  // with a valid checksum
 
  private:
   struct Sent {
@@ -82,8 +82,8 @@ class SimulatedPokeys57u final : public usb::SimulatedUsb {
   bool gone_ = false;
 };
 
-// As a plan of mdof-simulate has it. Counts: of the encoder at the first input, where none is
-// given.
+// Makes the twin from a plan of mdof-simulate. Counts of the listed encoders; default: the encoder
+// of the machine at the first input.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_pokeys57u(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::pokeys57u

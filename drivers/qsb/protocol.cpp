@@ -12,7 +12,7 @@ std::string hex(std::uint32_t value, int digits) {
   return text;
 }
 
-// Exactly `digits` hexadecimal digits at the front of `text`, which loses them.
+// Reads exactly `digits` hexadecimal digits at the beginning of `text` and removes them.
 std::optional<std::uint32_t> take_hex(std::string_view& text, std::size_t digits) {
   std::uint32_t value = 0;
   if (text.size() < digits) return std::nullopt;

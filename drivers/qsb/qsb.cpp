@@ -20,7 +20,7 @@ constexpr const char* kDatumLost = "the QSB was reset or lost power, and its cou
 constexpr const char* kAtMark =
     "the index signal is always active, so either index_inverted of the channel is wrong, or the "
     "axis is at its reference mark";
-constexpr double kAhead_ns = 2e9;  // that a stamp may be before what the host's clock allows
+constexpr double kAhead_ns = 2e9;  // largest lead of a stamp over the host's clock
 
 }  // namespace
 
@@ -87,8 +87,8 @@ Status Qsb::connect() {
   return {};
 }
 
-// Stops a stream that runs, and sets the form of the replies, whatever it was. A device that does
-// not answer is reset once; this costs its count.
+// Stops a running stream and sets the format of the replies. A device that does not answer is reset
+// once, which loses its count.
 Status Qsb::make_it_answer() {
   for (const bool reset : {false, true}) {
     if (reset && !options_.address) {
@@ -97,7 +97,7 @@ Status Qsb::make_it_answer() {
       MDOF_TRY(const auto banner, stream_->drain(kBannerWait / 2, kBannerWait));
       (void)banner;
     }
-    // What was left of a line before is ended by an empty one.
+    // An empty line ends an incomplete line that was sent before.
     MDOF_CHECK(stream_->write(
         "\r\n" + qsb_command('W', qsb::kCommand, 1) + qsb_command('W', qsb::kEor, qsb::kFullLines),
         kAnswer));
@@ -121,7 +121,7 @@ Status Qsb::check_identity() {
                   "; this port belongs to another device; give a port in /dev/serial/by-id");
 }
 
-// A reset takes with the count what was set up before.
+// A reset clears the count and the settings, so a changed interval shows a reset.
 Status Qsb::watch_for_reset() {
   if (!counted_) return {};
   MDOF_TRY(const QsbReply interval, ask('R', qsb::kInterval, std::nullopt));
@@ -148,7 +148,8 @@ Status Qsb::configure() {
   return {};
 }
 
-// What it loads at the mark stays the same over open(): it may have been there meanwhile.
+// The preset is kept over open(), because the axis may have passed the mark while the driver was
+// closed.
 Status Qsb::await_mark() {
   if (!options_.channel.index_mm) {
     anew_ = false;
@@ -179,7 +180,7 @@ Result<QsbReply> Qsb::ask(char type, std::uint8_t reg, std::optional<std::uint32
   return *reply;
 }
 
-// The next reply about `reg`, what else comes is passed over. Nothing: silence.
+// Returns the next reply about `reg` and ignores other lines. nullopt: silence.
 Result<std::optional<QsbReply>> Qsb::one_reply(std::uint8_t reg, milliseconds timeout) {
   const auto until = steady_clock::now() + timeout;
   for (;;) {
@@ -221,7 +222,7 @@ Result<ReadState> Qsb::read(SampleBlock& block, milliseconds timeout) {
 }
 
 void Qsb::give_out(SampleBlock& block) {
-  // What was lost was lost before a block, and a block is counted from one place.
+  // Losses and passed marks are counted at the beginning of a block, so they start a new block.
   while (!samples_.empty()) {
     const Sample& sample = samples_.front();
     const bool at_mark = sample.marks_passed != marks_passed_;
@@ -260,7 +261,8 @@ Status Qsb::take_line(std::string_view line, std::int64_t received_ns) {
   const auto reply = parse_qsb_line(line);
   if (reply && reply->type == 's' && reply->reg == qsb::kCount && reply->stamp)
     return take_sample(*reply, received_ns);
-  if (reply && reply->type == 'w' && reply->reg == qsb::kMdr0) return {};  // the index is off
+  // Reply to switching the index off.
+  if (reply && reply->type == 'w' && reply->reg == qsb::kMdr0) return {};
   return take_malformed();
 }
 
@@ -274,7 +276,7 @@ Status Qsb::take_malformed() {
 Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
   const std::int64_t stamp = stamp_(*reply.stamp);
   const std::int64_t step = last_stamp_ ? stamp - *last_stamp_ : 0;
-  if (last_stamp_ && step == 0) {  // the same tick again says nothing new
+  if (last_stamp_ && step == 0) {  // a repeated tick has no new data
     malformed_in_a_row_ = 0;
     return {};
   }
@@ -301,7 +303,8 @@ Status Qsb::take_sample(const QsbReply& reply, std::int64_t received_ns) {
   return {};
 }
 
-// A count that is astray is a damaged line, and where they all are it counts from elsewhere.
+// A count that is astray is a damaged line. If many lines in a row are astray, the count has a new
+// zero.
 Result<IndexMark::State> Qsb::watch_mark(std::int64_t count, std::int64_t received_ns) {
   using State = IndexMark::State;
   const State before = mark_.state();

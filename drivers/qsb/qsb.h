@@ -1,5 +1,5 @@
-// US Digital QSB-D/QSB-S: one incremental encoder, streamed with the device's time stamps, over a
-// serial port or a serial port behind TCP.
+// US Digital QSB-D/QSB-S: one incremental encoder, streamed with the device's time stamps over a
+// serial port, directly or through a TCP bridge.
 #pragma once
 
 #include <chrono>
@@ -21,26 +21,26 @@
 namespace mdof::drivers {
 
 struct QsbOptions {
-  std::string port;                 // or
-  std::optional<Endpoint> address;  // of a bridge
+  std::string port;                 // or `address`
+  std::optional<Endpoint> address;  // of a TCP bridge
   SerialSettings line{.baud = 230'400};
   std::uint32_t counting = 3;   // 1, 2, 3: x1, x2, x4
   std::uint32_t interval = 1;   // ticks between lines
   std::string serial;           // of the device; empty: any
   ChannelInput channel;         // input "count"
-  bool index_inverted = false;  // of the signal of its reference mark
-  // At the mark for so long, and it is stated that it gets no further.
+  bool index_inverted = false;  // polarity of the index signal
+  // Time at the mark after which the driver reports that the count does not move on.
   std::chrono::milliseconds long_at_mark{5000};
-  std::chrono::milliseconds silence{2000};  // is an error
+  std::chrono::milliseconds silence{2000};  // longest time without a line
 };
 
-// Thread-bound. A device that answers is not reset: its count goes on over open(). If it was reset
-// meanwhile its datum is lost: from then on its values are Quality::suspect, until it is
-// trusted again, or its reference mark was passed where it has one.
+// Thread-bound. A device that answers is not reset, so its count continues when it is opened again.
+// If it was reset meanwhile, its datum is lost: its values are Quality::suspect until
+// trust_count(), or until the axis passes the reference mark, if there is one.
 //
-// The index loads the count with a number of ours (counter/index_mark.h) in the midst of the
-// stream. It is switched off once the mark was passed: what the count loses later shows, and is not
-// put right in silence in the midst of a run.
+// During the stream, the index loads the count with a number that the driver sets
+// (counter/index_mark.h). This is switched off after the mark was passed: a later loss of counts
+// must be visible and must not be corrected silently during a run.
 class Qsb final : public Driver {
  public:
   static constexpr int kMalformedAllowed = 10;  // in a row
@@ -50,7 +50,7 @@ class Qsb final : public Driver {
   DeviceInfo info() const override;
   const DeviceClock* clock() const override { return &clock_; }
   Status open() override;
-  // A step of the stamps is lost lines. Errors: a reset in mid-stream, stamps that cannot be true,
+  // A step of the stamps means lost lines. Errors: a reset during the stream, impossible stamps,
   // more than 10 malformed lines in a row, silence.
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
   void trust_count() override { datum_lost_ = false; }
@@ -90,21 +90,21 @@ class Qsb final : public Driver {
   std::optional<ByteStream> stream_;
   QsbIdentity identity_;
   bool power_was_lost_ = false;
-  bool counted_ = false;     // it has been open since this object was made
-  bool datum_lost_ = false;  // its count has begun at 0 again since
-  std::string received_;     // not yet cut into lines
+  bool counted_ = false;     // the device was open since this object was created
+  bool datum_lost_ = false;  // its count has since restarted at 0
+  std::string received_;     // not cut into lines yet
   TickLength tick_{qsb::kTick_ns};
-  DeviceClock clock_{1.0};  // its ticks are nanoseconds of the device
+  DeviceClock clock_{1.0};  // a tick is 1 ns of device time
   Unwrap count_{32, true}, stamp_{32};
   std::optional<std::int64_t> last_stamp_;
   double device_ns_ = 0;
-  std::deque<Sample> samples_;  // not yet given out
-  Status status_;               // what to say once they are
+  std::deque<Sample> samples_;  // not returned yet
+  Status status_;               // reported after samples_ is empty
   std::int64_t last_sample_ns_ = 0;
   IndexMark mark_{32};
-  bool anew_ = true;  // its count is not that of the last open(), and its mark is to be awaited
+  bool anew_ = true;  // the count has a new zero, so the mark must be awaited
   std::int64_t at_mark_since_ns_ = 0;
-  int marks_found_ = 0, marks_passed_ = 0;  // received, given out
+  int marks_found_ = 0, marks_passed_ = 0;  // in received samples; in returned samples
   std::uint64_t malformed_ = 0;
   int malformed_in_a_row_ = 0;
 };

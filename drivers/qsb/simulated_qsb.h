@@ -1,4 +1,4 @@
-// A simulated QSB, as a program sees it on a serial line.
+// A simulated QSB on a serial line.
 #pragma once
 
 #include <array>
@@ -13,26 +13,26 @@
 
 namespace mdof::drivers {
 
-// `senses` gives counts, input 0. One client at a time.
+// `senses`: input 0, counts. One client at a time.
 class SimulatedQsb final : public SimulatedDevice {
  public:
-  // Lines of the stream count from 0 at each S command; -1: never.
+  // Lines of the stream are counted from 0 at each S command; -1: never.
   struct Faults {
     double tick_ns = qsb::kTick_ns;
-    int reset_at = -1;              // a banner instead of the line; the count starts anew
-    int cut_at = -1;                // half of the line, and no line end
+    int reset_at = -1;              // a banner replaces this line; the count restarts
+    int cut_at = -1;                // half of this line, without a line end
     int jump_at = -1;               // the stamp jumps
-    std::uint32_t jump_ticks = 10;  // by so much more
+    std::uint32_t jump_ticks = 10;  // ticks of the jump
     int silent_from = -1;
-    bool rubbish = false;  // no digit is right in any line of the stream
-    int refuse = -1;       // register: reply e
-    int unsupported = -1;  // register: reply x
-    bool mute = false;     // no reply ever
+    bool rubbish = false;  // no line of the stream has a valid digit
+    int refuse = -1;       // register with reply e
+    int unsupported = -1;  // register with reply x
+    bool mute = false;     // never replies
     bool streams_at_start = false;
-    int far_from = -1, fars = 1;  // so many lines from there show a count far away
+    int far_from = -1, fars = 1;  // first and number of lines with a count far away
   };
-  // The reference mark of the encoder: where in counts of `senses`, and whether its signal is low
-  // there and high everywhere else. A rotary encoder has another one a turn further.
+  // The reference mark: its position in counts of `senses`; `inverted`: its signal is low at the
+  // mark and high elsewhere. A rotary encoder has another mark one turn further (`next_at`).
   struct Mark {
     double at = 0;
     bool inverted = false;
@@ -42,7 +42,7 @@ class SimulatedQsb final : public SimulatedDevice {
     Faults faults = {};
   };
   SimulatedQsb(Senses senses, const Options& options);
-  void set_mark(Mark mark) { mark_ = mark; }  // before it is served
+  void set_mark(Mark mark) { mark_ = mark; }  // call it before the device is served
 
   std::vector<Port> ports() const override { return {{"serial", 0}}; }
   void opened(std::size_t port, int client, std::int64_t now_ns) override;
@@ -68,13 +68,13 @@ class SimulatedQsb final : public SimulatedDevice {
   std::int64_t stamp_from_ns_ = 0;
   double count_from_ = 0;
   std::optional<Mark> mark_;
-  double last_position_ = 0;  // counts, where the axis was last asked for
+  double last_position_ = 0;  // counts, when the position was last read
   bool streaming_ = false;
   std::int64_t next_tick_ = 0;
   int line_ = 0;
 };
 
-// As a plan of mdof-simulate has it. Counts of the encoder, or of the channel that is given.
+// Makes the twin from a plan of mdof-simulate. Counts of the given channel; default: the encoder.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_qsb(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers

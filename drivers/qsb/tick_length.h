@@ -1,20 +1,21 @@
-// How long a tick of a device is that does not say so exactly.
+// Measures the length of a tick of a device that does not state it exactly.
 #pragma once
 
 #include <cstdint>
 
 namespace mdof::drivers {
 
-// The manual's tick is 1/512 s, 1/256 s or 1.90 ms, by the page: too far apart for DeviceClock,
-// which takes a clock for at most 0.1 % wrong. The length is measured between the quickest packet
-// of the stream's beginning and the quickest just before 0.5, 1, 2 ... 64 s of it; a new value
-// counts where it differs by more than 10 ms of delay could explain. Pure.
+// The manual states a tick of 1/512 s, 1/256 s or 1.90 ms on different pages. These values differ
+// too much for DeviceClock, which assumes that a clock deviates by at most 0.1 %. The length is
+// measured between the quickest packet at the beginning of the stream and the quickest packet just
+// before 0.5, 1, 2 ... 64 s. A new value is used if it differs by more than a delay of 10 ms
+// explains. Pure.
 class TickLength {
  public:
   explicit TickLength(double nominal_ns) : ns_(nominal_ns) {}
-  // A packet whose newest line has the stamp `ticks` (growing) was received.
+  // A packet was received whose newest line has the stamp `ticks` (growing).
   void add(std::int64_t ticks, std::int64_t received_ns);
-  // A new stream begins; what was learned stays.
+  // A new stream begins; the measured length is kept.
   void restart();
   double ns() const { return ns_; }
 

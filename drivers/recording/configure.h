@@ -5,7 +5,7 @@
 
 namespace mdof::drivers {
 
-// Key: file. A recording (by its magic), else a probe log: CSV, plain or gzip.
+// Key: file. A recording (detected by its magic), otherwise a probe log: CSV, plain or gzip.
 Result<DriverSpec> configure_replay(TomlTable& table, const DriverContext& context);
 
 }  // namespace mdof::drivers

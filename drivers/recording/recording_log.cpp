@@ -22,7 +22,7 @@ bool describes(const RecordingChunk& chunk, const SampleBlock& block) {
          block.lost == chunk.lost;
 }
 
-// In floating point: time stamps of a damaged file may lie too far apart for integers.
+// In floating point, because time stamps of a damaged file may differ too much for integers.
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
   return (static_cast<double>(to_ns) - static_cast<double>(from_ns)) / kNsPerS;
 }
@@ -91,7 +91,8 @@ Status RecordingLog::read_header() {
   MDOF_TRY(header_.request, value("request"));
   MDOF_TRY(const std::string simulated, value("simulated"));
   MDOF_TRY(const std::string sha256, value("sha256"));
-  header_.simulated = info_.simulated = simulated != "0";  // anything else is not a measurement
+  // Any other text is not a measurement either.
+  header_.simulated = info_.simulated = simulated != "0";
   if (sha256 == sha256_of(header_)) return {};
   return bad_input(
       file_.string() +
@@ -126,7 +127,7 @@ Status RecordingLog::read_extent() {
   return {};
 }
 
-// From the first chunk of each device. One that is damaged is left to read(), which states more.
+// From the first chunk of each device. If it is damaged, read() reports the details.
 Status RecordingLog::find_channels() {
   info_.channels.clear();
   MDOF_TRY(Statement rows, connection_->prepare("SELECT min(seq) FROM chunk GROUP BY device "
@@ -216,10 +217,10 @@ std::string RecordingLog::span_of(const RecordingChunk& chunk) const {
   return text;
 }
 
-// "chunks 1-6, 8-20": only after an error, so the time it takes does not matter.
+// Text such as "chunks 1-6, 8-20". It is only needed after an error, so it may be slow.
 std::string RecordingLog::whole_chunks() {
   std::string text;
-  std::int64_t first = 0, last = -1;  // the stretch being gathered
+  std::int64_t first = 0, last = -1;  // range of undamaged chunks
   const auto report = [&] {
     if (last < first) return;
     text += (text.empty() ? "chunks " : ", ") + std::to_string(first);
@@ -239,7 +240,7 @@ std::string RecordingLog::whole_chunks() {
   return text.empty() ? "no chunk" : text;
 }
 
-// Those that can be listed; a damaged file may end the list early.
+// The numbers of the chunks that can be listed; a damaged file may end the list early.
 std::vector<std::int64_t> RecordingLog::chunk_numbers() {
   std::vector<std::int64_t> numbers;
   auto rows = connection_->prepare("SELECT seq FROM chunk ORDER BY seq");

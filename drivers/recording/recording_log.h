@@ -1,5 +1,5 @@
-// A recording (schema/recording/recording.h) as a driver: what it read live it gives again, chunk
-// by chunk, bit for bit. Writes nothing, neither to the file nor beside it.
+// Driver that replays a recording (schema/recording/recording.h) chunk by chunk, bit for bit. It
+// writes neither to the file nor beside it.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@
 
 namespace mdof::drivers {
 
-// Thread-bound. Errors of open(): not_found; bad_input for what is not a recording, is one of a
-// newer format, or has a damaged header. Errors of read(): bad_input for a damaged chunk; the
-// message names it, its time span and the chunks that are whole. A file without a seal (its writer
-// was interrupted, or is at work) reads up to the last chunk that was committed when it was opened,
-// with a warning.
+// Thread-bound. Errors of open(): not_found; bad_input for a file that is not a recording, has a
+// newer format or has a damaged header. Error of read(): bad_input for a damaged chunk; the message
+// names the chunk, its time span and the undamaged chunks. A file without a seal (its writer was
+// interrupted or is still writing) is read up to the last chunk that was committed when it was
+// opened, with a warning.
 class RecordingLog : public Driver {
  public:
   RecordingLog(std::string name, std::filesystem::path file);
-  // Of descriptors that are open already, of the file and of the -wal beside it (-1: none); they
-  // stay the caller's and outlive it.
+  // Open descriptors of the file and of the -wal file beside it (-1: none). The caller owns them;
+  // they must outlive this object.
   struct Descriptors {
     int file = -1, wal = -1;
   };
@@ -35,11 +35,11 @@ class RecordingLog : public Driver {
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 
-  // The rest holds once open() has succeeded.
+  // The following functions are valid after open() has succeeded.
   const RecordingHeader& header() const { return header_; }
   const std::string& rig_text() const { return header_.rig_text; }
   bool simulated() const { return header_.simulated; }
-  // Of the chain of chunks; proven once read() has said `end`.
+  // Hash of the chain of chunks; verified after read() has returned `end`.
   const std::string& sha256() const { return sha256_; }
   const Notices& notices() const { return notices_; }
   Progress progress() const;  // in chunks
@@ -51,7 +51,7 @@ class RecordingLog : public Driver {
   Status read_seal();
   Status read_extent();
   Status find_channels();
-  // Reads and checks one chunk; an error states only what is wrong with it.
+  // Reads and checks one chunk. An error states only the problem, not the chunk.
   Status load(std::int64_t seq, RecordingChunk& chunk, SampleBlock& block);
   Result<std::string> hash_before(std::int64_t seq);
   Status check_end();
@@ -71,7 +71,7 @@ class RecordingLog : public Driver {
   std::int64_t chunks_ = 0, next_ = 1, start_ns_ = 0;
 };
 
-// Whether the file begins as a recording does (SQLite's magic); what cannot be read does not.
+// Whether the file begins with SQLite's magic, as recordings do; false for an unreadable file.
 bool is_recording(const std::string& path);
 bool is_recording(int descriptor);
 

@@ -1,4 +1,4 @@
-// Time as the simulator sees it; tests hand in their own.
+// The clock of the simulator; tests replace it.
 #pragma once
 
 #include <chrono>
@@ -10,7 +10,7 @@ namespace mdof::drivers {
 
 struct Clock {
   std::function<std::int64_t()> now_ns;            // monotonic
-  std::function<void(std::int64_t ns)> sleep_for;  // at least so long
+  std::function<void(std::int64_t ns)> sleep_for;  // at least this duration
 };
 
 inline Clock steady_clock() {

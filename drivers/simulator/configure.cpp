@@ -20,7 +20,7 @@ Result<DriverSpec> configure_simulator(TomlTable& table, const DriverContext& co
     return std::unique_ptr<Driver>(std::move(simulator));
   };
   spec.source_info = [](const Driver&) { return SourceInfo{}; };
-  MDOF_TRY(const auto tried, spec.make());  // what only shows against the rig, said at start-up
+  MDOF_TRY(const auto tried, spec.make());  // reports errors against the rig at start-up
   return spec;
 }
 

@@ -5,7 +5,7 @@
 
 namespace mdof::drivers {
 
-// Keys: those of options.h.
+// Keys: see options.h.
 Result<DriverSpec> configure_simulator(TomlTable& table, const DriverContext& context);
 
 }  // namespace mdof::drivers

@@ -1,4 +1,5 @@
-// The simulated machine and its sensors: what each scan reads, as a pure function of its number.
+// The simulated machine and its sensors: the readings of each scan are a pure function of its
+// number.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +15,25 @@
 
 namespace mdof::drivers {
 
-// Displacement of the target along each probe of the rig, in its order, at this travel with these
-// errors. Handed in, as drivers know no mathematics of the fixture.
+// Displacement of the target along each probe of the rig, in the rig's order, for this travel and
+// these errors. The caller supplies it, because drivers do not include algo/.
 using ForwardModel =
     std::function<void(double travel_m, const Errors5& local, std::span<double> probe_m)>;
 
 class Machine {
  public:
-  // Options as fit_to_rig() leaves them.
+  // `options`: completed by fit_to_rig().
   Machine(Rig rig, SimulatorOptions options, ForwardModel model);
 
-  // The probes in the order of the rig, raw µm as a device with the rig's calibration gives them;
-  // then the encoder, mm.
+  // The probes in the order of the rig, raw µm before the rig's calibration; then the encoder, mm.
   std::vector<Channel> channels() const;
-  // One value and quality a channel; the caller has the columns and adds the time. `t_ns` is that
-  // of the scan since the start.
+  // Appends one value and quality to each channel; the caller has prepared the columns and adds the
+  // time. `t_ns`: time of the scan since the start.
   void append_scan(SampleBlock& block, std::uint64_t scan, std::int64_t t_ns);
-  bool in_gap(std::int64_t t_ns) const;  // the scan never comes
+  bool in_gap(std::int64_t t_ns) const;  // whether the scan is never sent
 
-  // At the carriage, of the target, local frame; the options give the errors of the moving body.
+  // Errors of the target at the carriage, local frame; the options give the errors of the moving
+  // body.
   Errors5 truth_at(double travel_m, int direction) const;
   const Motion& motion() const { return motion_; }
 

@@ -28,7 +28,7 @@ Motion::Motion(const SimulatorOptions& options)
     move_to(direction > 0 ? high_m : low_m, direction);
     std::reverse(targets_mm.begin(), targets_mm.end());
   }
-  // A single target, neither rest nor overrun: the axis stands, in cycles of a second.
+  // A single target without rest and overrun: the axis does not move; a cycle takes 1 s.
   if (cycle_ns() == 0) append(position_m_, 1, true, 1);
 }
 

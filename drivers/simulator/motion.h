@@ -1,8 +1,9 @@
-// Where the axis is at any time: through all targets forward, past the end, and back, for ever.
+// Position of the axis at any time: forward through all targets, past the end, and back, repeated
+// endlessly.
 //
-// A move over D is the minimum-jerk polynomial s(τ) = D (10 τ³ - 15 τ⁴ + 6 τ⁵): its highest speed
-// is 1.875 D/T and its highest acceleration 10/√3 D/T², which give the time T that it takes.
-// The axis rests at targets only; at the overruns it turns without a pause.
+// A move over D is the minimum-jerk polynomial s(τ) = D (10 τ³ - 15 τ⁴ + 6 τ⁵). Its highest speed
+// is 1.875 D/T and its highest acceleration 10/√3 D/T²; they determine the time T. The axis rests
+// at targets only; at the overruns it turns without a pause.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace mdof::drivers {
 
 struct AxisState {
   double travel_m = 0;
-  int direction = 1;     // +1, -1: of the move under way, or of the one that led here
+  int direction = 1;     // +1, -1: direction of this move or, at rest, of the last move
   bool resting = false;  // at a target
 };
 
@@ -28,7 +29,7 @@ class Motion {
   std::int64_t cycle_ns() const { return leg_.back().begin_ns + leg_.back().length_ns; }
 
  private:
-  struct Leg {  // a move or, with from == to, a rest
+  struct Leg {  // a move, or a rest if from == to
     std::int64_t begin_ns, length_ns;
     double from_m, to_m;
     int direction;

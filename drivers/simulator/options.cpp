@@ -23,14 +23,14 @@ std::string text_of(double x) {
   return text;
 }
 
-// Overwrites `value` if the key is there; refuses what is not within [min, max], NaN included.
+// Overwrites `value` if the key is given; rejects values outside [min, max] and NaN.
 void read(TomlTable& table, std::string_view key, double& value, double min, double max) {
   value = table.number(key, value);
   if (!(value >= min && value <= max))
     table.reject(key, "must be from " + text_of(min) + " to " + text_of(max));
 }
 
-// True if `key` says `yes`, false if it says `no`; `fallback` if absent.
+// Returns true if `key` is `yes`, false if it is `no`, `fallback` if it is missing.
 bool read_choice(TomlTable& table, std::string_view key, const char* yes, const char* no,
                  bool fallback) {
   const std::string word = table.string(key, fallback ? yes : no);
@@ -124,7 +124,7 @@ void read_faults(TomlTable& table, SimulatorOptions& options) {
     options.disconnects.push_back(read_interval(gone));
 }
 
-// Amplitudes, periods and slopes that a small machine might have; by place in error_names().
+// Amplitudes, periods and slopes of a plausible small machine, in the order of error_names().
 std::vector<NamedError> plausible_errors(Axis axis) {
   const NamedError plausible[] = {{"", 1.5, 60, 0.0, 0.02, 0.3},
                                   {"", 2.0, 45, 0.2, -0.01, 0.2},
@@ -142,7 +142,7 @@ std::string names_of(Axis axis) {
   return list;
 }
 
-// The errors in the order of error_names(), those not given as zero.
+// The errors in the order of error_names(); errors that are not given are zero.
 Result<std::vector<NamedError>> in_order(const std::vector<NamedError>& given, Axis axis) {
   std::vector<NamedError> ordered(kErrorCount);
   for (const NamedError& error : given) {

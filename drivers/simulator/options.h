@@ -1,4 +1,4 @@
-// What the simulated axis does, in the units and by the names of its configuration keys.
+// Options of the simulated axis, with the units and names of their configuration keys.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ struct NamedError {
   double reversal = 0;      // reversal_um, reversal_urad
 };
 
-// Time is cut into windows of length_s; each of them is, with this probability, all fault.
+// Time is divided into windows of length_s. Each window is faulty as a whole, with this
+// probability.
 struct Bursts {
   double probability = 0;
   double length_s = 0.05;
@@ -45,41 +46,42 @@ struct LostProbe {
 
 struct SimulatorOptions {
   double rate_hz = 1000;
-  double packet_ms = 2;   // scans arrive in packets of this length, as from a real interface
-  bool real_time = true;  // pace = "real-time": scans come as time passes; "fast": at once
-  bool loop = true;       // after the last repeat: begin again, or end
+  double packet_ms = 2;   // scans arrive in packets of this length, as from a real device
+  bool real_time = true;  // pace = "real-time": scans arrive in real time; "fast": at once
+  bool loop = true;       // after the last repeat: true: begin again; false: end
   std::int64_t seed = 1;
 
-  std::vector<double> targets_mm;  // ascending; made of from, to, interval and jitter if not given
-  double overrun_mm = 2;           // past both ends, so that every target is met both ways
-  int repeats = 5;                 // forward and back
+  std::vector<double> targets_mm;  // ascending; by default made of from, to, interval and jitter
+  // Beyond both ends, so that every target is approached from both directions.
+  double overrun_mm = 2;
+  int repeats = 5;  // forward and back
   double dwell_s = 0.5;
-  double speed_mm_s = 20;  // highest of a move
+  double speed_mm_s = 20;  // highest speed of a move
   double acceleration_mm_s2 = 200;
-  double settle_um = 0;  // overshoot on arrival, dies away within settle_s
+  double settle_um = 0;  // overshoot at arrival; decays within settle_s
   double settle_hz = 25;
   double settle_s = 0.1;
 
-  std::vector<NamedError>
-      errors;              // none given: a plausible small machine; a named one alone: only it
+  // Default: those of a plausible small machine; if some are named, only these.
+  std::vector<NamedError> errors;
   double noise_um = 0.01;  // standard deviation, each probe
   double encoder_noise_nm = 5;
   double encoder_resolution_nm = 10;  // 0: not rounded
 
-  double spike_probability = 0;  // of each value of each probe
+  double spike_probability = 0;  // for each value of each probe
   double spike_um = 20;
-  Bursts saturation;                  // a probe at the end of its range; [saturation]
-  Bursts gap;                         // scans that never come; [gap]
-  std::vector<LostProbe> lost;        // a probe without values; [[lost]]
-  std::vector<Interval> disconnects;  // the device is gone; [[disconnect]]
+  Bursts saturation;            // windows in which a probe is at the end of its range; [saturation]
+  Bursts gap;                   // windows whose scans are never sent; [gap]
+  std::vector<LostProbe> lost;  // times without values of a probe; [[lost]]
+  std::vector<Interval> disconnects;  // times at which the device is gone; [[disconnect]]
 };
 
-// Reads all keys of the simulator, then calls table.finish(): the caller has asked for its own
+// Reads all keys of the simulator, then calls table.finish(); the caller must have read its own
 // keys before. Errors name file, line and key.
 Status read_options(TomlTable& table, SimulatorOptions& options);
 
-// Checks what only shows against the rig (errors of another axis, unknown or repeated names) and
-// completes the options: default targets; five errors, in the order of error_names().
+// Checks the options against the rig (errors of another axis, unknown or repeated names) and
+// completes them: default targets; five errors, in the order of error_names().
 Status fit_to_rig(SimulatorOptions& options, const Rig& rig);
 
 }  // namespace mdof::drivers

@@ -1,8 +1,8 @@
-// A moving axis with errors, noise and faults: an ordinary driver without a machine.
+// Driver of a simulated axis that moves, with errors, noise and faults.
 //
-// All randomness is a hash of seed, channel and scan number, and no transcendental function of the
-// C library takes part: the same seed and options give the same bits from every compiler, in
-// values and in times since the first open(), in whatever portions they are read.
+// All random numbers are hashes of seed, channel and scan number, and no transcendental function of
+// the C library is used. Therefore the same seed and options give the same bits with every
+// compiler, in values and in times since the first open(), independent of the size of the reads.
 #pragma once
 
 #include <memory>
@@ -17,11 +17,11 @@
 
 namespace mdof::drivers {
 
-// Thread-bound. Channels: see Machine. Good samples are Quality::simulated.
+// Thread-bound. Channels: see Machine. Good samples have Quality::simulated.
 //
-// pace = "real-time": a scan comes when the clock has reached its time, in packets; after a
-// disconnect open() fails until it is over, and what was due meanwhile is lost.
-// pace = "fast": each read() gives scans at once, and open() after a disconnect goes on behind it.
+// pace = "real-time": a scan is returned when the clock has reached its time, in packets. During a
+// disconnect open() fails; scans due in this time are lost.
+// pace = "fast": each read() returns scans at once, and open() continues after the disconnect.
 class Simulator final : public Driver {
  public:
   // Errors: options that do not fit the rig (see fit_to_rig).
@@ -33,7 +33,7 @@ class Simulator final : public Driver {
   Status open() override;
   Result<ReadState> read(SampleBlock& block, std::chrono::milliseconds timeout) override;
 
-  // For tests: the truth, its motion, and its targets.
+  // For tests: the machine with its true errors and motion, and the targets.
   const Machine& machine() const { return machine_; }
   const std::vector<double>& targets_mm() const { return options_.targets_mm; }
 
@@ -42,7 +42,7 @@ class Simulator final : public Driver {
             Clock clock);
 
   std::int64_t time_of(std::uint64_t scan) const;        // ns since the first open()
-  std::uint64_t first_scan_at(std::int64_t t_ns) const;  // its time is t_ns or later
+  std::uint64_t first_scan_at(std::int64_t t_ns) const;  // first scan at t_ns or later
   std::int64_t now() const;                              // ns since the first open()
   std::int64_t wait_for_packet(std::chrono::milliseconds timeout) const;
   bool ended(std::int64_t t_ns) const;
@@ -55,9 +55,9 @@ class Simulator final : public Driver {
   Clock clock_;
   std::vector<Channel> channels_;
   std::optional<std::int64_t> start_ns_;  // clock at the first open()
-  const Interval* gone_ = nullptr;        // the disconnect that read() ran into, until open()
-  std::uint64_t next_ = 0;                // scan
-  std::uint64_t lost_ = 0;                // since the last scan that was handed out
+  const Interval* gone_ = nullptr;        // disconnect that read() has reached; cleared by open()
+  std::uint64_t next_ = 0;                // number of the next scan
+  std::uint64_t lost_ = 0;                // since the last returned scan
 };
 
 }  // namespace mdof::drivers

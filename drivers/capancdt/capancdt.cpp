@@ -13,11 +13,12 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
-constexpr std::size_t kBlockScans = 4096;        // at most, in one read, but for one packet more
-constexpr std::size_t kReadBytes = 1 << 16;      // at a time
-constexpr int kReads = 16;                       // before they are looked at
-constexpr std::uint64_t kMostGarbage = 1 << 18;  // bytes without a packet; the largest is half
-constexpr double kMostLost_ns = 10e9;            // in a row; the counter was set anew if more
+constexpr std::size_t kBlockScans = 4096;    // in one read; exceeded by at most one packet
+constexpr std::size_t kReadBytes = 1 << 16;  // in one read() of the socket
+constexpr int kReads = 16;                   // calls of read() before the data are processed
+// Bytes without a packet; the largest packet has half.
+constexpr std::uint64_t kMostGarbage = 1 << 18;
+constexpr double kMostLost_ns = 10e9;  // in a row; a longer gap means a reset counter
 
 std::int64_t to_ns(steady_clock::time_point time) {
   return std::chrono::duration_cast<nanoseconds>(time.time_since_epoch()).count();
@@ -87,7 +88,7 @@ Health Capancdt::health() const {
           s.clock.state()};
 }
 
-// Takes what has come, and waits for something once.
+// Takes all received data; waits once if there are none.
 Status Capancdt::receive(milliseconds timeout) {
   Session& s = *session_;
   bool came = false;
@@ -95,7 +96,7 @@ Status Capancdt::receive(milliseconds timeout) {
   if (came) {
     const auto now = steady_clock::now();
     auto placed = place_packets(now);
-    MDOF_CHECK(update_clock(to_ns(now), all.value_or(true)));  // for those before an error, too
+    MDOF_CHECK(update_clock(to_ns(now), all.value_or(true)));  // also for frames before an error
     MDOF_CHECK(std::move(placed));
   }
   if (!all) return in_context("the data connection", all.error());
@@ -105,7 +106,7 @@ Status Capancdt::receive(milliseconds timeout) {
   return check_silence();
 }
 
-// False: there is more than was taken, so that what was taken is not the newest.
+// Returns false if more data are pending, so that the received frames are not the newest.
 Result<bool> Capancdt::receive_all(milliseconds timeout, bool& came) {
   std::array<char, kReadBytes> bytes;
   for (int i = 0; i < kReads; ++i) {
@@ -129,14 +130,14 @@ Status Capancdt::place_packets(steady_clock::time_point received) {
   return {};
 }
 
-// The clock is given the newest frame only: earlier frames may have waited in this computer, and
-// the device's clock would seem to jump. Checks the rate of the frames as well.
+// Adds only the newest frame to the clock: earlier frames may have waited in this computer, so the
+// device's clock would appear to jump. Also checks the frame rate.
 Status Capancdt::update_clock(std::int64_t received_ns, bool all) {
   Session& s = *session_;
   if (s.waiting.empty() || (!all && s.newest_frame)) return {};
   const PlacedPacket& last = s.waiting.back();
   const std::int64_t newest = last.first_frame + last.packet.frames() - 1;
-  if (newest == s.newest_frame) return {};  // a part of a packet came
+  if (newest == s.newest_frame) return {};  // only a part of a packet arrived
   s.newest_frame = newest;
   s.first_ns = s.first_ns.value_or(received_ns);
   s.warm = s.warm || nanoseconds(received_ns - *s.first_ns) >= options_.warm_up;
@@ -165,7 +166,7 @@ tl::unexpected<Error> Capancdt::naming_device(const Error& error) const {
   return in_context("device \"" + options_.name + "\"" + (named ? "" : " at " + place), error);
 }
 
-// A block ends before frames that were lost: they belong to the beginning of the next.
+// A block ends before lost frames; the next block counts them as lost.
 void Capancdt::fill_block(SampleBlock& block) {
   auto& waiting = session_->waiting;
   if (waiting.empty()) return;

@@ -1,4 +1,4 @@
-// A capaNCDT 6200 controller, its probes as channels of the rig, in µm.
+// A capaNCDT 6200 controller. Its probes are channels of the rig, in µm.
 #pragma once
 
 #include <deque>
@@ -18,17 +18,17 @@
 
 namespace mdof::drivers::capancdt {
 
-// What happened on the data port since open().
+// State of the data port since open().
 struct Health {
   std::uint64_t lost = 0;              // frames
   std::uint64_t duplicates = 0;        // packets
-  std::uint64_t skipped = 0;           // bytes that were no packet
-  std::optional<CounterUnit> counter;  // what it counts; none: not known yet
+  std::uint64_t skipped = 0;           // bytes outside of packets
+  std::optional<CounterUnit> counter;  // what the counter counts; nullopt: not known yet
   ClockState clock;
 };
 
-// Thread-bound. Errors of read(): silence, disconnection, a counter that jumped, frames at another
-// rate than the controller says, garbage. Each is final until open().
+// Thread-bound. Errors of read(): silence, disconnection, a jump of the counter, a frame rate that
+// differs from the rate that the controller states, invalid data. Each is final until open().
 class Capancdt final : public Driver {
  public:
   explicit Capancdt(Options options);
@@ -41,7 +41,7 @@ class Capancdt final : public Driver {
   Health health() const;
 
  private:
-  // Of one connection to the data port; open() begins a new one.
+  // State of one connection to the data port; open() begins a new one.
   struct Session {
     Setup setup;
     ByteStream data;
@@ -49,11 +49,11 @@ class Capancdt final : public Driver {
     FrameCounter counter;
     DeviceClock clock;
     RateWatch rate;
-    std::deque<PlacedPacket> waiting;  // placed, but not yet in a block
+    std::deque<PlacedPacket> waiting;  // numbered, but not yet in a block
     std::chrono::steady_clock::time_point last_packet_time;
-    std::optional<std::int64_t> newest_frame;  // that the clock knows
-    std::optional<std::int64_t> first_ns;      // when the clock was given its first frame
-    bool warm = false;                         // Options::warm_up has passed
+    std::optional<std::int64_t> newest_frame;  // newest frame added to the clock
+    std::optional<std::int64_t> first_ns;      // when the first frame was added to the clock
+    bool warm = false;                         // Options::warm_up has elapsed
     std::optional<Error> failed;               // read() returns it after the scans before it
   };
   Status receive(std::chrono::milliseconds timeout);

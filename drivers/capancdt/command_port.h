@@ -1,4 +1,4 @@
-// The dialogue on the command port of a controller.
+// Commands and replies on the command port of a controller.
 #pragma once
 
 #include <chrono>
@@ -11,15 +11,16 @@
 
 namespace mdof::drivers::capancdt {
 
-// Thread-bound. Blocks, at most twice `reply_timeout` a command.
+// Thread-bound. A command takes at most twice `reply_timeout`.
 class CommandPort {
  public:
   CommandPort(ByteStream stream, std::chrono::milliseconds reply_timeout);
-  // What the controller says of itself when a client connects; empty: it said nothing.
+  // The text that the controller sends when a client connects; empty: it sent none.
   Result<Welcome> welcome();
-  // The result. Errors: refused (with what was said), no answer after a second try, disconnected.
+  // Returns the result. Errors: refused (with the controller's text), no answer after a second try,
+  // disconnected.
   Result<std::string> ask(const std::string& command);
-  // None: the controller does not know the command.
+  // nullopt: the controller does not know the command.
   Result<std::optional<std::string>> ask_if_known(const std::string& command);
 
  private:

@@ -18,7 +18,7 @@ using capancdt::Options;
 constexpr std::int64_t kMostSampleTime_us = 10'000'000;
 constexpr double kMostRange_um = 1e6;
 
-// Absent: none.
+// nullopt: the key is missing.
 std::optional<int> read_integer(TomlTable& table, const char* key, std::int64_t min,
                                 std::int64_t max) {
   const bool given = table.has(key);
@@ -74,7 +74,7 @@ bool rig_corrects(const Rig& rig, const std::string& id) {
   return !calibration.linearity.empty() || !calibration.polynomial_um.empty();
 }
 
-// As far as the configuration says it; the controller is asked for the rest.
+// Checks the values that the configuration gives; the driver checks the others with the controller.
 void check_averaging(TomlTable& table, const Options& options) {
   if (!options.averaging || *options.averaging == Averaging::none) return;
   if (!options.averaged_values || !options.sample_time_us) return;

@@ -11,13 +11,13 @@ namespace mdof::drivers::capancdt {
 namespace {
 
 constexpr int kMostSample_us = 10'000'000;
-constexpr double kSameRange = 1e-3;  // of the range: the controller rounds
+constexpr double kSameRange = 1e-3;  // share of the range; the controller rounds ranges
 
 tl::unexpected<Error> wrong(const std::string& what, const std::string& remedy) {
   return io_error(what + "; " + remedy);
 }
 
-// Identity, from the version, the controller's own information, and else its welcome.
+// Takes the identity from the version, the controller information ($COI) or the welcome text.
 Status identify(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const Welcome welcome, port.welcome());
   MDOF_TRY(const std::string version, port.ask("$VER"));
@@ -49,7 +49,7 @@ Status change_settings(CommandPort& port, const Options& options) {
   return set(port, "$STI", options.sample_time_us);
 }
 
-// None: the controller does not know it.
+// nullopt: the controller does not know the command.
 Result<std::optional<int>> setting(CommandPort& port, const std::string& command) {
   MDOF_TRY(const auto text, port.ask_if_known(command));
   if (!text) return std::nullopt;
@@ -74,7 +74,7 @@ std::string averaging_text(int type) {
   return std::string("\"") + to_string(static_cast<Averaging>(type)) + "\"";
 }
 
-// In the words of the configuration.
+// The error uses the names of the configuration.
 Status check_averaging(std::optional<Averaging> wanted, std::optional<int> is) {
   if (!wanted || !is || static_cast<int>(*wanted) == *is) return {};
   return wrong("averaging is " + averaging_text(*is) + " on the controller, but " +
@@ -94,13 +94,13 @@ Status read_averaging(CommandPort& port, const Options& options, Setup& setup) {
   return {};
 }
 
-// $LIN of each input, as the controller numbers them; empty: it does not say.
+// $LIN of each input, in the controller's order; empty: unknown.
 Result<std::vector<int>> linearisations(CommandPort& port) {
   MDOF_TRY(const auto text, port.ask_if_known("$LIN?"));
   return parse_channel_list(text.value_or("")).value_or(std::vector<int>{});
 }
 
-// What changes values without a word: it goes with every result.
+// Corrections that the controller applies silently; each result must state them.
 Status read_corrections(CommandPort& port, const Options& options, Setup& setup) {
   MDOF_TRY(const auto modes, linearisations(port));
   if (modes.empty()) setup.notices.push_back(notice(NoticeCode::linearisation_unknown));
@@ -138,7 +138,7 @@ Status read_settings(CommandPort& port, const Options& options, Setup& setup) {
                     " us, which is not from 1 to " + std::to_string(kMostSample_us));
   setup.sample_time_us = *time_us;
   MDOF_CHECK(check_filter(setup.sample_time_us, setup.window, options.settle_s));
-  // The controller takes the nearest time it can; the one that it has is what counts.
+  // The controller uses the nearest sample time that it supports; the actual value counts.
   return options.configure ? Status{} : check("sample_time_us", options.sample_time_us, time_us);
 }
 
@@ -153,7 +153,7 @@ Result<Setup::Input> read_input(CommandPort& port, const Options::Channel& chann
   const std::string command = "$CHI" + std::to_string(channel.number);
   MDOF_TRY(const auto reply, port.ask_if_known(command));
   const std::string info = reply.value_or("");
-  // A late reply to $CHI12 must not pass for one to $CHI1.
+  // A late reply to $CHI12 must not be accepted as a reply to $CHI1.
   if (!info.empty() && info.front() != ':')
     return io_error("the answer to " + command + " is \"" + info +
                     "\", which belongs to another command");

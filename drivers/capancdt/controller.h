@@ -1,4 +1,4 @@
-// What a controller is and how it is set up, through its command port.
+// Identifies a controller and sets it up through its command port.
 #pragma once
 
 #include <chrono>
@@ -11,30 +11,30 @@
 
 namespace mdof::drivers::capancdt {
 
-inline constexpr std::chrono::milliseconds kConnect{3000};  // to either port, at most
+inline constexpr std::chrono::milliseconds kConnect{3000};  // longest wait, for both ports
 
-// As the controller is after set-up.
+// State of the controller after set-up.
 struct Setup {
   std::string description;  // "DT6220, serial 1001, V1.2a"
   std::string serial;       // empty: not known
   int data_port = 0;
-  double sample_time_us = 0;  // the actual one
-  int averaged = 1;           // samples in a frame that is sent
-  int window = 1;             // samples that a value is made of
+  double sample_time_us = 0;  // actual value
+  int averaged = 1;           // number of samples in a frame
+  int window = 1;             // number of samples in a value
   struct Input {
     double range_um = 0;
-    bool maths = false;     // its values may lie outside the range
+    bool maths = false;     // maths function: values may be outside of the range
     int linearisation = 0;  // $LIN
   };
-  std::vector<Input> inputs;  // as Options::channels
+  std::vector<Input> inputs;  // in the order of Options::channels
   int low_pass = 0;           // $ALP, analogue
-  Notices notices;            // of what it does to the values by itself
+  Notices notices;            // corrections by the controller itself
 
   double frame_ns() const { return sample_time_us * 1e3 * averaged; }
 };
 
-// Connects, sets up, hangs up: the port is free for others then. Blocks,
-// at most seconds. Errors name address and remedy.
+// Connects, sets up and disconnects, so that other programs can use the port. Takes at most some
+// seconds. Errors name address and remedy.
 Result<Setup> set_up_controller(const Options& options);
 
 }  // namespace mdof::drivers::capancdt

@@ -7,12 +7,13 @@
 namespace mdof::drivers::capancdt {
 namespace {
 
-constexpr int kVotes = 3;              // steps that must agree
+constexpr int kVotes = 3;              // number of steps that must agree
 constexpr std::size_t kMostHeld = 32;  // packets
-// A packet so little before the last one was sent twice; more of them are a counter set anew.
+// A packet at most this many packets before the last one is a duplicate; a longer series of them
+// means that the counter was reset.
 constexpr int kMostDuplicates = 64;
 
-// From `a` to `b` of a counter that wraps at 2^32: how far it went on, or back.
+// Signed distance from `a` to `b`, for a counter that wraps at 2^32.
 std::int32_t moved(const Packet& a, const Packet& b) {
   return static_cast<std::int32_t>(b.counter - a.counter);
 }
@@ -57,7 +58,8 @@ std::uint64_t FrameCounter::step(const Packet& packet, CounterUnit unit) const {
   return frames;
 }
 
-// What the packets not seen held: of packets as many frames as the one before.
+// Number of frames for a step of the counter. A lost packet is assumed to have as many frames as
+// the packet before.
 double FrameCounter::frames(std::uint64_t counted, const Packet& before) const {
   return static_cast<double>(counted) * before.frames() / static_cast<double>(step(before, *unit_));
 }
@@ -65,7 +67,7 @@ double FrameCounter::frames(std::uint64_t counted, const Packet& before) const {
 Status FrameCounter::hold(Packet packet, std::deque<PlacedPacket>& placed) {
   if (!held_.empty()) vote(held_.back(), packet);
   held_.push_back(std::move(packet));
-  const auto best = std::max_element(votes_.begin(), votes_.end());  // the first of equals
+  const auto best = std::max_element(votes_.begin(), votes_.end());  // the first of equal maxima
   if (*best < kVotes) {
     if (held_.size() < kMostHeld) return {};
     return io_error(
@@ -93,14 +95,14 @@ Status FrameCounter::place(Packet packet, std::deque<PlacedPacket>& placed) {
     if (counted < expected) return jumped(last_->packet, packet);
     const double lost = frames(counted - expected, last_->packet);
     if (lost > static_cast<double>(most_lost_)) return jumped(last_->packet, packet);
-    // A loss of a part of a frame cannot be: it is of at least one.
+    // At least one whole frame is lost, so round up.
     next.lost = static_cast<std::uint64_t>(lost + 0.999);
     next.first_frame =
         last_->first_frame + last_->packet.frames() + static_cast<std::int64_t>(next.lost);
   }
   lost_ += next.lost;
   if (!last_) last_.emplace();
-  last_->packet = packet;  // into the memory of the one before
+  last_->packet = packet;  // reuses the memory of the previous packet
   last_->first_frame = next.first_frame;
   next.packet = std::move(packet);
   placed.push_back(std::move(next));

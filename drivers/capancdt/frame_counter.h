@@ -1,9 +1,9 @@
-// The place of each packet in the sequence of all frames, from the counter in its header. Pure.
+// Numbers the packets in the sequence of all frames, from the counter in their headers. Pure.
 //
-// The manual calls it "measuring value counter (of 1st frame)" and leaves open what it counts. It
-// is learned from the packets themselves: what most steps agree with is taken. Again when the set
-// of channels changes, or when packets overlap, as only a wrong reading of the counter can make
-// them. Before it is known, packets are held back.
+// The manual calls the counter "measuring value counter (of 1st frame)" and does not state what it
+// counts. The unit is learned from the packets: the unit that agrees with most steps is used. It is
+// learned again if the set of channels changes or if packets overlap, which only a wrong unit can
+// cause. Packets are held back until the unit is known.
 #pragma once
 
 #include <array>
@@ -20,27 +20,27 @@ namespace mdof::drivers::capancdt {
 enum class CounterUnit {
   frame,   // + M from a packet of M frames to the next
   value,   // + M x channels
-  sample,  // + M x n: all samples, of which arithmetic averaging sends the mean of each n
+  sample,  // + M x n: arithmetic averaging sends the mean of n samples
   packet,  // + 1
 };
 inline constexpr int kCounterUnits = 4;
 
 struct PlacedPacket {
   Packet packet;
-  std::int64_t first_frame = 0;  // 0: that of the first packet; lost ones are counted
-  std::uint64_t lost = 0;        // frames just before it
+  std::int64_t first_frame = 0;  // number; 0: first frame of the first packet; lost frames count
+  std::uint64_t lost = 0;        // number of frames lost before this packet
 };
 
 // Thread-bound.
 class FrameCounter {
  public:
-  // `averaged` samples are in a frame (1: all are sent). More than `most_lost` frames in a row are
-  // no loss but a counter that was set anew.
+  // `averaged`: number of samples in a frame (1: no averaging). If more than `most_lost` frames in
+  // a row are missing, the counter was reset.
   FrameCounter(int averaged, std::uint64_t most_lost);
 
-  // Appends to `placed` what can be placed now: none, this, or all that was held back. A packet
-  // that came before is dropped. Error: the counter jumped, or counts nothing that is known; of no
-  // more use then.
+  // Appends the packets that can be numbered now to `placed`: none, this packet, or all packets
+  // that were held back. Drops duplicates. Error: the counter jumped, or its unit is unknown; the
+  // object is then unusable.
   Status add(Packet packet, std::deque<PlacedPacket>& placed);
 
   std::optional<CounterUnit> unit() const { return unit_; }
@@ -48,11 +48,11 @@ class FrameCounter {
   std::uint64_t lost() const { return lost_; }
 
  private:
-  struct Last {  // packet that was placed
+  struct Last {  // the last numbered packet
     Packet packet;
     std::int64_t first_frame;
   };
-  std::uint64_t step(const Packet& packet, CounterUnit unit) const;  // to the next
+  std::uint64_t step(const Packet& packet, CounterUnit unit) const;  // to the next packet
   double frames(std::uint64_t counted, const Packet& before) const;
   Status hold(Packet packet, std::deque<PlacedPacket>& placed);
   void vote(const Packet& before, const Packet& packet);
@@ -62,7 +62,7 @@ class FrameCounter {
 
   int averaged_;
   std::uint64_t most_lost_;
-  std::optional<CounterUnit> unit_;  // none: being learned
+  std::optional<CounterUnit> unit_;  // nullopt: not known yet
   std::array<int, kCounterUnits> votes_{};
   std::vector<Packet> held_;
   std::optional<Last> last_;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::string_view kPreamble = "SAEM";  // "MEAS" as a number, little-endian
 constexpr std::uint64_t kLowBits = 0x5555555555555555;
-constexpr std::size_t kKeep = 1 << 16;  // bytes already cut, before they are moved away
+constexpr std::size_t kKeep = 1 << 16;  // processed bytes that are kept before they are erased
 
 template <class T>
 T get(std::string_view bytes, std::size_t at) {
@@ -94,7 +94,7 @@ bool PacketParser::next(Packet& packet) {
     const std::string_view rest = std::string_view(bytes_).substr(begin_);
     const std::size_t found = rest.find(kPreamble);
     if (found == std::string_view::npos) {
-      // The end of it may be the beginning of a preamble.
+      // The last bytes may be the beginning of a preamble.
       const std::size_t tail = kPreamble.size() - 1;
       std::size_t keep = rest.size() < tail ? rest.size() : tail;
       while (!kPreamble.starts_with(rest.substr(rest.size() - keep))) --keep;
@@ -114,7 +114,7 @@ bool PacketParser::next(Packet& packet) {
   }
 }
 
-// False with size 0: more bytes are needed; with size > 0: no packet begins here.
+// Returns false with size 0 if more bytes are needed, and with size > 0 if no packet begins here.
 bool PacketParser::parse_at(std::size_t at, Packet& packet, std::size_t& size) const {
   const std::string_view bytes = std::string_view(bytes_).substr(at);
   size = 0;
@@ -131,7 +131,7 @@ bool PacketParser::parse_at(std::size_t at, Packet& packet, std::size_t& size) c
   }
   const std::size_t whole = kHeaderBytes + sizes->frames * sizes->bytes_per_frame;
   if (bytes.size() < whole) return false;
-  // A reading has 24 bits, so that no preamble is among them; the packet was cut short.
+  // A value has 24 bits and cannot contain a preamble, so this packet was truncated.
   if (bytes.substr(kHeaderBytes, whole - kHeaderBytes).find(kPreamble) != std::string_view::npos) {
     size = 1;
     return false;
@@ -144,7 +144,7 @@ bool PacketParser::parse_at(std::size_t at, Packet& packet, std::size_t& size) c
 }
 
 bool PacketParser::known(const Packet& packet) const {
-  if (skipped_now_ == 0) return true;  // where a packet had to begin
+  if (skipped_now_ == 0) return true;  // a packet must begin here
   return !article_ || (packet.article == *article_ && packet.serial == *serial_);
 }
 

@@ -1,4 +1,4 @@
-// Whether frames come as fast as the sample time says. Pure.
+// Checks that frames arrive at the rate of the sample time. Pure.
 #pragma once
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 
 namespace mdof::drivers::capancdt {
 
-// A sample time changed behind the driver's back makes every time stamp wrong. Thread-bound.
+// Another program may change the sample time, which would make all time stamps wrong. Thread-bound.
 class RateWatch {
  public:
   explicit RateWatch(double frame_ns) : frame_ns_(frame_ns) {}
 
-  // `frames` counted so far, lost ones included, when the newest was received. Gives the measured
-  // time of a frame once it was off by more than a tenth in two stretches in a row; one alone may
-  // be a hold-up of the network or of this computer.
+  // `frames`: number of frames so far, including lost frames, when the newest was received. Returns
+  // the measured time of a frame after it has deviated by more than 10 % in two stretches in a row;
+  // a single stretch may be a delay of the network or of this computer.
   std::optional<double> add(std::int64_t frames, std::int64_t received_ns) {
     if (!begun_) begin(frames, received_ns);
     const auto passed_ns = static_cast<double>(received_ns - begun_ns_);
@@ -40,7 +40,7 @@ class RateWatch {
   double frame_ns_;
   bool begun_ = false;
   std::int64_t begun_frames_ = 0, begun_ns_ = 0;
-  int off_ = 0;  // in the stretch before: frames came too slowly, 1, or too fast, -1
+  int off_ = 0;  // previous stretch: 1: frames were too slow; -1: too fast
 };
 
 }  // namespace mdof::drivers::capancdt

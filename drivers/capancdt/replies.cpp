@@ -10,7 +10,7 @@ constexpr std::string_view kLineEnds = "\r\n";
 constexpr std::string_view kRefusals[] = {"$UNKNOWN COMMAND", "$WRONG PARAMETER", "$WRONG PASSWORD",
                                           "$TIMEOUT"};
 
-// The next complete line of `text`, which it is cut from.
+// Removes the next complete line from `text` and returns it.
 std::optional<std::string_view> take_line(std::string_view& text) {
   const std::size_t end = text.find_first_of(kLineEnds);
   if (end == std::string_view::npos) return std::nullopt;
@@ -28,7 +28,7 @@ std::optional<Reply> reply_in(std::string_view command, std::string_view line) {
   if (rest.ends_with("OK"))
     rest.remove_suffix(2);
   else if (command != "$VER" || rest.empty())
-    return std::nullopt;  // the echo, or a line that was cut
+    return std::nullopt;  // the echo, or a truncated line
   return Reply{false, std::string(rest)};
 }
 
@@ -71,7 +71,7 @@ std::optional<Reply> find_reply(std::string_view command, std::string_view recei
 Welcome parse_welcome(std::string_view received) {
   Welcome welcome;
   while (const auto line = take_line(received)) {
-    if (line->empty()) continue;  // between CR and LF
+    if (line->empty()) continue;  // text between CR and LF
     ++welcome.lines;
     if (welcome.lines == 2) welcome.name = after_colon(*line);
     if (welcome.lines == 3) welcome.serial = after_colon(*line);

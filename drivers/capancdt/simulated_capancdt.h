@@ -1,4 +1,4 @@
-// A simulated capaNCDT 6200 controller, as a program sees it over Ethernet.
+// A simulated capaNCDT 6200 controller with its Ethernet ports.
 #pragma once
 
 #include <cstdint>
@@ -17,36 +17,36 @@
 
 namespace mdof::drivers::capancdt {
 
-// Inputs sense µm, clamped to the range. Its sample times are 256 µs and its multiples by 2, 4, 8
-// and so on, and 960 µs; the next shorter is taken. One client has the data port; others get
-// nothing.
+// Inputs sense µm, limited to the range. Its sample times are 256 µs times 1, 2, 4, 8 and so on,
+// and 960 µs; a requested time is changed to the next shorter one. Only one client gets data from
+// the data port.
 class SimulatedCapancdt final : public SimulatedDevice {
  public:
-  // How a command is echoed. The manual: every character at once, and the reply repeats the
-  // command.
+  // How commands are echoed. According to the manual, every character is echoed immediately, and
+  // the reply repeats the command.
   enum class Echo {
-    line,   // the command, then the reply with the command in it
-    reply,  // the command once: what is echoed is the beginning of the reply
+    line,   // the command, then the reply, which contains the command
+    reply,  // the command once: its echo is the beginning of the reply
     mixed,  // the reply comes before the last characters of the echo
     none,
   };
 
-  // Each as long as the device is in use, unless it says when.
+  // A fault lasts as long as the device is used, unless its name states a time.
   struct Faults {
     SizeOrder sizes = SizeOrder::bytes_per_frame_first;
     CounterUnit counter = CounterUnit::frame;
     Echo echo = Echo::line;
-    int lose_every = 0;           // packet is not sent; 0: none
-    int repeat_every = 0;         // packet is sent twice
-    int garbage_every = 0;        // packet has bytes that are none before it
-    bool spoil_preamble = false;  // nothing that is sent is a packet
-    std::size_t most_bytes = 0;   // that exchange() gives of the data at a time; 0: all
-    int vanishing = 0;            // channel that is gone for `vanish_packets` from this packet on
+    int lose_every = 0;           // each n-th packet is not sent; 0: none
+    int repeat_every = 0;         // each n-th packet is sent twice
+    int garbage_every = 0;        // invalid bytes before each n-th packet
+    bool spoil_preamble = false;  // no sent data form a packet
+    std::size_t most_bytes = 0;   // most data bytes in a reply of exchange(); 0: all
+    int vanishing = 0;            // channel that is missing in `vanish_packets` packets
     int vanish_from = 0, vanish_packets = 0;
-    int reset_counter_at = -1;     // packet whose counter begins anew
-    int reset_connection_at = -1;  // packet after which the data connection is broken
-    bool mute = false;             // commands are taken and not answered
-    double rate = 1;               // samples come so much faster than the sample time says
+    int reset_counter_at = -1;     // packet at which the counter restarts
+    int reset_connection_at = -1;  // packet after which the data connection breaks
+    bool mute = false;             // commands are read, but not answered
+    double rate = 1;               // factor by which the actual rate exceeds the stated rate
   };
 
   struct Options {
@@ -57,14 +57,14 @@ class SimulatedCapancdt final : public SimulatedDevice {
     std::string name = "DT6220", version = "V1.2a", serial = "1001";
     std::int32_t article = 2303025;
     std::vector<Input> inputs = std::vector<Input>(4);
-    bool states_range = true;   // by $CHI
-    int data_port = kDataPort;  // that $GDP says
+    bool states_range = true;   // in the reply to $CHI
+    int data_port = kDataPort;  // in the reply to $GDP
     int frames_per_packet = 1;
     std::uint32_t first_counter = 0;
     int sample_time_us = 960, trigger = 0, averaging = 0, averaged_values = 2;
     std::vector<int> linearisation = std::vector<int>(4);  // of each input
     int low_pass = 0;
-    bool knows_corrections = true;  // $LIN?, $ALP?
+    bool knows_corrections = true;  // supports $LIN? and $ALP?
     Faults faults = {};
   };
 
@@ -102,15 +102,15 @@ class SimulatedCapancdt final : public SimulatedDevice {
   Senses senses_;
   Options options_;
   std::map<int, CommandClient> command_clients_;
-  std::optional<int> reader_;  // client that has the data port
+  std::optional<int> reader_;  // client of the data port
   std::int64_t start_ns_ = 0, next_frame_ = 0;
   std::uint32_t counter_ = 0;
-  int packets_ = 0;  // made
+  int packets_ = 0;  // number of packets made
   std::string out_;
   bool broken_ = false;
 };
 
-// As a plan of mdof-simulate has it. µm as they are, and ranges that the controller states.
+// Makes the twin from a plan of mdof-simulate. Readings in µm; the controller states the ranges.
 Result<std::unique_ptr<SimulatedDevice>> make_simulated_capancdt(SimulatedWiring& wiring);
 
 }  // namespace mdof::drivers::capancdt

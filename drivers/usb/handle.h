@@ -1,5 +1,5 @@
-// A USB device, open: found by vendor, product and serial number; control and bulk transfers, each
-// with a time limit. Over libusb-1.0 (its API reference), one context for each open device.
+// An open USB device: found by vendor, product and serial number; control and bulk transfers with
+// time-outs. Uses libusb-1.0 (its API reference), one context for each open device.
 #pragma once
 
 #include <chrono>
@@ -19,33 +19,36 @@ class Handle;
 struct Wanted {
   std::string model;  // for messages: "LabJack U6"
   std::uint16_t vendor = 0, product = 0;
-  std::string serial;  // "": the only one there is
-  int interface = 0;   // to be claimed
-  // Serial number of a device that does not state it in its descriptor; may be empty.
+  std::string serial;  // "": the only connected device
+  int interface = 0;   // interface to claim
+  // Returns the serial number of a device whose descriptor does not state it; may be empty.
   std::function<Result<std::string>(Handle&)> ask_serial;
 };
 
-// Thread-bound; closed when it goes. Errors say what has happened and what to do, not which device:
-// the driver puts its name before.
+// Thread-bound. The destructor closes the device. Errors state cause and remedy, not the device:
+// the driver adds its name.
 class Handle {
  public:
   using Timeout = std::chrono::milliseconds;
 
-  // Errors: none there, several and none is named (lists them), no permission, in use (by what).
+  // Errors: no such device; several devices and no serial number (the message lists them); no
+  // permission; in use (the message names the program).
   static Result<Handle> open(const Wanted& wanted);
 
-  const std::string& serial() const { return serial_; }  // "" where not known
+  const std::string& serial() const { return serial_; }  // "": not known
   const std::string& where() const { return where_; }    // "USB bus 1, device 4"
 
-  // Vendor requests to the device (bmRequestType 0xC0 and 0x40). A shorter answer is an error.
+  // Vendor requests to the device (bmRequestType 0xC0 and 0x40). A reply that is too short is an
+  // error.
   Result<std::string> vendor_in(std::uint8_t request, std::uint16_t value, std::uint16_t index,
                                 std::uint16_t length, Timeout timeout);
   Status vendor_out(std::uint8_t request, std::uint16_t value, std::uint16_t index,
                     std::string_view bytes, Timeout timeout);
-  // One bulk transfer; in: up to a packet that is not full, or `most` bytes (a multiple of 64).
+  // One bulk transfer. bulk_in() ends at a packet that is not full or after `most` bytes (a
+  // multiple of 64).
   Status bulk_out(std::uint8_t endpoint, std::string_view bytes, Timeout timeout);
   Result<std::string> bulk_in(std::uint8_t endpoint, std::size_t most, Timeout timeout);
-  // Throws away what waits on an IN endpoint, until nothing has come for `quiet`.
+  // Discards the pending data of an IN endpoint until no data have arrived for `quiet`.
   Status drain(std::uint8_t endpoint, Timeout quiet);
   Status clear_halt(std::uint8_t endpoint);
 

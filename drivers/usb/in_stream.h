@@ -1,5 +1,5 @@
-// Bulk data that flows in: several transfers are under way at any time, so that the device is asked
-// again while its last answer is still being read.
+// A continuous bulk IN stream. Several transfers are always pending, so that the device is asked
+// again while earlier data are processed.
 #pragma once
 
 #include <chrono>
@@ -14,19 +14,19 @@ namespace mdof::drivers::usb {
 
 struct Transfer;
 
-// Thread-bound, on the thread of its Handle, which may go before it. Ends its transfers when it
-// goes.
+// Thread-bound to the thread of its Handle, which may be destroyed before it. The destructor ends
+// the transfers.
 class InStream {
  public:
   struct Options {
     std::uint8_t endpoint = 0;
-    std::size_t bytes = 64;  // of a transfer; a multiple of 64. It ends early with a short packet
+    std::size_t bytes = 64;  // size of a transfer, a multiple of 64; a short packet ends it early
     std::size_t transfers = 8;
   };
   struct Chunk {
     std::string_view bytes;  // of one transfer; valid until the next call of next()
     std::int64_t received_ns = 0;
-    bool any = false;  // false: nothing has come (a transfer may also bring no bytes)
+    bool any = false;  // false: no transfer has ended; a transfer may also have no bytes
   };
 
   static Result<InStream> start(const Handle& handle, const Options& options);
@@ -34,12 +34,12 @@ class InStream {
   InStream(InStream&&) noexcept;
   InStream& operator=(InStream&&) noexcept;
 
-  // The oldest data not yet given out, in the device's order; waits at most until `deadline`.
-  // An error ends the stream, after what came before it was given out.
+  // Returns the oldest data that were not returned yet, in the order of the device; waits until
+  // `deadline` at most. An error ends the stream; it is returned after all data before it.
   Result<Chunk> next(std::chrono::steady_clock::time_point deadline);
-  // Takes back what is under way: what has come of it is given out by next(), then an error.
+  // Cancels pending transfers. next() then returns their data, and after that an error.
   void cancel();
-  bool stalled() const { return stalled_; }  // the error was that the device stalled the endpoint
+  bool stalled() const { return stalled_; }  // the error was a stall of the endpoint
 
  private:
   InStream() = default;
@@ -49,7 +49,7 @@ class InStream {
   std::shared_ptr<Connection> connection_;
   std::vector<std::unique_ptr<Transfer>> transfers_;
   std::size_t oldest_ = 0;
-  bool given_ = false;  // the oldest was given out and is to be submitted again
+  bool given_ = false;  // the oldest was returned and must be submitted again
   bool stalled_ = false;
   Status ended_;
 };

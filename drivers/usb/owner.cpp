@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// By readlink itself: it is seen by programs that put a simulated bus in the place of the real one.
+// Uses readlink(), which programs that simulate a bus can intercept.
 std::string target_of(const std::string& link) {
   std::array<char, 512> text{};
   const ssize_t n = ::readlink(link.c_str(), text.data(), text.size());

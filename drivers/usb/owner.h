@@ -1,4 +1,4 @@
-// Who holds a USB interface that cannot be had: for messages.
+// The owner of a USB interface that is in use, for messages.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@ namespace mdof::drivers::usb {
 
 struct Place {
   int bus = 0, address = 0;
-  std::string port;  // as in /sys/bus/usb/devices: "1-4.2"; "" where not known
+  std::string port;  // as in /sys/bus/usb/devices: "1-4.2"; "": not known
 };
 
 // "the kernel's driver cdc_acm", "the program mdofd (4711)", or "another program".
 std::string owner_of(const Place& place, int interface);
-// "mdofd (4711)": another program that has `path` open; "": none that this user may see.
+// "mdofd (4711)": another program that has `path` open; "": this user can see none.
 std::string program_that_opened(const std::string& path);
 
 }  // namespace mdof::drivers::usb

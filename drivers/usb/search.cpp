@@ -1,4 +1,4 @@
-// Handle::open: which of the devices on the bus is meant.
+// Handle::open: finds the requested device on the bus.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -49,7 +49,7 @@ std::string ids(const Wanted& wanted) {
 
 }  // namespace
 
-// A context and the devices in it that may be meant, all but one closed in the end.
+// A context and the matching devices in it; all except one are closed at the end.
 class Search {
  public:
   explicit Search(const Wanted& wanted) : wanted_(wanted) {}
@@ -85,7 +85,7 @@ class Search {
     }
   }
 
-  // Claimed, but for one whose descriptor states another serial number than the one wanted.
+  // Opens the device and claims it, unless its descriptor states another serial number.
   Result<Handle> open(libusb_device* device, std::uint8_t serial_index, const Place& place) {
     Handle handle(std::make_shared<Connection>(), text_of(place));
     Connection& connection = *handle.connection_;
@@ -107,7 +107,7 @@ class Search {
     return handle;
   }
 
-  // "" where it cannot be read.
+  // "": it cannot be read.
   static std::string read_serial(Handle& handle, std::uint8_t index) {
     const auto value = static_cast<std::uint16_t>(LIBUSB_DT_STRING << 8 | index);
     const auto bytes = handle.control(LIBUSB_ENDPOINT_IN, LIBUSB_REQUEST_GET_DESCRIPTOR, value,
@@ -151,7 +151,7 @@ class Search {
   std::vector<std::string> seen_;  // serial numbers and places
   int count_ = 0;
   std::optional<Handle> fitting_;
-  Status failure_;  // of the last that could not be opened
+  Status failure_;  // error of the last device that could not be opened
 };
 
 Result<Handle> Handle::open(const Wanted& wanted) {

@@ -24,7 +24,7 @@ enum Descriptor : std::uint8_t {
   kHidReport = 0x22,
 };
 constexpr std::uint8_t kTypeMask = 0x60;           // standard, class or vendor
-constexpr std::uint8_t kToEndpoint = 0x02;         // of the request type
+constexpr std::uint8_t kToEndpoint = 0x02;         // bits of the request type: recipient
 constexpr std::uint16_t kStringLanguage = 0x0409;  // English (US)
 
 std::string bytes_of(std::initializer_list<int> values) {
@@ -50,7 +50,7 @@ std::string string_descriptor(const Identity& identity, std::uint8_t index) {
   return bytes;
 }
 
-// The HID descriptor is part of the configuration: that of the interface asked for.
+// The HID descriptor of this interface, which is part of the configuration descriptor.
 std::string hid_descriptor(const Identity& identity, std::uint8_t interface) {
   const std::string& all = identity.configuration;
   int current = -1;

@@ -1,5 +1,5 @@
-// A simulated USB device, as the host sees it. Tests put it on the bus of umockdev, mdof-simulate
-// on that of the kernel (vhci_hcd): libusb, hidapi and the kernel are the real ones.
+// The host's view of a simulated USB device. Tests connect it to the bus of umockdev, mdof-simulate
+// to that of the kernel (vhci_hcd), so libusb, hidapi and the kernel are real.
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,9 @@ struct Identity {
   std::uint16_t vendor = 0, product = 0, version_bcd = 0x0100;
   Speed speed = Speed::full;
   std::string manufacturer, product_name, serial;  // ASCII; string descriptors 1, 2, 3
-  // The configuration descriptor with those of its interfaces and endpoints, as on the wire.
+  // The configuration descriptor with its interface and endpoint descriptors, as on the wire.
   std::string configuration;
-  // HID report descriptor of each interface; "" where it is none. May be shorter.
+  // HID report descriptor of each interface; "" for an interface without HID. May be shorter.
   std::vector<std::string> hid_reports;
 };
 
@@ -33,33 +33,33 @@ struct Setup {
 };
 
 enum class Answer {
-  done,     // bytes were taken, or `bytes` are what comes
-  not_yet,  // NAK: asked again about every millisecond, until the host cancels
-  stall,    // of a control transfer this once; of another endpoint until clear_halt()
+  done,     // bytes were accepted, or `bytes` is the data
+  not_yet,  // NAK: the host asks again about every millisecond, until it cancels
+  stall,    // control transfer: once; other endpoints: until clear_halt()
 };
 struct Reply {
   Answer answer = Answer::done;
   std::string bytes;
 };
 
-// A simulated device that is on the USB.
+// A simulated device with a USB connection.
 class SimulatedUsb : public SimulatedDevice {
  public:
   SimulatedUsb* on_usb() final { return this; }
   virtual const Identity& identity() const = 0;
-  // Class and vendor requests; the standard ones are answered by standard_reply().
+  // Class and vendor requests; standard_reply() answers standard requests.
   virtual Reply control(const Setup& setup, std::string_view out, std::int64_t now_ns) = 0;
-  // One bulk or interrupt transfer from (bit 7 of the endpoint set) or to the device. At most
-  // `max_bytes` are given; a transfer ends with a packet that is not full, as on the bus.
+  // One bulk or interrupt transfer from the device (bit 7 of the endpoint is set) or to it. Returns
+  // at most `max_bytes`; a packet that is not full ends a transfer, as on the bus.
   virtual Reply in(std::uint8_t endpoint, std::size_t max_bytes, std::int64_t now_ns) = 0;
   virtual Reply out(std::uint8_t endpoint, std::string_view bytes, std::int64_t now_ns) = 0;
   virtual void clear_halt(std::uint8_t endpoint) = 0;
-  // The device has left the bus.
+  // Whether the device was unplugged.
   virtual bool gone() const = 0;
 };
 
-// To a standard request (USB 2.0 specification 9.4, HID 1.11 section 7.1.1); none: the device's own
-// to answer. Clears halts of `device` where asked to.
+// Reply to a standard request (USB 2.0 specification 9.4, HID 1.11 section 7.1.1); nullopt: the
+// device must answer. Clears halts of `device` if requested.
 std::optional<Reply> standard_reply(SimulatedUsb& device, const Setup& setup);
 // The device descriptor.
 std::string device_descriptor(const Identity& identity);

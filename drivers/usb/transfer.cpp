@@ -12,7 +12,7 @@ using std::chrono::microseconds;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kToCancel{1};
-constexpr microseconds kInstant{100};  // a wait that ends sooner, with nothing done, did not wait
+constexpr microseconds kInstant{100};  // a shorter wait without result did not really wait
 constexpr microseconds kRest{200};
 
 void LIBUSB_CALL on_end(libusb_transfer* raw) {
@@ -72,7 +72,7 @@ std::string Transfer::received() const {
 }
 
 bool cancel_all(const Connection& connection, const Transfers& transfers) {
-  // The newest first, so that none of those behind it starts meanwhile.
+  // Cancels the newest first, so that no later transfer starts meanwhile.
   for (auto each = transfers.rbegin(); each != transfers.rend(); ++each)
     if ((*each)->in_flight) libusb_cancel_transfer((*each)->raw);
   const auto all_ended = [&] {

@@ -1,4 +1,4 @@
-// What a driver gives, gathered.
+// Collects the samples of a driver.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,13 +14,13 @@ namespace mdof::drivers {
 struct Collected {
   std::vector<std::int64_t> time_ns;
   std::vector<std::vector<double>> scans;     // [scan][channel]
-  std::vector<std::vector<Quality>> quality;  // the same
+  std::vector<std::vector<Quality>> quality;  // [scan][channel]
   std::uint64_t lost = 0;
   std::string error;
   Quality first_quality(std::size_t scan) const { return quality.at(scan).at(0); }
 };
 
-// Reads until `scans` have come, an error, or 20 s.
+// Reads until `scans` scans have arrived, an error occurs, or 20 s have elapsed.
 inline Collected collect(Driver& driver, std::size_t scans) {
   Collected all;
   const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);

@@ -1,5 +1,5 @@
-// A folder of a fuzzer's own for what has to be a file, in memory where the machine has such a file
-// system: a file that is written anew for each input costs a disk some milliseconds.
+// A folder for the files of a fuzzer, in memory if the machine has a memory file system: writing a
+// file on disk for each input would take some milliseconds.
 #pragma once
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// A simulated device behind real sockets of this machine, served by a thread of its own.
+// Serves a simulated device on real sockets of this machine, in its own thread.
 #pragma once
 
 #include <arpa/inet.h>
@@ -21,13 +21,13 @@
 
 namespace mdof::drivers {
 
-// Listens from the beginning on, on free ports; serves from serve() on until it goes.
+// Listens on free ports from construction on; serves from serve() to the destructor.
 class ServedDevice {
  public:
   explicit ServedDevice(std::size_t ports) {
     for (std::size_t i = 0; i < ports; ++i) listeners_.push_back(listen_somewhere());
   }
-  // On a port for each of the device's, at once.
+  // Opens a socket for each port of the device and serves immediately.
   explicit ServedDevice(SimulatedDevice& device) : ServedDevice(device.ports().size()) {
     serve(device);
   }
@@ -40,7 +40,7 @@ class ServedDevice {
   ServedDevice(const ServedDevice&) = delete;
   ServedDevice& operator=(const ServedDevice&) = delete;
 
-  // The device is to live longer than this.
+  // The device must outlive this object.
   void serve(SimulatedDevice& device) {
     device_ = &device;
     thread_ = std::thread([this] {
@@ -52,7 +52,7 @@ class ServedDevice {
   std::string address(std::size_t index = 0) const {
     return "127.0.0.1:" + std::to_string(port(index));
   }
-  // What clients have sent to port 0.
+  // Bytes that clients have sent to port 0.
   std::string received() {
     const std::lock_guard lock(mutex_);
     return received_;

@@ -1,4 +1,4 @@
-// A simulated device at the end of a pty, served by a thread of its own.
+// Serves a simulated device on a pty, in its own thread.
 #pragma once
 
 #include <fcntl.h>
@@ -17,7 +17,7 @@
 
 namespace mdof::drivers {
 
-// Talks on the line `fd` until the device hangs up, or `stop`.
+// Serves on the line `fd` until the device hangs up or `stop` is set.
 inline void serve_line(SimulatedDevice& device, int fd, const std::atomic<bool>& stop) {
   device.opened(0, 0, monotonic_ns());
   while (!stop) {
@@ -40,7 +40,7 @@ class ServedLine {
     std::array<char, 64> name;
     if (::ptsname_r(master_, name.data(), name.size()) != 0) std::abort();
     path_ = name.data();
-    // Held open, so that the line stays when the driver closes it.
+    // Held open, so that the line remains when the driver closes it.
     held_ = ::open(path_.c_str(), O_RDWR | O_NOCTTY);
     ::fcntl(master_, F_SETFL, O_RDWR | O_NONBLOCK);
     thread_ = std::thread([this, &device] { serve_line(device, master_, stop_); });

@@ -1,5 +1,5 @@
-// Replies as the vendor's own open source wants them, so that a simulated device and its driver,
-// which were written from one understanding, cannot be wrong together.
+// Replies that the vendor's open source accepts. A simulated device and its driver have the same
+// author, so both could contain the same error.
 #pragma once
 
 #include <ostream>
@@ -13,7 +13,7 @@ namespace mdof::drivers {
 struct VendorVector {
   const char* what;
   const char* request;  // hexadecimal
-  const char* reply;    // ".." is a byte that the source leaves open
+  const char* reply;    // ".." is a byte that the source does not determine
   const char* source;   // repository, file, function
 };
 
@@ -21,7 +21,7 @@ inline std::ostream& operator<<(std::ostream& out, const VendorVector& vector) {
   return out << vector.what << " (" << vector.source << ")";
 }
 
-// Where `reply` is not the pattern; "" where it is.
+// The first difference between `reply` and the pattern; "": none.
 inline std::string mismatch(std::string_view reply, std::string_view pattern) {
   std::string places;
   for (const char c : pattern)

@@ -1,4 +1,4 @@
-// The driver and a simulated controller behind real sockets, and what is read from it.
+// A driver with a simulated controller on real sockets, and the samples that it reads.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace mdof::drivers::capancdt {
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
-// µm on each input, constant: 100, 200, 300, 400 ...
+// Constant µm on each input: 100, 200, 300, 400 ...
 inline double steady(std::size_t input, std::int64_t) {
   return 100.0 * static_cast<double>(input + 1);
 }
@@ -45,7 +45,7 @@ struct Rack {
     served.serve(*device);
     options = options_for(served);
   }
-  std::unique_ptr<SimulatedCapancdt> device;  // outlives what serves it
+  std::unique_ptr<SimulatedCapancdt> device;  // must outlive `served`
   ServedDevice served{2};
   Options options;
 };
@@ -53,7 +53,7 @@ struct Rack {
 struct Collected {
   SampleBlock all;
   std::uint64_t lost = 0;
-  std::string error;  // that ended it
+  std::string error;  // error that ended the reads
 
   std::size_t count(std::size_t channel, Quality quality) const {
     const auto& q = all.quality[channel];
@@ -73,7 +73,7 @@ inline void append(SampleBlock& all, const SampleBlock& block) {
   }
 }
 
-// Until there are so many scans, or an error.
+// Reads until `scans` scans have arrived or an error occurs.
 inline Collected collect(Capancdt& driver, std::size_t scans) {
   Collected got;
   SampleBlock block;
@@ -92,7 +92,7 @@ inline Collected collect(Capancdt& driver, std::size_t scans) {
   return got;
 }
 
-// A computer that stands still for a tenth of a second has the device's clock taken anew.
+// If the computer stalls for 0.1 s, the device clock steps.
 inline bool clock_stepped(const Capancdt& driver) {
   return driver.health().clock.steps > 0;
 }

@@ -1,4 +1,4 @@
-// Of a stream of the encoder and the probes A and B.
+// Options of a stream with the encoder and the probes A and B.
 #pragma once
 
 #include "drivers/csv_stream/csv_stream.h"

@@ -1,5 +1,5 @@
-// HID devices without USB: umockdev's sysfs and events, a pseudo-terminal behind each /dev/hidraw*,
-// and a thread in which simulated devices answer. To be run under umockdev-wrapper.
+// HID devices without USB: umockdev provides sysfs and events, a pseudo terminal behind each
+// /dev/hidraw* and a thread let simulated devices answer. Run it under umockdev-wrapper.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -50,11 +50,11 @@ class HidBus {
   HidBus(const HidBus&) = delete;
   HidBus& operator=(const HidBus&) = delete;
 
-  // The device's HID interface `interface`, or -1: through uhid, which has no USB around it.
-  // `device` lives until it is unplugged, by itself (gone()) or by unplug().
+  // `interface`: HID interface of the device; -1: through uhid, without USB. `device` must live
+  // until it is unplugged, by itself (gone()) or by unplug().
   void plug(int number, usb::SimulatedUsb& device, int interface = 1) {
     Plugged plugged{&device, interface, -1, paths(number, interface), {}};
-    answer_ioctls(number);  // before anybody can see its node
+    answer_ioctls(number);  // before its node is visible
     GError* error = nullptr;
     const std::string text = sysfs_of(number, device.identity(), plugged);
     ASSERT_TRUE(umockdev_testbed_add_from_string(testbed_, text.c_str(), &error)) << error->message;
@@ -80,7 +80,8 @@ class HidBus {
     forget_terminal(gone.fd);
     ::close(gone.fd);
   }
-  // What sysfs says of the HID device behind a node; it goes while the node is still listed.
+  // The uevent file of the HID device of a node; a device may vanish while its node is still
+  // listed.
   std::filesystem::path uevent_of(int number) {
     const std::lock_guard lock(mutex_);
     gchar* const root = umockdev_testbed_get_root_dir(testbed_);
@@ -101,7 +102,7 @@ class HidBus {
   struct Plugged {
     usb::SimulatedUsb* device = nullptr;
     int interface = 1, fd = -1;
-    std::vector<std::string> paths;  // of sysfs, from the root on
+    std::vector<std::string> paths;  // in sysfs, from the root
     std::string received;
   };
 
@@ -160,7 +161,7 @@ class HidBus {
     return text;
   }
 
-  // hidapi asks for nothing else than the size of the report descriptor.
+  // hidapi requests only the size of the report descriptor.
   static gboolean answer_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, gpointer) {
     int size = 27;
     if (umockdev_ioctl_client_get_request(client) != HIDIOCGRDESCSIZE) return FALSE;
@@ -177,7 +178,7 @@ class HidBus {
         << error->message;
   }
 
-  // umockdev keeps a name for it, and fails when the system gives its number out again.
+  // umockdev stores a name for the terminal and fails when the system uses its number again.
   void forget_terminal(int fd) {
     std::string name = ::ptsname(fd);
     std::replace(name.begin(), name.end(), '/', '_');
@@ -221,7 +222,7 @@ class HidBus {
 
   UMockdevTestbed* testbed_;
   UMockdevIoctlBase* ioctls_;
-  std::mutex mutex_;  // of plugged_
+  std::mutex mutex_;  // protects plugged_
   std::map<int, Plugged> plugged_;
   std::atomic<bool> stop_ = false;
   std::thread thread_;

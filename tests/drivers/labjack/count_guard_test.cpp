@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kMost = 30'000;
 
-// At this speed from `from_s` on: when the guard stops being sure, else nothing before 2 s.
+// Time at which the guard reports lost counts at this rate from `from_s` on; INFINITY: not within 2
+// s.
 double told_s(double counts_per_s, double scans_hz, double from_s = 0.5) {
   CountGuard guard(kMost);
   for (int scan = 0; scan < 2 * scans_hz; ++scan) {
@@ -22,7 +23,7 @@ double told_s(double counts_per_s, double scans_hz, double from_s = 0.5) {
   return INFINITY;
 }
 
-TEST(LabjackCountGuard, IsSureBelowAndTellsWithinTwentyMillisecondsAbove) {
+TEST(LabjackCountGuard, ReportsTooHighRatesWithin20Milliseconds) {
   for (const double scans_hz : {50.0, 100.0, 1000.0, 4000.0, 7142.0}) {
     for (const double way : {1.0, -1.0}) {
       EXPECT_EQ(told_s(way * kMost * 0.99, scans_hz), INFINITY) << scans_hz;
@@ -31,8 +32,8 @@ TEST(LabjackCountGuard, IsSureBelowAndTellsWithinTwentyMillisecondsAbove) {
   }
 }
 
-// The counter itself gives no more than it can count: the axis moves on, the count lags.
-TEST(LabjackCountGuard, AJumpIsToldAtOnceAndForGood) {
+// The counter itself never exceeds its limit: the axis moves on and the count lags.
+TEST(LabjackCountGuard, JumpIsReportedImmediatelyAndPermanently) {
   CountGuard guard(kMost);
   EXPECT_TRUE(guard.take(0, 0));
   EXPECT_FALSE(guard.take(400, 1e-3));
@@ -41,7 +42,7 @@ TEST(LabjackCountGuard, AJumpIsToldAtOnceAndForGood) {
   EXPECT_FALSE(guard.take(400, 0));
 }
 
-TEST(LabjackCountGuard, WhatLiesBetweenTwoStreamsIsNoMotion) {
+TEST(LabjackCountGuard, IgnoresMotionBetweenStreams) {
   CountGuard guard(kMost);
   EXPECT_TRUE(guard.take(0, 5));
   guard.interrupt();
@@ -49,21 +50,21 @@ TEST(LabjackCountGuard, WhatLiesBetweenTwoStreamsIsNoMotion) {
   EXPECT_TRUE(guard.take(1'000'010, 1e-3));
 }
 
-TEST(LabjackCountGuard, WithoutALimitNothingIsWatched) {
+TEST(LabjackCountGuard, ChecksNothingWithoutALimit) {
   CountGuard guard;
   EXPECT_TRUE(guard.take(0, 0));
   EXPECT_TRUE(guard.take(1'000'000'000, 1e-3));
 }
 
-TEST(LabjackCountGuard, SaysTheSpeedThatTheResolutionAllows) {
+TEST(LabjackCountGuard, GivesTheSpeedForTheResolution) {
   EXPECT_EQ(speed_text(30'000, -0.05), "counts up to 1.5 mm/s");
   EXPECT_EQ(speed_text(70'000, 1), "counts up to 70 mm/s");
   EXPECT_EQ(speed_text(0, 0.05), "");
 }
 
-// Two counts of slack beside the speed: a step of an edge that trembles is no loss. What was lost
-// and found again is forgotten.
-TEST(LabjackCountGuard, AllowsAnEdgeToTrembleAndForgetsWhatWasFound) {
+// Two counts of tolerance in addition to the rate: an oscillating edge is not a loss. restart()
+// clears an earlier loss.
+TEST(LabjackCountGuard, AllowsOscillatingEdgesAndRestarts) {
   CountGuard guard(10);
   EXPECT_TRUE(guard.take(0, 0));
   EXPECT_TRUE(guard.take(2, 0.001));
@@ -74,9 +75,9 @@ TEST(LabjackCountGuard, AllowsAnEdgeToTrembleAndForgetsWhatWasFound) {
   EXPECT_TRUE(guard.take(1000, 0.003));
 }
 
-// A count goes on over the middle of its 32 bits; of a device that began anew the same bits are
-// below zero, as they are of a first count.
-TEST(LabjackCounter, ADeviceThatBeganAnewCountsFromThere) {
+// A count continues over the middle of its 32 bits. After a restart of the device the same bits are
+// negative, as in a first count.
+TEST(LabjackCounter, RestartedDeviceCountsFromItsOwnZero) {
   Counter counter;
   counter.take_up(false);
   (void)counter.take(0x7FFF'FFFF, 0);

@@ -7,7 +7,7 @@
 namespace mdof::drivers::labjack {
 namespace {
 
-TEST(LabjackVolts, NominalVolts) {
+TEST(LabjackVolts, ConvertsWithNominalConstants) {
   const AinCalibration c = nominal_calibration(0);
   EXPECT_NEAR(volts(c, 0), -10.586757, 1e-5);
   EXPECT_EQ(volts(c, 33523), 0);
@@ -16,8 +16,8 @@ TEST(LabjackVolts, NominalVolts) {
   EXPECT_NEAR(volts(nominal_calibration(2), 65535), 0.10109575, 1e-7);
 }
 
-// U6 and T7: a tenth a step of the gain of 0.00031580578, -0.0003158058 V a code and centre 33523
-// (LabJackPython, src/u6.py, CalibrationInfo; LabJack's T7 example stream.c).
+// U6 and T7: each step of the gain is a tenth of 0.00031580578 and -0.0003158058 V per code, centre
+// 33523 (LabJackPython, src/u6.py, CalibrationInfo; LabJack's T7 example stream.c).
 TEST(LabjackVolts, EachGainIsATenth) {
   const double lowest_v[] = {-10.586757, -1.0586757, -0.10586757, -0.010586757};
   const double highest_v[] = {10.109575, 1.0109575, 0.10109575, 0.010109575};
@@ -57,7 +57,7 @@ std::vector<std::uint64_t> indices(const std::vector<Scan>& scans) {
 using Words = std::vector<std::uint16_t>;
 constexpr std::uint16_t kOnes = 0xFFFF;
 
-TEST(LabjackScanSplitter, ScansRunOnFromPacketToPacket) {
+TEST(LabjackScanSplitter, ScansExtendOverPackets) {
   ScanSplitter line(3);
   std::vector<Scan> scans;
   for (const Words& packet : {Words{1, 2}, Words{3, 4, 5, 6, 7}, Words{8, 9}})
@@ -66,19 +66,19 @@ TEST(LabjackScanSplitter, ScansRunOnFromPacketToPacket) {
   EXPECT_EQ(scans[1].words, (Words{4, 5, 6}));
 }
 
-TEST(LabjackScanSplitter, AMarkMayRunOnToo) {
+TEST(LabjackScanSplitter, MarkMayExtendOverPackets) {
   ScanSplitter line(3);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(Words{1, 2}, std::nullopt, scans));
   ASSERT_TRUE(line.take(Words{3, kOnes}, 50, scans));
-  EXPECT_TRUE(scans.empty());  // not known yet on which side of the gap it is
+  EXPECT_TRUE(scans.empty());  // the side of the gap is not known yet
   ASSERT_TRUE(line.take(Words{kOnes, kOnes, 4, 5, 6}, std::nullopt, scans));
   ASSERT_EQ(indices(scans), (std::vector<std::uint64_t>{0, 51}));
   EXPECT_EQ(scans[1].lost, 50U);
   EXPECT_EQ(scans[0].lost, 0U);
 }
 
-TEST(LabjackScanSplitter, AMarkThatDoesNotComeIsAnError) {
+TEST(LabjackScanSplitter, MissingMarkIsAnError) {
   ScanSplitter line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(Words{1, 1, kOnes}, 50, scans));
@@ -86,7 +86,7 @@ TEST(LabjackScanSplitter, AMarkThatDoesNotComeIsAnError) {
   EXPECT_TRUE(scans.empty());
 }
 
-TEST(LabjackScanSplitter, AllOnesAreValuesWhereNothingWasDropped) {
+TEST(LabjackScanSplitter, AllOnesWithoutAGapAreValues) {
   ScanSplitter line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(Words{kOnes, kOnes, kOnes, kOnes}, 7, scans));

@@ -37,7 +37,7 @@ Result<labjack_t7::Settings> settings(const std::string& toml) {
   return read_labjack_t7(table, context());
 }
 
-// The message of the refusal.
+// The message of the error, or "accepted".
 std::string refusal(const std::string& keys, const std::string& channels = kChannels) {
   const auto read = settings(keys + channels);
   return read ? "accepted" : read.error().message;
@@ -51,7 +51,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(LabjackT7Configure, TheAddressAloneGivesTheDefaults) {
+TEST(LabjackT7Configure, AddressAloneGivesDefaults) {
   const auto s = settings("address = \"192.168.1.207\"\n" + std::string(kChannels));
   ASSERT_TRUE(s) << s.error().message;
   EXPECT_EQ(s->name, "daq");
@@ -67,7 +67,7 @@ TEST(LabjackT7Configure, TheAddressAloneGivesTheDefaults) {
   EXPECT_EQ(s->inputs[2].um_per_count, -0.05);
 }
 
-TEST(LabjackT7Configure, EveryKeyIsRead) {
+TEST(LabjackT7Configure, ReadsEveryKey) {
   const auto s = settings(R"(
     address = "t7.local:1502"
     stream_port = 1702
@@ -89,7 +89,7 @@ TEST(LabjackT7Configure, EveryKeyIsRead) {
   EXPECT_EQ(s->serial, 470012345U);
 }
 
-TEST(LabjackT7Configure, TheCounterHasAGreatestSpeed) {
+TEST(LabjackT7Configure, CounterHasASpeedLimit) {
   const auto most = [](const std::string& more) {
     const auto s = settings("address = \"t7\"\n" + std::string(kChannels) + more);
     EXPECT_TRUE(s) << s.error().message;
@@ -112,20 +112,20 @@ TEST(LabjackT7Configure, AnEncoderCountsOrGivesVolts) {
   ASSERT_TRUE(volts) << volts.error().message;
   EXPECT_EQ(volts->inputs[1].channel, (Channel{"encoder", Unit::volt}));
   EXPECT_EQ(volts->inputs[1].negative, 3);
-  EXPECT_FALSE(volts->encoder.counts);  // nothing to lose with the power
+  EXPECT_FALSE(volts->encoder.counts);  // volts have no datum
   EXPECT_EQ(volts->encoder.offset_mm, -7);
   EXPECT_TRUE(
       has(with_channel("id = \"encoder\"\ninput = \"AIN0\"\num_per_count = 5\n"), "um_per_V"));
 }
 
-TEST(LabjackT7Configure, ThePacketIsQuickAtEveryRate) {
+TEST(LabjackT7Configure, PacketsAreShortAtEveryRate) {
   EXPECT_EQ(labjack_t7::quick_packet(4000, 7), 112U);  // 16 scans, 4 ms
   EXPECT_EQ(labjack_t7::quick_packet(10, 7), 7U);
   EXPECT_EQ(labjack_t7::quick_packet(100000, 1), 400U);
   EXPECT_LE(labjack_t7::quick_packet(1e9, 7), 512U);
 }
 
-TEST(LabjackT7Configure, BadKeysAreRefusedWithTheirPlace) {
+TEST(LabjackT7Configure, RefusesBadKeysWithTheirPlace) {
   const std::string a = "address = \"t7\"\n";
   EXPECT_TRUE(has(refusal(""), "address"));
   EXPECT_TRUE(has(refusal("address = \"t7:x\"\n"), "mdofd.toml:1: address"));
@@ -142,7 +142,7 @@ TEST(LabjackT7Configure, BadKeysAreRefusedWithTheirPlace) {
   EXPECT_TRUE(has(refusal(a + "rate = 5\n"), "rate_hz"));  // the nearest known key
 }
 
-TEST(LabjackT7Configure, BadChannelsAreRefused) {
+TEST(LabjackT7Configure, RefusesBadChannels) {
   EXPECT_TRUE(has(with_channel("id = \"A\"\ninput = \"AIN14\"\n"), "AIN13, DIO0"));
   EXPECT_TRUE(has(with_channel("id = \"D\"\ninput = \"AIN0\"\n"), "neither a probe"));
   EXPECT_TRUE(has(with_channel("id = \"encoder\"\ninput = \"DIO0\"\n"), "um_per_count"));
@@ -150,7 +150,7 @@ TEST(LabjackT7Configure, BadChannelsAreRefused) {
   EXPECT_TRUE(has(refusal("address = \"t7\"\n", ""), "channel"));
 }
 
-TEST(LabjackT7Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
+TEST(LabjackT7Configure, InputsMayBeDifferentialWithOwnRange) {
   const std::string a = "address = \"t7\"\n";
   const auto pair = [](const std::string& input, const std::string& negative) {
     return "[[channel]]\nid = \"C\"\ninput = \"" + input + "\"\nnegative = \"" + negative + "\"\n";
@@ -177,7 +177,7 @@ TEST(LabjackT7Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
   EXPECT_TRUE(has(refusal(a, std::string(kChannels) + "range_v = 1\n"), "apply to an AIN"));
 }
 
-TEST(LabjackT7Configure, TheEncoderMayBeAtOtherPairsOfLines) {
+TEST(LabjackT7Configure, EncoderMayUseOtherLinePairs) {
   const auto encoder = [](const std::string& id, const std::string& input) {
     return "[[channel]]\nid = \"" + id + "\"\ninput = \"" + input + "\"\num_per_count = 0.05\n";
   };
@@ -192,7 +192,7 @@ TEST(LabjackT7Configure, TheEncoderMayBeAtOtherPairsOfLines) {
   EXPECT_TRUE(has(refusal(a, kChannels + encoder("C", "DIO2")), "the first is DIO0"));
 }
 
-TEST(LabjackT7Configure, TheRegistryKnowsIt) {
+TEST(LabjackT7Configure, RegistryMakesTheDriver) {
   auto table = TomlTable::parse("address = \"t7\"\n" + std::string(kChannels), "mdofd.toml");
   ASSERT_TRUE(table);
   const auto spec = configure_driver("labjack_t7", *table, context());

@@ -1,4 +1,4 @@
-// The driver on the simulated T7, which is served on real sockets.
+// The driver and the simulated T7, served on real sockets.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ using namespace std::chrono_literals;
 
 inline constexpr double kRate_Hz = 4000;
 
-// AIN0 rises 1 V a second from zero at the first call, AIN1 is beyond the range, the counter counts
-// nanoseconds / 1000 from -40.
+// AIN0 rises by 1 V/s from zero at construction, AIN1 is outside of its range, the counter is ns /
+// 1000 - 40.
 struct Truth {
   std::int64_t zero_ns =
       std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -66,7 +66,7 @@ class LabjackT7Driver : public testing::Test {
     const Status opened = driver().open();
     return opened ? "opened" : opened.error().message;
   }
-  // Reads until `scans` have come or an error, which it gives.
+  // Reads until `scans` scans have arrived or an error occurs, which it returns.
   std::string read(std::size_t scans) {
     SampleBlock block;
     const auto until = std::chrono::steady_clock::now() + 20s;
@@ -89,14 +89,14 @@ class LabjackT7Driver : public testing::Test {
     return sum;
   }
 
-  // CORE_TIMER reads this now, give or take some seconds.
+  // Sets CORE_TIMER to about this value now (within some seconds).
   void core_reads(std::uint32_t ticks) {
     core_start = ticks - static_cast<std::uint32_t>(truth.zero_ns / 25);  // 40 MHz, wrapping
   }
 
   Truth truth;
   std::uint32_t core_start = 0xFFF00000;
-  int dio = 0;  // of the encoder
+  int dio = 0;  // line of the encoder
   std::unique_ptr<SimulatedLabjackT7> device;
   std::unique_ptr<ServedDevice> served;
   Settings settings;

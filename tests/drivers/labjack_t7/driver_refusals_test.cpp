@@ -1,4 +1,4 @@
-// The driver against the simulated T7 on real sockets: what it refuses, and in which words.
+// The driver with the simulated T7 on real sockets: refusals and their messages.
 #include <tuple>
 
 #include "tests/drivers/labjack_t7/driver_fixture.h"
@@ -25,7 +25,7 @@ TEST_F(LabjackT7Driver, OtherDevicesAreRefused) {
   EXPECT_TRUE(has(refusal(), "serial number of the device is 470012345"));
 }
 
-TEST_F(LabjackT7Driver, AStampOfAnotherStreamIsRefused) {
+TEST_F(LabjackT7Driver, RefusesTheStampOfAnotherStream) {
   core_reads(1'000'000'000);
   SimulatedLabjackT7::Faults faults;
   faults.stale_stamp = true;
@@ -38,7 +38,7 @@ TEST_F(LabjackT7Driver, AStampOfAnotherStreamIsRefused) {
 
 // LabJack's ljm_constants.json: STREAM_START_TIME_STAMP from 1.0214, STREAM_AUTORECOVER_DISABLE
 // from 1.026 on.
-TEST_F(LabjackT7Driver, FirmwareThatLacksWhatIsNeededIsRefused) {
+TEST_F(LabjackT7Driver, RefusesFirmwareWithoutNeededRegisters) {
   for (const auto& [firmware, says] :
        {std::pair{1.0188F, "1.0188 lacks the time stamp"},
         {1.0213F, "(added in firmware 1.0214)"},
@@ -55,12 +55,12 @@ TEST_F(LabjackT7Driver, FirmwareThatLacksWhatIsNeededIsRefused) {
   }
 }
 
-TEST_F(LabjackT7Driver, AT7ProIsRefusedOverItsWifi) {
+TEST_F(LabjackT7Driver, RefusesTheWifiAddressOfAT7Pro) {
   for (const auto& [hardware, wifi_ip, says] :
        {std::tuple{3U, 0x7F000001U, "a T7-Pro cannot stream over WiFi"},
         {3U, 0xC0A80105U, "opened"},     // connected by cable
-        {3U, 0U, "opened"},              // its WiFi is off
-        {1U, 0x7F000001U, "opened"}}) {  // it has none
+        {3U, 0U, "opened"},              // WiFi is off
+        {1U, 0x7F000001U, "opened"}}) {  // no WiFi
     made.reset();
     served.reset();
     SimulatedLabjackT7::Options options;
@@ -79,7 +79,7 @@ TEST_F(LabjackT7Driver, ErasedConstantsAreRefused) {
   EXPECT_TRUE(has(refusal(), "calibration"));
 }
 
-TEST_F(LabjackT7Driver, ARefusalIsToldInLabJacksWords) {
+TEST_F(LabjackT7Driver, RefusalsHaveLabJacksErrorText) {
   SimulatedLabjackT7::Faults faults;
   faults.refused = reg::stream_enable.address;
   faults.refused_code = 2607;
@@ -90,8 +90,8 @@ TEST_F(LabjackT7Driver, ARefusalIsToldInLabJacksWords) {
   EXPECT_TRUE(has(message, settings.command.text())) << message;
 }
 
-// LAST_ERR_DETAIL says 0 where there is none.
-TEST_F(LabjackT7Driver, ARefusalWithoutDetailIsGivenNone) {
+// LAST_ERR_DETAIL is 0 if there is no detail.
+TEST_F(LabjackT7Driver, RefusalsWithoutDetailHaveNoErrorText) {
   SimulatedLabjackT7::Faults faults;
   faults.refused = reg::stream_enable.address;
   faults.refused_code = 0;
@@ -101,7 +101,7 @@ TEST_F(LabjackT7Driver, ARefusalWithoutDetailIsGivenNone) {
   EXPECT_FALSE(has(message, "LabJack error")) << message;
 }
 
-TEST_F(LabjackT7Driver, NobodyThereIsAnErrorWithTheAddress) {
+TEST_F(LabjackT7Driver, ErrorNamesTheAddressIfNobodyAnswers) {
   serve({});
   served.reset();
   const std::string message = refusal();

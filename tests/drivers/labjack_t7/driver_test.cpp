@@ -1,4 +1,4 @@
-// The driver against the simulated T7 on real sockets: what it reads.
+// The driver with the simulated T7 on real sockets: samples.
 #include <thread>
 
 #include "tests/drivers/labjack_t7/driver_fixture.h"
@@ -16,9 +16,9 @@ TEST_F(LabjackT7Driver, GivesVoltsAndMicrometresAtTheirTimes) {
   EXPECT_EQ(lost(), 0U);
   for (std::size_t i = 0; i < time_ns.size(); ++i) {
     const double age_s = static_cast<double>(time_ns[i] - truth.zero_ns) * 1e-9;
-    ASSERT_NEAR(value[0][i], age_s, 0.1) << i;  // a loaded machine sends late
+    ASSERT_NEAR(value[0][i], age_s, 0.1) << i;  // a busy machine sends late
     ASSERT_NEAR(value[2][i], -1.5, 2e-4);
-    ASSERT_NEAR(value[3][i], -0.5e6 * value[0][i], 200) << i;  // the same scan, to one code
+    ASSERT_NEAR(value[3][i], -0.5e6 * value[0][i], 200) << i;  // the same scan, within one code
     ASSERT_EQ(quality[0][i], Quality::good);
     ASSERT_EQ(quality[1][i], Quality::over_range);
     ASSERT_EQ(quality[3][i], Quality::good);
@@ -28,7 +28,7 @@ TEST_F(LabjackT7Driver, GivesVoltsAndMicrometresAtTheirTimes) {
   EXPECT_NEAR((value[3].back() - value[3].front()) / -0.5, 1e6 * periods / kRate_Hz, 1.1);
 }
 
-TEST_F(LabjackT7Driver, SendsTheVectors) {
+TEST_F(LabjackT7Driver, SendsTheExpectedRequests) {
   serve({});
   settings.rate_hz = 1000;
   ASSERT_EQ(refusal(), "opened");
@@ -41,7 +41,7 @@ TEST_F(LabjackT7Driver, SendsTheVectors) {
     EXPECT_TRUE(has(sent, modbus::bytes(vector))) << vector;
 }
 
-TEST_F(LabjackT7Driver, ReadReturnsInTimeWithNothing) {
+TEST_F(LabjackT7Driver, ReadReturnsAtItsTimeoutWithoutData) {
   SimulatedLabjackT7::Faults faults;
   faults.silent_at = 0;
   serve(faults);
@@ -53,10 +53,11 @@ TEST_F(LabjackT7Driver, ReadReturnsInTimeWithNothing) {
   EXPECT_LT(std::chrono::steady_clock::now() - before, 1s);
 }
 
-TEST_F(LabjackT7Driver, TheStampOfAStreamIsReadOnceItsFirstScanHasBegun) {
-  core_reads(1'000'000'000);  // a stamp of 0, before the first stream, is far from it
+TEST_F(LabjackT7Driver, ReadsTheStreamStampAfterTheFirstScan) {
+  core_reads(1'000'000'000);  // far from 0, the stamp before the first stream
   serve({});
-  for (int stream = 0; stream < 2; ++stream) {  // for the second it is that of the first
+  // Before its first scan, the second stream has the stamp of the first.
+  for (int stream = 0; stream < 2; ++stream) {
     ASSERT_EQ(refusal(), "opened");
     time_ns.clear();
     for (auto& column : value) column.clear();
@@ -68,7 +69,7 @@ TEST_F(LabjackT7Driver, TheStampOfAStreamIsReadOnceItsFirstScanHasBegun) {
   }
 }
 
-TEST_F(LabjackT7Driver, AStreamThatRunsIsStopped) {
+TEST_F(LabjackT7Driver, StopsARunningStream) {
   serve({});
   ASSERT_EQ(refusal(), "opened");
   LabjackT7 other(settings);
@@ -78,7 +79,7 @@ TEST_F(LabjackT7Driver, AStreamThatRunsIsStopped) {
   EXPECT_GT(block.scans(), 0U);
 }
 
-TEST_F(LabjackT7Driver, DroppedScansAreCountedAndTheTimeLineGoesOn) {
+TEST_F(LabjackT7Driver, CountsDroppedScansAndKeepsTimes) {
   SimulatedLabjackT7::Faults faults;
   faults.recovery_at = 5;
   faults.dropped = 300;
@@ -97,7 +98,7 @@ TEST_F(LabjackT7Driver, DroppedScansAreCountedAndTheTimeLineGoesOn) {
   EXPECT_EQ(gaps, 1U);
 }
 
-TEST_F(LabjackT7Driver, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
+TEST_F(LabjackT7Driver, InvalidStreamIsAnErrorAndIsRestarted) {
   struct Case {
     SimulatedLabjackT7::Faults faults;
     const char* says;
@@ -130,15 +131,15 @@ TEST_F(LabjackT7Driver, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
     ASSERT_EQ(before, (&c == &cases[4] ? 5 : 3) * settings.samples_per_packet / 5) << c.says;
     ASSERT_EQ(refusal(), "opened");
     ASSERT_EQ(read(before + 20), "");
-    // What would have come meanwhile is lost.
+    // The scans of the interruption are lost.
     const double gap_s = static_cast<double>(time_ns[before] - time_ns[before - 1]) * 1e-9;
     EXPECT_NEAR(static_cast<double>(lost()), gap_s * kRate_Hz - 1, 0.6);
   }
 }
 
-// 0.9 V against 0.25 V, in a range that has a tenth of the other's step; the others stay as they
-// are, whatever another program has left.
-TEST_F(LabjackT7Driver, ADifferentialInputInARangeOfItsOwn) {
+// 0.9 V against 0.25 V, in a range with a tenth of the step of the others. The other inputs keep
+// their settings, even if another program has changed them.
+TEST_F(LabjackT7Driver, DifferentialInputHasItsOwnRange) {
   serve({});
   settings.inputs[2] = {{"C", Unit::volt}, 4, 0, 0, 5, 1};
   settings.samples_per_packet = quick_packet(kRate_Hz, 5);
@@ -156,7 +157,7 @@ TEST_F(LabjackT7Driver, ADifferentialInputInARangeOfItsOwn) {
   }
 }
 
-TEST_F(LabjackT7Driver, TheCountGoesOnOverABrokenConnection) {
+TEST_F(LabjackT7Driver, CountContinuesAfterABrokenConnection) {
   serve({});
   ASSERT_EQ(refusal(), "opened");
   ASSERT_EQ(read(20), "");
@@ -177,8 +178,8 @@ TEST_F(LabjackT7Driver, CountsAtAnotherPairOfLines) {
   EXPECT_LT(value[3].back(), value[3].front());
 }
 
-// Of two axes, in one scan: DIO0 counts nanoseconds / 1000, DIO2 a quarter of that.
-TEST_F(LabjackT7Driver, EncodersOfTwoAxesAreCountedAndTrustedEachByItself) {
+// Encoders of two axes in one scan: DIO0 counts ns / 1000, DIO2 a quarter of it.
+TEST_F(LabjackT7Driver, EncodersOfTwoAxesAreIndependent) {
   serve({});
   settings.inputs[2] = {{"encoder_Y", Unit::um}, -1, 2.0};
   settings.inputs[2].dio = 2;
@@ -191,9 +192,10 @@ TEST_F(LabjackT7Driver, EncodersOfTwoAxesAreCountedAndTrustedEachByItself) {
       << driver().info().description;
   ASSERT_EQ(read(400), "");
   for (std::size_t i = 0; i < time_ns.size(); ++i)
-    ASSERT_NEAR(value[2][i], -value[3][i], 120) << i;  // 2 * 0.25 and -0.5 of the same; 50 us apart
+    // 2 * 0.25 and -0.5 of the same count; 50 us apart.
+    ASSERT_NEAR(value[2][i], -value[3][i], 120) << i;
   EXPECT_EQ(quality[2].back(), Quality::good);
-  EXPECT_EQ(quality[3].back(), Quality::suspect);  // 1,000,000 counts a second
+  EXPECT_EQ(quality[3].back(), Quality::suspect);  // 1,000,000 counts/s
   EXPECT_TRUE(has(driver().info().datum_lost, "counts may have been lost"));
   EXPECT_TRUE(driver().info().further_datum_lost.empty());
 
@@ -213,7 +215,7 @@ TEST_F(LabjackT7Driver, EncodersOfTwoAxesAreCountedAndTrustedEachByItself) {
   EXPECT_TRUE(driver().info().further_datum_lost.empty());
 }
 
-TEST_F(LabjackT7Driver, ACountThatWasRestartedIsSuspect) {
+TEST_F(LabjackT7Driver, RestartedCountIsSuspect) {
   serve({});
   ASSERT_EQ(refusal(), "opened");
   ASSERT_EQ(read(20), "");
@@ -227,14 +229,14 @@ TEST_F(LabjackT7Driver, ACountThatWasRestartedIsSuspect) {
   EXPECT_EQ(quality[3].back(), Quality::suspect);
   EXPECT_EQ(quality[0].back(), Quality::good);
   EXPECT_TRUE(has(driver().info().datum_lost, "counter restarted at 0"));
-  driver().trust_count();  // somebody has found the zero
+  driver().trust_count();  // the user has set the position
   ASSERT_EQ(read(time_ns.size() + 200), "");
   EXPECT_EQ(quality[3].back(), Quality::good);
   EXPECT_EQ(driver().info().datum_lost, "");
 }
 
-// The counter goes 1,000,000 counts a second.
-TEST_F(LabjackT7Driver, ACountFasterThanItCanCountIsSuspectFromThenOn) {
+// The counter counts 1,000,000 counts/s.
+TEST_F(LabjackT7Driver, CountIsSuspectAfterExceedingItsSpeedLimit) {
   serve({});
   settings.inputs[3].most_counts_per_s = 2e6;
   ASSERT_EQ(refusal(), "opened");

@@ -1,4 +1,4 @@
-// Any bytes on the stream port, in portions, and any requests to the simulated device.
+// Any bytes on the stream port, in portions; any requests to the simulated device.
 #include <cstddef>
 #include <cstdint>
 #include <string>

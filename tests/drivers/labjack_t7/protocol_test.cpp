@@ -17,7 +17,7 @@ StreamPacket packet(std::uint16_t transaction, std::vector<std::uint16_t> sample
   return p;
 }
 
-TEST(LabjackT7Protocol, WordsComeHighFirst) {
+TEST(LabjackT7Protocol, HighWordComesFirst) {
   EXPECT_EQ(words_of(0x00112233), (Words{0x0011, 0x2233}));
   EXPECT_EQ(u32_of(0x0011, 0x2233), kTestValue);
   EXPECT_EQ(words_of_float(1000), (Words{0x447A, 0}));
@@ -25,7 +25,7 @@ TEST(LabjackT7Protocol, WordsComeHighFirst) {
   EXPECT_EQ(float_of(0x411C, 0), 9.75F);
 }
 
-TEST(LabjackT7Protocol, AStreamPacketIsEncodedAndRead) {
+TEST(LabjackT7Protocol, EncodesAndReadsAStreamPacket) {
   const std::string bytes = modbus::bytes(kSevenSamples);
   const std::vector<std::uint16_t> samples = {0x8000, 0x8001, 0x8002, 0x8003,
                                               0x8004, 0x8005, 0x8006};
@@ -40,7 +40,7 @@ TEST(LabjackT7Protocol, AStreamPacketIsEncodedAndRead) {
   EXPECT_FALSE(reader.next(read).value());
 }
 
-TEST(LabjackT7Protocol, EachFieldHasItsPlace) {
+TEST(LabjackT7Protocol, FieldsHaveTheirOffsets) {
   StreamPacket p = packet(0xFFFE, {1});
   p.backlog = 0x1234;
   p.status = status::recovered;
@@ -56,7 +56,7 @@ TEST(LabjackT7Protocol, EachFieldHasItsPlace) {
   EXPECT_EQ(read.info, 300);
 }
 
-TEST(LabjackT7Protocol, PacketsMayComeInAnyPortions) {
+TEST(LabjackT7Protocol, PacketsMayArriveInAnyPortions) {
   const std::string both = encode(packet(0, {1, 2})) + encode(packet(1, {3, 4}));
   for (std::size_t cut = 0; cut <= both.size(); ++cut) {
     PacketReader reader;
@@ -71,7 +71,7 @@ TEST(LabjackT7Protocol, PacketsMayComeInAnyPortions) {
   }
 }
 
-TEST(LabjackT7Protocol, WhatIsNoStreamIsRefused) {
+TEST(LabjackT7Protocol, RefusesOtherDataThanAStream) {
   const std::string good = modbus::bytes(kSevenSamples);
   for (const std::size_t at : {2U, 3U, 6U, 7U, 8U}) {
     std::string bytes = good;
@@ -89,8 +89,8 @@ TEST(LabjackT7Protocol, WhatIsNoStreamIsRefused) {
   }
 }
 
-// A length of 10: no sample, as where only a status is told.
-TEST(LabjackT7Protocol, APacketWithoutSamplesIsOne) {
+// Length 10: no sample; such packets report a status only.
+TEST(LabjackT7Protocol, AcceptsAPacketWithoutSamples) {
   PacketReader reader;
   reader.append(modbus::bytes("00 05 00 00 00 0A 01 4C 10 00 00 00 0B 7C 00 00"));
   StreamPacket p;
@@ -101,7 +101,7 @@ TEST(LabjackT7Protocol, APacketWithoutSamplesIsOne) {
 }
 
 // T-Series Datasheet 3.2.4: at most 512 samples on Ethernet, a length of 1034.
-TEST(LabjackT7Protocol, TheLargestPacketIsRead) {
+TEST(LabjackT7Protocol, ReadsTheLargestPacket) {
   std::string bytes = modbus::bytes("00 00 00 00 04 0A 01 4C 10 00 00 00 00 00 00 00");
   bytes.append(1024, '\x11');
   PacketReader reader;
@@ -112,19 +112,19 @@ TEST(LabjackT7Protocol, TheLargestPacketIsRead) {
   EXPECT_EQ(encode(p), bytes);
 }
 
-TEST(LabjackT7Protocol, RangesAndFlash) {
+TEST(LabjackT7Protocol, FindsRangesAndFlashAddresses) {
   EXPECT_EQ(range_index(0.1), std::optional<std::size_t>(2));
   EXPECT_FALSE(range_index(5));
   EXPECT_EQ(flash_address(0), 0x3C4000U);
   EXPECT_EQ(flash_address(1), 0x3C4034U);
 }
 
-TEST(LabjackT7Protocol, ErrorsHaveWords) {
+TEST(LabjackT7Protocol, ErrorCodesHaveTexts) {
   EXPECT_NE(error_text(2608).find("rate_hz"), std::string::npos);
   EXPECT_EQ(error_text(1234), "LabJack error 1234");
 }
 
-TEST(LabjackT7Scans, AreCountedAndCut) {
+TEST(LabjackT7Scans, CutsAndCountsScans) {
   PacketLine line(2);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(packet(0, {1, 2, 3, 4}), scans));
@@ -135,7 +135,7 @@ TEST(LabjackT7Scans, AreCountedAndCut) {
   EXPECT_EQ(scans[2].lost, 0U);
 }
 
-TEST(LabjackT7Scans, TransactionsWrap) {
+TEST(LabjackT7Scans, TransactionNumbersWrap) {
   PacketLine line(1);
   std::vector<Scan> scans;
   for (int i = 0; i < 65538; ++i)
@@ -143,7 +143,7 @@ TEST(LabjackT7Scans, TransactionsWrap) {
   EXPECT_EQ(scans.back().index, 65537U);
 }
 
-TEST(LabjackT7Scans, AGapInTheTransactionsIsAnError) {
+TEST(LabjackT7Scans, MissingPacketIsAnError) {
   PacketLine line(1);
   std::vector<Scan> scans;
   ASSERT_TRUE(line.take(packet(0, {0}), scans));
@@ -153,12 +153,12 @@ TEST(LabjackT7Scans, AGapInTheTransactionsIsAnError) {
   EXPECT_EQ(scans.size(), 1U);
 }
 
-TEST(LabjackT7Scans, TheTimeLineGoesOnOverDroppedScans) {
+TEST(LabjackT7Scans, TimesContinueAfterDroppedScans) {
   PacketLine line(2);
   std::vector<Scan> scans;
   StreamPacket p = packet(0, {1, 1, 2, 2});
   p.status = status::recovering;
-  ASSERT_TRUE(line.take(p, scans));  // what was in the buffer is good
+  ASSERT_TRUE(line.take(p, scans));  // the buffered scans are valid
   p = packet(1, {3, 3, 0xFFFF, 0xFFFF, 4, 4});
   p.status = status::recovered;
   p.info = 100;
@@ -171,7 +171,7 @@ TEST(LabjackT7Scans, TheTimeLineGoesOnOverDroppedScans) {
   EXPECT_EQ(scans[3].words, (std::vector<std::uint16_t>{4, 4}));
 }
 
-TEST(LabjackT7Scans, AGapAtTheEndOfAPacketStandsBeforeTheNextScan) {
+TEST(LabjackT7Scans, GapAtPacketEndPrecedesTheNextScan) {
   PacketLine line(1);
   std::vector<Scan> scans;
   StreamPacket p = packet(0, {7, 0xFFFF});
@@ -184,7 +184,7 @@ TEST(LabjackT7Scans, AGapAtTheEndOfAPacketStandsBeforeTheNextScan) {
   EXPECT_EQ(scans[1].lost, 9U);
 }
 
-TEST(LabjackT7Scans, AnUnmarkedGapIsAnError) {
+TEST(LabjackT7Scans, GapWithoutMarkIsAnError) {
   PacketLine line(2);
   std::vector<Scan> scans;
   StreamPacket p = packet(0, {0xFFFF, 1, 2, 0xFFFF});
@@ -201,7 +201,7 @@ TEST(LabjackT7Scans, AllOnesWithoutAGapAreValues) {
   EXPECT_EQ(scans.size(), 1U);
 }
 
-TEST(LabjackT7Scans, AStoppedStreamIsAnError) {
+TEST(LabjackT7Scans, StoppedStreamIsAnError) {
   for (const int code : {2942, 2943, 2944, 2945, 1}) {
     PacketLine line(1);
     std::vector<Scan> scans;
@@ -214,7 +214,7 @@ TEST(LabjackT7Scans, AStoppedStreamIsAnError) {
   }
 }
 
-TEST(LabjackT7Scans, HalfScansAreAnError) {
+TEST(LabjackT7Scans, IncompleteScanIsAnError) {
   PacketLine line(2);
   std::vector<Scan> scans;
   EXPECT_FALSE(line.take(packet(0, {1, 2, 3}), scans));

@@ -1,4 +1,4 @@
-// The simulated T7, byte for byte, without sockets.
+// The simulated T7 byte for byte, without sockets.
 #include "drivers/labjack_t7/simulated_labjack_t7.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kCommand = 0, kStream = 1;
 constexpr std::int64_t kMs = 1'000'000;
 
-// AIN0 ... AIN4 as in the vectors of reading; the counter goes 1000 counts a millisecond.
+// AIN0 ... AIN4 as in the read vectors; the counter counts 1000 counts/ms.
 double senses(std::size_t input, std::int64_t t_ns) {
   constexpr double kVolts[] = {1.0, -2.5, 0.125, 9.75, -10.0};
   if (input < 5) return kVolts[input];
@@ -60,7 +60,7 @@ class LabjackT7Device : public testing::Test {
   std::int64_t now = 5'000'000'000;
 };
 
-TEST_F(LabjackT7Device, AnswersTheVectorsOfReading) {
+TEST_F(LabjackT7Device, AnswersTheReadVectors) {
   count_by(0);
   EXPECT_EQ(
       ask("00 01 00 00 00 06 01 03 00 00 00 0A"),
@@ -72,7 +72,7 @@ TEST_F(LabjackT7Device, AnswersTheVectorsOfReading) {
             modbus::bytes("00 03 00 00 00 07 01 03 04 00 00 00 07"));
 }
 
-TEST_F(LabjackT7Device, TakesTheVectorsOfWriting) {
+TEST_F(LabjackT7Device, AcceptsTheWriteVectors) {
   const char* const vectors[][3] = {{"00 04 00 00 00 0B 01 10 AB 7C 00 02 04 41 20 00 00",
                                      "00 04 00 00 00 06 01 03 AB 7C 00 02", "41 20 00 00"},
                                     {"00 05 00 00 00 0B 01 10 AC 44 00 02 04 00 00 00 0A",
@@ -86,10 +86,10 @@ TEST_F(LabjackT7Device, TakesTheVectorsOfWriting) {
   }
 }
 
-TEST_F(LabjackT7Device, TheVectorsStartAStream) {
+TEST_F(LabjackT7Device, WriteVectorsStartAStream) {
   start(1000, 7, {0, 2, 4, 6, 8, 3000, 4899});
   EXPECT_EQ(ask("00 07 00 00 00 0B 01 10 13 7E 00 02 04 00 00 00 01"),
-            modbus::bytes("00 07 00 00 00 03 01 90 04"));  // it runs already
+            modbus::bytes("00 07 00 00 00 03 01 90 04"));  // a stream runs already
   EXPECT_EQ(ask("00 08 00 00 00 06 01 03 D6 D8 00 01"),
             modbus::bytes("00 08 00 00 00 05 01 03 02 0A 2D"));  // 2605
   now += 3 * kMs;
@@ -100,7 +100,7 @@ TEST_F(LabjackT7Device, TheVectorsStartAStream) {
   EXPECT_NEAR(labjack::volts(SimulatedLabjackT7::calibration(0), all[1].samples[1]), -2.5, 2e-4);
 }
 
-TEST_F(LabjackT7Device, RequestsMayComeInPieces) {
+TEST_F(LabjackT7Device, RequestsMayArriveInPieces) {
   const std::string request = modbus::bytes("00 02 00 00 00 06 01 03 D7 3C 00 02");
   for (std::size_t i = 0; i + 1 < request.size(); ++i)
     EXPECT_EQ(device.exchange(kCommand, 1, request.substr(i, 1), now), "");
@@ -116,11 +116,11 @@ TEST_F(LabjackT7Device, RefusesWithModbusExceptions) {
             modbus::bytes("00 01 00 00 00 03 01 83 03"));
   EXPECT_EQ(ask("00 01 00 00 00 06 01 06 AB 7E 00 C7"),
             modbus::bytes("00 01 00 00 00 06 01 06 AB 7E 00 C7"));
-  EXPECT_EQ(write(4990, words_of(0)).substr(7), modbus::bytes("90 04"));  // nothing runs
+  EXPECT_EQ(write(4990, words_of(0)).substr(7), modbus::bytes("90 04"));  // no stream runs
   EXPECT_EQ(ask("00 08 00 00 00 06 01 03 D6 D8 00 01").substr(9), modbus::bytes("0A 3C"));  // 2620
 }
 
-TEST_F(LabjackT7Device, SwapsWordsWhenAsked) {
+TEST_F(LabjackT7Device, SwapsWordsOnRequest) {
   SimulatedLabjackT7::Faults faults;
   faults.swapped_words = true;
   device.set_faults(faults);
@@ -128,8 +128,9 @@ TEST_F(LabjackT7Device, SwapsWordsWhenAsked) {
 }
 
 // T-Series Datasheet 13.2.9: DIO_EF_READ_A of line n is at 3000 + 2 n.
-TEST_F(LabjackT7Device, OnlyAPairThatIsSetToCountCounts) {
-  const auto high = [&](const char* address) {  // of the count, all ones while it is negative
+TEST_F(LabjackT7Device, OnlyConfiguredPairsCount) {
+  // High word of the count; all ones if the count is negative.
+  const auto high = [&](const char* address) {
     return ask((std::string("00 01 00 00 00 06 01 03 ") + address + " 00 02").c_str()).substr(9, 2);
   };
   now = 1'000'000;
@@ -142,13 +143,13 @@ TEST_F(LabjackT7Device, OnlyAPairThatIsSetToCountCounts) {
   EXPECT_EQ(high("0B B8"), modbus::bytes("00 00"));  // 3000, DIO0
 }
 
-// The counter passes from 0xFFFF to 0x10000 between the two entries of every scan.
+// The count changes from 0xFFFF to 0x10000 between the two entries of each scan.
 double at_a_boundary(std::size_t input, std::int64_t t_ns) {
   return input == SimulatedLabjackT7::kCounterInput && t_ns % kMs < 15'000 ? 65535 : 65536;
 }
 
-TEST_F(LabjackT7Device, TheUpperWordIsOfTheSameCountAsTheLower) {
-  for (const bool captured : {true, false}) {  // false: that this test can fail
+TEST_F(LabjackT7Device, UpperAndLowerWordBelongToTheSameCount) {
+  for (const bool captured : {true, false}) {  // false: shows that this test can fail
     device = SimulatedLabjackT7(at_a_boundary, {});
     SimulatedLabjackT7::Faults faults;
     faults.no_capture = !captured;
@@ -172,7 +173,7 @@ TEST_F(LabjackT7Device, CoreTimerCountsAt40MHzAndStampsTheFirstScan) {
   const std::uint32_t before = core();
   now += kMs;
   EXPECT_EQ(core() - before, 40'000U);
-  // "At the start of the first stream scan", LabJack's ljm_constants.json says: a period later.
+  // LabJack's ljm_constants.json: "At the start of the first stream scan", one period later.
   start(1000, 1, {0});
   const auto stamp = [&] { return ask("00 01 00 00 00 06 01 03 0F BA 00 02").substr(9); };
   EXPECT_EQ(stamp(), modbus::bytes("00 00 00 00"));

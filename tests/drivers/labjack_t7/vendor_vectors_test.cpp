@@ -1,4 +1,4 @@
-// LabJack's register map for LJM against this driver and its simulated device:
+// Compares the driver and its simulated device with LabJack's register map for LJM:
 // labjack/ljm_constants, LabJack/LJM/ljm_constants.json, "registers" (name, address, type,
 // default).
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ class LabjackT7Vectors : public testing::Test {
   SimulatedLabjackT7 device{[](std::size_t, std::int64_t) { return 0; }, {}};
 };
 
-TEST_F(LabjackT7Vectors, AddressesAreThoseOfLabjacksMap) {
+TEST_F(LabjackT7Vectors, AddressesAreThoseOfLabJacksMap) {
   struct Row {
     Register is;
     const char* name;
@@ -67,7 +67,7 @@ TEST_F(LabjackT7Vectors, AddressesAreThoseOfLabjacksMap) {
   for (const Row& row : rows) EXPECT_EQ(row.is.address, row.address) << row.name << ": " << kMap;
 }
 
-TEST_F(LabjackT7Vectors, TheSimulatedOneReadsAsTheMapSays) {
+TEST_F(LabjackT7Vectors, SimulatedDeviceAnswersAsInTheMap) {
   const VendorVector vectors[] = {
       {"TEST is 0x00112233", "00 02 00 00 00 06 01 03 D7 3C 00 02",
        "00 02 00 00 00 07 01 03 04 00 11 22 33", kMap},
@@ -85,7 +85,7 @@ TEST_F(LabjackT7Vectors, TheSimulatedOneReadsAsTheMapSays) {
 }
 
 // "For base differential channels, positive must be an even channel from 0-12 and negative must be
-// positive+1"; AIN_ALL_NEGATIVE_CH and AIN_ALL_RANGE write those of every input.
+// positive+1"; AIN_ALL_NEGATIVE_CH and AIN_ALL_RANGE write the registers of all inputs.
 TEST_F(LabjackT7Vectors, EachInputHasItsRangeAndNegativeChannel) {
   const VendorVector vectors[] = {
       {"AIN_ALL_NEGATIVE_CH = 199", "00 07 00 00 00 09 01 10 AB 7E 00 01 02 00 C7",
@@ -105,8 +105,9 @@ TEST_F(LabjackT7Vectors, EachInputHasItsRangeAndNegativeChannel) {
     EXPECT_EQ(mismatch(ask(vector.request), vector.reply), "") << vector;
 }
 
-// ljm_constants.json, "errors"; index 10 and bit 1 of HARDWARE_INSTALLED: the registers' texts.
-TEST_F(LabjackT7Vectors, NumbersAreThoseOfLabjacksConstants) {
+// ljm_constants.json, "errors"; for index 10 and bit 1 of HARDWARE_INSTALLED, the texts of the
+// registers.
+TEST_F(LabjackT7Vectors, NumbersAreThoseOfLabJacksConstants) {
   EXPECT_EQ(status::recovering, 2940);         // STREAM_AUTO_RECOVER_ACTIVE
   EXPECT_EQ(status::recovered, 2941);          // STREAM_AUTO_RECOVER_END
   EXPECT_EQ(status::scan_overlap, 2942);       // STREAM_SCAN_OVERLAP
@@ -124,7 +125,8 @@ TEST_F(LabjackT7Vectors, NumbersAreThoseOfLabjacksConstants) {
   EXPECT_EQ(kTestValue, 0x00112233U);
 }
 
-// T7 calibration: 13 floats a read from 0x3C4000, block by block (LabJack's example stream.c).
+// T7 calibration: each read returns 13 floats, block by block from 0x3C4000 (LabJack's example
+// stream.c).
 TEST_F(LabjackT7Vectors, FlashIsReadBlockByBlock) {
   const std::uint32_t addresses[] = {0x3C4000, 0x3C4034, 0x3C4068, 0x3C409C};
   for (int block = 0; block < 4; ++block) EXPECT_EQ(flash_address(block), addresses[block]);

@@ -42,7 +42,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(LabjackU6Configure, TakesItsKeys) {
+TEST(LabjackU6Configure, ReadsItsKeys) {
   const auto settings = read(
       "serial = 360012345\nrate_hz = 5000\nrange_v = 0.1\nresolution_index = 2\nsettling_us = 25\n",
       kChannels);
@@ -74,7 +74,7 @@ TEST(LabjackU6Configure, BadValuesNameTheirKey) {
   EXPECT_TRUE(has(refusal("rate = 5\n"), "rate_hz"));
 }
 
-TEST(LabjackU6Configure, BadInputsAreRefused) {
+TEST(LabjackU6Configure, RefusesBadInputs) {
   const auto channel = [](const std::string& id, const std::string& input, const char* more = "") {
     return "[[channel]]\nid = \"" + id + "\"\ninput = \"" + input + "\"\n" + more;
   };
@@ -91,7 +91,7 @@ TEST(LabjackU6Configure, BadInputsAreRefused) {
   EXPECT_TRUE(has(refusal("", channel("C", "AIN0")), "C"));
 }
 
-TEST(LabjackU6Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
+TEST(LabjackU6Configure, InputsMayBeDifferentialWithOwnRange) {
   const auto pair = [](const std::string& input, const std::string& negative) {
     return "[[channel]]\nid = \"B\"\ninput = \"" + input + "\"\nnegative = \"" + negative + "\"\n";
   };
@@ -115,7 +115,7 @@ TEST(LabjackU6Configure, AnInputMayBeDifferentialAndHaveARangeOfItsOwn) {
   EXPECT_TRUE(has(refusal("", kChannels + "range_v = 1\n"), "apply to an AIN"));
 }
 
-TEST(LabjackU6Configure, TheEncoderMayBeAtFio2) {
+TEST(LabjackU6Configure, EncoderMayUseFio2) {
   const auto encoder = [](const char* id, const char* input) {
     return std::string("[[channel]]\nid = \"") + id + "\"\ninput = \"" + input +
            "\"\num_per_count = 0.05\n";
@@ -125,12 +125,13 @@ TEST(LabjackU6Configure, TheEncoderMayBeAtFio2) {
   ASSERT_TRUE(s) << s.error().message;
   EXPECT_EQ(s->inputs[1].fio, 2);
   EXPECT_EQ(read("", kChannels)->inputs[1].fio, 0);
-  EXPECT_EQ(entries(*s), (std::vector<int>{0, 200, 224}));  // timers are counted from the first
+  // Timers are numbered from the first pin.
+  EXPECT_EQ(entries(*s), (std::vector<int>{0, 200, 224}));
   EXPECT_TRUE(has(refusal("", probe + encoder("encoder", "FIO1")), "AIN13, FIO0, FIO2"));
   EXPECT_TRUE(has(refusal("", kChannels + encoder("B", "FIO2")), "the first is FIO0"));
 }
 
-TEST(LabjackU6Configure, TheCounterHasAGreatestSpeed) {
+TEST(LabjackU6Configure, CounterHasASpeedLimit) {
   EXPECT_EQ(read("", kChannels)->inputs[1].most_counts_per_s, 30'000);
   EXPECT_EQ(read("", kChannels + "most_counts_per_s = 5e4\n")->inputs[1].most_counts_per_s, 5e4);
   EXPECT_TRUE(has(refusal("", kChannels + "most_counts_per_s = 0\n"), "must be more than 0"));
@@ -143,7 +144,7 @@ TEST(LabjackU6Settings, PacketsAndTransfersFollowTheRate) {
   for (const double samples_hz : {1.0, 100.0, 1249.0, 1251.0, 7000.0, 50'000.0}) {
     const auto transfers = labjack_u6::transfers_for(samples_hz);
     EXPECT_EQ(transfers.bytes % 64, 0U);
-    // Packets that are not full are never joined.
+    // Packets that are not full never share a transfer.
     EXPECT_TRUE(transfers.bytes == 64 || labjack_u6::samples_per_packet(samples_hz) == 25);
     EXPECT_GE(transfers.transfers, 4U);
   }

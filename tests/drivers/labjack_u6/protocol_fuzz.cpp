@@ -1,4 +1,4 @@
-// Any bytes as replies and as packets of the stream.
+// Any bytes as replies and as stream packets.
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -13,7 +13,7 @@ std::string zeros(std::size_t n) {
   return std::string(n, '\0');
 }
 
-TEST(LabjackU6Protocol, CommandsAreTheVectors) {
+TEST(LabjackU6Protocol, EncodesTheCommandVectors) {
   EXPECT_EQ(config_u6(), bytes("0B F8 0A 08 00 00") + zeros(20));
   EXPECT_EQ(read_calibration(0), bytes("27 F8 01 2D 00 00 00 00"));
   EXPECT_EQ(read_calibration(9), bytes("30 F8 01 2D 09 00 00 09"));
@@ -23,8 +23,8 @@ TEST(LabjackU6Protocol, CommandsAreTheVectors) {
   EXPECT_EQ(stream_stop(), bytes("B0 B0"));
 }
 
-// A poll of AIN0-4 and timer 0, which this driver does not send: its frame.
-TEST(LabjackU6Protocol, AFeedbackOfFiveInputsIsFramed) {
+// The frame of a poll of AIN0-4 and timer 0, a command that this driver does not send.
+TEST(LabjackU6Protocol, FramesAFeedbackOfFiveInputs) {
   const std::string vector = bytes(
       "49 F8 0D 00 43 00 00 02 00 01 00 02 01 01 00 02 02 01 00 02 03 01 00 02 04 01 00 2A 00 00 "
       "00 "
@@ -33,7 +33,7 @@ TEST(LabjackU6Protocol, AFeedbackOfFiveInputsIsFramed) {
   EXPECT_EQ(extended_body(vector, kFeedback, vector.size()).value(), vector.substr(6));
 }
 
-TEST(LabjackU6Protocol, StreamConfigIsTheVectors) {
+TEST(LabjackU6Protocol, EncodesTheStreamConfigVectors) {
   StreamSetup setup;
   setup.list = {{0}, {1}, {2}, {3}, {4}};
   const auto clock = stream_clock(1000);
@@ -47,7 +47,7 @@ TEST(LabjackU6Protocol, StreamConfigIsTheVectors) {
                   "E0 00"));
 }
 
-TEST(LabjackU6Protocol, ClocksCoverSlowAndFast) {
+TEST(LabjackU6Protocol, StreamClockCoversSlowAndFastRates) {
   EXPECT_EQ(stream_clock(10)->config, 2);
   EXPECT_NEAR(stream_clock(10)->rate_hz, 10, 0.01);
   EXPECT_NEAR(stream_clock(7000)->rate_hz, 7000, 10);
@@ -56,8 +56,8 @@ TEST(LabjackU6Protocol, ClocksCoverSlowAndFast) {
   EXPECT_FALSE(stream_clock(1e9));
 }
 
-// U6 Datasheet 5.2.12: an interval of 1 to 65535 of 4 MHz, or of that divided by 256.
-TEST(LabjackU6Protocol, TheLongestAndShortestIntervals) {
+// U6 Datasheet 5.2.12: the interval is 1 to 65535 periods of 4 MHz, or of 4 MHz / 256.
+TEST(LabjackU6Protocol, StreamClockUsesTheLimitsOfTheInterval) {
   const auto longest = stream_clock(4e6 / 65535);  // 61.04 Hz
   ASSERT_TRUE(longest);
   EXPECT_EQ(longest->config, 0);
@@ -71,26 +71,26 @@ TEST(LabjackU6Protocol, TheLongestAndShortestIntervals) {
   EXPECT_EQ(stream_clock(4e6)->interval, 1);
 }
 
-TEST(LabjackU6Protocol, AReplyThatIsTooLongIsRefused) {
+TEST(LabjackU6Protocol, RefusesTooLongReplies) {
   EXPECT_FALSE(read_stream_start(bytes("A9 A9 00 00 00")));
   EXPECT_FALSE(read_stream_config(bytes("0B F8 01 11 00 00 00 00 00 00")));
 }
 
-TEST(LabjackU6Protocol, RepliesAreRead) {
+TEST(LabjackU6Protocol, ReadsReplies) {
   EXPECT_TRUE(read_stream_config(bytes("0B F8 01 11 00 00 00 00")));
   EXPECT_TRUE(read_stream_start(bytes("A9 A9 00 00")));
   EXPECT_TRUE(read_stream_stop(bytes("B1 B1 00 00")));
-  EXPECT_TRUE(read_stream_stop(bytes("E5 B1 34 00")));  // 52: none was running
+  EXPECT_TRUE(read_stream_stop(bytes("E5 B1 34 00")));  // 52: no stream was running
 }
 
-TEST(LabjackU6Protocol, RefusalsHaveWords) {
+TEST(LabjackU6Protocol, RefusalsHaveTexts) {
   const Status active = read_stream_config(extended(kStreamConfig, bytes("30 00")));
   ASSERT_FALSE(active);
   EXPECT_NE(active.error().message.find("48, a stream is already active"), std::string::npos);
   EXPECT_EQ(error_text(99), "U6 error 99");
 }
 
-TEST(LabjackU6Protocol, BadRepliesAreRefused) {
+TEST(LabjackU6Protocol, RefusesBadReplies) {
   const auto says = [](const Status& status) { return status ? "" : status.error().message; };
   EXPECT_NE(says(read_stream_config(bytes("B8 B8"))).find("B8 B8"), std::string::npos);
   EXPECT_NE(says(read_stream_start(bytes("B8 B8"))).find("B8 B8"), std::string::npos);
@@ -108,12 +108,12 @@ TEST(LabjackU6Protocol, BadRepliesAreRefused) {
 
 // The vendor's calculateChecksum8 (exodriver, examples/U6/u6.c) adds the carry twice: FF + FF + 01
 // is 1FF, then 1 + FF = 100, then 1 + 0.
-TEST(LabjackU6Protocol, AChecksumAddsItsCarryTwice) {
+TEST(LabjackU6Protocol, ChecksumAddsItsCarryTwice) {
   EXPECT_EQ(checksum8(bytes("FF FF 01")), 1);
   EXPECT_EQ(checksum8(bytes("FF FF")), 0xFF);
 }
 
-TEST(LabjackU6Protocol, IdentityIsRead) {
+TEST(LabjackU6Protocol, ReadsTheIdentity) {
   std::string body = zeros(32);
   body[3] = 15;
   body[4] = 1;
@@ -127,7 +127,7 @@ TEST(LabjackU6Protocol, IdentityIsRead) {
   EXPECT_TRUE(identity->pro);
 }
 
-TEST(LabjackU6Protocol, CalibrationIsFixedPoint) {
+TEST(LabjackU6Protocol, ReadsCalibrationAsFixedPoint) {
   const auto block = read_calibration_reply(
       extended(kReadCalibration, zeros(2) + bytes("00 00 00 80 01 00 00 00"  // 1.5
                                                   "00 00 00 40 FF FF FF FF"  // -0.75
@@ -157,7 +157,7 @@ StreamData ramp() {
   return packet;
 }
 
-TEST(LabjackU6Protocol, AStreamPacketIsTheVector) {
+TEST(LabjackU6Protocol, EncodesTheStreamPacketVector) {
   std::string vector = bytes("91 F9 1D C0 AC 0D 00 00 00 00 00 00");
   for (int i = 0; i < 25; ++i) vector += {static_cast<char>(i), static_cast<char>(0x80)};
   vector += zeros(2);
@@ -170,7 +170,7 @@ TEST(LabjackU6Protocol, AStreamPacketIsTheVector) {
   EXPECT_EQ(packet->error, 0);
 }
 
-TEST(LabjackU6Protocol, EachFieldOfAPacketHasItsPlace) {
+TEST(LabjackU6Protocol, PacketFieldsHaveTheirOffsets) {
   StreamData packet = ramp();
   packet.counter = 200;
   packet.error = kRecovered;
@@ -184,7 +184,7 @@ TEST(LabjackU6Protocol, EachFieldOfAPacketHasItsPlace) {
   EXPECT_EQ(read->backlog, 77);
 }
 
-TEST(LabjackU6Protocol, AChangedByteOrAShortReadIsRefused) {
+TEST(LabjackU6Protocol, RefusesChangedBytesAndShortReads) {
   const std::string good = encode(ramp());
   for (std::size_t i = 0; i < good.size(); ++i) {
     std::string changed = good;
@@ -194,8 +194,8 @@ TEST(LabjackU6Protocol, AChangedByteOrAShortReadIsRefused) {
   }
 }
 
-// All checksums right, another command or kind.
-TEST(LabjackU6Protocol, WhatAnswersSomethingElseIsRefused) {
+// The checksums are right, but the command or the type differs.
+TEST(LabjackU6Protocol, RefusesRepliesToOtherCommands) {
   const std::string body = zeros(4), reply = extended(0x0A, body);
   EXPECT_TRUE(extended_body(reply, 0x0A, reply.size()));
   EXPECT_FALSE(extended_body(reply, 0x0B, reply.size()));
@@ -206,7 +206,7 @@ TEST(LabjackU6Protocol, WhatAnswersSomethingElseIsRefused) {
   EXPECT_FALSE(decode(packet, 25));
 }
 
-TEST(LabjackU6PacketLine, RunsOnAndWraps) {
+TEST(LabjackU6PacketLine, ContinuesOverPacketsAndWraps) {
   PacketLine line(7);
   std::vector<Scan> scans;
   StreamData packet = ramp();
@@ -214,7 +214,7 @@ TEST(LabjackU6PacketLine, RunsOnAndWraps) {
   EXPECT_EQ(scans.size(), 600U * 25 / 7);
 }
 
-TEST(LabjackU6PacketLine, ACounterGapIsAnError) {
+TEST(LabjackU6PacketLine, MissingPacketIsAnError) {
   PacketLine line(7);
   std::vector<Scan> scans;
   StreamData packet = ramp();
@@ -223,7 +223,7 @@ TEST(LabjackU6PacketLine, ACounterGapIsAnError) {
   EXPECT_FALSE(line.take(packet, scans));
 }
 
-TEST(LabjackU6PacketLine, AutoRecoveryKeepsTheTimeLine) {
+TEST(LabjackU6PacketLine, TimesContinueAfterDroppedScans) {
   PacketLine line(5);
   std::vector<Scan> scans;
   StreamData packet = ramp();
@@ -240,7 +240,7 @@ TEST(LabjackU6PacketLine, AutoRecoveryKeepsTheTimeLine) {
   EXPECT_EQ(scans[5].lost, 1000U);
 }
 
-TEST(LabjackU6PacketLine, AStoppedStreamIsAnError) {
+TEST(LabjackU6PacketLine, StoppedStreamIsAnError) {
   for (const int code : {55, 63, 1}) {
     PacketLine line(5);
     std::vector<Scan> scans;

@@ -1,4 +1,4 @@
-// The simulated U6 set up and streamed as a driver would, without USB.
+// Sets up and streams the simulated U6 as a driver does, without USB.
 #include "drivers/labjack_u6/simulated_labjack_u6.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kSamples = 25;
 
-// AIN1 is -2.5 V; the counter goes a count a microsecond from -500.
+// AIN1 is -2.5 V; the counter is 1 count/us from -500.
 double senses(std::size_t input, std::int64_t t_ns) {
   if (input == SimulatedLabjackU6::kCounterInput)
     return std::floor(static_cast<double>(t_ns) / 1000) - 500;
@@ -32,7 +32,7 @@ class LabjackU6Device : public testing::Test {
     ASSERT_TRUE(read_stream_config(ask(stream_config(setup, *stream_clock(1000)))));
     ASSERT_TRUE(read_stream_start(ask(stream_start())));
   }
-  // Streams for `ms`; the error that ended it, or nothing.
+  // Streams for `ms`; returns the error that ended the stream, or "".
   std::string stream(int ms) {
     now += std::int64_t{1'000'000} * ms;
     for (;;) {
@@ -61,7 +61,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST_F(LabjackU6Device, SaysWhoItIsAndItsConstants) {
+TEST_F(LabjackU6Device, ReportsIdentityAndConstants) {
   EXPECT_EQ(read_config_u6(ask(config_u6())).value().serial, SimulatedLabjackU6::kSerial);
   std::array<CalibrationBlock, 4> blocks{};
   for (int i = 0; i < 4; ++i)
@@ -84,7 +84,7 @@ TEST_F(LabjackU6Device, AnswersTheVectors) {
   EXPECT_EQ(ask("\xA8\xA9"), modbus::bytes("B8 B8"));
 }
 
-TEST_F(LabjackU6Device, StreamsInputsAndTheCounterInOneScan) {
+TEST_F(LabjackU6Device, StreamsInputsAndCounterInOneScan) {
   start();
   ASSERT_EQ(stream(200), "");
   ASSERT_GT(scans.size(), 180U);
@@ -96,8 +96,8 @@ TEST_F(LabjackU6Device, StreamsInputsAndTheCounterInOneScan) {
   }
 }
 
-// AIN0 at 20 V less AIN1 at -2.5 V is beyond the range; AIN2 less itself is nothing.
-TEST_F(LabjackU6Device, ADifferentialEntryIsAgainstTheNextInputAtItsOwnGain) {
+// AIN0 at 20 V minus AIN1 at -2.5 V is outside of the range; AIN2 minus AIN3 is zero.
+TEST_F(LabjackU6Device, DifferentialEntryHasItsOwnGain) {
   StreamSetup setup;
   setup.list = {{1, 0}, {2, 1, true}, {0, 0, true}};
   ASSERT_TRUE(read_stream_config(ask(stream_config(setup, *stream_clock(1000)))));
@@ -110,7 +110,7 @@ TEST_F(LabjackU6Device, ADifferentialEntryIsAgainstTheNextInputAtItsOwnGain) {
   EXPECT_TRUE(labjack::at_rail(scans[9].words[2]));
 }
 
-TEST_F(LabjackU6Device, DroppedScansKeepTheTimeLine) {
+TEST_F(LabjackU6Device, TimesContinueAfterDroppedScans) {
   SimulatedLabjackU6::Faults faults;
   faults.recovery_at = 4;
   faults.dropped = 60;
@@ -125,7 +125,7 @@ TEST_F(LabjackU6Device, DroppedScansKeepTheTimeLine) {
   EXPECT_GT(scans.back().index, 150U);
 }
 
-TEST_F(LabjackU6Device, AFaultOfTheStreamEndsIt) {
+TEST_F(LabjackU6Device, StreamFaultsEndTheStream) {
   SimulatedLabjackU6::Faults stop, skip, cut, unplug;
   stop.stop_at = skip.skip_at = cut.short_at = unplug.unplug_at = 3;
   EXPECT_TRUE(has(stream_with(stop), "U6 error 55"));
@@ -141,7 +141,7 @@ TEST_F(LabjackU6Device, AFaultOfTheStreamEndsIt) {
   EXPECT_TRUE(device.gone());
 }
 
-TEST_F(LabjackU6Device, AStreamThatRunsAtTheStartIsStopped) {
+TEST_F(LabjackU6Device, StopsAStreamThatRunsAtTheStart) {
   SimulatedLabjackU6::Faults faults;
   faults.streaming = true;
   device = SimulatedLabjackU6(senses, {.faults = faults});
@@ -150,7 +150,7 @@ TEST_F(LabjackU6Device, AStreamThatRunsAtTheStartIsStopped) {
   EXPECT_EQ(stream(50), "");
 }
 
-TEST_F(LabjackU6Device, BadChecksumsAreSeenOnBothSides) {
+TEST_F(LabjackU6Device, BothSidesDetectBadChecksums) {
   std::string command = config_u6();
   command[7] = 1;
   EXPECT_EQ(ask(command), modbus::bytes("B8 B8"));
@@ -165,7 +165,7 @@ TEST_F(LabjackU6Device, BadChecksumsAreSeenOnBothSides) {
   EXPECT_TRUE(has(read_stream_stop(ask(stream_stop())).error().message, "checksum"));
 }
 
-TEST_F(LabjackU6Device, ATransferEndsWhenItIsFullOrAPacketIsShort) {
+TEST_F(LabjackU6Device, FullTransferOrShortPacketEndsATransfer) {
   SimulatedLabjackU6::Faults cut;
   cut.short_at = 5;
   device.set_faults(cut);

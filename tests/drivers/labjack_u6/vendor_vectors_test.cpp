@@ -1,5 +1,5 @@
-// What LabJack's own open source sends to a U6 and accepts of it. Checksums were computed by its
-// setChecksum16 and setChecksum8 (LabJackPython, src/LabJackPython.py).
+// Commands that LabJack's open source sends to a U6, and replies that it accepts. Checksums were
+// calculated by its setChecksum16 and setChecksum8 (LabJackPython, src/LabJackPython.py).
 #include <gtest/gtest.h>
 
 #include "drivers/labjack_u6/simulated_labjack_u6.h"
@@ -19,7 +19,7 @@ class LabjackU6Vectors : public testing::Test {
   SimulatedLabjackU6 device{[](std::size_t, std::int64_t) { return 0; }, {}};
 };
 
-TEST_F(LabjackU6Vectors, TheSimulatedOneAnswersWhatTheVendorAccepts) {
+TEST_F(LabjackU6Vectors, SimulatedDeviceAnswersAsTheVendorAccepts) {
   const VendorVector kVectors[] = {
       {"ConfigU6, read",
        "0B F8 0A 08 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00",
@@ -65,8 +65,9 @@ TEST_F(LabjackU6Vectors, TheSimulatedOneAnswersWhatTheVendorAccepts) {
     EXPECT_EQ(mismatch(ask(bytes(vector.request)), vector.reply), "") << vector;
 }
 
-// LabJack prints what its ConfigU6 gave: firmware 0.88, serial number 360005087, version info 4.
-TEST_F(LabjackU6Vectors, TheIdentityOfLabjacksExampleIsRead) {
+// LabJack documents the result of a ConfigU6: firmware 0.88, serial number 360005087, version info
+// 4.
+TEST_F(LabjackU6Vectors, ReadsTheIdentityOfLabJacksExample) {
   const auto id = read_config_u6(
       bytes("33 F8 10 08 20 02 00 00 00 58 00 0F 06 00 02 DF 3D 75 15 06 00 01 00 00 00 00 00 00 "
             "00 00 00 00 00 00 00 00 00 04"));  // LabJackPython, src/u6.py, U6.configU6
@@ -77,18 +78,18 @@ TEST_F(LabjackU6Vectors, TheIdentityOfLabjacksExampleIsRead) {
   EXPECT_FALSE(id->pro);
 }
 
-// LabJackPython, src/u6.py, U6.configIO: result[8] timers, result[10] pin offset; so in
+// LabJackPython, src/u6.py, U6.configIO: result[8] timers, result[10] pin offset; the same in
 // exodriver's u6Stream.c.
-TEST_F(LabjackU6Vectors, TimersAreReadFromBytes8And10) {
+TEST_F(LabjackU6Vectors, ReadsTimersFromBytes8And10) {
   const auto timers = read_timers(bytes("0C F8 05 0B 03 00 00 00 02 00 01 00 00 00 00 00"));
   ASSERT_TRUE(timers) << timers.error().message;
   EXPECT_EQ(timers->count, 2);
   EXPECT_EQ(timers->pin_offset, 1);
 }
 
-// exodriver, examples/U6/u6Stream.c, StreamData_example: F9, 4 + samples, C0; counter at 10, error
-// at 11, dropped scans at 6 and 7, samples from 12, backlog behind them.
-TEST_F(LabjackU6Vectors, StreamPacketsHaveTheVendorsPlaces) {
+// exodriver, examples/U6/u6Stream.c, StreamData_example: F9, 4 + samples, C0; counter at byte 10,
+// error at 11, dropped scans at 6 and 7, samples from 12 on, then the backlog.
+TEST_F(LabjackU6Vectors, StreamPacketsHaveTheVendorsOffsets) {
   ASSERT_EQ(mismatch(ask(bytes("EB F8 09 11 D8 00 05 01 19 00 00 00 A0 0F 00 00 01 00 02 00 03 00 "
                                "04 00")),
                      "0B F8 01 11 00 00 00 00"),
@@ -108,7 +109,7 @@ TEST_F(LabjackU6Vectors, StreamPacketsHaveTheVendorsPlaces) {
 }
 
 // LabJackPython, src/u6.py, CalibrationInfo and binaryToCalibratedAnalogVoltage, gain 0.
-TEST_F(LabjackU6Vectors, NominalConstantsAndTheirSigns) {
+TEST_F(LabjackU6Vectors, NominalConstantsHaveTheVendorsSigns) {
   const AinCalibration nominal = labjack::nominal_calibration(0);
   EXPECT_NEAR(nominal.positive_slope, 3.1580578e-4, 1e-12);
   EXPECT_NEAR(nominal.negative_slope, -3.158058e-4, 1e-10);
@@ -118,7 +119,7 @@ TEST_F(LabjackU6Vectors, NominalConstantsAndTheirSigns) {
 }
 
 // exodriver, liblabjackusb/labjackusb.h: LJ_VENDOR_ID, U6_PRODUCT_ID, U6_PIPE_EP1_OUT,
-// U6_PIPE_EP2_IN, U6_PIPE_EP3_IN; U6 Datasheet 5.1: at most 64 bytes either way.
+// U6_PIPE_EP2_IN, U6_PIPE_EP3_IN; U6 Datasheet 5.1: at most 64 bytes in each direction.
 TEST_F(LabjackU6Vectors, EndpointsAreThoseOfTheExodriver) {
   EXPECT_EQ(kVendor, 0x0CD5);
   EXPECT_EQ(kProduct, 6);
@@ -129,17 +130,17 @@ TEST_F(LabjackU6Vectors, EndpointsAreThoseOfTheExodriver) {
   EXPECT_EQ(kAins, 14);
 }
 
-// LabJackPython, src/LabJackPython.py, errorcodes: those of a stream.
-TEST_F(LabjackU6Vectors, ErrorsOfAStreamHaveWords) {
+// LabJackPython, src/LabJackPython.py, errorcodes: the codes of a stream.
+TEST_F(LabjackU6Vectors, StreamErrorsHaveTexts) {
   for (const int code : {48, 49, 50, 52, 55, 56, 58, 59, 60, 63})
     EXPECT_TRUE(error_text(code).starts_with("U6 error " + std::to_string(code) + ", ")) << code;
   for (const int code : {47, 51, 53, 54, 57, 61, 62})
     EXPECT_EQ(error_text(code), "U6 error " + std::to_string(code));
 }
 
-// U6 Datasheet 5.2.12: bits 5-4 of a channel's options are the gain; byte 10 is the settling in
-// 10 us. LabJackPython, src/u6.py, U6.streamConfig.
-TEST_F(LabjackU6Vectors, AStreamOfAnotherGainAndSettling) {
+// U6 Datasheet 5.2.12: bits 5-4 of a channel's options are the gain; byte 10 is the settling time
+// in 10 us. LabJackPython, src/u6.py, U6.streamConfig.
+TEST_F(LabjackU6Vectors, EncodesGainAndSettlingOfAStream) {
   StreamSetup setup;
   setup.settling_10us = 5;
   setup.resolution_index = 3;
@@ -149,9 +150,9 @@ TEST_F(LabjackU6Vectors, AStreamOfAnotherGainAndSettling) {
             bytes("43 F8 07 11 30 02 03 03 14 00 05 02 34 12 01 20 C8 00 E0 00"));
 }
 
-// LabJackPython, src/u6.py, U6.streamConfig: of a channel's options bit 7 is differential, bits 5-4
-// are the gain. exodriver, examples/U6/u6.c, eAIN: an odd input after the even one is its negative.
-TEST_F(LabjackU6Vectors, EachInputOfAStreamHasItsOwnGainAndMayBeDifferential) {
+// LabJackPython, src/u6.py, U6.streamConfig: in a channel's options bit 7 is differential, bits 5-4
+// are the gain. exodriver, examples/U6/u6.c, eAIN: the odd input after an even one is its negative.
+TEST_F(LabjackU6Vectors, StreamInputsHaveTheirOwnGains) {
   StreamSetup setup;
   setup.list = {{0, 0, true}, {2, 1, true}, {4, 2, false}, {6, 3, true}, {8, 0, false}};
   EXPECT_EQ(stream_config(setup, *stream_clock(1000)),

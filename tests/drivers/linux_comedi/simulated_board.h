@@ -1,6 +1,6 @@
-// A Comedi board without the kernel, as comedilib shows it: its own clock is the host's, what its
-// inputs sense is code = scan + 1000 · channel unless told otherwise. Tests a command as the
-// kernel's comedi_test does (drivers/comedi/drivers/comedi_test.c, waveform_ai_cmdtest).
+// A Comedi board without the kernel, as comedilib presents it. Its clock is that of the host. By
+// default its inputs give code = scan % 500 + 1000 · (channel + 1). It tests commands in the same
+// way as the kernel's comedi_test (drivers/comedi/drivers/comedi_test.c, waveform_ai_cmdtest).
 #pragma once
 
 #include <algorithm>
@@ -26,9 +26,9 @@ struct Simulated {
   std::uint32_t greatest_code = 65535;
   std::size_t buffer_bytes = 65536;
   unsigned scan_sources = kTimer | kFollow, convert_sources = kTimer, stop_sources = kNone | kCount;
-  unsigned tick_ns = 1000;           // periods are whole ones of it
+  unsigned tick_ns = 1000;           // periods are multiples of it
   unsigned least_convert_ns = 1000;  // from input to input
-  bool refuses_inputs = false;       // these inputs cannot be scanned together
+  bool refuses_inputs = false;       // cannot scan these inputs together
   Calibration calibration{"/var/lib/comedi/calibrations/sim", false, "", {}};
   std::function<std::uint32_t(std::uint64_t scan, unsigned channel)> code = [](std::uint64_t scan,
                                                                                unsigned channel) {
@@ -37,8 +37,8 @@ struct Simulated {
   // Faults; -1: never.
   std::string open_error, start_error;
   std::int64_t overrun_at = -1, end_at = -1, unplug_at = -1, silent_at = -1;  // scans
-  std::size_t most_bytes = 65536;                                             // of a read
-  // What happened.
+  std::size_t most_bytes = 65536;                                             // in one read
+  // Records of the calls.
   int opened = 0, closed = 0;
   Command started;
 };

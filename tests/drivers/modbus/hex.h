@@ -1,4 +1,4 @@
-// Bytes as manuals print them: "01 04 3F800000".
+// Bytes in the notation of manuals: "01 04 3F800000".
 #pragma once
 
 #include <cctype>

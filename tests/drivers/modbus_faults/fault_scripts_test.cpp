@@ -1,6 +1,6 @@
-// Random fault scripts in virtual time: the client gives out no wrong value, flags every fault and
-// recovers within two poll periods; the library alone, tried by the same scripts, does not.
-// MDOF_MODBUS_SCRIPTS is their number, 5000 where it is not set.
+// Random fault scripts in virtual time: the client returns no wrong value, reports every fault and
+// recovers within two poll periods. The library alone, with the same scripts, does not.
+// MDOF_MODBUS_SCRIPTS sets their number (default 5000).
 #include <gtest/gtest.h>
 #include <modbus/modbus.h>
 
@@ -29,7 +29,7 @@ struct Script {
   Framing framing = Framing::rtu;
   int unit = 1;
   std::int64_t timeout_ms = 100, period_ns = 0;
-  std::vector<Read> reads;  // of one poll
+  std::vector<Read> reads;  // reads of one poll
   Fault fault;
 };
 
@@ -67,11 +67,11 @@ Script script_of(std::uint64_t seed) {
 struct Outcome {
   int wrong = 0, right = 0;
   bool flagged = false;
-  std::int64_t took_ns = -1;  // from the fault's end to the end of a good poll; -1: never
+  std::int64_t took_ns = -1;  // from the end of the fault to the end of a good poll; -1: never
 };
 
-// Polls as ModbusDriver does: at its ticks, and at once on a line that is to be proved; a broken
-// connection is made anew.
+// Polls like ModbusDriver: at its ticks, and immediately on a line that needs a test; connects
+// again after a broken connection.
 template <class Client>
 Outcome run(const Script& script, std::uint64_t seed) {
   world = {true, 1'000 * kMs, nullptr};
@@ -137,7 +137,7 @@ class Ours {
   bool flagged_ = false;
 };
 
-// libmodbus as its own example programs use it; a dead connection is made anew.
+// libmodbus as its example programs use it; connects again after a broken connection.
 class Plain {
  public:
   Plain(const Script& script, FaultySlave& slave) : script_(script), slave_(slave) { connect(); }
@@ -177,7 +177,7 @@ int scripts() {
   return number ? std::atoi(number) : 5000;
 }
 
-TEST(ModbusFaults, NoWrongValueEveryFaultFlaggedAndOverWithinTwoPolls) {
+TEST(ModbusFaults, ReportsFaultsAndRecoversWithinTwoPolls) {
   std::array<int, static_cast<std::size_t>(FaultKind::kinds)> tried{};
   std::int64_t right = 0;
   double longest = 0;  // in poll periods
@@ -201,9 +201,9 @@ TEST(ModbusFaults, NoWrongValueEveryFaultFlaggedAndOverWithinTwoPolls) {
               static_cast<long long>(right), longest);
 }
 
-// A device of one register refuses every sentinel. Exceptions look alike, so its line is proved by
-// the time in which all older replies must have come: six response time-outs.
-TEST(ModbusFaults, ADeviceThatRefusesEverySentinelIsProvedByTime) {
+// A device with one register refuses every sentinel. Exceptions do not show their request, so its
+// line is proved by the time in which all older replies must have arrived: six response time-outs.
+TEST(ModbusFaults, RefusedSentinelsAreProvedByTime) {
   for (int i = 0; i < std::min(scripts(), 5000); ++i) {
     const auto seed = static_cast<std::uint64_t>(i);
     Script script = script_of(seed);
@@ -219,8 +219,8 @@ TEST(ModbusFaults, ADeviceThatRefusesEverySentinelIsProvedByTime) {
   }
 }
 
-// That the tests above can fail.
-TEST(ModbusFaults, TheLibraryAloneGivesOutWrongValues) {
+// Shows that the tests above can fail.
+TEST(ModbusFaults, LibraryAloneReturnsWrongValues) {
   std::array<int, 2> with_wrong{};
   for (int i = 0; i < std::min(scripts(), 5000); ++i) {
     const Script script = script_of(static_cast<std::uint64_t>(i));

@@ -1,6 +1,6 @@
-// A Modbus slave on a virtual line that does one thing wrong for a while. Its registers hold a
-// number made of unit, register and how many requests it has received, so that a value of another
-// request, register or unit can never pass for the right one.
+// A Modbus slave on a virtual line with one fault for a while. Its registers contain a number made
+// of unit, register and number of received requests, so that a value of another request, register
+// or unit is never the expected one.
 #pragma once
 
 #include <algorithm>
@@ -14,30 +14,30 @@
 namespace mdof::drivers {
 
 enum class FaultKind {
-  late,         // 1.01 ... 5 time-outs
-  drip,         // byte by byte, 1.05 ... 3 time-outs in all
+  late,         // delay of 1.01 ... 5 time-outs
+  drip,         // byte by byte, in 1.05 ... 3 time-outs
   cut,          // the end is missing
-  unit,         // another unit's number and values
-  function,     // another function's number
-  length,       // one register too many or too few, in a frame that is right
-  byte_count,   // of which only the count is wrong
+  unit,         // number and values of another unit
+  function,     // number of another function
+  length,       // one register too many or too few, in a valid frame
+  byte_count,   // wrong byte count in an otherwise valid frame
   transaction,  // TCP
   header,       // TCP: protocol or length
   crc,          // RTU
   exception,    // 1 ... 11
   noise,        // RTU: bytes before the reply
-  twice,        // the same reply once more
-  foreign,      // RTU: other devices' traffic in front
-  reset,        // TCP: closed or reset, maybe in the midst of the reply
-  half_open,    // nothing for up to ten time-outs
+  twice,        // the same reply is sent again
+  foreign,      // RTU: traffic of other devices before the reply
+  reset,        // TCP: closed or reset, possibly within the reply
+  half_open,    // no bytes for up to ten time-outs
   kinds
 };
 
 struct Fault {
   FaultKind kind = FaultKind::late;
-  int first = 5, requests = 1;        // which requests it spoils
-  bool ignores_when_busy = true;      // RTU; else, as by TCP, requests queue up
-  int most = modbus::kMostRegisters;  // reads of more are refused
+  int first = 5, requests = 1;        // affected requests
+  bool ignores_when_busy = true;      // RTU; otherwise, as with TCP, requests are queued
+  int most = modbus::kMostRegisters;  // reads of more registers are refused
 };
 
 class FaultySlave {
@@ -51,7 +51,7 @@ class FaultySlave {
   }
   int requests() const { return requests_; }
   bool struck() const { return struck_; }
-  // When the last byte of the fault came; the end of the silence.
+  // Arrival of the last byte of the fault, or the end of the silence.
   std::int64_t fault_end_ns() const { return fault_end_ns_; }
 
   void received(VirtualLine& line, std::string_view adu) {
@@ -99,7 +99,7 @@ class FaultySlave {
     return bytes;
   }
 
-  // Gives the time of the last byte.
+  // Returns the time of the last byte.
   std::int64_t spoil(VirtualLine& line, const std::string& asked, modbus::Frame reply,
                      std::int64_t at_ns) {
     std::string adu = modbus::wrap(framing_, reply);

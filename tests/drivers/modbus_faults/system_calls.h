@@ -1,6 +1,6 @@
-// The system calls of the whole test program: virtual for the descriptor of world.line, else real.
-// For one source file of a program that has nothing else to test. Shared libraries find these by
-// their names, as a program's symbols go before those of its libraries.
+// Replaces system calls in the whole test program: virtual for the descriptor of world.line,
+// otherwise real. Include it in one source file of a program without other tests. Shared libraries
+// use these functions, because symbols of the program precede those of its libraries.
 #pragma once
 
 #include <poll.h>
@@ -22,8 +22,8 @@ inline timespec to_timespec(std::int64_t ns) {
   return {ns / 1'000'000'000, ns % 1'000'000'000};
 }
 
-// Names of their own here, those of the C library for the linker: its headers may hold inline
-// versions of the same.
+// Own C++ names with the linker names of the C library, because its headers may contain inline
+// versions.
 // NOLINTBEGIN(misc-definitions-in-headers): for one file, see above
 extern "C" {
 
@@ -62,7 +62,7 @@ int virtual_poll(pollfd* fds, nfds_t n, int timeout_ms) {
       ::syscall(SYS_ppoll, fds, n, timeout_ms < 0 ? nullptr : &timeout, nullptr, 0));
 }
 
-// As Linux does, the time that was not used is handed back.
+// Returns the unused time, as Linux does.
 int virtual_select(int n, fd_set* in, fd_set* out, fd_set* except, timeval* left) __asm__("select");
 int virtual_select(int n, fd_set* in, fd_set* out, fd_set* except, timeval* left) {
   std::int64_t left_ns = left ? left->tv_sec * 1'000'000'000 + left->tv_usec * 1'000 : 0;

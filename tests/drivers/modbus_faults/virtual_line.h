@@ -1,6 +1,6 @@
-// A line to a device and a clock that exist only in memory: what libmodbus and ByteStream ask of
-// the system for a marked descriptor is answered from here, and waiting costs nothing. All other
-// descriptors and threads go to the real system (system_calls.h).
+// A line to a device and a clock that exist only in memory. They answer the system calls of
+// libmodbus and ByteStream for a marked descriptor, and waiting takes no real time. Other
+// descriptors and threads use the real system (system_calls.h).
 #pragma once
 
 #include <fcntl.h>
@@ -16,7 +16,7 @@ namespace mdof::drivers {
 
 class VirtualLine;
 
-// Of this thread: the clock, and the line where there is one.
+// The clock and the line (if any) of this thread.
 struct VirtualWorld {
   bool active = false;
   std::int64_t now_ns = 0;
@@ -26,7 +26,8 @@ inline thread_local VirtualWorld world;
 
 class VirtualLine {
  public:
-  // `sent` is told what the program under test writes. The descriptor is the program's to close.
+  // `sent` receives the bytes that the tested program writes. The program must close the
+  // descriptor.
   explicit VirtualLine(std::function<void(VirtualLine&, std::string_view)> sent)
       : fd_(::open("/dev/null", O_RDWR | O_CLOEXEC)), sent_(std::move(sent)) {
     world.line = this;
@@ -38,11 +39,11 @@ class VirtualLine {
   VirtualLine& operator=(const VirtualLine&) = delete;
 
   int fd() const { return fd_; }
-  // Bytes on the way to the program; times may come in any order.
+  // Bytes on the way to the program; times may be in any order.
   void deliver(std::int64_t at_ns, std::string bytes) {
     if (!bytes.empty()) arriving_.emplace(at_ns, std::move(bytes));
   }
-  // The other side breaks the connection then: 0 bytes are read, or ECONNRESET.
+  // The peer breaks the connection at this time: reads give 0 bytes, or ECONNRESET.
   void hang_up(std::int64_t at_ns, int error) {
     gone_ns_ = at_ns;
     error_ = error;
@@ -55,7 +56,7 @@ class VirtualLine {
     }
     return !inbox_.empty() || gone();
   }
-  // Moves the clock to when something comes, at most to `until_ns`.
+  // Advances the clock until bytes arrive, at most to `until_ns`.
   bool wait(std::int64_t until_ns) {
     if (readable()) return true;
     std::int64_t next_ns = gone_ns_;

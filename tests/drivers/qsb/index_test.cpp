@@ -14,7 +14,7 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr double kMark = 1000;  // counts from where it was switched on
+constexpr double kMark = 1000;  // counts from the position at which it was switched on
 
 class QsbIndex : public testing::Test {
  protected:
@@ -25,14 +25,14 @@ class QsbIndex : public testing::Test {
     served_.emplace(*device_);
     options_.port = served_->path();
     options_.channel = {"encoder", "count", 0.5, "", std::nullopt, 12.5};
-    options_.long_at_mark = std::chrono::seconds(30);  // also on a loaded machine
+    options_.long_at_mark = std::chrono::seconds(30);  // also on a busy machine
   }
   void open() {
     driver_.emplace("scale", options_);
     const auto opened = driver_->open();
     ASSERT_TRUE(opened) << opened.error().message;
   }
-  // The last of what it shows once the axis is there.
+  // The last reading at a position of the axis.
   struct Shown {
     double um;
     Quality quality;
@@ -58,13 +58,13 @@ class QsbIndex : public testing::Test {
   std::optional<Qsb> driver_;
 };
 
-TEST_F(QsbIndex, FromTheMarkOnPositionsAreCountedFromIt) {
+TEST_F(QsbIndex, PositionsAreCountedFromThePassedMark) {
   serve();
   open();
   expect_shown(200, 100);
   expect_shown(990, 495);
   EXPECT_EQ(driver_->marks_passed(), 0);
-  EXPECT_EQ(at(1004).quality, Quality::missing);  // the count has not gone on yet
+  EXPECT_EQ(at(1004).quality, Quality::missing);  // the count has not moved on yet
   EXPECT_EQ(driver_->marks_passed(), 0);
   expect_shown(1100, 50);
   EXPECT_EQ(driver_->marks_passed(), 1);
@@ -74,7 +74,7 @@ TEST_F(QsbIndex, FromTheMarkOnPositionsAreCountedFromIt) {
   EXPECT_EQ(driver_->marks_passed(), 1);
 }
 
-TEST_F(QsbIndex, ABlockIsCountedFromOnePlaceAndTellsItsMark) {
+TEST_F(QsbIndex, MarkStartsANewBlock) {
   serve();
   open();
   at(900);
@@ -94,8 +94,9 @@ TEST_F(QsbIndex, ABlockIsCountedFromOnePlaceAndTellsItsMark) {
   EXPECT_TRUE(passed);
 }
 
-// Switched off with the first mark: the next one, or counts lost since, do not shift anything.
-TEST_F(QsbIndex, AfterTheMarkNothingIsLoadedAnyMore) {
+// Loading is switched off after the first mark: neither the next mark nor later lost counts shift
+// positions.
+TEST_F(QsbIndex, LoadsNothingAfterTheMark) {
   serve({}, false, 1200);
   open();
   at(990);
@@ -104,7 +105,7 @@ TEST_F(QsbIndex, AfterTheMarkNothingIsLoadedAnyMore) {
   expect_shown(1100, 50);
 }
 
-TEST_F(QsbIndex, OverAReopenItHolds) {
+TEST_F(QsbIndex, DatumRemainsAfterReopening) {
   serve();
   open();
   at(990);
@@ -114,7 +115,7 @@ TEST_F(QsbIndex, OverAReopenItHolds) {
   EXPECT_EQ(driver_->marks_passed(), 1);
 }
 
-TEST_F(QsbIndex, PassedWhileItWasNotOpenItIsFoundAfterwards) {
+TEST_F(QsbIndex, FindsAMarkThatWasPassedWhileClosed) {
   serve();
   open();
   expect_shown(990, 495);
@@ -123,10 +124,10 @@ TEST_F(QsbIndex, PassedWhileItWasNotOpenItIsFoundAfterwards) {
   EXPECT_EQ(driver_->marks_passed(), 1);
 }
 
-// What another program, or mdofd before, left in the counter is no datum.
-TEST_F(QsbIndex, AnotherProgramPassesItAnew) {
+// A count that another program or an earlier mdofd left in the counter is not a datum.
+TEST_F(QsbIndex, NewProgramMustPassTheMarkAgain) {
   serve();
-  for (int start = 0; start < 4; ++start) {  // the count goes once round its 32 bits
+  for (int start = 0; start < 4; ++start) {  // the count goes once through its 32 bits
     position_ = 0;
     open();
     EXPECT_EQ(driver_->marks_passed(), 0);
@@ -139,14 +140,14 @@ TEST_F(QsbIndex, AnotherProgramPassesItAnew) {
   }
 }
 
-TEST_F(QsbIndex, AfterAResetItIsSuspectUntilTheMarkIsPassedAgain) {
+TEST_F(QsbIndex, SuspectAfterAResetUntilTheMarkIsPassed) {
   serve({.reset_at = 150});
   open();
   at(990);
   expect_shown(1100, 50);
   EXPECT_NE(collect(*driver_, 1000).error.find("was reset during the stream"), std::string::npos);
   ASSERT_TRUE(driver_->open());
-  expect_shown(1300, 100, Quality::suspect);  // 1100 counts as 0
+  expect_shown(1300, 100, Quality::suspect);  // a count of 1100 has become 0
   EXPECT_NE(driver_->info().datum_lost, "");
   EXPECT_EQ(driver_->info().datum_remedy, Remedy::pass_reference_mark);
   expect_shown(900, -50);
@@ -154,7 +155,7 @@ TEST_F(QsbIndex, AfterAResetItIsSuspectUntilTheMarkIsPassedAgain) {
   EXPECT_EQ(driver_->info().datum_lost, "");
 }
 
-TEST_F(QsbIndex, ADamagedLineIsNotTheMark) {
+TEST_F(QsbIndex, DamagedLineIsNotTheMark) {
   serve({.far_from = 20});
   open();
   const Collected all = collect(*driver_, 60);
@@ -164,7 +165,7 @@ TEST_F(QsbIndex, ADamagedLineIsNotTheMark) {
   EXPECT_EQ(driver_->marks_passed(), 0);
 }
 
-TEST_F(QsbIndex, ACountThatStaysAstrayHasLostItsPlace) {
+TEST_F(QsbIndex, ManyImpossibleCountsLoseTheDatum) {
   serve({.far_from = 20, .fars = 12});
   open();
   EXPECT_NE(collect(*driver_, 100).error.find("11 malformed lines"), std::string::npos);
@@ -174,7 +175,7 @@ TEST_F(QsbIndex, ACountThatStaysAstrayHasLostItsPlace) {
   expect_shown(1100, 50);
 }
 
-TEST_F(QsbIndex, TheWrongPolarityIsToldAndNoPlaceIsKnown) {
+TEST_F(QsbIndex, ReportsWrongPolarityWithoutAPosition) {
   serve({}, true);
   options_.long_at_mark = std::chrono::milliseconds(100);
   open();

@@ -4,7 +4,7 @@
 
 #include "drivers/qsb/protocol.h"
 
-// What is understood is written back as it was read, but for the case of its digits.
+// A line that is parsed gives the same line when it is encoded, except the case of its digits.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mdof::drivers;
   const std::string_view line(reinterpret_cast<const char*>(data), size);

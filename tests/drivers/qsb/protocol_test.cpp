@@ -11,7 +11,7 @@
 namespace mdof::drivers {
 namespace {
 
-TEST(QsbProtocol, TheVersionOfTheManualBothWays) {
+TEST(QsbProtocol, EncodesAndReadsTheManualsVersion) {
   const QsbReply reply{'r', qsb::kVersion, 0x00001201, 16};
   const std::string line = "r 14 00001201 00000010 !\r\n";
   EXPECT_EQ(line.size(), 26u);
@@ -23,13 +23,13 @@ TEST(QsbProtocol, TheVersionOfTheManualBothWays) {
   EXPECT_EQ(identity.firmware, 1);
 }
 
-TEST(QsbProtocol, Commands) {
+TEST(QsbProtocol, EncodesCommands) {
   EXPECT_EQ(qsb_command('R', qsb::kVersion), "R14\r\n");
   EXPECT_EQ(qsb_command('W', qsb::kEor, 0x0F), "W150000000F\r\n");
   EXPECT_EQ(qsb_command('S', qsb::kCount), "S0E\r\n");
 }
 
-TEST(QsbProtocol, RepliesOfOtherForms) {
+TEST(QsbProtocol, ReadsRepliesOfOtherFormats) {
   const QsbReply reply{'s', qsb::kCount, 0xFFFFFFFE, 7};
   EXPECT_EQ(qsb_line(reply, 0x0B), "s 0E FFFFFFFE !\r\n");
   EXPECT_EQ(qsb_line(reply, 0x01), "s0EFFFFFFFE!\n");
@@ -39,7 +39,7 @@ TEST(QsbProtocol, RepliesOfOtherForms) {
   EXPECT_EQ(parse_qsb_line("x 63 00000000 00000001 !")->type, 'x');
 }
 
-TEST(QsbProtocol, WhatIsCutOrGluedIsNoReply) {
+TEST(QsbProtocol, RefusesTruncatedOrJoinedLines) {
   const std::string line = "s 0E 00000123 00000010 !";
   ASSERT_TRUE(parse_qsb_line(line));
   for (std::size_t n = 0; n < line.size(); ++n) {
@@ -54,7 +54,7 @@ TEST(QsbProtocol, WhatIsCutOrGluedIsNoReply) {
   EXPECT_FALSE(parse_qsb_line("s 0E 0x000123 00000010 !"));
 }
 
-TEST(QsbProtocol, ABannerIsKnownAndIsNoReply) {
+TEST(QsbProtocol, RecognisesABannerThatIsNoReply) {
   EXPECT_TRUE(is_qsb_banner("QSB-D  0E!"));
   EXPECT_TRUE(is_qsb_banner("s 0E 0000QSB-D  0E!"));
   EXPECT_FALSE(is_qsb_banner("s 0E 00000123 00000010 !"));
@@ -72,12 +72,12 @@ double learned(double nominal_ns, double true_ns, double seconds) {
   return tick.ns();
 }
 
-TEST(TickLength, StaysWhereDelaysExplainTheDifference) {
+TEST(TickLength, KeepsTheLengthIfDelaysExplainTheDifference) {
   for (const double ppm : {-100.0, 0.0, 100.0})
     EXPECT_EQ(learned(1e6, 1e6 * (1 + ppm * 1e-6), 70), 1e6) << ppm;
 }
 
-// What the roll-over time in the manual implies, and its other figure.
+// The length from the roll-over time in the manual, and its other value.
 TEST(TickLength, LearnsAnotherLength) {
   for (const double true_ns : {94.5 * 86400e9 / 4294967296.0, 1e9 / 256, 1e9 / 512 * 1.004}) {
     EXPECT_NEAR(learned(qsb::kTick_ns, true_ns, 0.7) / true_ns, 1, 0.02) << true_ns;
@@ -85,16 +85,17 @@ TEST(TickLength, LearnsAnotherLength) {
   }
 }
 
-// The first lines were held up for 0.2 s and came together: the ticks are as long as before.
-TEST(TickLength, AHoldUpAtTheBeginningIsNoOtherLength) {
+// The first lines were delayed by 0.2 s and arrived together: the tick length stays the same.
+TEST(TickLength, DelayAtTheBeginningDoesNotChangeTheLength) {
   TickLength tick(1e6);
   for (std::int64_t ticks = 0; ticks < 2000; ++ticks)
     tick.add(ticks, std::max<std::int64_t>(ticks * 1'000'000, 200'000'000));
   EXPECT_EQ(tick.ns(), 1e6);
 }
 
-// Lines of 0.12 to 0.36 s came 9 ms late; the length is that from the first to those near 0.5 s.
-TEST(TickLength, IsMeasuredByTheLastQuarterOfASpan) {
+// Lines from 0.12 to 0.36 s arrived 9 ms late; the length is measured from the first line to the
+// lines near 0.5 s.
+TEST(TickLength, MeasuresWithTheLastQuarterOfASpan) {
   constexpr std::int64_t kTrue_ns = 3'906'250;  // 1/256 s
   TickLength tick(qsb::kTick_ns);
   for (std::int64_t ticks = 0; ticks * kTrue_ns < 600'000'000; ++ticks) {
@@ -105,9 +106,9 @@ TEST(TickLength, IsMeasuredByTheLastQuarterOfASpan) {
   EXPECT_NEAR(tick.ns() / static_cast<double>(kTrue_ns), 1, 1e-3);
 }
 
-// Ticks of 1050 ns, and only the first packet of the beginning comes at once: the others, 8 ms
-// late, must not be taken for the quickest.
-TEST(QsbTickLength, GoesByTheQuickestPacket) {
+// Ticks of 1050 ns. Only the first packet arrives without delay; the others of the beginning, 8 ms
+// late, must not be used as the quickest.
+TEST(QsbTickLength, UsesTheQuickestPacket) {
   TickLength tick(1000);
   for (int ms = 0; ms <= 600; ++ms) {
     const std::int64_t ticks = 1'000'000 + std::llround(ms * 1e6 / 1050);

@@ -14,7 +14,7 @@ namespace mdof::drivers {
 namespace {
 
 double ramp(std::size_t, std::int64_t t_ns) {
-  return -1000 + static_cast<double>(t_ns % 1'000'000'000'000) * 1e-6;  // a count a millisecond
+  return -1000 + static_cast<double>(t_ns % 1'000'000'000'000) * 1e-6;  // 1 count/ms
 }
 double still(std::size_t, std::int64_t) {
   return -5;
@@ -40,15 +40,15 @@ TEST(Qsb, StreamsWithTheDevicesTimes) {
   EXPECT_EQ(driver.malformed_lines(), 0u);
   expect_growing(all.time_ns);
   for (std::size_t i = 2; i < all.scans.size(); ++i) {
-    // Half a µm a count, 1.953125 counts a line, rounded.
+    // 0.5 µm per count, 1.953125 counts per line, rounded.
     EXPECT_NEAR(all.scans[i][0] - all.scans[i - 1][0], 0.9765625, 0.51) << i;
-    // The fit is still settling: 20 % of slewing is allowed to it.
+    // The fit is still settling, so times may slew by 20 %.
     EXPECT_NEAR(static_cast<double>(all.time_ns[i] - all.time_ns[i - 1]), qsb::kTick_ns,
                 0.2 * qsb::kTick_ns + 2);
   }
 }
 
-TEST(Qsb, TheCountGoesOnOverAReopen) {
+TEST(Qsb, CountContinuesAfterReopening) {
   SimulatedQsb device(still, {});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
@@ -64,13 +64,13 @@ TEST(Qsb, TheCountGoesOnOverAReopen) {
   }
 }
 
-TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
+TEST(Qsb, ResetDuringTheStreamIsAnErrorAndRestarts) {
   SimulatedQsb device(still, {.faults = {.reset_at = 20}});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
   ASSERT_TRUE(driver.open());
   const Collected all = collect(driver, 1000);
-  EXPECT_GE(all.scans.size(), 20u);  // what came before it is good
+  EXPECT_GE(all.scans.size(), 20u);  // lines before the reset are valid
   for (std::size_t i = 0; i < all.scans.size(); ++i) {
     EXPECT_EQ(all.scans[i][0], -2.5);
     EXPECT_EQ(all.first_quality(i), Quality::good);
@@ -83,11 +83,11 @@ TEST(Qsb, AResetInMidStreamIsAnErrorAndTheNextOpenStartsAnew) {
   EXPECT_NE(driver.info().description.find("lost power"), std::string::npos);
   const Collected anew = collect(driver, 1);
   EXPECT_EQ(anew.scans.at(0)[0], 0);
-  EXPECT_EQ(anew.first_quality(0), Quality::suspect);  // 0 is no place
+  EXPECT_EQ(anew.first_quality(0), Quality::suspect);  // 0 is not a position
   EXPECT_NE(driver.info().datum_lost.find("count restarted at 0"), std::string::npos);
 }
 
-TEST(Qsb, ACutLineIsCountedAndItsScansAreLost) {
+TEST(Qsb, TruncatedLineIsCountedAndItsScansAreLost) {
   SimulatedQsb device(still, {.faults = {.cut_at = 10}});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
@@ -95,10 +95,10 @@ TEST(Qsb, ACutLineIsCountedAndItsScansAreLost) {
   const Collected all = collect(driver, 50);
   ASSERT_EQ(all.error, "");
   EXPECT_EQ(driver.malformed_lines(), 1u);
-  EXPECT_EQ(all.lost, 2u);  // the cut one and the one it ran into
+  EXPECT_EQ(all.lost, 2u);  // the truncated line and the line joined to it
 }
 
-TEST(Qsb, AStepOfTheStampsIsLostLines) {
+TEST(Qsb, StampStepCountsLostLines) {
   SimulatedQsb device(still, {.faults = {.jump_at = 10, .jump_ticks = 7}});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
@@ -109,7 +109,7 @@ TEST(Qsb, AStepOfTheStampsIsLostLines) {
   expect_growing(all.time_ns);
 }
 
-TEST(Qsb, AStampThatCannotBeIsAnError) {
+TEST(Qsb, ImpossibleStampIsAnError) {
   for (const std::uint32_t jump : {100'000u, 0xFFFFFF00u}) {
     SimulatedQsb device(still, {.faults = {.jump_at = 10, .jump_ticks = jump}});
     const ServedLine served(device);
@@ -120,7 +120,7 @@ TEST(Qsb, AStampThatCannotBeIsAnError) {
   }
 }
 
-TEST(Qsb, RepliesEAndX) {
+TEST(Qsb, ReportsRepliesEAndX) {
   for (const auto& [faults, text] : {std::pair{SimulatedQsb::Faults{.refuse = qsb::kInterval},
                                                "command W0C00000001 was refused (reply e)"},
                                      std::pair{SimulatedQsb::Faults{.unsupported = qsb::kMdr0},
@@ -134,7 +134,7 @@ TEST(Qsb, RepliesEAndX) {
   }
 }
 
-TEST(Qsb, RubbishIsAnErrorAfterTenLines) {
+TEST(Qsb, InvalidLinesAreAnErrorAfterTen) {
   SimulatedQsb device(still, {.faults = {.rubbish = true}});
   const ServedLine served(device);
   Qsb driver("scale", options_for_test(served));
@@ -154,7 +154,7 @@ TEST(Qsb, SilenceIsAnError) {
   EXPECT_NE(all.error.find("no line for 300 ms"), std::string::npos) << all.error;
 }
 
-TEST(Qsb, AnotherDeviceOrNoneIsRefused) {
+TEST(Qsb, RefusesAnotherDeviceOrNone) {
   SimulatedQsb device(still, {});
   const ServedLine served(device);
   QsbOptions options = options_for_test(served);
@@ -169,7 +169,7 @@ TEST(Qsb, AnotherDeviceOrNoneIsRefused) {
   EXPECT_NE(status.error().message.find("does not exist"), std::string::npos);
 }
 
-TEST(Qsb, BehindABridge) {
+TEST(Qsb, WorksBehindABridge) {
   SimulatedQsb device(still, {});
   const ServedDevice served(device);
   QsbOptions options;
@@ -181,7 +181,7 @@ TEST(Qsb, BehindABridge) {
   EXPECT_EQ(collect(driver, 20).error, "");
 }
 
-TEST(Qsb, ABridgeThatSaysNothing) {
+TEST(Qsb, SilentBridgeIsAnError) {
   SimulatedQsb device(still, {.faults = {.mute = true}});
   const ServedDevice served(device);
   QsbOptions options;
@@ -202,7 +202,7 @@ std::string configured(const std::string& toml) {
   return (*driver)->info().driver;
 }
 
-TEST(QsbConfiguration, KeysAndTheirErrors) {
+TEST(QsbConfiguration, ReadsKeysAndReportsErrors) {
   const std::string channel =
       "\n[[channel]]\nid = \"encoder\"\ninput = \"count\"\num_per_count = 0.05\n";
   EXPECT_EQ(configured("port = \"/dev/ttyUSB0\"\nbaud = 115200\nrts = false\ncounting = \"x2\"\n"

@@ -1,5 +1,6 @@
-// The dialogue of a program that reads real QSB-D: tmtsoftware/m1cs-qsb-linear-encoder-reader,
-// QSBLinearEncoderReader/Qsb.cs. US Digital publishes no source.
+// Commands and replies of a program that reads real QSB-D devices:
+// tmtsoftware/m1cs-qsb-linear-encoder-reader, QSBLinearEncoderReader/Qsb.cs. US Digital publishes
+// no source.
 #include <gtest/gtest.h>
 
 #include <regex>
@@ -11,11 +12,11 @@ namespace {
 
 struct Line {
   const char* command;
-  const char* reply;  // what Qsb.cs accepts, as a regular expression
+  const char* reply;  // accepted by Qsb.cs, as a regular expression
   const char* function;
 };
 
-TEST(QsbVectors, TheSimulatedOneAnswersWhatTmtsProgramAccepts) {
+TEST(QsbVectors, SimulatedDeviceAnswersAsTmtsProgramAccepts) {
   SimulatedQsb device([](std::size_t, std::int64_t) { return 0; }, {});
   device.opened(0, 1, 1'000'000'000);
   const Line lines[] = {
@@ -34,18 +35,18 @@ TEST(QsbVectors, TheSimulatedOneAnswersWhatTmtsProgramAccepts) {
     EXPECT_TRUE(std::regex_match(reply, std::regex(line.reply)))
         << line.command << " -> " << reply << " (Qsb.cs, " << line.function << ")";
   }
-  // ParseEncoderCountStreamResponse: one line an interval of 1/512 s.
+  // ParseEncoderCountStreamResponse: one line per interval of 1/512 s.
   const std::string stream = device.exchange(0, 1, "", 1'004'000'000);
   EXPECT_TRUE(std::regex_match(stream, std::regex("(s 0E [0-9A-F]{8} [0-9A-F]{8} !\r\n){2}")))
       << stream;
 }
 
-// The QSB hands its registers 03 and 08 on to its counter, an LS7366R. QSB Command List v1.28,
+// The QSB forwards its registers 03 and 08 to its counter, an LS7366R. QSB Command List v1.28,
 // MDR0: "Sync Index, Reset on Index, Free Running, X4 mode, W0363".
 // MikroElektronika/mikrosdk_click_v2, clicks/counter/lib_counter/include/counter.h:
 // COUNTER_INDEX_LOAD_CNTR 0x10, COUNTER_INDEX_RESET_CNTR 0x20, COUNTER_4X_QUAD 0x03;
-// counter_write_dtr: DTR goes to the counter by the index.
-TEST(QsbVectors, TheIndexLoadsTheCounter) {
+// counter_write_dtr: the index loads DTR into the counter.
+TEST(QsbVectors, IndexLoadsTheCounter) {
   constexpr std::uint32_t kSyncResetX4 = 0x63, kReset = 0x20, kLoad = 0x10;
   EXPECT_EQ(qsb::kIndexLoads, kLoad);
   EXPECT_EQ(3 | qsb::kIndexSynchronous | qsb::kIndexLoads, kSyncResetX4 - kReset + kLoad);
@@ -57,7 +58,7 @@ TEST(QsbVectors, TheIndexLoadsTheCounter) {
     return device.exchange(0, 1, command + "\r\n", 1'000'000'000);
   };
   ask("W150000000B");  // no time stamps
-  ask("W08000001F3");  // the example of the command list: 499
+  ask("W08000001F3");  // example of the command list: 499
   ask("W0353");
   EXPECT_EQ(ask("R0E"), "r 0E 00000064 !\r\n");
   position = 160;
@@ -67,16 +68,16 @@ TEST(QsbVectors, TheIndexLoadsTheCounter) {
   EXPECT_EQ(ask("R0E"), "r 0E 000001E9 !\r\n");
 }
 
-// ConnectionStatus.cs: serial number, type and firmware are bits 31-12, 11-8 and 7-0 of
-// register 14.
-TEST(QsbVectors, TheVersionIsReadAsTmtReadsIt) {
+// ConnectionStatus.cs: serial number, type and firmware are bits 31-12, 11-8 and 7-0 of register
+// 14.
+TEST(QsbVectors, ReadsTheVersionAsTmtDoes) {
   const QsbIdentity id = qsb_identity(0x0BEEF012);
   EXPECT_EQ(id.serial, "0BEEF");
   EXPECT_EQ(id.model, "QSB-D");
   EXPECT_EQ(id.firmware, 0x12);
   EXPECT_EQ(qsb::kPowerWasLost, 1U << 2);
   EXPECT_EQ(qsb_identity(0x0BEEF212).model, "QSB-S");
-  EXPECT_EQ(qsb_identity(0x0BEEF312).model, "QSB");  // a type that is not known
+  EXPECT_EQ(qsb_identity(0x0BEEF312).model, "QSB");  // unknown type
 }
 
 }  // namespace

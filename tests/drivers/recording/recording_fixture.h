@@ -1,4 +1,4 @@
-// Recordings that tests write, read back and spoil.
+// Recordings that tests write, read and damage.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ inline RecordingHeader header() {
 
 inline constexpr std::int64_t kPeriodNs = 250'000;  // 4 kHz
 
-// Scans first ... first + n - 1 of a made-up device.
+// Scans first ... first + n - 1 of a fictitious device.
 inline SampleBlock block(std::int64_t first, std::int64_t n, const std::string& device = "probes") {
   SampleBlock b;
   b.device = device;
@@ -54,7 +54,7 @@ inline SampleBlock block(std::int64_t first, std::int64_t n, const std::string& 
   return b;
 }
 
-// `commits` commits of 1000 scans each; one chunk a commit.
+// Writes `commits` commits of 1000 scans; each commit has one chunk.
 inline void write(const fs::path& file, int commits, bool seal) {
   auto writer = RecordingWriter::create(file, header());
   ASSERT_TRUE(writer) << writer.error().message;

@@ -1,9 +1,9 @@
-// A USB with simulated devices on it, for the real libusb: umockdev gives it sysfs, udev's events
-// and a usbfs whose ioctls are answered here. To be run under umockdev-wrapper.
+// A USB with simulated devices for the real libusb: umockdev provides sysfs, udev events and a
+// usbfs whose ioctls this class answers. Run it under umockdev-wrapper.
 //
-// usbfs wakes a program that polls it when a transfer has ended (POLLOUT) or the device has left
-// (POLLERR). So each device's node is a pseudo terminal here: stopped, it is not writable; its
-// other end closed, it is in error.
+// usbfs wakes a polling program when a transfer has ended (POLLOUT) or the device was unplugged
+// (POLLERR). Therefore each device's node is a pseudo terminal: when it is stopped, it is not
+// writable; when its other end is closed, it reports an error.
 #pragma once
 
 #include <umockdev.h>
@@ -22,29 +22,29 @@
 
 namespace mdof::drivers::usb {
 
-// Any thread; the devices are used under one lock, by change(), by the bus's own thread and by that
-// of umockdev. One bus at a time in a process.
+// Any thread. One lock protects the devices; change(), the thread of the bus and the thread of
+// umockdev take it. Only one bus at a time in a process.
 class Bus {
  public:
-  // `clock` is the time of the devices.
+  // `clock` gives the time of the devices.
   explicit Bus(std::function<std::int64_t()> clock = monotonic_ns);
   ~Bus();
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  // Puts the device on the bus; gives its number there. It is to live until unplug().
+  // Connects the device to the bus and returns its number. The device must live until unplug().
   int plug(SimulatedUsb& device);
-  // A device also leaves the bus by itself when it is gone().
+  // A device also leaves the bus when it is gone().
   void unplug(int number);
   void change(const std::function<void()>& act);
-  // What a program is to meet: the node forbidden; its interface held by a driver of the kernel
-  // ("": by none), which is how a program that holds it looks too, called "usbfs".
+  // Faults for programs: the node is not permitted; its interface is claimed by a driver of the
+  // kernel ("": by none). A program that claims it appears as the driver "usbfs".
   void forbid(int number);
   void hold(int number, const std::string& driver);
 
-  // The longest that an endpoint had no transfer waiting between two, since plug().
+  // Longest time without a pending transfer at an endpoint between two transfers, since plug().
   std::int64_t longest_unasked_ns(int number, std::uint8_t endpoint);
-  int submitted(int number);  // transfers
+  int submitted(int number);  // number of transfers
 
   struct Node;  // of a device
 
@@ -58,7 +58,7 @@ class Bus {
   UMockdevTestbed* testbed_;
   UMockdevIoctlBase* base_;
   std::map<int, std::unique_ptr<Node>> nodes_;  // guarded by mutex_, as are the devices
-  int last_number_ = 1;                         // 2 ... 127, one after the other
+  int last_number_ = 1;                         // 2 ... 127, in turn
   std::mutex mutex_;
   std::atomic<bool> stop_ = false;
   std::thread thread_;

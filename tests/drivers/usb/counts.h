@@ -1,4 +1,4 @@
-// What this process holds.
+// Resources of this process.
 #pragma once
 
 #include <unistd.h>
@@ -24,7 +24,7 @@ inline std::int64_t resident_bytes() {
   return resident * ::sysconf(_SC_PAGESIZE);
 }
 
-// How often a test unplugs and plugs in again: 20, or what MDOF_USB_REPLUGS says.
+// Number of times that a test replugs a device: 20, or the value of MDOF_USB_REPLUGS.
 inline int replugs() {
   const char* text = std::getenv("MDOF_USB_REPLUGS");
   return text ? std::atoi(text) : 20;

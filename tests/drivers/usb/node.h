@@ -1,4 +1,4 @@
-// One device's node in usbfs: its transfers, and the pseudo terminal that programs poll.
+// The usbfs node of one device: its transfers, and the pseudo terminal that programs poll.
 #pragma once
 
 #include <umockdev.h>
@@ -14,39 +14,39 @@
 
 namespace mdof::drivers::usb {
 
-// A transfer as submitted by SUBMITURB, until it was reaped.
+// A transfer from SUBMITURB until it is reaped.
 struct Urb {
   UMockdevIoctlData* data = nullptr;    // struct usbdevfs_urb
-  UMockdevIoctlData* buffer = nullptr;  // null where it has no bytes
+  UMockdevIoctlData* buffer = nullptr;  // nullptr if it has no bytes
   UMockdevIoctlClient* client = nullptr;
   std::uint8_t type = 0, endpoint = 0;
   std::size_t length = 0;
-  std::string sent;  // of a transfer out, or of a control transfer with its setup packet
+  std::string sent;  // data of an OUT transfer, or of a control transfer with its setup packet
   bool done = false;
   int status = 0;
   std::string got;
-  std::size_t taken = 0;  // bytes, out
+  std::size_t taken = 0;  // number of bytes accepted, OUT
 };
 
-// All calls under the lock of the bus.
+// All functions need the lock of the bus.
 struct Bus::Node {
   Node(SimulatedUsb& usb, int number);
   ~Node();
 
-  // Answers an ioctl; false: none of usbfs's.
+  // Answers an ioctl; returns false if it is not of usbfs.
   bool answer(UMockdevIoctlClient* client);
-  // Lets the device answer what waits.
+  // Lets the device answer pending transfers.
   void serve(std::int64_t now_ns);
-  void leave();  // the bus: all that waits ends with ESHUTDOWN
+  void leave();  // leaves the bus: pending transfers end with ESHUTDOWN
 
   SimulatedUsb& device;
   const int number;
   std::string syspath, devnode, terminal, driver;
   bool gone = false;
-  std::list<Urb> urbs;  // in the order in which they came
+  std::list<Urb> urbs;  // in order of submission
   int submitted = 0;
   struct Asked {
-    std::optional<std::int64_t> dry_since_ns;  // the last transfer that waited has ended
+    std::optional<std::int64_t> dry_since_ns;  // set when the last pending transfer has ended
     std::int64_t longest_ns = 0;
   };
   std::map<std::uint8_t, Asked> asked;  // by endpoint
@@ -66,7 +66,7 @@ struct Bus::Node {
 
   int master_ = -1, slave_ = -1;
   bool awake_ = true;
-  std::int64_t last_ns_ = 0;  // when it was served
+  std::int64_t last_ns_ = 0;  // time of the last serve()
   UMockdevIoctlClient* claimed_by_ = nullptr;
 };
 

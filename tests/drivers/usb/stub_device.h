@@ -1,4 +1,4 @@
-// A simulated device with nothing in it: what it is sent comes back, on request.
+// A simulated device that only returns received bytes.
 #pragma once
 
 #include <deque>
@@ -8,8 +8,8 @@
 
 namespace mdof::drivers::usb {
 
-// Bulk OUT 0x01 is echoed on IN 0x81; IN 0x82 streams `stream`. Vendor request 1 gives 4 bytes, 2
-// takes bytes, all others stall.
+// Returns the bytes of bulk OUT 0x01 on IN 0x81; IN 0x82 streams `stream`. Vendor request 1 returns
+// 4 bytes, request 2 accepts bytes, all others stall.
 class StubDevice final : public SimulatedUsb {
  public:
   explicit StubDevice(const std::string& serial) {

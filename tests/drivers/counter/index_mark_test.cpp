@@ -1,4 +1,4 @@
-// Whether a reference mark was passed, told from counts alone.
+// Detection of a passed reference mark from counts alone.
 #include "drivers/counter/index_mark.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ using State = IndexMark::State;
 
 constexpr std::int64_t kQuarter = 1 << 22;  // of 24 bits
 
-TEST(IndexMark, ItIsPassedOnceTheCountHasGoneOnFromIt) {
+TEST(IndexMark, PassedAfterTheCountHasMovedOn) {
   IndexMark mark(24);
   EXPECT_EQ(mark.take(5), State::off);
   EXPECT_EQ(mark.arm(1000), static_cast<std::uint64_t>(kQuarter + 1000));
@@ -20,15 +20,15 @@ TEST(IndexMark, ItIsPassedOnceTheCountHasGoneOnFromIt) {
   EXPECT_EQ(mark.take(-70'000), State::awaited);
   EXPECT_EQ(mark.take(kQuarter + 1002), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 1016), State::at_mark);
-  EXPECT_EQ(mark.take(kQuarter + 1017), State::at_mark);  // 17 counts: gone on, once
+  EXPECT_EQ(mark.take(kQuarter + 1017), State::at_mark);  // 17 counts: moved on, first reading
   EXPECT_EQ(mark.take(kQuarter + 1500), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 1510), State::passed);
   EXPECT_EQ(mark.from_mark(kQuarter + 1510), 510);
   EXPECT_EQ(mark.from_mark(kQuarter - 9000), -10'000);
-  EXPECT_EQ(mark.take(-5), State::passed);  // what comes then is another's to judge
+  EXPECT_EQ(mark.take(-5), State::passed);  // later counts are not judged
 }
 
-TEST(IndexMark, BackwardsAsWell) {
+TEST(IndexMark, PassedInReverse) {
   IndexMark mark(32);
   const auto load = static_cast<std::int64_t>(mark.arm(-3));
   EXPECT_EQ(load, (std::int64_t{1} << 30) - 3);
@@ -37,14 +37,15 @@ TEST(IndexMark, BackwardsAsWell) {
   EXPECT_EQ(mark.from_mark(load - 60), -60);
 }
 
-// It loads at each place but the mark, once a period of four counts.
-TEST(IndexMark, WithTheWrongPolarityItIsNeverPassed) {
+// With the wrong polarity the counter loads at each position except the mark, once a period of four
+// counts.
+TEST(IndexMark, NeverPassedWithTheWrongPolarity) {
   IndexMark mark(24);
   mark.arm(0);
   for (int i = 0; i < 10'000; ++i) EXPECT_EQ(mark.take(kQuarter + i % 4), State::at_mark);
 }
 
-TEST(IndexMark, AFaultIsNotTheMark) {
+TEST(IndexMark, FaultIsNotTheMark) {
   IndexMark mark(24);
   mark.arm(0);
   const std::int64_t near = kQuarter / 64;
@@ -54,18 +55,18 @@ TEST(IndexMark, AFaultIsNotTheMark) {
     EXPECT_EQ(mark.take(7), State::awaited);
   }
   EXPECT_EQ(mark.take(kQuarter - near), State::at_mark);
-  // One damaged reading looked like it.
+  // A single damaged reading that resembles the mark.
   EXPECT_EQ(mark.take(8), State::awaited);
   EXPECT_EQ(mark.take(kQuarter + 30), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 31), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter * 2), State::astray);
   EXPECT_EQ(mark.take(9), State::awaited);
-  EXPECT_EQ(mark.take(kQuarter + 33), State::at_mark);  // counted from the beginning again
+  EXPECT_EQ(mark.take(kQuarter + 33), State::at_mark);  // the number of readings starts again
   EXPECT_EQ(mark.take(kQuarter + 34), State::at_mark);
   EXPECT_EQ(mark.take(kQuarter + 35), State::passed);
 }
 
-TEST(IndexMark, FewBitsAreArmedAnewFarFromTheFirstPlace) {
+TEST(IndexMark, CounterWithFewBitsIsArmedAgainFarAway) {
   IndexMark mark(24);
   mark.arm(100);
   EXPECT_FALSE(mark.far_from_armed(100 + kQuarter / 4));
@@ -73,8 +74,8 @@ TEST(IndexMark, FewBitsAreArmedAnewFarFromTheFirstPlace) {
   EXPECT_TRUE(mark.far_from_armed(99 - kQuarter / 4));
 }
 
-// What it is told to load is what an unwrapped count then shows, also where that wraps.
-TEST(IndexMark, TheCounterWraps) {
+// The preset equals the unwrapped count that the counter shows after loading, also where it wraps.
+TEST(IndexMark, PresetEqualsTheUnwrappedCount) {
   for (const std::uint32_t start : {0u, 0x4000'0000u, 0x7FFF'FFF0u, 0xC000'0000u, 0xFFFF'FFFFu}) {
     Unwrap unwrap(32, true);
     IndexMark mark(32);

@@ -1,4 +1,4 @@
-// The driver of the PoKeys on the real hidapi, on a bus of umockdev.
+// The PoKeys driver on the real hidapi, with a bus of umockdev.
 #include "drivers/pokeys57u/pokeys57u.h"
 
 #include <fcntl.h>
@@ -18,7 +18,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// Counts are the milliseconds of the clock, so that each value says when it was true.
+// Counts are the milliseconds of the clock, so that each value shows its time.
 double milliseconds_now(std::size_t, std::int64_t t_ns) {
   return static_cast<double>(t_ns % 1'000'000'000'000) * 1e-6;
 }
@@ -43,7 +43,7 @@ Settings settings_of(std::vector<Input> inputs = {counter(0)}) {
   Settings settings;
   settings.name = "slide";
   settings.response_timeout = milliseconds(200);
-  settings.slow = milliseconds(200);  // this machine may be
+  settings.slow = milliseconds(200);  // this machine may be slow
   settings.inputs = std::move(inputs);
   return settings;
 }
@@ -60,7 +60,7 @@ class PoKeys57uOnHid : public ::testing::Test {
     EXPECT_NE(opened.error().message.find(part), std::string::npos) << opened.error().message;
     EXPECT_NE(opened.error().message.find("\"slide\""), std::string::npos);
   }
-  // Each good value was true within 200 ms between request and reply.
+  // Each good value was valid at a time between request and reply, within 200 ms.
   static void expect_true_values(const Collected& all) {
     std::size_t good = 0;
     for (std::size_t i = 0; i < all.scans.size(); ++i) {
@@ -82,10 +82,10 @@ class PoKeys57uOnHid : public ::testing::Test {
   SimulatedPokeys57u device{milliseconds_now, {}};
   PoKeys57u driver{settings_of()};
   Collected got;
-  std::optional<HidBus> bus;  // goes first
+  std::optional<HidBus> bus;  // destroyed first
 };
 
-TEST_F(PoKeys57uOnHid, GivesTrueValuesAtTheirTimes) {
+TEST_F(PoKeys57uOnHid, GivesValuesAtTheirTimes) {
   run_with({}, 100);
   EXPECT_EQ(got.error, "");
   EXPECT_EQ(got.lost, 0u);
@@ -97,7 +97,7 @@ TEST_F(PoKeys57uOnHid, GivesTrueValuesAtTheirTimes) {
   EXPECT_EQ(info.rate_hz, 500);
 }
 
-TEST_F(PoKeys57uOnHid, AReplyOfAnotherRequestIsPassedOver) {
+TEST_F(PoKeys57uOnHid, IgnoresTheReplyToAnotherRequest) {
   run_with({.wrong_id_at = 5});
   EXPECT_EQ(got.error, "");
   EXPECT_EQ(got.lost, 0u);
@@ -105,7 +105,7 @@ TEST_F(PoKeys57uOnHid, AReplyOfAnotherRequestIsPassedOver) {
   expect_true_values(got);
 }
 
-TEST_F(PoKeys57uOnHid, AWrongChecksumIsAskedForAgain) {
+TEST_F(PoKeys57uOnHid, RepeatsTheRequestAfterAWrongChecksum) {
   run_with({.bad_checksum_at = 5});
   EXPECT_EQ(got.error, "");
   EXPECT_EQ(got.lost, 0u);
@@ -113,7 +113,7 @@ TEST_F(PoKeys57uOnHid, AWrongChecksumIsAskedForAgain) {
   expect_true_values(got);
 }
 
-TEST_F(PoKeys57uOnHid, ThreeWrongChecksumsAreALostScan) {
+TEST_F(PoKeys57uOnHid, ThreeWrongChecksumsLoseAScan) {
   run_with({.bad_checksum_at = 5, .bad_checksums = 3});
   EXPECT_EQ(got.error, "");
   EXPECT_GE(got.lost, 1u);
@@ -121,22 +121,22 @@ TEST_F(PoKeys57uOnHid, ThreeWrongChecksumsAreALostScan) {
   expect_true_values(got);
 }
 
-TEST_F(PoKeys57uOnHid, ACutReplyIsNone) {
+TEST_F(PoKeys57uOnHid, IgnoresATruncatedReply) {
   run_with({.short_at = 5});
   EXPECT_EQ(got.error, "");
   EXPECT_GE(driver.rejected(), 1u);
   expect_true_values(got);
 }
 
-// The late one carries a count of 450 ms ago.
-TEST_F(PoKeys57uOnHid, ALateReplyIsNeverTakenForAnother) {
+// The late reply contains a count that is 450 ms old.
+TEST_F(PoKeys57uOnHid, LateReplyIsNeverUsedForAnother) {
   run_with({.late_at = 5, .late_ns = 450'000'000}, 200);
   EXPECT_EQ(got.error, "");
   EXPECT_GE(driver.rejected(), 1u);
   expect_true_values(got);
 }
 
-TEST_F(PoKeys57uOnHid, NoReplyIsAskedForAgainAndThenLost) {
+TEST_F(PoKeys57uOnHid, MissingReplyIsRequestedAgainThenLost) {
   run_with({.mute_at = 5, .mutes = 2});
   EXPECT_EQ(got.error, "");
   EXPECT_EQ(got.lost, 0u);
@@ -162,8 +162,8 @@ TEST_F(PoKeys57uOnHid, SilenceIsAnError) {
   EXPECT_EQ(collect(patient, 5).first_quality(4), Quality::good) << "it had its power all the time";
 }
 
-TEST_F(PoKeys57uOnHid, CountsWrapAndGoOn) {
-  double calls = 0;  // one for each encoder, each time it is asked
+TEST_F(PoKeys57uOnHid, CountsWrapAndContinue) {
+  double calls = 0;  // one for each read of each encoder
   SimulatedPokeys57u wrapping([&](std::size_t, std::int64_t) { return calls += 1; },
                               {.count_offset = (std::int64_t{1} << 31) - 1000});
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, wrapping));
@@ -180,7 +180,7 @@ TEST_F(PoKeys57uOnHid, CountsWrapAndGoOn) {
   bus.reset();
 }
 
-TEST_F(PoKeys57uOnHid, AnIndexThatSetsTheCountToZeroMakesItSuspect) {
+TEST_F(PoKeys57uOnHid, IndexThatSetsTheCountToZeroMakesItSuspect) {
   SimulatedPokeys57u far(milliseconds_now, {.count_offset = 10'000'000});
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, far));
   ASSERT_TRUE(driver.open());
@@ -194,7 +194,7 @@ TEST_F(PoKeys57uOnHid, AnIndexThatSetsTheCountToZeroMakesItSuspect) {
   bus.reset();
 }
 
-TEST_F(PoKeys57uOnHid, PowerThatWasLostMakesItSuspectOverReopens) {
+TEST_F(PoKeys57uOnHid, LostPowerMakesCountsSuspectOverReopens) {
   run_with({.restart_at = 5}, 10);
   ASSERT_TRUE(driver.open());
   got = collect(driver, 5);
@@ -202,9 +202,9 @@ TEST_F(PoKeys57uOnHid, PowerThatWasLostMakesItSuspectOverReopens) {
   EXPECT_NE(driver.info().datum_lost.find("lost power"), std::string::npos);
 }
 
-// The tick has 32 bits of milliseconds: half of it are 24.9 days, all of it 49.7. The count is 0
-// before and after, so that only the tick shows it.
-TEST_F(PoKeys57uOnHid, PowerThatWasLostIsSeenAfterAnyUptime) {
+// The tick has 32 bits of milliseconds: half of its range is 24.9 days, all of it 49.7 days. The
+// count is 0 before and after, so only the tick shows the restart.
+TEST_F(PoKeys57uOnHid, DetectsLostPowerAfterAnyUptime) {
   for (const std::int64_t days : {1, 20, 27, 45}) {
     SimulatedPokeys57u old(still, {.uptime_ms = days * 86'400'000, .count_offset = -1000});
     ASSERT_NO_FATAL_FAILURE(bus->plug(0, old));
@@ -222,7 +222,7 @@ TEST_F(PoKeys57uOnHid, PowerThatWasLostIsSeenAfterAnyUptime) {
   }
 }
 
-TEST_F(PoKeys57uOnHid, UnpluggedIsAnErrorAndReplugAnOpening) {
+TEST_F(PoKeys57uOnHid, UnplugIsAnErrorAndReplugIsReopened) {
   run_with({.unplug_at = 5}, 100);
   EXPECT_NE(got.error.find("the device is plugged in"), std::string::npos) << got.error;
   EXPECT_NE(got.error.find("/dev/hidraw0"), std::string::npos) << got.error;
@@ -239,7 +239,7 @@ TEST_F(PoKeys57uOnHid, UnpluggedIsAnErrorAndReplugAnOpening) {
   bus.reset();
 }
 
-TEST_F(PoKeys57uOnHid, IsFoundByItsSerialNumberHoweverUsbWritesIt) {
+TEST_F(PoKeys57uOnHid, FindsTheSerialNumberInBothUsbFormats) {
   SimulatedPokeys57u other(still, {.serial = 2, .usb_serial = "2.2"});
   SimulatedPokeys57u wanted(still, {.serial = 777, .usb_serial = "777.2"});
   SimulatedPokeys57u old(still, {.serial = 5, .usb_serial = "1.5", .old_board = true});
@@ -262,7 +262,7 @@ TEST_F(PoKeys57uOnHid, IsFoundByItsSerialNumberHoweverUsbWritesIt) {
   bus.reset();
 }
 
-TEST_F(PoKeys57uOnHid, ThroughUhidThereIsNoInterfaceNumber) {
+TEST_F(PoKeys57uOnHid, OpensWithoutInterfaceNumberThroughUhid) {
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, device, -1));
   const auto entries = list_hid(kVendor);
   ASSERT_EQ(entries.size(), 1u);
@@ -272,7 +272,7 @@ TEST_F(PoKeys57uOnHid, ThroughUhidThereIsNoInterfaceNumber) {
   EXPECT_EQ(collect(driver, 5).error, "");
 }
 
-TEST_F(PoKeys57uOnHid, TheKeyboardAndTheJoystickAreLeftAlone) {
+TEST_F(PoKeys57uOnHid, DoesNotUseKeyboardAndJoystick) {
   SimulatedPokeys57u keyboard(still, {}), joystick(still, {});
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, keyboard, 0));
   ASSERT_NO_FATAL_FAILURE(bus->plug(2, joystick, 2));
@@ -283,7 +283,7 @@ TEST_F(PoKeys57uOnHid, TheKeyboardAndTheJoystickAreLeftAlone) {
 }
 
 // hid_enumerate() of hidapi 0.13.1 crashes here within some milliseconds.
-TEST_F(PoKeys57uOnHid, OneThatGoesWhileItIsLookedForIsNotThere) {
+TEST_F(PoKeys57uOnHid, DeviceThatVanishesDuringTheSearchIsMissing) {
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, device));
   const auto uevent = bus->uevent_of(0);
   std::atomic<bool> stop = false;
@@ -323,7 +323,7 @@ TEST_F(PoKeys57uOnHid, ReadsBothBlocksAndTheAnalogueInputs) {
   bus.reset();
 }
 
-TEST_F(PoKeys57uOnHid, SetsTheCountingThatIsAskedForAndChecksIt) {
+TEST_F(PoKeys57uOnHid, SetsAndChecksTheCountingMode) {
   Settings settings = settings_of({counter(4)});
   ASSERT_NO_FATAL_FAILURE(bus->plug(0, device));
   expect_error(settings, "encoder5 is switched off");
@@ -336,8 +336,8 @@ TEST_F(PoKeys57uOnHid, SetsTheCountingThatIsAskedForAndChecksIt) {
   EXPECT_TRUE(PoKeys57u(settings).open()) << "it stays set";
 }
 
-// umockdev gives nobody else its devices: a file that may not be opened stands for one.
-TEST(HidDevice, NoPermissionHasItsRemedy) {
+// umockdev's devices are always permitted, so a file without permissions replaces one.
+TEST(HidDevice, PermissionErrorHasItsRemedy) {
   const std::string path = "/tmp/hid_test_forbidden_" + std::to_string(::getpid());
   ::close(::open(path.c_str(), O_CREAT | O_CLOEXEC, 0));
   const uid_t user = ::geteuid();

@@ -1,5 +1,5 @@
-// Unplugged and plugged in again and again while the daemon's acquisition reads: how long after the
-// node has appeared the samples go on, and what a round costs.
+// Unplugs and replugs a device repeatedly while the daemon's acquisition reads. Measures the time
+// from the new node to the next samples and the resources used in each round.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ using std::chrono::duration;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr int kWarmUp = 3;  // rounds until everything has its memory
+constexpr int kWarmUp = 3;  // rounds until all memory is allocated
 constexpr double kMost_s = 1;
 constexpr long kMostGrowth_KiB = 1024;
 
@@ -36,8 +36,8 @@ long resident_KiB() {
   file >> all >> resident;
   return resident * (::sysconf(_SC_PAGESIZE) / 1024);
 }
-// Without what is open for a moment only, and without sockets: umockdev sometimes keeps one of a
-// device that goes while it is being opened, and nothing that is tested here has any.
+// Ignores descriptors that are open only briefly, and sockets: umockdev sometimes keeps a socket of
+// a device that vanishes while it is opened, and the tested code uses no sockets.
 long descriptors() {
   long least = LONG_MAX;
   for (int i = 0; i < 10; ++i, std::this_thread::sleep_for(milliseconds(5))) {
@@ -51,7 +51,7 @@ long descriptors() {
   }
   return least;
 }
-// What umockdev itself keeps of each device that there ever was.
+// Memory that umockdev itself keeps for each former device.
 double own_growth_KiB(int rounds) {
   HidBus bus;
   long before = 0;
@@ -65,10 +65,10 @@ double own_growth_KiB(int rounds) {
   return static_cast<double>(resident_KiB() - before) / rounds;
 }
 
-// What goes wrong on purpose, to see that the check sees it.
+// Deliberate faults that show that the checks can fail.
 struct Sabotage {
   bool leak = false;
-  milliseconds late{0};  // the node appears by so much later than is said
+  milliseconds late{0};  // delay of the node after the reported time
 };
 
 struct Figures {
@@ -124,8 +124,8 @@ DriverSpec reader() {
   return spec;
 }
 
-// For how long it is away: mostly up to 0.3 s, each tenth time up to 1.5 s, so that the pauses
-// between openings are of any length.
+// Time without the device: mostly up to 0.3 s, every tenth time up to 1.5 s, so that openings have
+// pauses of all lengths.
 milliseconds away(int round) {
   const Philox random = philox({static_cast<std::uint32_t>(round), 0, 0, 0}, 7);
   return milliseconds(30 +
@@ -181,7 +181,7 @@ void print(const Figures& f) {
       f.rounds, f.reopened, f.quantile_s(50), f.quantile_s(99), f.descriptors, f.growth_KiB);
 }
 
-TEST(HidReplug, IsReopenedEachTimeSoonAndAtNoCost) {
+TEST(HidReplug, ReopensSoonWithoutLosingResources) {
   const char* const rounds = std::getenv("MDOF_REPLUGS");
   const double own_KiB = own_growth_KiB(200);
   Figures figures = replug(rounds ? std::atoi(rounds) : 20, {});
@@ -191,13 +191,13 @@ TEST(HidReplug, IsReopenedEachTimeSoonAndAtNoCost) {
   EXPECT_TRUE(figures.all_reopened());
   EXPECT_TRUE(figures.quick());
   EXPECT_TRUE(figures.descriptors_constant());
-#ifndef MDOF_SANITIZED  // they keep freed memory for a while
+#ifndef MDOF_SANITIZED  // sanitizers keep freed memory for a while
   EXPECT_TRUE(figures.memory_constant());
 #endif
 }
 
-// The control: it can fail, in each respect.
-TEST(HidReplug, WhatIsLeakedOrLateIsSeen) {
+// Shows that each check can fail.
+TEST(HidReplug, DetectsLeaksAndDelays) {
   const Figures figures = replug(2, {.leak = true, .late = milliseconds(1100)});
   print(figures);
   EXPECT_FALSE(figures.quick());

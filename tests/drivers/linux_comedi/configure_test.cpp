@@ -29,7 +29,7 @@ Result<linux_comedi::Settings> read(const std::string& toml) {
   return read_linux_comedi(*table, context());
 }
 
-TEST(ComediConfigure, Defaults) {
+TEST(ComediConfigure, HasDefaults) {
   const auto settings = read(kChannels);
   ASSERT_TRUE(settings) << settings.error().message;
   EXPECT_EQ(settings->device, "/dev/comedi0");
@@ -45,7 +45,7 @@ TEST(ComediConfigure, Defaults) {
   EXPECT_EQ(settings->inputs[1].reference, Reference::ground);
 }
 
-TEST(ComediConfigure, AnEncoderInVoltsHasNoCountToLose) {
+TEST(ComediConfigure, EncoderInVoltsHasNoDatum) {
   const auto settings = read(channel("A", "CH0") + channel("encoder", "CH1", "offset_mm = 2.5\n"));
   ASSERT_TRUE(settings) << settings.error().message;
   EXPECT_EQ(settings->inputs[1].channel, (Channel{"encoder", Unit::volt}));
@@ -53,7 +53,7 @@ TEST(ComediConfigure, AnEncoderInVoltsHasNoCountToLose) {
   EXPECT_EQ(settings->encoder.offset_mm, 2.5);
 }
 
-TEST(ComediConfigure, ChannelsHaveRangeAndReferenceOfTheirOwn) {
+TEST(ComediConfigure, ChannelsHaveTheirOwnRangeAndReference) {
   const auto settings = read(
       "device = \"/dev/comedi2\"\nboard = \"pci-6221\"\nsubdevice = 0\nrate_hz = 500\n"
       "convert_us = 12\nrange_v = 5\nreference = \"differential\"" +
@@ -100,7 +100,7 @@ TEST(ComediConfigure, BadValuesNameTheirKey) {
   }
 }
 
-TEST(ComediConfigure, ADeviceIsOnesOwnByWhateverName) {
+TEST(ComediConfigure, IdentityIsIndependentOfTheSpelling) {
   auto table = TomlTable::parse("device = \"/dev/../dev/null\"" + kChannels, "mdofd.toml");
   const auto spec = configure_driver("linux_comedi", *table, context());
   ASSERT_TRUE(spec) << spec.error().message;
@@ -109,7 +109,7 @@ TEST(ComediConfigure, ADeviceIsOnesOwnByWhateverName) {
   const auto driver = spec->make();
   ASSERT_TRUE(driver);
   EXPECT_EQ((*driver)->info().driver, "linux_comedi");
-  const auto status = (*driver)->open();  // by comedilib: it is no board
+  const auto status = (*driver)->open();  // comedilib reports that it is not a board
   ASSERT_FALSE(status);
   EXPECT_NE(status.error().message.find("this is not a Comedi device"), std::string::npos)
       << status.error().message;

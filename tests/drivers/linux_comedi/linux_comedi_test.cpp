@@ -39,7 +39,7 @@ class ComediBoard : public testing::Test {
 };
 
 TEST_F(ComediBoard, ReadsVoltsOfWholeScans) {
-  board_->most_bytes = 7;  // neither samples nor scans
+  board_->most_bytes = 7;  // neither whole samples nor whole scans
   LinuxComedi driver(settings_);
   const std::int64_t before_ns = monotonic_ns();
   ASSERT_TRUE(driver.open());
@@ -66,11 +66,11 @@ TEST_F(ComediBoard, ReadsVoltsOfWholeScans) {
   }
   EXPECT_GT(least_ns, 300'000);  // each scan is a tick of its clock
   EXPECT_LT(most_ns, 700'000);
-  EXPECT_EQ(board_->started.subdevice, 1U);  // the first has no analogue inputs
+  EXPECT_EQ(board_->started.subdevice, 1U);  // the first subdevice has no analogue inputs
   EXPECT_EQ(board_->started.inputs[1].channel, 5U);
 }
 
-TEST_F(ComediBoard, TheNewestScanOfALongReadIsOfNow) {
+TEST_F(ComediBoard, NewestScanOfALongReadHasThePresentTime) {
   LinuxComedi driver(settings_);
   ASSERT_TRUE(driver.open());
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -82,7 +82,7 @@ TEST_F(ComediBoard, TheNewestScanOfALongReadIsOfNow) {
   EXPECT_LT(all.time_ns.back(), after_ns);
 }
 
-TEST_F(ComediBoard, LongSamplesAndARangeOfItsOwn) {
+TEST_F(ComediBoard, ReadsLongSamplesInTheirOwnRange) {
   board_->subdevices[1].long_samples = true;
   board_->greatest_code = 16'777'215;
   board_->code = [](std::uint64_t, unsigned channel) {
@@ -97,7 +97,7 @@ TEST_F(ComediBoard, LongSamplesAndARangeOfItsOwn) {
   EXPECT_EQ(board_->started.inputs[1].range, 2U);
 }
 
-TEST_F(ComediBoard, TheEndsOfARangeAreOverRange) {
+TEST_F(ComediBoard, EndsOfARangeAreOverRange) {
   board_->code = [](std::uint64_t scan, unsigned channel) {
     return channel == 5 ? 30'000U : scan % 2 == 0 ? 0U : 65535U;
   };
@@ -111,12 +111,12 @@ TEST_F(ComediBoard, TheEndsOfARangeAreOverRange) {
   }
 }
 
-TEST_F(ComediBoard, ABufferThatRanOverIsAGapThatIsCounted) {
+TEST_F(ComediBoard, BufferOverrunIsACountedGap) {
   board_->overrun_at = 300;
   LinuxComedi driver(settings_);
   ASSERT_TRUE(driver.open());
   const Collected before = collect(driver, 10'000);
-  EXPECT_EQ(before.scans.size(), 300U);  // all that came before
+  EXPECT_EQ(before.scans.size(), 300U);  // all scans before it
   EXPECT_EQ(before.lost, 0U);
   EXPECT_NE(
       before.error.find("the buffer of the board, or of the kernel (8.192 s), has overflowed"),
@@ -136,7 +136,7 @@ TEST_F(ComediBoard, ABufferThatRanOverIsAGapThatIsCounted) {
   EXPECT_EQ(board_->closed, 1);
 }
 
-TEST_F(ComediBoard, ABoardThatLeavesOrEndsIsAnError) {
+TEST_F(ComediBoard, BoardThatVanishesOrStopsIsAnError) {
   board_->unplug_at = 20;
   LinuxComedi driver(settings_);
   ASSERT_TRUE(driver.open());
@@ -162,7 +162,7 @@ TEST_F(ComediBoard, SilenceIsAnError) {
   EXPECT_NE(all.error.find("no data for 2.051 s"), std::string::npos) << all.error;
 }
 
-TEST_F(ComediBoard, WhatTheBoardLacksIsSaidWithWhatItHas) {
+TEST_F(ComediBoard, ErrorNamesTheOptionsOfTheBoard) {
   settings_.inputs[0].reference = Reference::common;
   expect_refused(
       "CH0: reference = \"common\" is not possible; the board offers ground, differential");
@@ -186,25 +186,25 @@ TEST_F(ComediBoard, WhatTheBoardLacksIsSaidWithWhatItHas) {
   expect_refused("/dev/comedi0: Permission denied");
 }
 
-TEST_F(ComediBoard, TheTrueRateIsSaidAndAWrongOneRefused) {
+TEST_F(ComediBoard, ReportsTheTrueRateAndRefusesAWrongOne) {
   board_->tick_ns = 1500;
-  settings_.rate_hz = 10'000;  // 100 us are 66.7 ticks: 100.5 us
+  settings_.rate_hz = 10'000;  // 100 us are 66.7 ticks, so the period is 100.5 us
   const DeviceInfo info = opened();
   EXPECT_NEAR(info.rate_hz, 1e9 / 100'500, 1e-9);
-  board_->tick_ns = 50'350;  // 0.7 % off
+  board_->tick_ns = 50'350;  // an error of 0.7 %
   EXPECT_NEAR(opened().rate_hz, 1e9 / 100'700, 1e-9);
-  board_->tick_ns = 50'600;  // 1.2 %
+  board_->tick_ns = 50'600;  // an error of 1.2 %
   expect_refused("the nearest rate is 9881.42292");
   board_->tick_ns = 70'000;
   expect_refused(
       "the board cannot scan at rate_hz = 10000; the nearest rate is 7142.85714 Hz with 2 inputs "
       "that are 70 us apart");
   board_->tick_ns = 1000;
-  board_->least_convert_ns = 60'000;  // two are more than a scan
+  board_->least_convert_ns = 60'000;  // two conversions take longer than a scan
   expect_refused("the nearest rate is 8333.33333");
 }
 
-TEST_F(ComediBoard, ACommandThatItDoesNotTake) {
+TEST_F(ComediBoard, ReportsARefusedCommand) {
   board_->refuses_inputs = true;
   expect_refused(
       "the board refuses the command (invalid chanlist); the board cannot scan these inputs "
@@ -214,20 +214,20 @@ TEST_F(ComediBoard, ACommandThatItDoesNotTake) {
   expect_refused("Device or resource busy");
 }
 
-TEST_F(ComediBoard, SaysWhatItIs) {
+TEST_F(ComediBoard, DescribesTheBoard) {
   EXPECT_EQ(opened().description,
             "Comedi sim_driver sim-6221 at /dev/comedi0, subdevice 1, inputs 20 us apart, a buffer "
             "of 8.192 s, nominal ranges without calibration");
   EXPECT_TRUE(opened().notices.empty());
 }
 
-TEST_F(ComediBoard, TheKernelsTestBoardIsWarnedOf) {
+TEST_F(ComediBoard, WarnsOfTheKernelsTestBoard) {
   board_->driver = "comedi_test";
   ASSERT_EQ(opened().notices.size(), 1U);
   EXPECT_EQ(opened().notices[0].code, NoticeCode::board_simulated);
 }
 
-TEST_F(ComediBoard, ACalibrationFileIsUsed) {
+TEST_F(ComediBoard, UsesACalibrationFile) {
   board_->subdevices[1].soft_calibrated = true;
   board_->calibration.found = true;
   board_->calibration.to_volts = {Polynomial{{0.25, 1e-3, 0, 0}, 500}, std::nullopt};
@@ -245,7 +245,7 @@ TEST_F(ComediBoard, ACalibrationFileIsUsed) {
             std::string::npos);
 }
 
-TEST_F(ComediBoard, NominalVoltsOfABoardThatNeedsAFileAreWarnedOf) {
+TEST_F(ComediBoard, WarnsIfTheCalibrationFileIsMissing) {
   board_->subdevices[1].soft_calibrated = true;
   ASSERT_EQ(opened().notices.size(), 1U);
   EXPECT_NE(test::shown(opened().notices[0])

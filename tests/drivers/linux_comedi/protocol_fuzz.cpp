@@ -7,8 +7,8 @@
 
 #include "drivers/linux_comedi/protocol.h"
 
-// Width of samples, number of inputs, length of reads, then samples: codes are of whole scans, as
-// many as there are bytes for, and their volts are finite.
+// Input: width of samples, number of inputs, length of reads, then samples. The codes are whole
+// scans, as many as the bytes contain, and their volts are finite.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mdof::drivers::linux_comedi;
   if (size < 3) return 0;

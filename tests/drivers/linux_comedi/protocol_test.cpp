@@ -15,7 +15,7 @@ std::string bytes_of(const std::vector<Sample>& samples) {
   return bytes;
 }
 
-TEST(ComediCodes, ScansAreCutWhereverReadsEnd) {
+TEST(ComediCodes, CutsScansAtAnyReadBoundary) {
   std::vector<std::uint16_t> narrow;
   std::vector<std::uint32_t> wide, expected;
   for (std::uint32_t i = 0; i < 300; ++i) {
@@ -29,7 +29,7 @@ TEST(ComediCodes, ScansAreCutWhereverReadsEnd) {
     const std::string narrow_bytes = bytes_of(narrow), wide_bytes = bytes_of(wide);
     for (std::size_t at = 0; at < narrow_bytes.size(); at += size) {
       narrow_line.take(std::string_view(narrow_bytes).substr(at, size), narrow_codes);
-      ASSERT_EQ(narrow_codes.size() % 3, 0U);  // whole scans only
+      ASSERT_EQ(narrow_codes.size() % 3, 0U);  // only whole scans
     }
     for (std::size_t at = 0; at < wide_bytes.size(); at += size)
       wide_line.take(std::string_view(wide_bytes).substr(at, size), wide_codes);
@@ -38,7 +38,7 @@ TEST(ComediCodes, ScansAreCutWhereverReadsEnd) {
   }
 }
 
-TEST(ComediVolts, NominalByTheRange) {
+TEST(ComediVolts, ConvertsNominallyByTheRange) {
   const Polynomial both = nominal({-10, 10}, 65535), one = nominal({0, 5}, 4095);
   EXPECT_EQ(volts(0, both), -10);
   EXPECT_NEAR(volts(65535, both), 10, 1e-12);
@@ -46,7 +46,7 @@ TEST(ComediVolts, NominalByTheRange) {
   EXPECT_NEAR(volts(819, one), 1, 1e-12);
 }
 
-TEST(ComediVolts, APolynomialAboutItsOrigin) {
+TEST(ComediVolts, EvaluatesThePolynomialAboutItsOrigin) {
   const Polynomial p{{1, 0.5, 0.25, -0.125}, 10};
   EXPECT_EQ(volts(10, p), 1);
   EXPECT_EQ(volts(12, p), 1 + 1 + 1 - 1);
@@ -54,26 +54,26 @@ TEST(ComediVolts, APolynomialAboutItsOrigin) {
   EXPECT_EQ(volts(14, p), 1 + 2 + 4 - 8);
 }
 
-TEST(ComediVolts, TheEndsOfItsRangeAreRails) {
+TEST(ComediVolts, EndsOfTheRangeAreRails) {
   EXPECT_TRUE(at_rail(0, 65535));
   EXPECT_FALSE(at_rail(1, 65535));
   EXPECT_FALSE(at_rail(65534, 65535));
   EXPECT_TRUE(at_rail(65535, 65535));
-  EXPECT_TRUE(at_rail(5000, 4095));  // more than it can
+  EXPECT_TRUE(at_rail(5000, 4095));  // above the greatest code
 }
 
-TEST(ComediRanges, AreFoundByTheirEnds) {
+TEST(ComediRanges, FindsRangesByTheirLimits) {
   const std::vector<Range> ranges = {{0, 10, false}, {-10, 10}, {-5, 5}, {0, 10}};
   EXPECT_EQ(range_index(ranges, -10, 10), 1U);
   EXPECT_EQ(range_index(ranges, -5, 5), 2U);
-  EXPECT_EQ(range_index(ranges, 0, 10), 3U);  // that of mA is none
+  EXPECT_EQ(range_index(ranges, 0, 10), 3U);  // the range in mA is not used
   EXPECT_FALSE(range_index(ranges, 0, 5));
   EXPECT_FALSE(range_index(ranges, -10, 5));
   EXPECT_EQ(text_of(ranges[2]), "-5 to 5 V");
   EXPECT_EQ(text_of(ranges[0]), "0 to 10");
 }
 
-TEST(ComediReferences, HaveTheirNames) {
+TEST(ComediReferences, ReferencesHaveNames) {
   for (const auto reference :
        {Reference::ground, Reference::common, Reference::differential, Reference::other})
     EXPECT_EQ(reference_of(name_of(reference)), reference);
@@ -100,7 +100,7 @@ class ComediCommand : public testing::Test {
   std::vector<BoardInput> inputs_ = {{0, 1, Reference::ground}, {3, 0, Reference::differential}};
 };
 
-TEST_F(ComediCommand, ATimerForScansAndOneForInputs) {
+TEST_F(ComediCommand, UsesTimersForScansAndInputs) {
   const auto made = command(4000);
   ASSERT_TRUE(made);
   EXPECT_EQ(made->subdevice, 2U);
@@ -120,7 +120,7 @@ TEST_F(ComediCommand, ATimerForScansAndOneForInputs) {
   EXPECT_EQ(command(50'000)->convert.argument, 10'000U);  // 20 us are more than half a scan
 }
 
-TEST_F(ComediCommand, InputsAtOnceWhereTheBoardCan) {
+TEST_F(ComediCommand, ReadsInputsSimultaneouslyIfPossible) {
   sources_.convert.source = kTimer | kNow;
   EXPECT_EQ(command(1000)->convert.source, kNow);
   EXPECT_EQ(command(1000)->convert.argument, 0U);
@@ -131,7 +131,7 @@ TEST_F(ComediCommand, InputsAtOnceWhereTheBoardCan) {
   EXPECT_FALSE(command(1000, 5));
 }
 
-TEST_F(ComediCommand, WithoutATimerForScansInputsFollowWithoutAPause) {
+TEST_F(ComediCommand, WithoutScanTimerInputsFollowWithoutPause) {
   sources_.scan_begin.source = kFollow;
   const auto made = command(4000);
   ASSERT_TRUE(made);
@@ -142,18 +142,18 @@ TEST_F(ComediCommand, WithoutATimerForScansInputsFollowWithoutAPause) {
   EXPECT_EQ(convert_us(*made), 125);
 }
 
-TEST_F(ComediCommand, SlowScansAreAskedForOneByOne) {
+TEST_F(ComediCommand, SlowScansWakeTheReaderOneByOne) {
   EXPECT_EQ(command(1000)->flags, kWakeEachScan);
   EXPECT_EQ(command(1001)->flags, 0U);
 }
 
-TEST_F(ComediCommand, AnEndOnlyWhereThereIsNoOther) {
+TEST_F(ComediCommand, UsesAnEndOnlyIfTheBoardNeedsOne) {
   sources_.stop.source = kCount;
   EXPECT_EQ(command(1000)->stop.source, kCount);
   EXPECT_EQ(command(1000)->stop.argument, UINT32_MAX);
 }
 
-TEST_F(ComediCommand, WhatCannotBeTimedIsRefused) {
+TEST_F(ComediCommand, RefusesBoardsWithoutTimers) {
   sources_.scan_begin.source = 0x40;  // external
   EXPECT_NE(refusal().find("no timer for scans"), std::string::npos);
   sources_.scan_begin.source = kTimer;
@@ -163,7 +163,7 @@ TEST_F(ComediCommand, WhatCannotBeTimedIsRefused) {
   EXPECT_NE(refusal().find("cannot be started"), std::string::npos);
 }
 
-TEST(ComediSteps, HaveComedilibsNames) {
+TEST(ComediSteps, FailedStepsHaveComedilibsNames) {
   EXPECT_STREQ(failed_step(3), "invalid argument");
   EXPECT_STREQ(failed_step(5), "invalid chanlist");
   EXPECT_STREQ(failed_step(6), "unknown");

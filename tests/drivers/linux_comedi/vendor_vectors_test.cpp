@@ -1,6 +1,6 @@
-// comedilib itself, where it needs no board: its conversions and its calibration files are what
-// this driver takes them for. Sources: Linux-Comedi/comedilib lib/range.c (comedi_to_phys),
-// lib/calib.c (comedi_to_physical, comedi_get_softcal_converter), lib/calib_yacc.y (the file).
+// Compares the driver with the parts of comedilib that need no board: its conversions and its
+// calibration files. Sources: Linux-Comedi/comedilib lib/range.c (comedi_to_phys), lib/calib.c
+// (comedi_to_physical, comedi_get_softcal_converter), lib/calib_yacc.y (the file).
 #include <comedilib.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,21 +14,21 @@
 namespace mdof::drivers::linux_comedi {
 namespace {
 
-TEST(ComediVectors, NominalVoltsAreComedilibs) {
+TEST(ComediVectors, NominalVoltsEqualComedilibs) {
   comedi_range range{-5, 5, UNIT_volt};
   const Polynomial own = nominal({-5, 5}, 4095);
   for (const lsampl_t code : {1U, 7U, 2047U, 2048U, 4094U})
     EXPECT_NEAR(volts(code, own), comedi_to_phys(code, &range, 4095), 1e-12) << code;
 }
 
-TEST(ComediVectors, RailsAreWhereComedilibHasNoValue) {
+TEST(ComediVectors, RailsAreWhereComedilibReturnsNan) {
   comedi_set_global_oor_behavior(COMEDI_OOR_NAN);
   comedi_range range{0, 10, UNIT_volt};
   for (const lsampl_t code : {0U, 1U, 65534U, 65535U, 70000U})
     EXPECT_EQ(at_rail(code, 65535), std::isnan(comedi_to_phys(code, &range, 65535))) << code;
 }
 
-TEST(ComediVectors, APolynomialOfAFileGivesComedilibsVolts) {
+TEST(ComediVectors, FilePolynomialGivesComedilibsVolts) {
   const auto path = std::filesystem::temp_directory_path() /
                     ("mdof_comedi_calibration." + std::to_string(::getpid()));
   std::ofstream(path) << R"({

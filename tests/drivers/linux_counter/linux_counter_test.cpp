@@ -16,7 +16,7 @@
 namespace mdof::drivers {
 namespace {
 
-TEST(CountUnwrap, WrapsBothWaysAtAnyCeiling) {
+TEST(CountUnwrap, WrapsInBothDirectionsAtAnyCeiling) {
   for (const std::uint64_t ceiling :
        {std::uint64_t{65535}, std::uint64_t{9999}, std::uint64_t{0xFFFFFFFF}, UINT64_MAX}) {
     CountUnwrap unwrap(ceiling);
@@ -40,18 +40,18 @@ TEST(CountUnwrap, FollowsManyTurns) {
   }
 }
 
-TEST(CountUnwrap, TheFirstReadingIsSigned) {
+TEST(CountUnwrap, FirstReadingIsSigned) {
   EXPECT_EQ(CountUnwrap(65535)(65530), -6);
   EXPECT_EQ(CountUnwrap(9999)(4000), 4000);
   EXPECT_EQ(CountUnwrap(9999)(6000), -4000);
   EXPECT_EQ(CountUnwrap(9999)(10'000), std::nullopt);
 }
 
-TEST(CheckCount, SaysWhatToWriteWhere) {
+TEST(CheckCount, ErrorStatesFileAndRequiredText) {
   CountFiles good{"quadrature x4", "normal", "1", "65535", "0"};
   EXPECT_EQ(check_count(good, "count0", "quadrature x4", 0), 65535u);
   EXPECT_EQ(check_count({}, "count0", "", 65535), 65535u);
-  // The kernel's ABI: of the modes only these two go on counting at an end.
+  // The kernel's ABI: only these two modes continue counting at a limit.
   CountFiles modulo = good;
   modulo.count_mode = "modulo-n";
   EXPECT_EQ(check_count(modulo, "count0", "quadrature x4", 0), 65535u);
@@ -76,7 +76,7 @@ TEST(CheckCount, SaysWhatToWriteWhere) {
     EXPECT_NE(message.find(part), std::string::npos) << message;
 }
 
-TEST(SysfsInteger, SignedUnsignedAndRubbish) {
+TEST(SysfsInteger, ParsesSignedAndUnsignedAndRefusesOthers) {
   EXPECT_EQ(parse_sysfs_integer("-5"), -5);
   EXPECT_EQ(parse_sysfs_integer("18446744073709551615"), -1);
   EXPECT_EQ(parse_sysfs_integer("-9223372036854775808"), INT64_MIN);
@@ -84,7 +84,7 @@ TEST(SysfsInteger, SignedUnsignedAndRubbish) {
     EXPECT_EQ(parse_sysfs_integer(text), std::nullopt) << text;
 }
 
-TEST(SysfsError, NamesTheRemedy) {
+TEST(SysfsError, ErrorNamesTheRemedy) {
   EXPECT_NE(sysfs_error(EBUSY).find("another program"), std::string::npos);
   EXPECT_NE(sysfs_error(EIO).find("check the wires"), std::string::npos);
   EXPECT_NE(sysfs_error(ENODEV).find("gone"), std::string::npos);
@@ -131,7 +131,7 @@ TEST_F(LinuxCounter, PollsAtItsRateAndUnwraps) {
   ASSERT_EQ(all.error, "");
   EXPECT_EQ(all.scans[0][0], 0);
   expect_growing(all.time_ns);
-  // Each poll is made or counted; the last may have been late.
+  // Each poll is made or counted as lost; the last may be late.
   const double passed_ms = static_cast<double>(all.time_ns.back() - before_ns) / 1e6;
   const auto polls = static_cast<double>(all.time_ns.size() + all.lost);
   EXPECT_LE(polls, passed_ms + 2);
@@ -144,7 +144,7 @@ TEST_F(LinuxCounter, PollsAtItsRateAndUnwraps) {
   }
 }
 
-TEST_F(LinuxCounter, ReturnsInTimeWhereTheRateIsLow) {
+TEST_F(LinuxCounter, ReadReturnsInTimeAtALowRate) {
   options_.rate_hz = 0.1;
   const auto driver = make_linux_counter("scale", options_);
   ASSERT_TRUE(driver->open());
@@ -156,7 +156,7 @@ TEST_F(LinuxCounter, ReturnsInTimeWhereTheRateIsLow) {
   EXPECT_LT(monotonic_ns() - before_ns, 2'000'000'000);
 }
 
-TEST_F(LinuxCounter, AFewFailuresAreLostAndTheNextIsSuspect) {
+TEST_F(LinuxCounter, FewFailuresAreLostAndTheNextScanIsSuspect) {
   const auto driver = make_linux_counter("scale", options_);
   ASSERT_TRUE(driver->open());
   collect(*driver, 3);
@@ -167,8 +167,8 @@ TEST_F(LinuxCounter, AFewFailuresAreLostAndTheNextIsSuspect) {
   EXPECT_EQ(all.first_quality(0), Quality::suspect);
 }
 
-// What the counter did meanwhile nobody knows.
-TEST_F(LinuxCounter, AfterItWasAwayItsDatumIsLost) {
+// The motion of the counter during the absence is unknown.
+TEST_F(LinuxCounter, DatumIsLostAfterAnAbsence) {
   const auto driver = make_linux_counter("scale", options_);
   ASSERT_TRUE(driver->open());
   EXPECT_EQ(collect(*driver, 3).first_quality(2), Quality::good);
@@ -181,7 +181,7 @@ TEST_F(LinuxCounter, AfterItWasAwayItsDatumIsLost) {
   EXPECT_NE(driver->info().datum_lost, "");
 }
 
-TEST_F(LinuxCounter, ManyFailuresAreAnErrorUntilItIsOpenedAgain) {
+TEST_F(LinuxCounter, ManyFailuresAreAnErrorUntilReopened) {
   const auto driver = make_linux_counter("scale", options_);
   for (const int error : {EBUSY, EIO, ENODEV}) {
     ASSERT_TRUE(driver->open());
@@ -197,8 +197,8 @@ TEST_F(LinuxCounter, ManyFailuresAreAnErrorUntilItIsOpenedAgain) {
   EXPECT_EQ(collect(*driver, 5).error, "");
 }
 
-TEST_F(LinuxCounter, TheKernelsOwnEio) {
-  // Nothing is mapped at address 0: the kernel says EIO.
+TEST_F(LinuxCounter, ReportsTheKernelsEio) {
+  // No memory is mapped at address 0, so the kernel returns EIO.
   tree_->remove("count0/count");
   std::filesystem::create_symlink("/proc/self/mem",
                                   root_ / "bus/counter/devices/counter0/count0/count");
@@ -208,7 +208,7 @@ TEST_F(LinuxCounter, TheKernelsOwnEio) {
   EXPECT_NE(collect(*driver, 5).error.find("check the wires"), std::string::npos);
 }
 
-TEST_F(LinuxCounter, CountsThatAreNone) {
+TEST_F(LinuxCounter, RefusesInvalidCounts) {
   const auto driver = make_linux_counter("scale", options_);
   for (const char* text : {"banana", "65536", ""}) {
     ASSERT_TRUE(driver->open());
@@ -218,7 +218,7 @@ TEST_F(LinuxCounter, CountsThatAreNone) {
   }
 }
 
-TEST_F(LinuxCounter, WhatIsNotThereIsSaid) {
+TEST_F(LinuxCounter, ReportsMissingFilesAndInputs) {
   tree_->remove("count0/count");
   expect_refused("count0/count: No such file");
   options_.channels[0].input = "count7";
@@ -242,7 +242,7 @@ std::string configured(const std::string& toml) {
   return (*driver)->info().driver;
 }
 
-TEST(LinuxCounterConfiguration, KeysAndTheirErrors) {
+TEST(LinuxCounterConfiguration, ReadsKeysAndReportsErrors) {
   const std::string channel =
       "\n[[channel]]\nid = \"encoder\"\ninput = \"count0\"\num_per_count = 0.05\n";
   EXPECT_EQ(configured("device = \"counter1\"\nchip = \"x\"\nfunction = \"quadrature x4\"\n"

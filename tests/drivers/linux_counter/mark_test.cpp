@@ -65,15 +65,15 @@ class Quad8Index : public testing::Test {
   std::unique_ptr<SysfsPoller> driver_;
 };
 
-TEST_F(Quad8Index, FromTheMarkOnPositionsAreCountedFromIt) {
+TEST_F(Quad8Index, PositionsAreCountedFromThePassedMark) {
   ASSERT_TRUE(device_->move_to(300));
   ASSERT_EQ(refusal(), "opened");
-  // drivers/counter/104-quad-8.c: quad8_count_preset_write takes 24 bits,
-  // quad8_count_preset_enable_write a boolean that is true where the index loads.
+  // drivers/counter/104-quad-8.c: quad8_count_preset_write accepts 24 bits,
+  // quad8_count_preset_enable_write a boolean that is true if the index loads the preset.
   EXPECT_EQ(file("count0/preset"), std::to_string(300 + (1 << 22)));
   EXPECT_EQ(file("count0/preset_enable"), "1");
   expect_shown(4990, -2495);
-  EXPECT_EQ(at(5010).quality, Quality::missing);  // the count has not gone on yet
+  EXPECT_EQ(at(5010).quality, Quality::missing);  // the count has not moved on yet
   EXPECT_EQ(driver_->marks_passed(), 0);
   expect_shown(5100, -50);
   EXPECT_EQ(driver_->marks_passed(), 1);
@@ -84,7 +84,7 @@ TEST_F(Quad8Index, FromTheMarkOnPositionsAreCountedFromIt) {
   EXPECT_EQ(driver_->marks_passed(), 1);
 }
 
-TEST_F(Quad8Index, ABlockIsCountedFromOnePlaceAndTellsItsMark) {
+TEST_F(Quad8Index, MarkStartsANewBlock) {
   ASSERT_EQ(refusal(), "opened");
   at(4000);
   ASSERT_TRUE(device_->move_to(5400));
@@ -99,7 +99,7 @@ TEST_F(Quad8Index, ABlockIsCountedFromOnePlaceAndTellsItsMark) {
   EXPECT_TRUE(passed);
 }
 
-TEST_F(Quad8Index, FarFromWhereItWasArmedItIsArmedAnew) {
+TEST_F(Quad8Index, ArmsAgainFarFromTheFirstPosition) {
   ASSERT_TRUE(device_->move_to(8'000'000));
   ASSERT_EQ(refusal(), "opened");
   for (std::int64_t position = 7'600'000; position > 0; position -= 400'000)
@@ -109,7 +109,7 @@ TEST_F(Quad8Index, FarFromWhereItWasArmedItIsArmedAnew) {
   EXPECT_EQ(driver_->marks_passed(), 1);
 }
 
-TEST_F(Quad8Index, ACountThatJumpsElsewhereIsAnErrorAndThenSuspectUntilTheMark) {
+TEST_F(Quad8Index, ImpossibleCountIsAnErrorThenSuspect) {
   ASSERT_EQ(refusal(), "opened");
   at(100);
   ASSERT_TRUE(device_->tree().set("count0/count", "9000000"));
@@ -127,7 +127,7 @@ TEST_F(Quad8Index, ACountThatJumpsElsewhereIsAnErrorAndThenSuspectUntilTheMark) 
   EXPECT_EQ(driver_->info().datum_lost, "");
 }
 
-TEST_F(Quad8Index, WhatIsNotSetUpIsSaid) {
+TEST_F(Quad8Index, ReportsMissingSetup) {
   const auto expect_refused = [&](const char* name, const char* is, const std::string& part) {
     const std::string was = file(name);
     ASSERT_TRUE(device_->tree().set(name, is));
@@ -154,7 +154,7 @@ std::string configured(const std::string& keys) {
   return spec ? std::to_string(*spec->encoder.index_mm) : spec.error().message;
 }
 
-TEST(Quad8Configuration, OnlyOfThatChip) {
+TEST(Quad8Configuration, IndexNeedsA104Quad8) {
   EXPECT_EQ(configured("chip = \"104-quad-8\""), "-3.000000");
   for (const char* other : {"", "chip = \"ti-eqep\""})
     EXPECT_NE(configured(other).find("channel[1].index_mm: needs chip = \"104-quad-8\""),

@@ -19,7 +19,7 @@
 namespace mdof::drivers {
 namespace {
 
-TEST(Ad7746, CountsToPicofarads) {
+TEST(Ad7746, ConvertsCountsToPicofarads) {
   EXPECT_EQ(ad7746_pF(0, 0), 0);
   EXPECT_EQ(ad7746_pF(-8'388'608, 0), -4.096);
   EXPECT_DOUBLE_EQ(ad7746_pF(1'000'000, 0), 0.48828125);
@@ -27,7 +27,7 @@ TEST(Ad7746, CountsToPicofarads) {
   EXPECT_NEAR(ad7746_pF(0, 127 * 338'646), 21, 1e-4);
 }
 
-TEST(GapLaw, APlateBeforeATarget) {
+TEST(GapLaw, PlateLawGivesTheGap) {
   const GapLaw law{5, 0.25, {}};
   // eps0 · 5 mm² / 20 µm = 2.213546954700 pF
   const SysfsReading reading = gap_um(law, 2.2135469547 + 0.25);
@@ -39,7 +39,7 @@ TEST(GapLaw, APlateBeforeATarget) {
   }
 }
 
-TEST(GapLaw, ATableWithItsEndsHeld) {
+TEST(GapLaw, TableKeepsItsValueAtItsEnds) {
   const GapLaw law{0, 0, {{1, 90}, {2, 45}, {3, 30}}};
   EXPECT_EQ(gap_um(law, 1).value, 90);
   EXPECT_EQ(gap_um(law, 1.5).value, 67.5);
@@ -52,20 +52,20 @@ TEST(GapLaw, ATableWithItsEndsHeld) {
   EXPECT_EQ(gap_um(law, 3.1).quality, Quality::over_range);
 }
 
-TEST(GapLaw, TheErrorOfStraightLinesIsAsTheManualSays) {
+TEST(GapLaw, InterpolationErrorIsAsStatedInTheManual) {
   GapLaw table;
   const GapLaw plate{5, 0, {}};
   const double step_pF = 0.07;
   for (double pF = 1.4; pF < 4; pF += step_pF) table.table.push_back({pF, gap_um(plate, pF).value});
   for (double pF = 1.41; pF < 3.9; pF += 0.01) {
     const double gap = gap_um(plate, pF).value;
-    // gap · (step / C)² / 4, with the C of the interval's beginning
+    // gap · (step / C)² / 4, where C is the capacitance at the beginning of the interval
     const double bound = gap * std::pow(step_pF / (pF - step_pF), 2) / 4;
     ASSERT_LE(std::abs(gap_um(table, pF).value - gap), 1.2 * bound) << pF;
   }
 }
 
-TEST(Ad7746, TheEndsOfItsRangeAreOverRange) {
+TEST(Ad7746, EndsOfTheRangeAreOverRange) {
   const GapLaw law{5, 0, {}};
   EXPECT_EQ(ad7746_gap_um(law, 8'388'607, 0).quality, Quality::over_range);
   EXPECT_EQ(ad7746_gap_um(law, -8'388'608, 43'008'000).quality, Quality::over_range);
@@ -118,7 +118,8 @@ TEST_F(LinuxIio, ReadsGapsOfBothKindsOfInputs) {
             "91");
 }
 
-// As another user, or where /sys is read-only: in a child, whose rights and mounts are its own.
+// Runs as another user, or with a read-only /sys: in a child process with its own rights and
+// mounts.
 constexpr int kNotPossibleHere = 77;
 
 template <class Restrict>
@@ -136,7 +137,7 @@ int exit_of_child(const LinuxIioOptions& options, const std::string& part, Restr
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-TEST_F(LinuxIio, ARateThatMayNotBeWrittenIsRefusedWithTheRule) {
+TEST_F(LinuxIio, RateWithoutPermissionIsRefusedWithTheRule) {
   const auto file = root_ / "bus/iio/devices/iio:device0/in_capacitance_sampling_frequency";
   std::filesystem::permissions(file, std::filesystem::perms(0444));
   constexpr uid_t kNobody = 65534;
@@ -147,7 +148,7 @@ TEST_F(LinuxIio, ARateThatMayNotBeWrittenIsRefusedWithTheRule) {
       0);
 }
 
-TEST_F(LinuxIio, ARateInAReadOnlySysfsIsRefusedWithTheDropIn) {
+TEST_F(LinuxIio, RateInReadOnlySysfsIsRefusedWithTheDropIn) {
   const auto read_only = [this] {
     const char* root = root_.c_str();
     return ::unshare(CLONE_NEWNS) == 0 &&
@@ -160,7 +161,7 @@ TEST_F(LinuxIio, ARateInAReadOnlySysfsIsRefusedWithTheDropIn) {
   EXPECT_EQ(exit, 0);
 }
 
-TEST_F(LinuxIio, NothingBeforeTheProbeIsMissing) {
+TEST_F(LinuxIio, ReadingWithoutAProbeIsMissing) {
   const auto driver = make_linux_iio("probes", options_);  // 0 pF
   ASSERT_TRUE(driver->open());
   const Collected all = collect(*driver, 1);
@@ -168,7 +169,7 @@ TEST_F(LinuxIio, NothingBeforeTheProbeIsMissing) {
   EXPECT_EQ(all.first_quality(0), Quality::missing);
 }
 
-TEST_F(LinuxIio, AnI2cErrorIsAnError) {
+TEST_F(LinuxIio, I2cErrorIsReported) {
   options_.rate_hz = 50;
   const auto driver = make_linux_iio("probes", options_);
   ASSERT_TRUE(driver->open());
@@ -180,7 +181,7 @@ TEST_F(LinuxIio, AnI2cErrorIsAnError) {
   EXPECT_NE(collect(*driver, 20).error.find("has more than 24 bits"), std::string::npos);
 }
 
-TEST_F(LinuxIio, WhatIsNoAd7746IsRefused) {
+TEST_F(LinuxIio, RefusesOtherChips) {
   options_.rate_hz = 91;
   expect_refused("lower rate_hz or raise sampling_hz");
   ASSERT_TRUE(tree_->set("in_capacitance_scale", "0.488"));
@@ -191,7 +192,7 @@ TEST_F(LinuxIio, WhatIsNoAd7746IsRefused) {
   expect_refused("to list the devices, run: grep");
 }
 
-TEST_F(LinuxIio, AnAd7745HasNoSecondInput) {
+TEST_F(LinuxIio, Ad7745HasNoSecondInput) {
   options_.channels[0].input = "capacitance1";
   tree_->remove("in_capacitance1_raw");
   expect_refused("in_capacitance1_raw: No such file");
@@ -210,7 +211,7 @@ std::string configured(const std::string& toml) {
   return (*driver)->info().driver;
 }
 
-TEST(LinuxIioConfiguration, KeysAndTheirErrors) {
+TEST(LinuxIioConfiguration, ReadsKeysAndReportsErrors) {
   const std::string channel = "\n[[channel]]\nid = \"A\"\ninput = \"capacitance0\"\n";
   EXPECT_EQ(configured("sampling_hz = 91\nrate_hz = 50" + channel + "area_mm2 = 5\nstray_pF = 1"),
             "linux_iio");

@@ -6,7 +6,8 @@
 
 #include "drivers/linux_iio/protocol.h"
 
-// Raw value, what was subtracted, stray capacitance: no reading is infinite, and NaN is flagged.
+// Input: raw value, subtracted counts, stray capacitance. No reading is infinite, and NaN is
+// flagged.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace mdof;
   struct {

@@ -1,4 +1,4 @@
-// The files and numbers of the kernel's own driver: torvalds/linux, drivers/iio/cdc/ad7746.c.
+// Files and numbers of the kernel's driver: torvalds/linux, drivers/iio/cdc/ad7746.c.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -18,12 +18,12 @@ std::string line_of(const fs::path& file) {
   return line;
 }
 
-TEST(LinuxIioVectors, TheSimulatedOneHasTheFilesOfTheKernel) {
+TEST(LinuxIioVectors, SimulatedDeviceHasTheKernelsFiles) {
   const fs::path root = fs::temp_directory_path() / ("mdof_ad7746_" + std::to_string(::getpid()));
   ASSERT_TRUE(make_ad7746_tree(root));
   const fs::path device = root / "bus/iio/devices/iio:device0";
-  // ad7746_channels: RAW apart, OFFSET of the single, ZEROPOINT of the differential inputs, SCALE
-  // and SAMP_FREQ by type.
+  // ad7746_channels: RAW separate, OFFSET of the single and ZEROPOINT of the differential inputs,
+  // SCALE and SAMP_FREQ by type.
   for (const char* file :
        {"in_capacitance0_raw", "in_capacitance0_offset", "in_capacitance1_raw",
         "in_capacitance1_offset", "in_capacitance0-capacitance2_raw",
@@ -33,7 +33,7 @@ TEST(LinuxIioVectors, TheSimulatedOneHasTheFilesOfTheKernel) {
     EXPECT_TRUE(fs::exists(device / file)) << file;
   EXPECT_EQ(line_of(device / "in_capacitance_sampling_frequency_available"),
             "91 84 50 26 16 13 11 9");  // ad7746_cap_samp_freq
-  // ad7746_read_raw, IIO_CHAN_INFO_SCALE: 8.192 pF / 2^24, written as nano.
+  // ad7746_read_raw, IIO_CHAN_INFO_SCALE: 8.192 pF / 2^24, written with nano resolution.
   EXPECT_EQ(line_of(device / "in_capacitance_scale"), "0.000000488");
   fs::remove_all(root);
 }

@@ -29,7 +29,7 @@ INSTANTIATE_TEST_SUITE_P(Framings, ModbusClientBoth, testing::Values(Kind::tcp, 
                            return tried.param == Kind::tcp ? "Tcp" : "Rtu";
                          });
 
-TEST_P(ModbusClientBoth, ReadsAndWritesWhatLibmodbusServes) {
+TEST_P(ModbusClientBoth, ReadsAndWritesRegistersOfLibmodbus) {
   LibraryServer server(GetParam());
   auto client = connect(server, GetParam(), milliseconds(200));
   ASSERT_TRUE(client) << client.error().message;
@@ -51,7 +51,7 @@ TEST_P(ModbusClientBoth, ReadsAndWritesWhatLibmodbusServes) {
   EXPECT_EQ(client->rejected(), 0u);
 }
 
-TEST_P(ModbusClientBoth, AnExceptionIsNamedWithItsRegisters) {
+TEST_P(ModbusClientBoth, ExceptionErrorNamesItsRegisters) {
   LibraryServer server(GetParam());
   auto client = connect(server, GetParam(), milliseconds(50));
   ASSERT_TRUE(client);
@@ -91,7 +91,7 @@ TEST_P(ModbusClientBoth, SilenceIsAnErrorWithinTheTimeOut) {
   EXPECT_EQ(client->exception(), 0);
 }
 
-TEST(ModbusClient, ATcpClientIsOfNoUseAfterAnError) {
+TEST(ModbusClient, TcpClientIsUnusableAfterAnError) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
   auto client = ModbusClient::over_tcp(ByteStream(ends[0], "gone"), {1, milliseconds(200)});
@@ -106,7 +106,7 @@ TEST(ModbusClient, ATcpClientIsOfNoUseAfterAnError) {
       << again.error().message;
 }
 
-TEST(ModbusClient, OptionsThatAreNoneAreRefused) {
+TEST(ModbusClient, RefusesInvalidOptions) {
   for (const int unit : {-1, 0, 248, 256}) {
     std::array<int, 2> ends{};
     ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
@@ -117,7 +117,7 @@ TEST(ModbusClient, OptionsThatAreNoneAreRefused) {
   }
 }
 
-TEST(ModbusClient, TooManyRegistersAreRefusedBeforeAnythingIsSent) {
+TEST(ModbusClient, RefusesTooManyRegistersBeforeSending) {
   LibraryServer server(Kind::tcp);
   auto client = connect(server, Kind::tcp, milliseconds(200));
   ASSERT_TRUE(client);
@@ -132,7 +132,7 @@ TEST(ModbusClient, TooManyRegistersAreRefusedBeforeAnythingIsSent) {
 }
 
 // libmodbus aborts on such a descriptor.
-TEST(ModbusClient, ADescriptorThatSelectCannotTakeIsRefused) {
+TEST(ModbusClient, RefusesADescriptorTooLargeForSelect) {
   rlimit before{};
   ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
   if (before.rlim_max <= FD_SETSIZE) GTEST_SKIP() << "descriptors end at " << before.rlim_max;

@@ -1,4 +1,4 @@
-// Profiles, driver and simulated device together, over real sockets and a pseudo-terminal.
+// Profiles, driver and simulated device together, over real sockets and a pseudo terminal.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 
@@ -68,7 +68,7 @@ SampleBlock one_scan(Driver& driver, int reads = 20) {
 
 const std::string kPosition = channel("encoder", "position");
 
-TEST(ModbusDriver, AnAdamIsReadInVoltsInOneBlock) {
+TEST(ModbusDriver, ReadsVoltsOfAnAdamInOneBlock) {
   SimulatedModbus device([](std::size_t i, std::int64_t) { return i - 3.5; },
                          {profile_of("adam-6017"), {}});
   ServedDevice served(device);
@@ -90,7 +90,7 @@ TEST(ModbusDriver, AnAdamIsReadInVoltsInOneBlock) {
   }
 }
 
-TEST(ModbusDriver, AnAdamAtTheEndsOfItsRangeIsOverRange) {
+TEST(ModbusDriver, AdamAtTheEndsOfItsRangeIsOverRange) {
   SimulatedModbus::Faults faults;
   faults.words[{modbus::kReadHolding, 0}] = 0;
   faults.words[{modbus::kReadHolding, 1}] = 65535;
@@ -108,7 +108,7 @@ TEST(ModbusDriver, AnAdamAtTheEndsOfItsRangeIsOverRange) {
   EXPECT_DOUBLE_EQ(block.value[1][0], 10);
 }
 
-TEST(ModbusDriver, AnAdamInAnotherRangeOrNoAdamIsRefusedAtOpening) {
+TEST(ModbusDriver, RefusesOtherRangesAndDevicesAtOpening) {
   SimulatedModbus::Faults faults;
   faults.words[{modbus::kReadHolding, 203}] = 0x0142;
   SimulatedModbus device([](auto, auto) { return 1.0; }, {profile_of("adam-6017"), faults});
@@ -132,7 +132,7 @@ TEST(ModbusDriver, AnAdamInAnotherRangeOrNoAdamIsRefusedAtOpening) {
   EXPECT_NE(refused.error().message.find("not an ADAM-6017"), std::string::npos);
 }
 
-TEST(ModbusDriver, ASlowAdamIsReadWithinItsTimeOutAndGivenUpBeyond) {
+TEST(ModbusDriver, ReadsASlowAdamWithinTheTimeoutOnly) {
   SimulatedModbus::Faults faults;
   faults.delay_ms = 30;
   SimulatedModbus device([](auto, auto) { return 1.0; }, {profile_of("adam-6017"), faults});
@@ -148,7 +148,7 @@ TEST(ModbusDriver, ASlowAdamIsReadWithinItsTimeOutAndGivenUpBeyond) {
       << opened.error().message;
 }
 
-TEST(ModbusDriver, ABrokenConnectionIsAnErrorAndOpenStartsAnew) {
+TEST(ModbusDriver, BrokenConnectionIsAnErrorUntilReopened) {
   SimulatedModbus::Faults faults{Kind::hang_up, 6};
   SimulatedModbus device([](auto, auto) { return 5.0; }, {profile_of("pokeys57e"), faults});
   ServedDevice served(device);
@@ -174,7 +174,7 @@ TEST(ModbusDriver, ABrokenConnectionIsAnErrorAndOpenStartsAnew) {
   EXPECT_GT(scans, 6);
 }
 
-TEST(ModbusDriver, APoKeysCountsAcrossTheEndsOf32BitsLeastSignificantWordFirst) {
+TEST(ModbusDriver, UnwrapsThe32BitCountsOfAPoKeys) {
   std::atomic<double> counts = -2;
   SimulatedModbus device([&](std::size_t i, auto) { return i == 2 ? counts.load() : 7; },
                          {profile_of("pokeys57e"), {}});
@@ -191,8 +191,8 @@ TEST(ModbusDriver, APoKeysCountsAcrossTheEndsOf32BitsLeastSignificantWordFirst) 
   EXPECT_EQ(one_scan(*driver).value[0][0], -1'073'742'000.0);
 }
 
-// Whether it had power meanwhile is not known; an absolute scale needs no such doubt.
-TEST(ModbusDriver, ACountingEncoderThatWasAwayIsSuspectUntilItIsTrusted) {
+// It is unknown whether the device kept its power; an absolute scale does not need this check.
+TEST(ModbusDriver, CountIsSuspectAfterAReopenUntilTrusted) {
   SimulatedModbus device([](auto, auto) { return 5.0; }, {profile_of("pokeys57e"), {}});
   ServedDevice served(device);
   auto driver = driver_of(toml_of("pokeys57e", served.address(),
@@ -222,7 +222,7 @@ struct Smax {
   std::unique_ptr<Driver> driver;
 };
 
-TEST(ModbusDriver, ASmaxIsReadInMicrometres) {
+TEST(ModbusDriver, ReadsMicrometresOfASmax) {
   Smax smax;
   const auto opened = smax.driver->open();
   ASSERT_TRUE(opened) << opened.error().message;
@@ -231,17 +231,18 @@ TEST(ModbusDriver, ASmaxIsReadInMicrometres) {
   EXPECT_EQ(block.quality_at(0, 0), Quality::good);
 }
 
-TEST(ModbusDriver, ASmaxCountsOnBelowZero) {
+TEST(ModbusDriver, SmaxCountsBelowZero) {
   Smax smax({}, "ring_bits = 11\n");
   smax.position = 1;
   ASSERT_TRUE(smax.driver->open());
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], 100.0);
-  smax.position = -3;  // the ring of 11 bits reads 2045; the simulated one has 13 and reads 8189
+  // A ring of 11 bits reads 2045; the simulated ring has 13 bits and reads 8189.
+  smax.position = -3;
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], -300.0);
 }
 
-// By hand: at -5 counts of 100 um the ring of 13 bits reads 8187.
-TEST(ModbusDriver, ASmaxThatIsOpenedAgainBelowZeroStaysWhereItIs) {
+// Calculated by hand: at -5 counts of 100 um the ring of 13 bits reads 8187.
+TEST(ModbusDriver, SmaxReopenedBelowZeroKeepsItsPosition) {
   Smax smax;
   smax.position = 5;
   ASSERT_TRUE(smax.driver->open());
@@ -250,12 +251,12 @@ TEST(ModbusDriver, ASmaxThatIsOpenedAgainBelowZeroStaysWhereItIs) {
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], -500.0);
   ASSERT_TRUE(smax.driver->open());
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], -500.0);
-  smax.position = -7;  // while it was away
+  smax.position = -7;  // while the driver is closed
   ASSERT_TRUE(smax.driver->open());
   EXPECT_EQ(one_scan(*smax.driver).value[0][0], -700.0);
 }
 
-TEST(ModbusDriver, ASmaxsAlarmsAreWhatItsReadingsAreWorth) {
+TEST(ModbusDriver, SmaxAlarmsSetTheQuality) {
   struct Case {
     int address;
     std::uint16_t word;
@@ -275,7 +276,7 @@ TEST(ModbusDriver, ASmaxsAlarmsAreWhatItsReadingsAreWorth) {
   }
 }
 
-TEST(ModbusDriver, ANoisyRtuLineLosesScansAndNothingElse) {
+TEST(ModbusDriver, NoisyRtuLineOnlyLosesScans) {
   for (const Kind kind : {Kind::bad_crc, Kind::silence, Kind::exception, Kind::foreign_traffic}) {
     Smax smax({kind, 7});
     ASSERT_TRUE(smax.driver->open());
@@ -289,7 +290,7 @@ TEST(ModbusDriver, ANoisyRtuLineLosesScansAndNothingElse) {
   }
 }
 
-TEST(ModbusDriver, ADeadRtuLineIsAnErrorAtOpening) {
+TEST(ModbusDriver, DeadRtuLineIsAnErrorAtOpening) {
   Smax smax({Kind::silence, 1}, "unit = 9\n");
   const auto opened = smax.driver->open();
   ASSERT_FALSE(opened);
@@ -298,7 +299,7 @@ TEST(ModbusDriver, ADeadRtuLineIsAnErrorAtOpening) {
       << opened.error().message;
 }
 
-TEST(ModbusDriver, ReadComesBackInTimeBetweenPolls) {
+TEST(ModbusDriver, ReadReturnsInTimeBetweenPolls) {
   Smax smax({}, "");
   auto driver = driver_of(toml_of("lika-smax", smax.served.address(), kPosition,
                                   "poll_ms = 5000\nresponse_timeout_ms = 40\n"));
@@ -310,9 +311,9 @@ TEST(ModbusDriver, ReadComesBackInTimeBetweenPolls) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, milliseconds(2000));
 }
 
-// A serial line: the driver on the slave side of a pseudo-terminal, the device on the other. Then
-// the adapter is unplugged: asking it fails at once, again and again, and must not take a core.
-TEST(ModbusDriver, ASmaxIsReadOverASerialLineUntilItIsUnplugged) {
+// A serial line: the driver on the slave side of a pseudo terminal, the device on the other. Then
+// the adapter is unplugged: each attempt fails immediately and must not load the CPU.
+TEST(ModbusDriver, ReadsASmaxOnASerialLineUntilUnplugged) {
   auto plugged = std::make_unique<ByteStream>(::posix_openpt(O_RDWR | O_NOCTTY), "pty");
   ByteStream& master = *plugged;
   ASSERT_EQ(::grantpt(master.fd()), 0);
@@ -350,7 +351,7 @@ std::string refusal(const std::string& toml) {
   return spec ? "accepted" : spec.error().message;
 }
 
-TEST(ModbusConfiguration, WhatIsWrongIsNamedWithItsKey) {
+TEST(ModbusConfiguration, ReportsErrorsWithTheirKey) {
   const std::string smax = "profile = \"lika-smax\"\nport = \"/dev/ttyUSB0\"\n";
   EXPECT_EQ(refusal(smax + kPosition), "accepted");
   const auto says = [&](const std::string& toml, const std::string& part) {

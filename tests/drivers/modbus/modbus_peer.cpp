@@ -1,8 +1,8 @@
-// For peers_test.py: the simulated slave for other programs to read, and the client to read other
-// programs' slaves.
-//   modbus_peer serve PROFILE               prints "PORT", or the path of a pseudo-terminal for
-//   RTU;
-//                                           value i of the profile is i + 1; ends with its input
+// For peers_test.py: a simulated slave that other programs read, and a client that reads slaves of
+// other programs.
+//   modbus_peer serve PROFILE               prints "PORT", or the path of a pseudo terminal for
+//                                           RTU; value i of the profile is i + 1; ends with its
+//                                           input
 //   modbus_peer read tcp|rtu ADDRESS UNIT holding|input REGISTER COUNT   prints the registers
 //   modbus_peer write tcp|rtu ADDRESS UNIT REGISTER VALUE...
 #include <fcntl.h>
@@ -37,7 +37,8 @@ int serve_serial(SimulatedModbus& device) {
   if (::grantpt(master.fd()) != 0 || ::unlockpt(master.fd()) != 0 ||
       ::ptsname_r(master.fd(), path.data(), path.size()) != 0)
     return 1;
-  const int kept_open = ::open(path.data(), O_RDWR | O_NOCTTY);  // or the first close hangs it up
+  // Otherwise the first close() hangs up the line.
+  const int kept_open = ::open(path.data(), O_RDWR | O_NOCTTY);
   device.opened(0, 1, 0);
   std::atomic<bool> stop = false;
   std::thread serving([&] {

@@ -17,7 +17,7 @@ struct Vector {
   const char* adu;
 };
 
-// Reads and replies of a LabJack T7, an ADAM-6017 and a Lika SMAX by the rules of their manuals.
+// Reads and replies of a LabJack T7, an ADAM-6017 and a Lika SMAX according to their manuals.
 std::vector<Vector> vectors() {
   const std::array<std::uint16_t, 2> ten_volts = {0x4120, 0};
   const std::array<std::uint16_t, 2> quadrature = {0, 10};
@@ -58,7 +58,7 @@ std::vector<Vector> vectors() {
   };
 }
 
-TEST(ModbusProtocol, EveryVectorBothWays) {
+TEST(ModbusProtocol, EncodesAndDecodesEveryVector) {
   for (const Vector& v : vectors()) {
     EXPECT_EQ(wrap(v.framing, {v.transaction, 1, v.pdu}), bytes(v.adu)) << v.what;
     const auto frame = unwrap(v.framing, bytes(v.adu));
@@ -69,7 +69,7 @@ TEST(ModbusProtocol, EveryVectorBothWays) {
   }
 }
 
-TEST(ModbusProtocol, ARepliesRegistersAreThoseAskedFor) {
+TEST(ModbusProtocol, ReplyHasTheRequestedRegisters) {
   const Frame asked{0, 1, read_request(kReadInput, 0, 2)};
   const auto answer = answer_to(asked, Framing::rtu, bytes("01 04 04 00 00 04 D2 79 19"));
   ASSERT_TRUE(answer) << answer.error().message;
@@ -85,7 +85,7 @@ std::string why_not(Framing framing, const Frame& asked, const std::string& adu)
   return answer ? "accepted" : answer.error().message;
 }
 
-TEST(ModbusProtocol, AReplyThatIsNoAnswerIsRefusedWithTheReason) {
+TEST(ModbusProtocol, RefusesOtherRepliesWithTheReason) {
   const Frame asked{9, 7, read_request(kReadHolding, 100, 2)};
   const Frame good{9, 7, bytes("03 04 00 11 22 33")};
   const auto tcp = [&](const Frame& reply) {
@@ -107,7 +107,7 @@ TEST(ModbusProtocol, AReplyThatIsNoAnswerIsRefusedWithTheReason) {
   EXPECT_EQ(rtu({9, 7, bytes("03 02 00 11 22 33")}), "the reply has byte count 4 instead of 4");
 }
 
-TEST(ModbusProtocol, AHeaderThatLiesIsRefused) {
+TEST(ModbusProtocol, RefusesAWrongHeader) {
   const Frame asked{2, 1, read_request(kReadHolding, 55100, 2)};
   const std::string good = bytes("00 02 00 00 00 07 01 03 04 00 11 22 33");
   EXPECT_EQ(why_not(Framing::tcp, asked, good), "accepted");
@@ -121,8 +121,8 @@ TEST(ModbusProtocol, AHeaderThatLiesIsRefused) {
   EXPECT_NE(why_not(Framing::tcp, asked, good + '\0'), "accepted");
 }
 
-// MODBUS Messaging on TCP/IP 3.1.3: the length counts unit and PDU, and a PDU has a function.
-TEST(ModbusProtocol, AReplyWithoutAFunctionIsCutShort) {
+// MODBUS Messaging on TCP/IP 3.1.3: the length includes unit and PDU, and a PDU has a function.
+TEST(ModbusProtocol, ReplyWithoutAFunctionIsIncomplete) {
   const Frame asked{2, 1, read_request(kReadHolding, 55100, 2)};
   EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 01 01")), "the reply is incomplete");
   EXPECT_EQ(why_not(Framing::tcp, asked, bytes("00 02 00 00 00 00")), "the reply is incomplete");
@@ -130,7 +130,7 @@ TEST(ModbusProtocol, AReplyWithoutAFunctionIsCutShort) {
             "the reply has length 8 instead of 7");
 }
 
-TEST(ModbusProtocol, EveryBitOfAnRtuReplyIsGuarded) {
+TEST(ModbusProtocol, CrcProtectsEveryBitOfAnRtuReply) {
   const Frame asked{0, 1, read_request(kReadInput, 0, 2)};
   const std::string good = bytes("01 04 04 00 00 04 D2 79 19");
   for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
@@ -142,7 +142,7 @@ TEST(ModbusProtocol, EveryBitOfAnRtuReplyIsGuarded) {
     EXPECT_NE(why_not(Framing::rtu, asked, good.substr(0, size)), "accepted") << size;
 }
 
-TEST(ModbusProtocol, AWriteIsConfirmedByItsOwnEcho) {
+TEST(ModbusProtocol, EchoConfirmsAWrite) {
   const std::array<std::uint16_t, 2> values = {1, 2};
   const Frame asked{4, 1, write_request(43900, values)};
   const auto reply = [&](const char* pdu) {

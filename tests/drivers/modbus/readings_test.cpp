@@ -22,7 +22,7 @@ std::string value(const std::string& keys) {
   return "[[value]]\nname = \"v\"\naddress = 0\n" + keys;
 }
 
-// The one value of a profile, read from these registers.
+// Reads the only value of a profile from these registers.
 Reading reading(const std::string& keys, const std::string& hex, double um_per_count = 1) {
   const Profile profile = profile_from(value(keys));
   Readings readings(profile, {{profile.values[0], um_per_count}});
@@ -32,7 +32,7 @@ Reading reading(const std::string& keys, const std::string& hex, double um_per_c
   return readings.read()[0];
 }
 
-TEST(ModbusReadings, EveryTypeInBothWordOrders) {
+TEST(ModbusReadings, ReadsEveryTypeInBothWordOrders) {
   EXPECT_EQ(reading("", "FFFE").value, 65534);
   EXPECT_EQ(reading("type = \"i16\"", "FFFE").value, -2);
   EXPECT_EQ(reading("type = \"u32\"", "00112233").value, 0x00112233);
@@ -44,13 +44,13 @@ TEST(ModbusReadings, EveryTypeInBothWordOrders) {
   EXPECT_EQ(reading("type = \"f32\"\nwords = \"low-first\"", "0000C020").value, -2.5);
 }
 
-TEST(ModbusReadings, ScaleOffsetAndCounts) {
+TEST(ModbusReadings, AppliesScaleOffsetAndCountLength) {
   EXPECT_EQ(reading("scale = 0.5\noffset = -3\nunit = \"V\"", "0008").value, 1);
   EXPECT_EQ(reading("", "0008", -0.25).value, -2);
   EXPECT_EQ(reading("unit = \"V\"", "0008", -0.25).value, 8);
 }
 
-TEST(ModbusReadings, ANumberThatIsNoneIsMissing) {
+TEST(ModbusReadings, InvalidFloatIsMissing) {
   for (const char* hex : {"7FC00000", "7F800000", "FF800000"}) {
     const Reading r = reading("type = \"f32\"\nunit = \"V\"", hex);
     EXPECT_EQ(r.quality, Quality::missing);
@@ -58,7 +58,7 @@ TEST(ModbusReadings, ANumberThatIsNoneIsMissing) {
   }
 }
 
-TEST(ModbusReadings, TheWorstOfAllBitsCounts) {
+TEST(ModbusReadings, WorstStatusBitSetsTheQuality) {
   const std::string statuses = R"([[status]]
 address = 1
 mask = 0x0003
@@ -92,7 +92,7 @@ address = 2
   EXPECT_EQ(quality(1, 8), Quality::good);
 }
 
-TEST(ModbusReadings, ARingCountsOnAcrossItsEnds) {
+TEST(ModbusReadings, RingContinuesOverItsEnds) {
   const Profile profile = profile_from(value("ring_bits = 11\n"));
   Readings readings(profile, {{profile.values[0], 1}});
   const auto count = [&](std::uint16_t raw) {
@@ -107,8 +107,8 @@ TEST(ModbusReadings, ARingCountsOnAcrossItsEnds) {
   EXPECT_EQ(count(5), 2053);
 }
 
-// Of a LabJack T7 and a PoKeys57E: the other word first.
-TEST(ModbusReadings, ValuesAreWrittenInBothWordOrders) {
+// A LabJack T7 and a PoKeys57E have opposite word orders.
+TEST(ModbusReadings, EncodesValuesInBothWordOrders) {
   const auto words = [](const std::string& keys, double raw) {
     return encode(profile_from(value(keys)).values[0], raw);
   };
@@ -121,7 +121,7 @@ TEST(ModbusReadings, ValuesAreWrittenInBothWordOrders) {
   EXPECT_EQ(words("type = \"f32\"", -2.5), (Words{0xC020, 0}));
 }
 
-TEST(ModbusReadings, AdjacentRegistersAreReadTogether) {
+TEST(ModbusReadings, ReadsAdjacentRegistersTogether) {
   const auto at = [](int address, int count = 1, Function function = kReadHolding) {
     return Span{{function, address}, count};
   };
@@ -138,7 +138,7 @@ TEST(ModbusReadings, AdjacentRegistersAreReadTogether) {
   EXPECT_EQ(plan_reads({}, 0), std::vector<Block>{});
 }
 
-TEST(ModbusProfiles, ThoseThatShipAreRightAndPlanOneRead) {
+TEST(ModbusProfiles, BuiltInProfilesAreValidAndNeedOneRead) {
   ASSERT_EQ(built_in_profiles().size(), 3u);
   for (const auto& [name, text] : built_in_profiles()) {
     const auto profile = load_profile(name, "");
@@ -160,8 +160,8 @@ TEST(ModbusProfiles, ThoseThatShipAreRightAndPlanOneRead) {
   EXPECT_EQ(load_profile("pokeys57e", "")->values[24].at.address, 748);
 }
 
-// Appendix of the SMAX manual: alarms and position of one reply.
-TEST(ModbusProfiles, ASmaxReplyIsReadAsItsManualSays) {
+// Appendix of the SMAX manual: alarms and position in one reply.
+TEST(ModbusProfiles, ReadsASmaxReplyOfTheManual) {
   const auto smax = load_profile("lika-smax", "");
   Readings readings(*smax, {{smax->values[0], 100}});
   const Frame asked{0, 1, read_request(kReadInput, 0, 7)};
@@ -173,7 +173,7 @@ TEST(ModbusProfiles, ASmaxReplyIsReadAsItsManualSays) {
   EXPECT_EQ(readings.read()[0].quality, Quality::good);
 }
 
-TEST(ModbusProfiles, AFileOfOnesOwnIsReadByItsPath) {
+TEST(ModbusProfiles, LoadsAProfileByItsPath) {
   const std::string path = testing::TempDir() + "mdof_modbus_profile_test.toml";
   std::ofstream(path) << "name = \"mine\"\nprotocol = \"rtu\"\n" << value("type = \"f32\"\n");
   const auto mine = load_profile(path, "/nowhere");
@@ -184,7 +184,7 @@ TEST(ModbusProfiles, AFileOfOnesOwnIsReadByItsPath) {
   EXPECT_EQ(mine->values[0].type, Type::f32);
 }
 
-TEST(ModbusProfiles, WhatIsWrongIsNamedWithLineAndKey) {
+TEST(ModbusProfiles, ReportsErrorsWithLineAndKey) {
   const auto says = [](const std::string& text, const std::string& part) {
     const auto profile = parse_profile(text, "p.toml");
     ASSERT_FALSE(profile) << text;
@@ -221,21 +221,21 @@ TEST(ModbusProfiles, WhatIsWrongIsNamedWithLineAndKey) {
        "the profile has no value \"w\"");
 }
 
-TEST(ModbusSentinels, AreOfALengthThatNoValueIsAskedByAndThatNoneOwesStill) {
+TEST(ModbusSentinels, SentinelLengthIsUnusedAndNotPending) {
   Sentinels sentinels;
   const Shape three{kReadInput, 3}, two{kReadInput, 2}, one{kReadInput, 1}, four{kReadInput, 4};
   EXPECT_TRUE(sentinels.add_regular(three));
   EXPECT_EQ(sentinels.pick(three), two);
   EXPECT_EQ(sentinels.pick(three), two);  // the same until it has proved the line
   sentinels.proved();
-  EXPECT_EQ(sentinels.pick(three), two);  // its reply has come, none is owed
+  EXPECT_EQ(sentinels.pick(three), two);  // its reply has arrived; none is pending
   sentinels.failed();
-  sentinels.proved();  // by the second: the reply to the first may be either
+  sentinels.proved();  // proved by the second; the reply may be that to the first
   EXPECT_EQ(sentinels.pick(three), one);
   sentinels.proved();
   EXPECT_EQ(sentinels.pick(three), two);
   sentinels.failed();
-  EXPECT_FALSE(sentinels.add_regular(two));  // owed: the line has to be proved first
+  EXPECT_FALSE(sentinels.add_regular(two));  // pending: the line must be tested first
   EXPECT_EQ(sentinels.pick(two), one);
   sentinels.proved();
   EXPECT_TRUE(sentinels.add_regular(two));
@@ -243,7 +243,7 @@ TEST(ModbusSentinels, AreOfALengthThatNoValueIsAskedByAndThatNoneOwesStill) {
   EXPECT_EQ(sentinels.pick(three), four);
 }
 
-TEST(ModbusSentinels, OneRegisterIsProvedByMore) {
+TEST(ModbusSentinels, SentinelForOneRegisterReadsMore) {
   Sentinels sentinels;
   sentinels.add_regular({kReadHolding, 1});
   EXPECT_EQ(sentinels.pick({kReadHolding, 1}), (Shape{kReadHolding, 2}));

@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace mdof::drivers::pokeys57u;
   std::string bytes(reinterpret_cast<const char*>(data), size);
   (void)may_be_serial(bytes, 12345);
-  // With a right checksum, so that the rest is reached.
+  // With a valid checksum, so that the rest of the parser is reached.
   bytes.resize(kFrameBytes, '\0');
   unsigned sum = 0;
   for (std::size_t i = 1; i < 7; ++i) sum += static_cast<std::uint8_t>(bytes[i]);

@@ -37,7 +37,7 @@ std::string padded(const char* hex) {
   return all;
 }
 
-TEST(PoKeys57uProtocol, RequestsAreTheVectorsBothWays) {
+TEST(PoKeys57uProtocol, EncodesAndDecodesRequestVectors) {
   for (const Vector& vector : vectors()) {
     EXPECT_EQ(wrap(Way::request, vector.frame), padded(vector.first)) << vector.first;
     const auto read = unwrap(Way::request, padded(vector.first));
@@ -46,7 +46,7 @@ TEST(PoKeys57uProtocol, RequestsAreTheVectorsBothWays) {
   }
 }
 
-TEST(PoKeys57uProtocol, NothingElseIsAReply) {
+TEST(PoKeys57uProtocol, AcceptsNothingElseAsAReply) {
   Frame frame = request(kEncoderValues);
   frame.id = 9;
   const std::string good = wrap(Way::reply, frame);
@@ -55,7 +55,8 @@ TEST(PoKeys57uProtocol, NothingElseIsAReply) {
   EXPECT_FALSE(unwrap(Way::reply, good.substr(0, 63)));
   EXPECT_FALSE(unwrap(Way::reply, good + '\0'));
   EXPECT_FALSE(unwrap(Way::reply, ""));
-  for (std::size_t i = 0; i < 8; ++i) {  // each bit that the checksum covers, and its own
+  // Each bit that the checksum covers, and the bits of the checksum.
+  for (std::size_t i = 0; i < 8; ++i) {
     for (int bit = 0; bit < 8; ++bit) {
       std::string bad = good;
       bad[i] = static_cast<char>(bad[i] ^ (1 << bit));
@@ -64,7 +65,7 @@ TEST(PoKeys57uProtocol, NothingElseIsAReply) {
   }
 }
 
-TEST(PoKeys57uProtocol, CountsAreLittleEndianAndTheUltraFastOneIsLast) {
+TEST(PoKeys57uProtocol, CountsAreLittleEndianUltraFastLast) {
   Frame reply;
   Counts counts{};
   for (std::size_t i = 0; i < counts.size(); ++i) counts[i] = static_cast<int>(i) - 5;
@@ -77,7 +78,7 @@ TEST(PoKeys57uProtocol, CountsAreLittleEndianAndTheUltraFastOneIsLast) {
   EXPECT_EQ(all.substr(56, 4), bytes("FF FF FF 7F"));
 }
 
-TEST(PoKeys57uProtocol, AnalogueInputsAreBigEndianTheTickLittle) {
+TEST(PoKeys57uProtocol, AnalogueInputsAreBigEndianTickIsLittle) {
   Frame reply;
   set_analogue(reply, {0x0123, 0, 4095, 0, 0, 0, 0x0ABC});
   EXPECT_EQ(wrap(Way::reply, reply).substr(8, 14),
@@ -89,7 +90,7 @@ TEST(PoKeys57uProtocol, AnalogueInputsAreBigEndianTheTickLittle) {
   EXPECT_EQ(tick_of(reply), 0x01020304u);
 }
 
-TEST(PoKeys57uProtocol, BothKindsOfBoardsSayWhoTheyAre) {
+TEST(PoKeys57uProtocol, ReadsTheIdentityOfBothKindsOfBoards) {
   std::string reply = padded("AA 00 00 00 32 13 01 F0 50 4B 35 38 39 30 00 00 00 00 1C");
   auto frame = unwrap(Way::reply, reply);
   ASSERT_TRUE(frame);
@@ -102,7 +103,7 @@ TEST(PoKeys57uProtocol, BothKindsOfBoardsSayWhoTheyAre) {
   EXPECT_EQ(identity_of(*frame).model(), "PoKeys");
 }
 
-TEST(PoKeys57uProtocol, UsbWritesTheSerialNumberInTwoWays) {
+TEST(PoKeys57uProtocol, AcceptsBothFormatsOfUsbSerialNumbers) {
   EXPECT_TRUE(may_be_serial("2.12345", 12345));
   EXPECT_TRUE(may_be_serial("12345.2", 12345));
   EXPECT_TRUE(may_be_serial("12345", 12345));
@@ -112,7 +113,7 @@ TEST(PoKeys57uProtocol, UsbWritesTheSerialNumberInTwoWays) {
   EXPECT_FALSE(may_be_serial("99999999999999999999", 1));
 }
 
-TEST(PoKeys57uProtocol, ANumberOwedIsNotUsedAgain) {
+TEST(PoKeys57uProtocol, PendingNumberIsNotUsedAgain) {
   RequestIds ids;
   const std::uint8_t late = ids.next(0);
   for (int i = 0; i < 1000; ++i) {
@@ -128,14 +129,14 @@ TEST(PoKeys57uProtocol, ANumberOwedIsNotUsedAgain) {
   EXPECT_TRUE(seen.contains(late)) << "its reply cannot come any more";
 }
 
-TEST(PoKeys57uProtocol, WhereAllNumbersAreOwedTheOldestIsUsed) {
+TEST(PoKeys57uProtocol, UsesTheOldestNumberIfAllArePending) {
   RequestIds ids;
   const std::uint8_t first = ids.next(0);
   for (int i = 1; i < 256; ++i) EXPECT_NE(ids.next(i), first);
   EXPECT_EQ(ids.next(300), first);
 }
 
-TEST(PoKeys57uProtocol, TheOldestNeedNotBeTheNext) {
+TEST(PoKeys57uProtocol, UsesAFreeNumberBeforeTheOldest) {
   RequestIds ids;
   const std::uint8_t first = ids.next(0);
   for (int i = 1; i < 256; ++i) ids.next(i);
@@ -145,9 +146,9 @@ TEST(PoKeys57uProtocol, TheOldestNeedNotBeTheNext) {
   EXPECT_EQ(ids.next(301), first);
 }
 
-// What is put into a frame stays within its place: encoder 13 ends at byte 59, input 7 at 21, the
-// tick at 5.
-TEST(PoKeys57uProtocol, NothingIsWrittenBesideItsPlace) {
+// Data of a frame stay within their offsets: encoder 13 ends at byte 59, input 7 at 21, the tick at
+// 5.
+TEST(PoKeys57uProtocol, WritesOnlyWithinTheOffsets) {
   struct {
     Counts counts;
     std::int32_t beside = -1;
@@ -169,8 +170,8 @@ TEST(PoKeys57uProtocol, NothingIsWrittenBesideItsPlace) {
   EXPECT_EQ(wrap(Way::reply, reply).substr(0, 12), bytes("AA 00 FF FF FF FF 00 A6 00 00 00 00"));
 }
 
-// "increment per request": one more than the last, over what is owed still.
-TEST(PoKeys57uProtocol, NumbersGoOnByOneAndPassOverWhatIsOwed) {
+// "increment per request": the last number plus one, skipping pending numbers.
+TEST(PoKeys57uProtocol, NumbersIncreaseAndSkipPendingOnes) {
   RequestIds ids;
   const std::uint8_t owed = ids.next(0);
   for (int i = 1; i < 256; ++i) {

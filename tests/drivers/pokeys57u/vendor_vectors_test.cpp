@@ -1,4 +1,4 @@
-// What PoLabs' own library sends and how it takes replies apart: c-core-labs/pokeyslib.
+// Requests of PoLabs' own library, and the way it parses replies: c-core-labs/pokeyslib.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,13 +11,14 @@ namespace {
 
 using modbus::bytes;
 
-// Encoder n is at n, the ultra-fast one at -2; the first analogue input is at its end.
+// Encoder n gives n, the ultra-fast encoder -2; the first analogue input is at the end of its
+// range.
 double senses(std::size_t input, std::int64_t /*t_ns*/) {
   if (input < kEncoders) return static_cast<double>(input + 1);
   return input == kUltraFast ? -2 : input == kCounters ? kAnalogueTop_V : 0;
 }
 
-// To a whole frame; bytes are apart by spaces.
+// Pads to a whole frame; bytes are separated by spaces.
 std::string padded(const std::string& hex, const char* with) {
   std::string all = hex;
   const auto given = 1 + std::count(hex.begin(), hex.end(), ' ');
@@ -25,8 +26,9 @@ std::string padded(const std::string& hex, const char* with) {
   return all;
 }
 
-TEST(PoKeys57uVectors, TheSimulatedOneAnswersWhatTheVendorsLibraryAccepts) {
-  // 0xAA, the request's number at 6, the sum of bytes 0 to 6 at 7: PoKeysLibCore.c, SendRequest.
+TEST(PoKeys57uVectors, SimulatedDeviceAnswersAsTheVendorAccepts) {
+  // 0xAA; the number of the request at byte 6; the sum of bytes 0 to 6 at byte 7: PoKeysLibCore.c,
+  // SendRequest.
   const VendorVector vectors[] = {
       {"encoders 1 to 13", "BB CD 00 00 00 00 02 8A",
        "AA .. .. .. .. .. 02 .. 01 00 00 00 02 00 00 00 03 00 00 00 04 00 00 00 05 00 00 00 06 00 "
@@ -59,9 +61,10 @@ TEST(PoKeys57uVectors, TheSimulatedOneAnswersWhatTheVendorsLibraryAccepts) {
   }
 }
 
-// PoKeysLibCore.c: vendor 0x1DC3, product 0x1001, interface 1, frames of 64 bytes; the
-// specification: 25 encoders and an ultra-fast one, seven analogue inputs of 12 bits, 0 to 3.3 V.
-TEST(PoKeys57uVectors, NumbersAreTheVendors) {
+// PoKeysLibCore.c: vendor 0x1DC3, product 0x1001, interface 1, frames of 64 bytes. The
+// specification: 25 encoders and an ultra-fast encoder, seven analogue inputs of 12 bits, 0 to 3.3
+// V.
+TEST(PoKeys57uVectors, NumbersEqualTheVendors) {
   EXPECT_EQ(kVendor, 0x1DC3);
   EXPECT_EQ(kProduct, 0x1001);
   EXPECT_EQ(kInterface, 1);
@@ -75,7 +78,7 @@ TEST(PoKeys57uVectors, NumbersAreTheVendors) {
 }
 
 // The specification's table of hardware numbers.
-TEST(PoKeys57uVectors, BoardsHaveTheirNames) {
+TEST(PoKeys57uVectors, BoardsHaveNames) {
   const auto named = [](int hardware) { return Identity{1, hardware, ""}.model(); };
   EXPECT_EQ(named(10), "PoKeys56U");
   EXPECT_EQ(named(28), "PoKeys57U");

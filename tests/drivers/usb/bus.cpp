@@ -36,7 +36,7 @@ Bus::Bus(std::function<std::int64_t()> clock)
     ADD_FAILURE() << "to be run by umockdev-wrapper";
     std::abort();
   }
-  std::signal(SIGHUP, SIG_IGN);              // of a terminal that closes
+  std::signal(SIGHUP, SIG_IGN);              // from a terminal that closes
   ::chmod(root_of(testbed_).c_str(), 0777);  // for forbid()
   g_signal_connect(base_, "handle-ioctl", G_CALLBACK(on_ioctl), this);
   thread_ = std::thread([this] {
@@ -70,7 +70,7 @@ int Bus::on_ioctl(UMockdevIoctlBase* /*base*/, void* client, void* self) {
     if (node->submitted != before) node->serve(bus->clock_());
     return answered ? TRUE : FALSE;
   }
-  umockdev_ioctl_client_complete(from, -1, ENODEV);  // of a device that has left
+  umockdev_ioctl_client_complete(from, -1, ENODEV);  // the device was unplugged
   return TRUE;
 }
 
@@ -93,7 +93,7 @@ std::string Bus::describe(const Node& node) {
   return text;
 }
 
-// Nodes whose device and program are gone are let go.
+// Frees nodes that neither a device nor a program uses.
 int Bus::free_number() {
   const std::lock_guard lock(mutex_);
   std::erase_if(nodes_,
@@ -145,7 +145,7 @@ void Bus::change(const std::function<void()>& act) {
 void Bus::forbid(int number) {
   change([&] {
     ::chmod(nodes_.at(number)->terminal.c_str(), 0);
-    // umockdev connects to its own socket whether or not the node may be opened.
+    // umockdev connects to its own socket even if the node may not be opened.
     ::chmod((root_of(testbed_) + "/ioctl" + nodes_.at(number)->devnode).c_str(), 0777);
   });
 }

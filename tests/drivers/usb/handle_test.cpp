@@ -1,4 +1,4 @@
-// The layer over libusb, against a device on a simulated bus.
+// The libusb layer with a device on a simulated bus.
 #include "drivers/usb/handle.h"
 
 #include <gtest/gtest.h>
@@ -35,11 +35,11 @@ class UsbHandle : public testing::Test {
   Bus bus;
 };
 
-TEST_F(UsbHandle, NobodyThereIsSaid) {
+TEST_F(UsbHandle, ReportsAMissingDevice) {
   EXPECT_TRUE(has(refusal(), "no Stub (1209:0001) is on the USB")) << refusal();
 }
 
-TEST_F(UsbHandle, ASingleDeviceNeedsNoName) {
+TEST_F(UsbHandle, SingleDeviceNeedsNoSerialNumber) {
   bus.plug(device);
   const auto handle = open();
   ASSERT_TRUE(handle) << handle.error().message;
@@ -47,7 +47,7 @@ TEST_F(UsbHandle, ASingleDeviceNeedsNoName) {
   EXPECT_EQ(handle->where(), "USB bus 1, device 2");
 }
 
-TEST_F(UsbHandle, OfSeveralTheNamedOneIsOpened) {
+TEST_F(UsbHandle, OpensTheDeviceWithTheSerialNumber) {
   bus.plug(device);
   bus.plug(other);
   const std::string message = refusal();
@@ -60,7 +60,7 @@ TEST_F(UsbHandle, OfSeveralTheNamedOneIsOpened) {
       << refusal("S3");
 }
 
-TEST_F(UsbHandle, ADeviceWithoutSerialNumberIsAsked) {
+TEST_F(UsbHandle, AsksADeviceWithoutSerialNumberInDescriptor) {
   bus.plug(nameless);
   bus.plug(other);
   const auto handle = Handle::open({"Stub", 0x1209, 1, "abcd", 0, [](Handle& asked) {
@@ -70,11 +70,11 @@ TEST_F(UsbHandle, ADeviceWithoutSerialNumberIsAsked) {
   EXPECT_EQ(handle->serial(), "abcd");
 }
 
-TEST_F(UsbHandle, NoPermissionNamesTheRule) {
+TEST_F(UsbHandle, PermissionErrorNamesTheRule) {
   const int number = bus.plug(device);
   bus.forbid(number);
   const auto user = ::geteuid();
-  // Of this thread alone: root may open whatever it likes.
+  // Changes the user of this thread only, because root may open every file.
   if (user == 0) ::syscall(SYS_setresuid, -1, 65534, -1);
   const std::string message = refusal();
   if (user == 0) ::syscall(SYS_setresuid, -1, 0, -1);
@@ -82,7 +82,7 @@ TEST_F(UsbHandle, NoPermissionNamesTheRule) {
   EXPECT_TRUE(has(message, "device 2")) << message;
 }
 
-TEST_F(UsbHandle, ADeviceInUseSaysByWhat) {
+TEST_F(UsbHandle, NamesTheUserOfADeviceInUse) {
   const int number = bus.plug(device);
   {
     const auto first = open();
@@ -94,11 +94,11 @@ TEST_F(UsbHandle, ADeviceInUseSaysByWhat) {
   EXPECT_TRUE(has(refusal(), "in use by the kernel's driver cdc_acm")) << refusal();
 }
 
-TEST_F(UsbHandle, AProgramThatHasAFileOpenIsFound) {
+TEST_F(UsbHandle, FindsAProgramThatHasAFileOpen) {
   char path[] = "/tmp/mdof-owner-XXXXXX";
   const int fd = ::mkstemp(path);
   ASSERT_GE(fd, 0);
-  EXPECT_EQ(program_that_opened(path), "");  // this one does not count
+  EXPECT_EQ(program_that_opened(path), "");  // this process is ignored
   int ready[2], stop[2];
   ASSERT_EQ(::pipe(ready) | ::pipe(stop), 0);
   const pid_t child = ::fork();
@@ -117,7 +117,7 @@ TEST_F(UsbHandle, AProgramThatHasAFileOpenIsFound) {
   ::unlink(path);
 }
 
-TEST_F(UsbHandle, ControlTransfersGoBothWays) {
+TEST_F(UsbHandle, ControlTransfersWorkInBothDirections) {
   bus.plug(device);
   auto handle = open();
   ASSERT_TRUE(handle);
@@ -130,7 +130,7 @@ TEST_F(UsbHandle, ControlTransfersGoBothWays) {
       has(handle->vendor_out(9, 0, 0, "", 500ms).error().message, "refused the request (stall)"));
 }
 
-TEST_F(UsbHandle, BulkTransfersGoBothWays) {
+TEST_F(UsbHandle, BulkTransfersWorkInBothDirections) {
   bus.plug(device);
   auto handle = open();
   ASSERT_TRUE(handle);
@@ -154,7 +154,7 @@ TEST_F(UsbHandle, EachFailureHasItsMessageAndEndsInTime) {
   EXPECT_TRUE(has(handle->bulk_in(0x81, 64, 500ms).error().message, "overflow"));
 }
 
-TEST_F(UsbHandle, DrainThrowsAwayWhatWaits) {
+TEST_F(UsbHandle, DrainDiscardsPendingData) {
   bus.plug(device);
   auto handle = open();
   ASSERT_TRUE(handle);
@@ -164,7 +164,7 @@ TEST_F(UsbHandle, DrainThrowsAwayWhatWaits) {
   EXPECT_EQ(handle->bulk_in(0x81, 64, 500ms).value(), "new");
 }
 
-TEST_F(UsbHandle, AnUnplugEndsWhatWaitsAtOnce) {
+TEST_F(UsbHandle, UnplugEndsPendingTransfersImmediately) {
   const int number = bus.plug(device);
   auto handle = open();
   ASSERT_TRUE(handle);
@@ -189,7 +189,7 @@ class UsbInStream : public UsbHandle {
   }
 };
 
-TEST_F(UsbInStream, GivesAllInOrder) {
+TEST_F(UsbInStream, ReturnsAllDataInOrder) {
   bus.plug(device);
   auto handle = open();
   ASSERT_TRUE(handle);
@@ -218,7 +218,7 @@ TEST_F(UsbInStream, EndsWithAStall) {
   EXPECT_TRUE(has(message(stream.next(steady_clock::now() + 5s)), "(stall)"));
 }
 
-TEST_F(UsbInStream, EndsWithAnUnplugAfterWhatCameBefore) {
+TEST_F(UsbInStream, UnplugEndsTheStreamAfterEarlierData) {
   const int number = bus.plug(device);
   auto handle = open();
   ASSERT_TRUE(handle);
@@ -231,7 +231,7 @@ TEST_F(UsbInStream, EndsWithAnUnplugAfterWhatCameBefore) {
   EXPECT_TRUE(has(message(stream.next(steady_clock::now() + 5s)), "is gone from the USB"));
 }
 
-// With transfers under way; a descriptor lost each time would show at once.
+// Transfers are pending, so a descriptor lost in each round would be detected.
 TEST_F(UsbInStream, OpenedManyTimesLosesNoDescriptor) {
   bus.plug(device);
   int before = 0;
@@ -242,7 +242,7 @@ TEST_F(UsbInStream, OpenedManyTimesLosesNoDescriptor) {
     if (i % 10 == 0) InStream stream = start(*handle);
     if (i == 10) before = open_descriptors();
   }
-  EXPECT_LE(open_descriptors(), before + 8);  // some are still being closed at the other end
+  EXPECT_LE(open_descriptors(), before + 8);  // the peer is still closing some
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The driver against the simulated U6, through the real libusb.
+// The driver and the simulated U6, through the real libusb.
 #include "drivers/labjack_u6/labjack_u6.h"
 
 #include <gtest/gtest.h>
@@ -15,13 +15,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kRate_Hz = 1000;  // each packet a transfer of its own
+constexpr double kRate_Hz = 1000;  // each packet has its own transfer
 
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// AIN0 is the seconds since the beginning, AIN1 at its rail, AIN2 -1.5 V; a count a microsecond.
+// AIN0 is the time in s since the start, AIN1 is at its rail, AIN2 is -1.5 V; 1 count/us.
 struct Truth {
   std::int64_t zero_ns = monotonic_ns();
   double operator()(std::size_t input, std::int64_t t_ns) const {
@@ -38,7 +38,7 @@ class UsbLabjackU6 : public testing::Test {
         std::make_unique<SimulatedLabjackU6>(truth, SimulatedLabjackU6::Options{.faults = faults});
     number = bus.plug(*device);
   }
-  void again(const SimulatedLabjackU6::Faults& faults) {  // another one in its place
+  void again(const SimulatedLabjackU6::Faults& faults) {  // replaces the device
     made.reset();
     bus.unplug(number);
     plug(faults);
@@ -71,7 +71,7 @@ class UsbLabjackU6 : public testing::Test {
   std::string serial;
   double rate_hz = kRate_Hz, most_counts_per_s = 0;
   Input third = {{"C", Unit::volt}, 2, 0};
-  int fio = 0;  // of the encoder
+  int fio = 0;  // line of the encoder
   int number = 0;
   usb::Bus bus;
   std::unique_ptr<LabjackU6> made;
@@ -89,9 +89,9 @@ TEST_F(UsbLabjackU6, GivesVoltsAndMicrometresAtTheirTimes) {
   expect_growing(all.time_ns);
   for (std::size_t i = 0; i < all.scans.size(); ++i) {
     const double age_s = static_cast<double>(all.time_ns[i] - truth.zero_ns) * 1e-9;
-    ASSERT_NEAR(all.scans[i][0], age_s, 0.3) << i;  // a loaded machine is late
+    ASSERT_NEAR(all.scans[i][0], age_s, 0.3) << i;  // a busy machine is late
     ASSERT_NEAR(all.scans[i][2], -1.5, 2e-4);
-    // Five slots of 10 us lie between AIN0 and the counter, and its zero is that of its start.
+    // Five slots of 10 us lie between AIN0 and the counter; its zero is the count at its start.
     const double counts = all.scans[i][3] - all.scans[0][3];
     ASSERT_NEAR(counts, -0.5e6 * static_cast<double>(i) / kRate_Hz, 0.6) << i;
     ASSERT_EQ(all.quality[i][0], Quality::good);
@@ -100,8 +100,8 @@ TEST_F(UsbLabjackU6, GivesVoltsAndMicrometresAtTheirTimes) {
   }
 }
 
-// AIN2 against AIN3 is 0 V, which the constants of another range take for 1 mV.
-TEST_F(UsbLabjackU6, AnInputMayBeDifferentialAndHaveARangeOfItsOwnAndTheEncoderOtherLines) {
+// AIN2 against AIN3 is 0 V; with the constants of another range it would be 1 mV.
+TEST_F(UsbLabjackU6, InputRangeAndEncoderLinesAreSelectable) {
   third.gain = 3;
   third.differential = true;
   fio = 2;
@@ -112,12 +112,12 @@ TEST_F(UsbLabjackU6, AnInputMayBeDifferentialAndHaveARangeOfItsOwnAndTheEncoderO
   for (const auto& scan : all.scans) ASSERT_NEAR(scan[2], 0, 1e-6);
   EXPECT_LT(all.scans.back()[3], all.scans.front()[3]);
   EXPECT_EQ(all.quality.back()[3], Quality::good);
-  ASSERT_EQ(refusal(), "opened");  // it counts on
+  ASSERT_EQ(refusal(), "opened");  // the count continues
   EXPECT_EQ(driver().info().datum_lost, "");
 }
 
-// The counter goes 1,000,000 counts a second.
-TEST_F(UsbLabjackU6, ACountFasterThanItCanCountIsSuspectFromThenOn) {
+// The counter counts 1,000,000 counts/s.
+TEST_F(UsbLabjackU6, CountIsSuspectAfterExceedingItsSpeedLimit) {
   most_counts_per_s = 30'000;
   plug();
   ASSERT_EQ(refusal(), "opened");
@@ -129,7 +129,7 @@ TEST_F(UsbLabjackU6, ACountFasterThanItCanCountIsSuspectFromThenOn) {
   EXPECT_TRUE(has(driver().info().datum_lost, "counts may have been lost"));
 }
 
-TEST_F(UsbLabjackU6, ReadReturnsInTimeWithNothing) {
+TEST_F(UsbLabjackU6, ReadReturnsAtItsTimeoutWithoutData) {
   SimulatedLabjackU6::Faults faults;
   faults.stop_at = 0;
   faults.stop_error = 0;
@@ -151,8 +151,8 @@ TEST_F(UsbLabjackU6, SilenceIsAnError) {
   EXPECT_TRUE(has(collect(driver(), 1000).error, "no data for 2 s"));
 }
 
-// Its last packet does not fill a transfer.
-TEST_F(UsbLabjackU6, TheReasonOfSilenceIsFound) {
+// The last packet does not fill a transfer.
+TEST_F(UsbLabjackU6, FindsTheReasonOfSilence) {
   SimulatedLabjackU6::Faults faults;
   faults.stop_at = 8;
   plug(faults);
@@ -163,7 +163,7 @@ TEST_F(UsbLabjackU6, TheReasonOfSilenceIsFound) {
   EXPECT_EQ(all.scans.size(), 8 * 25U / 5);
 }
 
-TEST_F(UsbLabjackU6, TheNamedOneOfSeveralIsOpenedThoughItsDescriptorIsNameless) {
+TEST_F(UsbLabjackU6, OpensBySerialNumberWithoutDescriptorString) {
   SimulatedLabjackU6::Faults nameless;
   nameless.nameless = true;
   plug(nameless);
@@ -179,7 +179,7 @@ TEST_F(UsbLabjackU6, TheNamedOneOfSeveralIsOpenedThoughItsDescriptorIsNameless) 
   bus.unplug(second);
 }
 
-TEST_F(UsbLabjackU6, NobodyThereIsAnError) {
+TEST_F(UsbLabjackU6, MissingDeviceIsAnError) {
   EXPECT_TRUE(has(refusal(), "no LabJack U6 (0cd5:0006) is on the USB")) << refusal();
   SampleBlock block;
   EXPECT_TRUE(has(driver().read(block, 1ms).error().message, "not open"));
@@ -198,9 +198,9 @@ TEST_F(UsbLabjackU6, BadChecksumsAreErrors) {
   EXPECT_EQ(refusal(), "opened");
 }
 
-TEST_F(UsbLabjackU6, AStreamThatRunsAtTheStartIsStoppedAndThrownAway) {
+TEST_F(UsbLabjackU6, DiscardsAStreamThatRunsAtTheStart) {
   SimulatedLabjackU6::Faults faults;
-  faults.streaming = true;  // and a packet of counter 7 waits
+  faults.streaming = true;  // a packet with counter 7 is pending
   plug(faults);
   ASSERT_EQ(refusal(), "opened");
   const Collected all = collect(driver(), 100);
@@ -209,7 +209,7 @@ TEST_F(UsbLabjackU6, AStreamThatRunsAtTheStartIsStoppedAndThrownAway) {
   EXPECT_NEAR(all.scans[0][2], -1.5, 2e-4);
 }
 
-TEST_F(UsbLabjackU6, DroppedScansAreCountedAndTheTimeLineGoesOn) {
+TEST_F(UsbLabjackU6, CountsDroppedScansAndKeepsTimes) {
   SimulatedLabjackU6::Faults faults;
   faults.recovery_at = 5;
   faults.dropped = 300;
@@ -230,7 +230,7 @@ TEST_F(UsbLabjackU6, DroppedScansAreCountedAndTheTimeLineGoesOn) {
   EXPECT_EQ(gaps, 1U);
 }
 
-TEST_F(UsbLabjackU6, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
+TEST_F(UsbLabjackU6, InvalidStreamIsAnErrorAndIsRestarted) {
   struct Case {
     SimulatedLabjackU6::Faults faults;
     const char* says;
@@ -256,7 +256,8 @@ TEST_F(UsbLabjackU6, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
     const Collected before = collect(driver(), 10'000);
     EXPECT_TRUE(has(before.error, c.says)) << before.error;
     EXPECT_TRUE(has(before.error, "\"daq\"")) << before.error;
-    // All that was sound was given out: eight packets, but for what shared a transfer with the end.
+    // All valid scans were returned: eight packets, except those that share a transfer with the
+    // fault.
     ASSERT_GT(before.scans.size(), 4 * 25U / 5) << c.says;
     ASSERT_LE(before.scans.size(), 8 * 25U / 5) << c.says;
     if (device->gone()) {
@@ -268,13 +269,13 @@ TEST_F(UsbLabjackU6, AStreamNotToBeTrustedIsAnErrorAndIsBegunAnew) {
     ASSERT_EQ(refusal(), "opened");
     const Collected after = collect(driver(), 20);
     ASSERT_EQ(after.error, "");
-    // What would have come meanwhile is lost.
+    // The scans of the interruption are lost.
     const auto gap_ns = static_cast<double>(after.time_ns.front() - before.time_ns.back());
     EXPECT_NEAR(static_cast<double>(after.lost), gap_ns * 1e-9 * kRate_Hz - 1, 0.6);
   }
 }
 
-TEST_F(UsbLabjackU6, TheCountGoesOnOverABrokenStream) {
+TEST_F(UsbLabjackU6, CountContinuesAfterABrokenStream) {
   SimulatedLabjackU6::Faults skip;
   skip.skip_at = 8;
   plug(skip);
@@ -289,7 +290,7 @@ TEST_F(UsbLabjackU6, TheCountGoesOnOverABrokenStream) {
   EXPECT_NEAR(moved_s, after.scans[0][0] - before.scans[0][0], 1e-3);
 }
 
-TEST_F(UsbLabjackU6, ACountThatWasRestartedIsSuspect) {
+TEST_F(UsbLabjackU6, RestartedCountIsSuspect) {
   SimulatedLabjackU6::Faults unplug;
   unplug.unplug_at = 8;
   plug(unplug);
@@ -305,7 +306,7 @@ TEST_F(UsbLabjackU6, ACountThatWasRestartedIsSuspect) {
   EXPECT_EQ(after.quality[0][0], Quality::good);
 }
 
-TEST_F(UsbLabjackU6, TwoDriversOfOneDeviceAreRefused) {
+TEST_F(UsbLabjackU6, RefusesASecondDriverForOneDevice) {
   plug();
   ASSERT_EQ(refusal(), "opened");
   Settings settings;

@@ -1,4 +1,4 @@
-// The driver against the simulated USB-1608FS-Plus, through the real libusb.
+// The driver and the simulated USB-1608FS-Plus, through the real libusb.
 #include "drivers/mcc_usb1608fs_plus/mcc_usb1608fs_plus.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-// CH0 is the seconds since the beginning, CH1 beyond the range, CH4 -1.5 V.
+// CH0 is the time in s since the start, CH1 is outside of its range, CH4 is -1.5 V.
 struct Truth {
   std::int64_t zero_ns = monotonic_ns();
   double operator()(std::size_t input, std::int64_t t_ns) const {
@@ -31,7 +31,7 @@ struct Truth {
   }
 };
 
-// Of each input in its own way, so that a wrong pair shows.
+// Different for each input, so that tests detect wrong constants.
 Calibrations odd() {
   Calibrations all;
   for (std::size_t i = 0; i < kInputs; ++i)
@@ -61,7 +61,7 @@ class Usb1608 : public testing::Test {
   void change(const SimulatedMccUsb1608fsPlus::Faults& faults) {
     bus.change([&] { device->set_faults(faults); });
   }
-  // All that was given is sound: CH0 says when each scan was taken.
+  // Checks that all returned scans are valid: CH0 gives the time of each scan.
   void expect_sound(const Collected& all) {
     expect_growing(all.time_ns);
     for (std::size_t i = 1; i < all.scans.size(); ++i)
@@ -90,13 +90,13 @@ TEST_F(Usb1608, GivesCalibratedVoltsAtTheirTimes) {
   for (std::size_t i = 0; i < all.scans.size(); ++i) {
     const double age_s = static_cast<double>(all.time_ns[i] - truth.zero_ns) * 1e-9;
     ASSERT_NEAR(all.scans[i][0], -1.5, 4e-4);
-    ASSERT_NEAR(all.scans[i][1], age_s, 0.3) << i;  // a loaded machine is late
+    ASSERT_NEAR(all.scans[i][1], age_s, 0.3) << i;  // a busy machine is late
     ASSERT_EQ(all.quality[i][1], Quality::good);
     ASSERT_EQ(all.quality[i][2], Quality::over_range);
   }
 }
 
-TEST_F(Usb1608, ASlowScanIsSentAtOnce) {
+TEST_F(Usb1608, SlowScansAreSentImmediately) {
   settings.rate_hz = 50;
   plug();
   ASSERT_EQ(refusal(), "opened");
@@ -105,7 +105,7 @@ TEST_F(Usb1608, ASlowScanIsSentAtOnce) {
   expect_sound(all);
 }
 
-TEST_F(Usb1608, ReadReturnsInTimeWithNothingAndSilenceIsAnError) {
+TEST_F(Usb1608, ReadKeepsItsTimeoutAndSilenceIsAnError) {
   SimulatedMccUsb1608fsPlus::Faults faults;
   faults.silent_at = 0;
   plug(faults);
@@ -118,7 +118,7 @@ TEST_F(Usb1608, ReadReturnsInTimeWithNothingAndSilenceIsAnError) {
   EXPECT_TRUE(has(collect(driver(), 10).error, "no data for 2 s"));
 }
 
-TEST_F(Usb1608, AnOverrunIsAnErrorAndNothingBehindItIsGivenOut) {
+TEST_F(Usb1608, OverrunIsAnErrorWithoutLaterScans) {
   for (const bool stalls : {false, true}) {
     made.reset();
     if (number) bus.unplug(number);
@@ -142,18 +142,18 @@ TEST_F(Usb1608, AnOverrunIsAnErrorAndNothingBehindItIsGivenOut) {
     const Collected after = collect(driver(), 100);
     EXPECT_EQ(after.error, "");
     expect_sound(after);
-    // All that was not given out is lost.
+    // All scans that were not returned are lost.
     const auto gap_ns = static_cast<double>(after.time_ns.front() - rest.time_ns.back());
     EXPECT_NEAR(static_cast<double>(after.lost), gap_ns * 1e-9 * kRate_Hz - 1, 0.6);
   }
 }
 
-// The control of expect_sound: a scan that is missing without a word is seen.
-TEST_F(Usb1608, AMissingScanWouldBeSeen) {
+// Checks expect_sound(): it detects a scan that is missing without a report.
+TEST_F(Usb1608, DetectsAMissingScan) {
   SimulatedMccUsb1608fsPlus::Faults faults;
   faults.drop_at = 50;
   plug(faults);
-  settings.rate_hz = 500;  // a scan is six codes of CH0
+  settings.rate_hz = 500;  // 500 scans/s: a scan is six codes of CH0
   ASSERT_EQ(refusal(), "opened");
   const Collected all = collect(driver(), 150);
   ASSERT_EQ(all.error, "");
@@ -161,7 +161,7 @@ TEST_F(Usb1608, AMissingScanWouldBeSeen) {
   EXPECT_NEAR(last_s * settings.rate_hz, static_cast<double>(all.scans.size()), 0.5);
 }
 
-TEST_F(Usb1608, ShortPacketsAreJoined) {
+TEST_F(Usb1608, JoinsShortPackets) {
   for (const std::size_t size : {1U, 7U, 50U}) {
     SimulatedMccUsb1608fsPlus::Faults faults;
     faults.short_packets = size;
@@ -176,7 +176,7 @@ TEST_F(Usb1608, ShortPacketsAreJoined) {
   }
 }
 
-TEST_F(Usb1608, AScanThatRunsAtTheStartIsStoppedAndThrownAway) {
+TEST_F(Usb1608, DiscardsAScanThatRunsAtTheStart) {
   SimulatedMccUsb1608fsPlus::Faults faults;
   faults.running = true;
   plug(faults);
@@ -186,7 +186,7 @@ TEST_F(Usb1608, AScanThatRunsAtTheStartIsStoppedAndThrownAway) {
   expect_sound(all);
 }
 
-TEST_F(Usb1608, AScanThatAnotherStoppedIsAnError) {
+TEST_F(Usb1608, ScanStoppedByAnotherProgramIsAnError) {
   plug();
   ASSERT_EQ(refusal(), "opened");
   ASSERT_EQ(collect(driver(), 50).error, "");
@@ -194,7 +194,7 @@ TEST_F(Usb1608, AScanThatAnotherStoppedIsAnError) {
   EXPECT_TRUE(has(collect(driver(), 100'000).error, "the scan has stopped"));
 }
 
-TEST_F(Usb1608, ImpossibleCalibrationIsRefused) {
+TEST_F(Usb1608, RefusesImpossibleCalibration) {
   for (const float slope : {0.0F, 2.0F, std::numeric_limits<float>::quiet_NaN()}) {
     made.reset();
     if (number) bus.unplug(number);
@@ -205,13 +205,13 @@ TEST_F(Usb1608, ImpossibleCalibrationIsRefused) {
     EXPECT_TRUE(has(refusal(), "CH1: the constants in the calibration memory are impossible"))
         << refusal();
     bad[1].slope = 1;
-    bad[2].slope = slope;  // of an input that is not used
+    bad[2].slope = slope;  // of an unused input
     bus.change([&] { device->set_memory(calibration_memory(bad)); });
     EXPECT_EQ(refusal(), "opened");
   }
 }
 
-TEST_F(Usb1608, AnUnplugIsAnErrorAndItIsFoundAgain) {
+TEST_F(Usb1608, UnplugIsAnErrorAndTheDeviceIsFoundAgain) {
   plug();
   ASSERT_EQ(refusal(), "opened");
   ASSERT_EQ(collect(driver(), 100).error, "");
@@ -231,7 +231,7 @@ TEST_F(Usb1608, AnUnplugIsAnErrorAndItIsFoundAgain) {
   EXPECT_GT(after.lost, 0U);
 }
 
-TEST_F(Usb1608, AnotherSerialNumberIsRefused) {
+TEST_F(Usb1608, RefusesAnotherSerialNumber) {
   plug();
   settings.serial = "01FFFFFF";
   EXPECT_TRUE(has(refusal(), "is on the USB; found: \"01A2B3C4\"")) << refusal();

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kSetup = 8;
 
-// The ioctl's argument: what it points to, `size` bytes.
+// The data at which the ioctl's argument points, `size` bytes.
 UMockdevIoctlData* pointed(UMockdevIoctlClient* client, std::size_t size) {
   return umockdev_ioctl_data_resolve(umockdev_ioctl_client_get_arg(client), 0, size, nullptr);
 }
@@ -151,7 +151,7 @@ void Bus::Node::submit(UMockdevIoctlClient* client) {
   complete(client);
 }
 
-// The oldest that has ended.
+// Reaps the oldest transfer that has ended.
 void Bus::Node::reap(UMockdevIoctlClient* client) {
   const auto urb = std::find_if(urbs.begin(), urbs.end(), [&](const Urb& each) {
     return each.done && each.client == client;
@@ -186,12 +186,12 @@ void Bus::Node::discard(UMockdevIoctlClient* client) {
   wake();
 }
 
-// A transfer that is taken back keeps the packets that had come.
+// A cancelled transfer keeps the packets that have arrived.
 void Bus::Node::take_part(Urb& urb) {
   if (urb.type != USBDEVFS_URB_TYPE_BULK || !(urb.endpoint & 0x80)) return;
   for (const Urb& each : urbs)
     if (!each.done && each.endpoint == urb.endpoint) {
-      if (&each != &urb) return;  // of the oldest alone
+      if (&each != &urb) return;  // only for the oldest
       break;
     }
   while (urb.got.size() + kFullSpeedPacket <= urb.length) {
@@ -225,7 +225,7 @@ void Bus::Node::clear_halt(UMockdevIoctlClient* client) {
   complete(client);
 }
 
-// Transfers of one endpoint are answered in their order.
+// Answers the transfers of each endpoint in their order.
 void Bus::Node::serve(std::int64_t now_ns) {
   if (gone) return;
   last_ns_ = now_ns;
@@ -241,7 +241,7 @@ void Bus::Node::serve(std::int64_t now_ns) {
   wake();
 }
 
-// Of an endpoint that had transfers when it was served.
+// For an endpoint that had pending transfers when it was served.
 void Bus::Node::note(Asked& a, bool waiting, std::int64_t now_ns) {
   if (a.dry_since_ns) a.longest_ns = std::max(a.longest_ns, now_ns - *a.dry_since_ns);
   a.dry_since_ns.reset();

@@ -1,5 +1,5 @@
-// The greatest rates, through the real libusb: every sample that the device takes is accounted for.
-// Each input senses which sample it is.
+// The highest rates through the real libusb: every sample of the device is accounted for. Each
+// input gives the number of its sample.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -24,11 +24,11 @@ constexpr double kFor_s = 1;
 struct Count {
   std::uint64_t scans = 0, lost = 0, wrong = 0;
   std::string error;
-  std::int64_t unasked_ns = 0;  // the longest without a transfer waiting
+  std::int64_t unasked_ns = 0;  // longest time without a pending transfer
 };
 
-// Reads what a device takes in `seconds`, however long it is under way: a loaded machine is late.
-// `wrong(block, scan, k)` says that scan k of all is not the one it should be.
+// Reads the scans that a device takes in `seconds`, even if they arrive late on a busy machine.
+// `wrong(block, scan, k)`: scan k of all is not the expected one.
 template <class Wrong>
 Count read_for(Driver& driver, double seconds, double rate_hz, const Wrong& wrong) {
   Count count;
@@ -57,7 +57,7 @@ void expect_all(const Count& count, double rate_hz) {
       static_cast<double>(count.lost), static_cast<double>(count.unasked_ns) * 1e-6);
 }
 
-// A clock that steps by a scan's period, so that it is never in doubt which scan it is.
+// A clock with steps of a scan period, so that the number of the scan is always exact.
 struct ScanClock {
   std::int64_t zero_ns = monotonic_ns();
   std::atomic<std::int64_t> period_ns = 1;
@@ -85,7 +85,7 @@ class UsbU6Rates : public testing::Test {
     settings.rate_hz = std::floor(50'000.0 / static_cast<double>(words));
     rate_hz_ = stream_clock(settings.rate_hz)->rate_hz;
     clock.period_ns = std::llround(1e9 / rate_hz_);
-    // Of AIN0 in steps of a code, from the middle of the range on.
+    // AIN0 increases by one code per scan, from the middle of the range on.
     const AinCalibration c = SimulatedLabjackU6::calibration(0);
     device = std::make_unique<SimulatedLabjackU6>(
         [this, c](std::size_t input, std::int64_t t_ns) {
@@ -133,8 +133,8 @@ TEST_F(UsbU6Rates, OneInputAtFiftyThousand) {
   EXPECT_EQ(rate_hz_, 50'000);
 }
 
-// That a loss can be seen: a packet that never comes ends the run.
-TEST_F(UsbU6Rates, AMissingPacketIsSeen) {
+// Shows that a loss is detected: a missing packet ends the run.
+TEST_F(UsbU6Rates, DetectsAMissingPacket) {
   labjack_u6::SimulatedLabjackU6::Faults faults;
   faults.skip_at = 300;
   EXPECT_NE(run(5, true, faults).error.find("packets are missing"), std::string::npos);
@@ -144,7 +144,7 @@ TEST_F(UsbU6Rates, AMissingPacketIsSeen) {
 
 class Usb1608Rates : public testing::Test {
  protected:
-  static constexpr std::uint64_t kCodes = 65'000;  // none of them at the end of the range
+  static constexpr std::uint64_t kCodes = 65'000;  // none at the end of the range
 
   Count run(std::size_t inputs, double rate_hz,
             const mcc_usb1608fs_plus::SimulatedMccUsb1608fsPlus::Faults& faults,
@@ -198,8 +198,8 @@ TEST_F(Usb1608Rates, FiveInputsAtEightyThousand) {
   expect_all(run(5, 80'000, {}), 80'000);
 }
 
-// That it would be seen if no transfer waited: the host sleeps for longer than those that do.
-TEST_F(Usb1608Rates, AHostThatSleepsIsSeen) {
+// Shows that a lack of pending transfers is detected: the host sleeps longer than they last.
+TEST_F(Usb1608Rates, DetectsAHostThatSleeps) {
   run(4, 100'000, {}, 0.2);
   std::this_thread::sleep_for(milliseconds(600));
   SampleBlock block;
@@ -207,8 +207,8 @@ TEST_F(Usb1608Rates, AHostThatSleepsIsSeen) {
   EXPECT_GT(bus.longest_unasked_ns(number, mcc_usb1608fs_plus::kSamplesIn), 100'000'000);
 }
 
-// That a loss can be seen: one scan in 24,000 that is missing without a word.
-TEST_F(Usb1608Rates, AMissingScanIsSeen) {
+// Shows that a loss is detected: one scan of 24,000 is missing without a report.
+TEST_F(Usb1608Rates, DetectsAMissingScan) {
   mcc_usb1608fs_plus::SimulatedMccUsb1608fsPlus::Faults faults;
   faults.drop_at = 10'000;
   const Count count = run(5, 80'000, faults, 0.3);

@@ -1,5 +1,5 @@
-// Unplugged in the middle of a stream and plugged in again, many times: opened again each time, and
-// nothing is left behind. MDOF_USB_REPLUGS=1000 is the long run.
+// Unplugs and replugs a device many times during a stream: the driver opens it each time, and no
+// resources are lost. MDOF_USB_REPLUGS=1000 selects the long run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
-#ifdef MDOF_SANITIZED  // it keeps what was freed, and opens the way to its symbolizer
+#ifdef MDOF_SANITIZED  // sanitizers keep freed memory and open a file to their symbolizer
 constexpr bool kSanitized = true;
 constexpr int kOfSymbolizer = 2;
 #else
@@ -34,14 +34,14 @@ double sense(std::size_t input, std::int64_t /*t_ns*/) {
   return input == 0 ? 1 : 2;
 }
 
-// As the daemon does: tries again after a rest.
+// Tries again after a pause, as the daemon does.
 double reopen_s(Driver& driver, std::int64_t since_ns) {
   const auto until = steady_clock::now() + 5s;
   while (!driver.open() && steady_clock::now() < until) std::this_thread::sleep_for(10ms);
   return static_cast<double>(monotonic_ns() - since_ns) * 1e-9;
 }
 
-// Reads until scans come; their error, if it ends otherwise.
+// Reads until scans arrive; returns the error, or "".
 std::string read_some(Driver& driver) {
   SampleBlock block;
   const auto until = steady_clock::now() + 5s;
@@ -63,11 +63,11 @@ std::string read_to_the_end(Driver& driver) {
 struct Found {
   std::vector<double> reopen_s;
   int failures = 0;
-  int descriptors = 0;  // more than after the first tenth
+  int descriptors = 0;  // more than after the first tenth of the rounds
   std::int64_t growth_bytes = 0;
 };
 
-// `each` is called each time after the device has left.
+// `each` is called after each unplug.
 template <class Device>
 Found replug(Driver& driver, Device& device, int times, const std::function<void()>& each) {
   usb::Bus bus;
@@ -90,7 +90,7 @@ Found replug(Driver& driver, Device& device, int times, const std::function<void
     device.restart();
     each();
   }
-  found.failures += driver.open().has_value();  // and so it is closed before the bus goes
+  found.failures += driver.open().has_value();  // closes the device before the bus is destroyed
   std::sort(found.reopen_s.begin(), found.reopen_s.end());
   return found;
 }
@@ -135,9 +135,9 @@ TEST(UsbReplug, MccUsb1608fsPlus) {
   expect_sound(replug(driver, device, usb::replugs(), [] {}));
 }
 
-// That the checks can fail: a descriptor and 64 KiB lost each time are seen, as is a device that
-// does not come again.
-TEST(UsbReplug, ALossWouldBeSeen) {
+// Shows that the checks can fail: a descriptor and 64 KiB lost in each round are detected, as is a
+// device that does not return.
+TEST(UsbReplug, DetectsLostResourcesAndDevices) {
   labjack_u6::SimulatedLabjackU6 device(sense, {});
   const auto driver = labjack_u6_driver();
   std::vector<int> lost;

@@ -1,4 +1,4 @@
-// TCP, serial and pipes: what comes, what does not, and what has gone.
+// TCP, serial ports and pipes: received data, time-outs and closed peers.
 #include "drivers/io/byte_stream.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ std::string read_some(ByteStream& stream, milliseconds timeout) {
   return n ? std::string(buffer.data(), *n) : "error: " + n.error().message;
 }
 
-TEST(ByteStream, GivesWhatHasComeOrNothing) {
+TEST(ByteStream, ReturnsReceivedBytesOrNothing) {
   Pair pair = make_pair();
   EXPECT_EQ(read_some(pair.ours, milliseconds(1)), "");
   ASSERT_EQ(::write(pair.theirs, "abc", 3), 3);
@@ -45,14 +45,14 @@ TEST(ByteStream, GivesWhatHasComeOrNothing) {
   ::close(pair.theirs);
 }
 
-TEST(ByteStream, AClosedPeerIsAnErrorAndNoSignal) {
+TEST(ByteStream, ClosedPeerIsAnErrorWithoutASignal) {
   Pair pair = make_pair();
   ::close(pair.theirs);
   EXPECT_NE(read_some(pair.ours, milliseconds(1)).find("closed the connection"), std::string::npos);
   EXPECT_FALSE(pair.ours.write("x", milliseconds(1)));
 }
 
-TEST(ByteStream, APeerThatTakesNothingEndsTheWrite) {
+TEST(ByteStream, PeerThatReadsNothingEndsTheWrite) {
   Pair pair = make_pair();
   const std::string much(1 << 22, 'x');
   const Status written = pair.ours.write(much, milliseconds(5));
@@ -71,7 +71,7 @@ TEST(ByteStream, DrainsUntilQuiet) {
   ::close(pair.theirs);
 }
 
-TEST(Endpoint, IsReadInEachForm) {
+TEST(Endpoint, ParsesEachForm) {
   EXPECT_EQ(parse_endpoint("10.0.0.5", 502)->text(), "10.0.0.5:502");
   EXPECT_EQ(parse_endpoint("probe-box:23", 502)->port, 23);
   EXPECT_EQ(parse_endpoint("[fe80::1]:7", 502)->host, "fe80::1");
@@ -81,7 +81,7 @@ TEST(Endpoint, IsReadInEachForm) {
     EXPECT_FALSE(parse_endpoint(bad, 502)) << bad;
 }
 
-TEST(Tcp, ConnectsOrSaysWhyNot) {
+TEST(Tcp, ConnectsOrStatesTheReason) {
   const int server = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
   address.sin_family = AF_INET;
@@ -111,7 +111,8 @@ TEST(Serial, OpensAPtyAndRefusesASecondProgram) {
     ASSERT_TRUE(port) << port.error().message;
     EXPECT_EQ(read_some(*port, milliseconds(1)), "");
     ASSERT_EQ(::write(master, "\r\n\x01\x7f", 4), 4);
-    EXPECT_EQ(read_some(*port, milliseconds(100)), "\r\n\x01\x7f");  // raw: nothing is translated
+    // Raw mode: no bytes are translated.
+    EXPECT_EQ(read_some(*port, milliseconds(100)), "\r\n\x01\x7f");
     const auto second = open_serial(path, {});
     ASSERT_FALSE(second);
     EXPECT_NE(second.error().message.find("in use"), std::string::npos) << second.error().message;

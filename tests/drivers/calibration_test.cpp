@@ -1,4 +1,4 @@
-// What calibration makes of values that are missing, and of positions in other units.
+// Calibration of missing values, and of positions in other units.
 #include "drivers/calibration.h"
 #include "tests/shown.h"
 
@@ -30,7 +30,7 @@ SampleBlock block_of(const Channel& channel, const std::vector<double>& values) 
   return block;
 }
 
-TEST(Calibration, AMissingValueStaysMissingWhateverTheCalibration) {
+TEST(Calibration, MissingValueStaysMissing) {
   for (const char* more :
        {"", "offset_um = 3\n", "reads = \"gap\"\n", "polynomial_um = [0.1, 0.001]\n",
         "linearity = [[-100, 0.5], [0, 0], [100, -0.5]]\n"}) {
@@ -43,8 +43,8 @@ TEST(Calibration, AMissingValueStaysMissingWhateverTheCalibration) {
   }
 }
 
-// By hand: 0.05 % inside the range of 200 um; a gap grows as the target recedes.
-TEST(Calibration, TheEndsOfARangeAreDisplacementsTheLowerOneFirst) {
+// Calculated by hand: 0.05 % inside the range of 200 um; a gap grows when the target recedes.
+TEST(Calibration, WindowLimitsAreDisplacementsInOrder) {
   const auto expect = [](const std::string& more, double low_um, double high_um) {
     const auto [low_m, high_m] = displacement_window_m(rig_with(more).probes[0]);
     EXPECT_NEAR(low_m, low_um * 1e-6, 1e-12) << more;
@@ -56,9 +56,9 @@ TEST(Calibration, TheEndsOfARangeAreDisplacementsTheLowerOneFirst) {
   expect("valid_um = [-50, 80]\n", -50, 80);
 }
 
-// A laboratory's um_per_V says nothing of a reading that the amplifier has turned into a length;
-// one that the rig itself states is for the logs that are in volts.
-TEST(Calibration, ALengthDoesNotUseTheScaleOfARecord) {
+// A laboratory's um_per_V does not apply to a reading that the amplifier has converted to a length.
+// An um_per_V that only the rig states is for logs in volts.
+TEST(Calibration, LengthDoesNotUseTheScaleOfARecord) {
   Rig rig = rig_with("um_per_V = 20\n");
   EXPECT_TRUE(unused_scales(rig, {{"A", Unit::um}}).empty());
   rig.probes[0].calibration.scale_record = "sensitivity-7";
@@ -73,7 +73,7 @@ TEST(Calibration, ALengthDoesNotUseTheScaleOfARecord) {
   }
 }
 
-TEST(Calibration, TakesThePositionInVoltsByTheScaleOfTheRig) {
+TEST(Calibration, ConvertsPositionsInVoltsWithTheRigsScale) {
   for (const double um_per_V : {5000.0, -250.0}) {
     const Rig rig = rig_with("[encoder]\num_per_V = " + std::to_string(um_per_V) + "\n");
     SampleBlock block = block_of({kEncoderChannel, Unit::volt}, {2, -1.5, kNaN});
@@ -82,7 +82,7 @@ TEST(Calibration, TakesThePositionInVoltsByTheScaleOfTheRig) {
     EXPECT_DOUBLE_EQ(block.value[0][1], -1.5e-6 * um_per_V);
     EXPECT_TRUE(std::isnan(block.value[0][2]));
     EXPECT_EQ(block.channels[0].unit, Unit::metre);
-    // Of volts alone.
+    // Only for volts.
     SampleBlock length = block_of({kEncoderChannel, Unit::mm}, {12.5});
     ASSERT_TRUE(Calibrator(rig).apply(length));
     EXPECT_EQ(length.value[0][0], 0.0125);
@@ -96,7 +96,7 @@ TEST(Calibration, TakesThePositionInVoltsByTheScaleOfTheRig) {
       << refused.error().message;
 }
 
-TEST(Calibration, TakesThePositionInAnyUnitOfLengthAndNoOther) {
+TEST(Calibration, AcceptsPositionsInUnitsOfLengthOnly) {
   const Calibrator calibrator(rig_with(""));
   for (const auto& [unit, value] :
        {std::pair{Unit::mm, 12.5}, {Unit::um, 12500.0}, {Unit::metre, 0.0125}}) {

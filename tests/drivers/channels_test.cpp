@@ -31,7 +31,7 @@ std::string refusal(const std::string& toml) {
   return channels ? "accepted" : channels.error().message;
 }
 
-TEST(Channels, AreReadInTheirOrder) {
+TEST(Channels, ReadsChannelsInOrder) {
   const auto channels = read(
       "[[channel]]\nid = \"encoder\"\ninput = \"DIO0\"\num_per_count = -0.02\n"
       "[[channel]]\nid = \"A\"\ninput = \"AIN3\"\n");
@@ -44,7 +44,7 @@ TEST(Channels, AreReadInTheirOrder) {
   EXPECT_FALSE(check_um_per_count((*channels)[1]));
 }
 
-TEST(Channels, EachMistakeIsNamed) {
+TEST(Channels, ReportsEachError) {
   const std::string a = "[[channel]]\nid = \"A\"\ninput = \"1\"\n";
   const struct {
     std::string toml, says;
@@ -61,7 +61,7 @@ TEST(Channels, EachMistakeIsNamed) {
     EXPECT_NE(refusal(c.toml).find(c.says), std::string::npos) << refusal(c.toml);
 }
 
-TEST(Channels, TheMarkIsOfTheEncoderAndInsteadOfAnOffset) {
+TEST(Channels, MarkAppliesToTheEncoderWithoutOffset) {
   const std::string encoder = "[[channel]]\nid = \"encoder\"\ninput = \"count\"\n";
   const auto channels = read(encoder + "index_mm = -12.5\n");
   ASSERT_TRUE(channels) << channels.error().message;
@@ -81,7 +81,7 @@ std::string index_refusal(const std::string& driver, const std::string& keys) {
   return spec ? "accepted" : spec.error().message + "; " + to_string(spec.error().remedy);
 }
 
-TEST(IndexSupport, WhoCannotTellSaysWhyAndWhatToDo) {
+TEST(IndexSupport, DriversWithoutMarkStateReasonAndRemedy) {
   const std::string counter = "um_per_count = 0.05\n", channel = "[[channel]]\n";
   const std::string host = "address = \"127.0.0.1\"\n";
   const struct {
@@ -109,7 +109,7 @@ TEST(IndexSupport, WhoCannotTellSaysWhyAndWhatToDo) {
   }
 }
 
-TEST(Channels, OfFurtherAxesHaveNamesOfTheirOwn) {
+TEST(Channels, ChannelsOfFurtherAxesHaveTheirOwnNames) {
   auto table = TomlTable::parse("[[channel]]\nid = \"A\"\ninput = \"1\"\n", "mdofd.toml");
   auto of_y = TomlTable::parse(
       "[[channel]]\nid = \"encoder\"\ninput = \"DIO2\"\num_per_count = 1\noffset_mm = 3\n"
@@ -129,7 +129,7 @@ TEST(Channels, OfFurtherAxesHaveNamesOfTheirOwn) {
   EXPECT_FALSE(further_encoders(channels, further, {"DIO0"}).at("encoder_Y").counts);
 }
 
-TEST(Channels, AnUnknownInputNamesThoseThere) {
+TEST(Channels, UnknownInputErrorListsTheInputs) {
   ChannelInput channel;
   channel.input = "AIN77";
   channel.where = "mdofd.toml:3: channel.input";

@@ -116,7 +116,7 @@ TEST_F(CsvLogTest, OpensAgainFromTheBeginning) {
   EXPECT_EQ(replay(log).rows(), 100u);
 }
 
-TEST_F(CsvLogTest, GivesTheSameBlocksForAnyChunkSizeAndFromGzip) {
+TEST_F(CsvLogTest, ChunkSizeAndGzipDoNotChangeTheBlocks) {
   std::string text = log_text(5'000);
   text.insert(text.find('\n', 100'000) + 1, "bad line\n");
   const std::string plain = file(text), packed = file(gzipped(text), "packed.bin");
@@ -140,7 +140,7 @@ TEST_F(CsvLogTest, GivesTheSameBlocksForAnyChunkSizeAndFromGzip) {
   }
 }
 
-TEST_F(CsvLogTest, HashesGzipAsStored) {
+TEST_F(CsvLogTest, HashesStoredGzipBytes) {
   const std::string packed = gzipped(log_text(1'000));
   EXPECT_EQ(replay(file(packed)).sha256, sha256_hex(packed));
 }
@@ -153,7 +153,7 @@ TEST_F(CsvLogTest, ReadsGzipOfSeveralMembersAndPadding) {
   EXPECT_NE(replay(file(packed + "rubbish")).error, "");
 }
 
-TEST_F(CsvLogTest, SaysHowFarATruncatedGzipGot) {
+TEST_F(CsvLogTest, TruncatedGzipErrorStatesThePosition) {
   const std::string packed = gzipped(log_text(50'000));
   for (const std::size_t cut : {std::size_t{5}, packed.size() / 2, packed.size() - 1}) {
     const Replay r = replay(file(packed.substr(0, cut)));
@@ -163,7 +163,7 @@ TEST_F(CsvLogTest, SaysHowFarATruncatedGzipGot) {
   }
 }
 
-TEST_F(CsvLogTest, FindsAFlippedBitInGzip) {
+TEST_F(CsvLogTest, DetectsAFlippedBitInGzip) {
   std::string packed = gzipped(log_text(50'000));
   std::string bad_crc = packed;
   bad_crc[packed.size() - 8] = static_cast<char>(bad_crc[packed.size() - 8] ^ 1);
@@ -175,7 +175,7 @@ TEST_F(CsvLogTest, FindsAFlippedBitInGzip) {
   }
 }
 
-TEST_F(CsvLogTest, NamesWhatCannotBeOpened) {
+TEST_F(CsvLogTest, NamesFilesThatCannotBeOpened) {
   EXPECT_NE(replay("/nonexistent/log.csv").error.find("/nonexistent/log.csv: cannot be opened"),
             std::string::npos);
   EXPECT_NE(replay(directory_.string()).error.find("is a folder"), std::string::npos);
@@ -189,14 +189,14 @@ TEST_F(CsvLogTest, RefusesALineLongerThanAChunk) {
   EXPECT_NE(replay(file(text)).error.find("a line is longer than"), std::string::npos);
 }
 
-TEST_F(CsvLogTest, GivesTheRowsBeforeAnErrorFirst) {
+TEST_F(CsvLogTest, ReturnsRowsBeforeAnError) {
   const Replay r = replay(file(log_text(9'000) + "0,1,2,3\n"));
   EXPECT_EQ(r.blocks.size(), 1u);
   EXPECT_NE(r.error.find(":9003: column time_s"), r.error.npos) << r.error;
 }
 
-// 5 MB of empty lines in 5 kB; the limit is the one that every program has.
-TEST_F(CsvLogTest, ReadsNoFurtherThanTheBoundOfEmptyLines) {
+// 5 MB of empty lines in 5 kB; the limit is that of all programs.
+TEST_F(CsvLogTest, StopsReadingAtTheLimitOfEmptyLines) {
   const std::string blank(5 << 20, '\n');
   std::string many = gzipped(log_text(10) + blank);
   const std::string more = gzipped(blank);
@@ -206,11 +206,11 @@ TEST_F(CsvLogTest, ReadsNoFurtherThanTheBoundOfEmptyLines) {
   const Replay r = replay(log);
   EXPECT_NE(r.error.find(path + ":13: more than 4194304 bytes of empty lines"), r.error.npos)
       << r.error;
-  EXPECT_LT(log.bytes(), many.size());  // the other 500 MB were never unpacked
+  EXPECT_LT(log.bytes(), many.size());  // the other 500 MB were not unpacked
   EXPECT_EQ(replay(file(gzipped(log_text(10) + std::string(4 << 20, '\n')))).rows(), 10u);
 }
 
-TEST_F(CsvLogTest, StopsItsThreadsWhenLeftInTheMiddle) {
+TEST_F(CsvLogTest, StopsItsThreadsWhenDestroyedEarly) {
   const std::string path = file(log_text(100'000));
   for (int reads = 0; reads < 8; ++reads) {
     CsvLog log(path);
@@ -237,7 +237,7 @@ TEST_F(CsvLogTest, ReadsTheStandardInput) {
   EXPECT_EQ(r.rows(), 100u);
 }
 
-TEST_F(CsvLogTest, NeedsToBeOpenedFirst) {
+TEST_F(CsvLogTest, ReadFailsBeforeOpen) {
   CsvLog log("x.csv");
   SampleBlock block;
   EXPECT_FALSE(log.read(block, milliseconds(1)));

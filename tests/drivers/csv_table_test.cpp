@@ -1,4 +1,4 @@
-// A measured series out of a CSV file: the columns that are asked for, or an error with its line.
+// Reads a measured series from a CSV file: the requested columns, or an error with its line.
 #include "drivers/csv/csv_table.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ class CsvTableTest : public testing::Test {
   std::filesystem::path path_;
 };
 
-TEST_F(CsvTableTest, ReadsItsColumnsAmongOthersInAnyOrder) {
+TEST_F(CsvTableTest, ReadsItsColumnsInAnyOrder) {
   const auto table = read(
                          "# simulated: yes\r\ntime_s,deviation_um,note_C,position_mm\r\n"
                          "9,1.5,,10\r\n8,-2,20,+5.25\r\n\r\n")
@@ -47,7 +47,7 @@ TEST_F(CsvTableTest, ReadsItsColumnsAmongOthersInAnyOrder) {
   EXPECT_FALSE(read("position_mm,deviation_um\n1,2\n")->simulated);
 }
 
-TEST_F(CsvTableTest, TakesOptionalColumnsWhereTheyAre) {
+TEST_F(CsvTableTest, ReadsOptionalColumnsIfTheyExist) {
   const auto with = [&](const std::string& text) {
     std::ofstream(path_, std::ios::binary) << text;
     return read_csv_table(path_.string(), kSeries, {"u_um", "v_um"});
@@ -62,7 +62,7 @@ TEST_F(CsvTableTest, TakesOptionalColumnsWhereTheyAre) {
   ASSERT_FALSE(unit);
   EXPECT_NE(unit.error().message.find("rename the column to u_um"), std::string::npos)
       << unit.error().message;
-  // Without a value in any row it is not there; with one in some, a row is not as it should be.
+  // A column without any value does not exist; a column with some values has an invalid row.
   const auto empty = with("position_mm,u_um,deviation_um\n1,,2\n3,nan,4\n").value();
   EXPECT_EQ(empty.columns, (std::vector<std::vector<double>>{{1, 3}, {2, 4}, {}, {}}));
   const auto partly = with("position_mm,deviation_um,u_um\n1,2,3\n4,5,\n");
@@ -71,7 +71,7 @@ TEST_F(CsvTableTest, TakesOptionalColumnsWhereTheyAre) {
       << partly.error().message;
 }
 
-TEST_F(CsvTableTest, RefusesAnOptionalColumnWhoseNameIsWrittenInAnotherWay) {
+TEST_F(CsvTableTest, RefusesMisspeltOptionalColumns) {
   const auto with = [&](const std::string& column) {
     std::ofstream(path_, std::ios::binary) << "position_mm,deviation_um," + column + "\n1,2,-1\n";
     return read_csv_table(path_.string(), kSeries, {"direction", "run", "u_um", "u_EYX_um"});
@@ -97,7 +97,7 @@ TEST_F(CsvTableTest, RefusesAnOptionalColumnWhoseNameIsWrittenInAnotherWay) {
   EXPECT_EQ(read_csv_table(path_.string(), kSeries, {"u_um"})->columns[2], std::vector<double>{3});
 }
 
-TEST_F(CsvTableTest, SkipsColumnsOfWordsAndReadsTheSense) {
+TEST_F(CsvTableTest, SkipsTextColumnsAndReadsTheSense) {
   const auto with = [&](const std::string& text) {
     std::ofstream(path_, std::ios::binary) << text;
     return read_csv_table(path_.string(), kSeries, {"positioning_sense"});
@@ -124,7 +124,7 @@ TEST_F(CsvTableTest, ReadsMoreThanABlock) {
   expect_error(text + "1,nan\n", {":20002: column deviation_um: no value", "add the value"});
 }
 
-TEST_F(CsvTableTest, NamesTheLineAndTheRemedy) {
+TEST_F(CsvTableTest, ErrorsNameLineAndRemedy) {
   const std::string head = "# a\nposition_mm,deviation_um\n1,2\n";
   expect_error(head + "2,\n", {":4: column deviation_um: no value", "delete the line"});
   expect_error(head + "nan,3\n", {":4: column position_mm: no value"});
@@ -138,7 +138,7 @@ TEST_F(CsvTableTest, NamesTheLineAndTheRemedy) {
   expect_error("", {"empty"});
 }
 
-TEST_F(CsvTableTest, SaysWhichColumnOrUnitIsMeant) {
+TEST_F(CsvTableTest, ErrorsNameTheExpectedColumnOrUnit) {
   expect_error("position_um,deviation_um\n1,2\n",
                {":1: column position_um does not have the expected unit",
                 "rename the column to position_mm"});
@@ -148,7 +148,7 @@ TEST_F(CsvTableTest, SaysWhichColumnOrUnitIsMeant) {
   expect_error("position_mm,deviation_um,deviation_um\n1,2,3\n", {"given twice"});
 }
 
-TEST_F(CsvTableTest, RowsAndReadingsHaveALimit) {
+TEST_F(CsvTableTest, LimitsRowsAndReadings) {
   const std::string head = "target_mm,direction,run,deviation_um\n", rows = "1,1,1,1\n2,1,1,1\n";
   const auto with = [&](const std::string& text) {
     std::ofstream(path_, std::ios::binary) << text;
@@ -161,7 +161,7 @@ TEST_F(CsvTableTest, RowsAndReadingsHaveALimit) {
   EXPECT_LE(kMostReadings, 1'000'000u) << "of some 120 bytes each";
 }
 
-TEST_F(CsvTableTest, AFileThatIsNotThereIsAnError) {
+TEST_F(CsvTableTest, MissingFileIsAnError) {
   EXPECT_FALSE(read_csv_table("/nonexistent/x.csv", kSeries));
 }
 

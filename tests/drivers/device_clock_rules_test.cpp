@@ -1,5 +1,6 @@
-// What a device's clock promises, each by figures worked by hand: when it has settled, what is
-// late, how fast the times that are given out may run. Found missing by tests/mutate.
+// Rules of a device's clock, each with values calculated by hand: when it has settled, which
+// packets are late, how fast returned times may run. tests/mutate showed that these tests were
+// missing.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,14 +11,14 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr double kRuleTick_ns = 1'000'000;  // a packet of one sample each millisecond
+constexpr double kRuleTick_ns = 1'000'000;  // a packet of one sample every millisecond
 
-// When a tick was, for a device that is fast by so much.
+// Host time of a tick, for a device that is fast by `ppm`.
 std::int64_t at_ns(std::int64_t tick, double ppm) {
   return 7'000'000'000 + std::llround(static_cast<double>(tick) * kRuleTick_ns / (1 + ppm * 1e-6));
 }
 
-TEST(DeviceClockRules, ANewOneKnowsNothing) {
+TEST(DeviceClockRules, NewClockHasNoState) {
   const ClockState state = DeviceClock(kRuleTick_ns).state();
   EXPECT_EQ(state.drift_ppm, 0);
   EXPECT_EQ(state.jitter_ns, 0);
@@ -35,7 +36,7 @@ TEST(DeviceClockRules, SettlesAfterFourSeconds) {
   }
 }
 
-TEST(DeviceClockRules, AfterAStepItIsDoubtfulForFourSeconds) {
+TEST(DeviceClockRules, UncertainForFourSecondsAfterAStep) {
   DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 5'000; ++tick) clock.add(tick, at_ns(tick, 0));
   for (std::uint64_t steps = 1; steps < 4; ++steps) {
@@ -47,8 +48,8 @@ TEST(DeviceClockRules, AfterAStepItIsDoubtfulForFourSeconds) {
   }
 }
 
-// What was stepped over before it had settled was not known well: a second is enough.
-TEST(DeviceClockRules, AfterAStepAtTheBeginningItIsDoubtfulForASecond) {
+// A step before the clock has settled needs only one second.
+TEST(DeviceClockRules, UncertainForASecondAfterAnEarlyStep) {
   DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 500; ++tick) clock.add(tick, at_ns(tick, 0));
   for (std::int64_t tick = 0; tick < 2'000; ++tick) {
@@ -57,9 +58,9 @@ TEST(DeviceClockRules, AfterAStepAtTheBeginningItIsDoubtfulForASecond) {
   }
 }
 
-// A tenth of a second is the bound, whatever the drift has summed up to: 500 ppm over five minutes
-// are 150 ms, more than the bound.
-TEST(DeviceClockRules, LateIsAgainstTheLine) {
+// The limit is 0.1 s relative to the line, independent of the accumulated drift: 500 ppm over five
+// minutes are 150 ms, more than the limit.
+TEST(DeviceClockRules, LatenessIsRelativeToTheLine) {
   for (const double ppm : {500.0, -500.0}) {
     DeviceClock clock(kRuleTick_ns);
     for (std::int64_t tick = 0; tick < 300'000; tick += 100) {
@@ -76,14 +77,15 @@ TEST(DeviceClockRules, LateIsAgainstTheLine) {
     clock.add(300'040, at_ns(300'040, ppm));
     EXPECT_FALSE(clock.state().doubtful) << ppm;
     EXPECT_EQ(clock.state().late_ns, 0);
-    clock.add(300'060, at_ns(300'060, ppm) - 90'000'000);  // sooner than was thought possible
+    clock.add(300'060, at_ns(300'060, ppm) - 90'000'000);  // earlier than the line predicts
     EXPECT_EQ(clock.state().steps, 0u) << ppm;
-    clock.add(300'080, at_ns(300'080, ppm) - 150'000'000);  // than can be: its time jumped ahead
+    // Impossibly early: the device's time has jumped ahead.
+    clock.add(300'080, at_ns(300'080, ppm) - 150'000'000);
     EXPECT_EQ(clock.state().steps, 1u) << ppm;
   }
 }
 
-TEST(DeviceClockRules, NoClockIsTakenToBeMoreThanAThousandPpmWrong) {
+TEST(DeviceClockRules, LimitsTheDriftToAThousandPpm) {
   for (const double ppm : {3'000.0, -3'000.0}) {
     DeviceClock clock(kRuleTick_ns);
     for (std::int64_t tick = 0; tick < 6'000; ++tick) clock.add(tick, at_ns(tick, ppm));
@@ -91,9 +93,9 @@ TEST(DeviceClockRules, NoClockIsTakenToBeMoreThanAThousandPpmWrong) {
   }
 }
 
-// A drift that changes, as a device warms up: after 64 s and a little nothing of the old one is
-// left.
-TEST(DeviceClockRules, ForgetsWhatIsOlderThanAMinute) {
+// The drift changes, as when a device warms up: after a little more than 64 s the old drift has no
+// effect.
+TEST(DeviceClockRules, ForgetsPacketsOlderThanAMinute) {
   DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 200'000; tick += 5) clock.add(tick, at_ns(tick, 50));
   EXPECT_NEAR(clock.state().drift_ppm, 50, 0.01);
@@ -103,7 +105,7 @@ TEST(DeviceClockRules, ForgetsWhatIsOlderThanAMinute) {
   EXPECT_NEAR(clock.state().drift_ppm, 80, 0.01);
 }
 
-// Three of five stretches have packets that come 2 ms apart in their delay, the others none.
+// Three of five stretches have packets with a spread of 2 ms, the others have none.
 TEST(DeviceClockRules, JitterIsTheMedianOfTheStretches) {
   DeviceClock clock(kRuleTick_ns);
   for (std::int64_t tick = 0; tick < 10'000; ++tick) {
@@ -113,16 +115,16 @@ TEST(DeviceClockRules, JitterIsTheMedianOfTheStretches) {
   EXPECT_EQ(clock.state().jitter_ns, 2'000'000);
 }
 
-// The first time that is asked for is on the line at once, however late the first packet was.
-TEST(DeviceClockRules, BeginsOnTheLine) {
+// The first returned time is on the line immediately, even if the first packet was late.
+TEST(DeviceClockRules, FirstTimeIsOnTheLine) {
   DeviceClock clock(kRuleTick_ns);
   clock.add(0, at_ns(0, 0) + 50'000'000);
   clock.add(10, at_ns(10, 0));
   EXPECT_EQ(clock.host_ns(10), at_ns(10, 0));
 }
 
-// Times follow a line that moves without a step: by a fifth of the time as long as it has not
-// settled, then by 2 per mil of it, both on top of the drift.
+// Times follow a moving line without steps. Before settling they slew by at most 20 % of the time,
+// afterwards by 2 per mil, both in addition to the drift.
 TEST(DeviceClockRules, TimesRunNoFasterThanTheSlew) {
   for (const double ppm : {800.0, -800.0}) {
     DeviceClock clock(kRuleTick_ns);
@@ -142,16 +144,16 @@ TEST(DeviceClockRules, TimesRunNoFasterThanTheSlew) {
         most = std::max(most, rate);
       }
     }
-    EXPECT_NEAR(least, 0.8, 1e-5) << ppm;  // 30 ms are made good in 150 ms
+    EXPECT_NEAR(least, 0.8, 1e-5) << ppm;  // 30 ms are corrected in 150 ms
     EXPECT_LE(most, 1 + 1e-5) << ppm;
     EXPECT_LE(settled_off, 2e-3 + 1e-5) << ppm;
-    // The first line of one that is slow was 3 ms off, without a drift.
+    // The first line of a slow device had an error of 3 ms and no drift.
     EXPECT_GE(settled_off, ppm < 0 ? 2e-3 - 1e-5 : 0);
     EXPECT_LT(std::abs(static_cast<double>(last_ns - at_ns(11'999, ppm))), 1'000) << ppm;
   }
 }
 
-TEST(Unwrap, TheFirstReadingStandsForItself) {
+TEST(Unwrap, FirstReadingIsTakenAsItIs) {
   EXPECT_EQ(Unwrap(16)(0xFFFF), 65'535);
   EXPECT_EQ(Unwrap(16, true)(0xFFFF), -1);
   EXPECT_EQ(Unwrap(16, true)(0x8000), -32'768);
@@ -159,7 +161,7 @@ TEST(Unwrap, TheFirstReadingStandsForItself) {
   EXPECT_EQ(Unwrap(16, true)(0x7FFF), 32'767);
 }
 
-TEST(Unwrap, GoesOnOverTheEndsBothWays) {
+TEST(Unwrap, ContinuesOverBothEnds) {
   Unwrap count(8);
   const std::uint64_t raw[] = {250, 5, 120, 240, 10, 0x1FF};
   const std::int64_t whole[] = {250, 261, 376, 496, 522, 511};

@@ -1,4 +1,4 @@
-// A device's time on the host's, against a truth that the test knows.
+// A device's time on the host's clock, compared with the known truth.
 #include "drivers/clock/device_clock.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@ namespace {
 constexpr double kTick_ns = 250'000;  // 4 kHz
 constexpr std::int64_t kPacket = 8;
 
-// A device that sends packets of kPacket samples; each is received after a delay of 0.1 ms to
-// 0.1 ms + jitter, one of 500 is 80 ms late.
+// A device that sends packets of kPacket samples. Each is received after a delay of 0.1 ms to 0.1
+// ms + jitter; one of 500 is 80 ms late.
 struct Device {
   double ppm, jitter_ns;
   std::int64_t start_ns = 5'000'000'000;
@@ -66,8 +66,8 @@ TEST(DeviceClock, FollowsADriftThroughJitter) {
   }
 }
 
-// A computer that is busy while a device is opened: its first packets seem 60 ms late.
-TEST(DeviceClock, ABusyBeginningIsSoonMadeGood) {
+// A computer that is busy while a device is opened: the first packets appear 60 ms late.
+TEST(DeviceClock, CorrectsABusyBeginningSoon) {
   const Device device{50, 1e6};
   DeviceClock clock(kTick_ns);
   double worst_us = 0;
@@ -93,8 +93,8 @@ TEST(DeviceClock, IsExactWithoutJitter) {
   }
 }
 
-// The device was restarted: its count begins anew, or jumps.
-TEST(DeviceClock, AJumpOfTheDeviceIsAStepAndTimeStillGrows) {
+// The device was restarted: its count restarts or jumps.
+TEST(DeviceClock, JumpOfTheDeviceIsAStepAndTimesGrow) {
   for (const std::int64_t jump : {10'000, -10'000}) {
     DeviceClock clock(kTick_ns);
     const Device device{50, 1e6};
@@ -114,14 +114,15 @@ TEST(DeviceClock, AJumpOfTheDeviceIsAStepAndTimeStillGrows) {
   }
 }
 
-// A link that is slower for a while, nothing lost: while it lasts the clock is in doubt, the times
-// stay right, and nothing has stepped.
+// A link that is slow for a while without losses: meanwhile the clock is uncertain, the times stay
+// right, and there is no step.
 TEST(DeviceClock, ASlowLinkIsNoStep) {
   const struct {
     std::int64_t late_ns, packets;  // 2 ms each
   } cases[] = {{300'000'000, 1'500}, {1'200'000'000, 5'000}, {500'000'000, 20'000}};
   for (const auto& c : cases) {
-    for (const std::int64_t from : {500, 4'000, 15'000}) {  // before it has settled, and after
+    // Before and after the clock has settled.
+    for (const std::int64_t from : {500, 4'000, 15'000}) {
       DeviceClock clock(kTick_ns);
       const Device device{50, 1e6};
       double worst_us = 0;
@@ -142,9 +143,9 @@ TEST(DeviceClock, ASlowLinkIsNoStep) {
   }
 }
 
-// The device's time stood still for 0.3 s: all is in doubt from the first packet on, until the new
-// line is known, a minute and four seconds later.
-TEST(DeviceClock, TimeThatStoodStillIsDoubtfulUntilItHasSettled) {
+// The device's time stood still for 0.3 s: the clock is uncertain from the first packet until the
+// new line is known, a minute and four seconds later.
+TEST(DeviceClock, UncertainAfterTimeStoodStillUntilSettled) {
   DeviceClock clock(kTick_ns);
   const Device device{0, 1e6};
   const std::int64_t from = 4'000, end = from + 35'000;
@@ -165,7 +166,7 @@ TEST(DeviceClock, TimeThatStoodStillIsDoubtfulUntilItHasSettled) {
   EXPECT_LT(worst_sure_us, 1'200);
 }
 
-TEST(DeviceClock, TheSameCallsGiveTheSameBits) {
+TEST(DeviceClock, SameCallsGiveTheSameBits) {
   DeviceClock a(kTick_ns), b(kTick_ns);
   const Device device{77, 2e6};
   for (std::int64_t p = 0; p < 4'000; ++p) {
@@ -175,12 +176,12 @@ TEST(DeviceClock, TheSameCallsGiveTheSameBits) {
   }
 }
 
-TEST(DeviceClock, AfterResetTimeStillGrows) {
+TEST(DeviceClock, TimesGrowAfterAReset) {
   DeviceClock clock(kTick_ns);
   follow(clock, {0, 1e6}, 1'000);
   const std::int64_t last = clock.host_ns(8'000);
   clock.reset();
-  clock.add(0, last - 5'000'000);  // opened again at once
+  clock.add(0, last - 5'000'000);  // reopened immediately
   EXPECT_GT(clock.host_ns(0), last);
 }
 

@@ -1,4 +1,4 @@
-// Two programs and one device: the second is refused and told who has it.
+// Two programs and one device: the second is refused, with the name of the first.
 #include "drivers/io/device_lock.h"
 
 #include <gtest/gtest.h>
@@ -13,12 +13,12 @@
 namespace mdof::drivers {
 namespace {
 
-// Unlike that of any test that runs beside this one.
+// A name that differs from those of tests that run at the same time.
 std::string fresh(const std::string& name) {
   return name + " of test " + std::to_string(::getpid());
 }
 
-// Another program that holds `identity` until it goes.
+// Another program that holds `identity` until it is destroyed.
 class Holder {
  public:
   explicit Holder(const std::string& identity) {
@@ -53,7 +53,7 @@ bool free_again(const std::string& identity) {
   return DeviceLock::take(identity).has_value();
 }
 
-TEST(DeviceLock, AnotherProgramIsNamedAndKeepsTheDeviceWhileItLives) {
+TEST(DeviceLock, NamesTheProgramThatHoldsTheDevice) {
   const std::string identity = fresh("tcp 192.0.2.7:502");
   Holder holder(identity);
   const auto refused = DeviceLock::take(identity);
@@ -62,11 +62,11 @@ TEST(DeviceLock, AnotherProgramIsNamedAndKeepsTheDeviceWhileItLives) {
   EXPECT_NE(refused.error().message.find(process), std::string::npos) << refused.error().message;
   EXPECT_EQ(refused.error().remedy, Remedy::ask_daemon_for_device);
   EXPECT_TRUE(free_again(identity + "0"));
-  holder.kill();  // as a crash: nothing is left over
+  holder.kill();  // like a crash: nothing remains
   EXPECT_TRUE(free_again(identity));
 }
 
-TEST(DeviceLock, TheSameProgramIsToldThatItHasTheDeviceTwice) {
+TEST(DeviceLock, RefusesADeviceTwiceInOneProgram) {
   const std::string identity = fresh("tcp 192.0.2.8:502");
   auto held = DeviceLock::take(identity);
   ASSERT_TRUE(held);
@@ -77,7 +77,7 @@ TEST(DeviceLock, TheSameProgramIsToldThatItHasTheDeviceTwice) {
   EXPECT_FALSE(free_again(identity));
 }
 
-TEST(DeviceLock, WhoeverAsksIsAnsweredHoweverManyHaveAsked) {
+TEST(DeviceLock, AnswersAnyNumberOfInquiries) {
   const std::string identity = fresh("tcp 192.0.2.9:502");
   auto held = DeviceLock::take(identity);
   ASSERT_TRUE(held);
@@ -89,7 +89,7 @@ TEST(DeviceLock, WhoeverAsksIsAnsweredHoweverManyHaveAsked) {
   }
 }
 
-TEST(DeviceLock, ALongNameIsALock) {
+TEST(DeviceLock, LongNamesAreLocksToo) {
   const std::string identity = fresh(std::string(5000, 'x'));
   auto held = DeviceLock::take(identity);
   ASSERT_TRUE(held);

@@ -1,4 +1,4 @@
-// Gives a fuzzer each file of a folder once: what was found before stays mended.
+// Runs a fuzzer once with each file of a folder, so that errors that were corrected do not return.
 #include <cstdint>
 #include <cstdio>
 #include <cstring>

@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = fs::path(MDOF_TEST_DATA).parent_path().parent_path();
 
-// The file is to be `expected`; MDOF_ACCEPT=1 writes it so.
+// Expects the contents of a file; with MDOF_ACCEPT=1 writes them.
 void expect_file(const fs::path& file, const std::string& expected) {
   if (std::getenv("MDOF_ACCEPT")) std::ofstream(kRoot / file) << expected;
   EXPECT_EQ(read_text_file(kRoot / file).value(), expected)
       << file << " does not agree with drivers/registry.cpp; MDOF_ACCEPT=1 writes it anew";
 }
 
-// The same for the table in it that has this head.
+// The same for the table with this head in the file.
 void expect_table(const fs::path& file, const std::string& head, const std::string& rows) {
   const std::string text = read_text_file(kRoot / file).value();
   const std::size_t begin = text.find(head);
@@ -40,7 +40,7 @@ std::string code(const std::string& word) {
   return "`" + word + "`";
 }
 
-TEST(Registry, RowsAreByName) {
+TEST(Registry, RowsAreSortedByName) {
   EXPECT_TRUE(
       std::is_sorted(driver_rows().begin(), driver_rows().end(),
                      [](const auto& a, const auto& b) { return a.name < std::string(b.name); }));
@@ -48,7 +48,7 @@ TEST(Registry, RowsAreByName) {
   EXPECT_EQ(find_driver("lab"), nullptr);
 }
 
-TEST(Registry, EveryFamilyHasARowAndEveryRowItsPieces) {
+TEST(Registry, EveryDriverFolderHasACompleteRow) {
   std::set<std::string> folders;
   for (const auto& entry : fs::directory_iterator(kRoot / "drivers"))
     if (fs::exists(entry.path() / "configure.h")) folders.insert(entry.path().filename());
@@ -63,7 +63,7 @@ TEST(Registry, EveryFamilyHasARowAndEveryRowItsPieces) {
   EXPECT_EQ(folders, std::set<std::string>()) << "without a row";
 }
 
-TEST(Registry, EveryDriverIsInTheManPageAndRunsLiveInATest) {
+TEST(Registry, EveryDriverIsInTheManPageAndALiveTest) {
   const std::string man = read_text_file(kRoot / "daemon/mdofd.toml.5").value();
   const std::string setups = read_text_file(kRoot / "tests/daemon/device_setups.py").value();
   for (const DriverRow& row : driver_rows()) {
@@ -75,7 +75,7 @@ TEST(Registry, EveryDriverIsInTheManPageAndRunsLiveInATest) {
   }
 }
 
-TEST(Registry, TheReadmeHasATableOfTheDrivers) {
+TEST(Registry, ReadmeHasTheTableOfDrivers) {
   std::string rows;
   for (const DriverRow& row : driver_rows())
     rows += "| " + code(std::string(row.folder) + "/") + " | " + code(row.name) + " | " +
@@ -83,7 +83,7 @@ TEST(Registry, TheReadmeHasATableOfTheDrivers) {
   expect_table("drivers/README.md", "| folder | driver | through |\n|---|---|---|\n", rows);
 }
 
-TEST(Registry, TheReadmeOfMdofSimulateHasATableOfTheKinds) {
+TEST(Registry, ReadmeOfMdofSimulateHasTheTableOfKinds) {
   std::string rows;
   for (const DriverRow& row : driver_rows())
     if (row.simulated)
@@ -93,18 +93,18 @@ TEST(Registry, TheReadmeOfMdofSimulateHasATableOfTheKinds) {
                "| kind | inputs | where it is reached |\n|---|---|---|\n", rows);
 }
 
-TEST(UdevRules, TheFileIsMadeFromTheRows) {
+TEST(UdevRules, FileIsMadeFromTheRows) {
   expect_file("daemon/systemd/60-mdof.rules", udev_rules(driver_rows()));
 }
 
-// A line of the rules of one made-up row.
+// A line of the rules of one fictitious row.
 std::string rule_for(const LinuxNode& node) {
   const std::string text = udev_rules({{"made_up", "made_up", "", nullptr, node}});
   const std::size_t begin = text.find("SUBSYSTEM");
   return text.substr(begin, text.find('\n', begin) - begin);
 }
 
-TEST(UdevRules, ANewDeviceNeedsARowOnly) {
+TEST(UdevRules, NewDeviceNeedsARowOnly) {
   const std::string group = R"(MODE="0660", GROUP="mdof", TAG+="uaccess")";
   EXPECT_EQ(rule_for(UsbDevice{.name = "A", .vendor = 0xABC, .product = 0x12}),
             R"(SUBSYSTEM=="usb", ENV{DEVTYPE}=="usb_device", ATTR{idVendor}=="0abc", )"
@@ -120,7 +120,7 @@ TEST(UdevRules, ANewDeviceNeedsARowOnly) {
             R"(SUBSYSTEM=="dac", KERNEL=="dac[0-9]*", MODE="0660", GROUP="io", TAG+="uaccess")");
 }
 
-TEST(UdevRules, ARowWithoutANodeGivesNone) {
+TEST(UdevRules, RowWithoutANodeHasNoRule) {
   EXPECT_EQ(udev_rules({{"made_up", "made_up", "", nullptr}}), udev_rules({}));
 }
 

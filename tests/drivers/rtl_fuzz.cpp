@@ -1,4 +1,4 @@
-// .rtl files: read or refused with a reason; what was read is finite and of a known direction.
+// .rtl files: read, or refused with a reason. The readings are finite and have a known direction.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the driver makes of the data, against the simulated controller, over sockets.
+// The driver with the simulated controller, over sockets: samples.
 #include <cmath>
 
 #include "tests/drivers/capancdt/rack.h"
@@ -21,7 +21,7 @@ TEST(Capancdt, GivesMicrometresOfItsChannels) {
     ASSERT_NEAR(got.all.value[1][k], 300, 1e-4);
     ASSERT_EQ(got.all.quality[0][k], Quality::good);
     ASSERT_GT(got.all.time_ns[k], before);
-    // The quickest packet so far may have been held up, on a busy computer.
+    // On a busy computer, the quickest packet so far may have been delayed.
     ASSERT_LT(got.all.time_ns[k], after + 200'000'000);
   }
   const DeviceInfo info = driver.info();
@@ -32,18 +32,18 @@ TEST(Capancdt, GivesMicrometresOfItsChannels) {
   EXPECT_FALSE(info.simulated);
 }
 
-TEST(Capancdt, TimesAreASampleTimeApart) {
+TEST(Capancdt, TimesAreOneSampleTimeApart) {
   SimulatedCapancdt::Options device;
   device.sample_time_us = 960;
   device.frames_per_packet = 4;
   Rack rack(device);
-  rack.options.sample_time_us = 1000;  // it takes the next it can
+  rack.options.sample_time_us = 1000;  // the controller uses its nearest sample time
   Capancdt driver(rack.options);
   ASSERT_EQ(error_of(driver.open()), "");
   const Collected got = collect(driver, 100);
   ASSERT_GE(got.all.scans(), 100u) << got.error;
   if (clock_stepped(driver)) GTEST_SKIP() << "this computer is too busy";
-  // The line through the quickest packets is still settling: 20 % of slewing is allowed to it.
+  // The fit is still settling, so times may slew by 20 %.
   for (std::size_t k = 1; k < got.all.scans(); ++k)
     ASSERT_NEAR(static_cast<double>(got.all.time_ns[k] - got.all.time_ns[k - 1]), 960e3,
                 0.2 * 960e3 + 2)
@@ -51,7 +51,7 @@ TEST(Capancdt, TimesAreASampleTimeApart) {
   EXPECT_NEAR(driver.info().rate_hz, 1e6 / 960, 1e-9);
 }
 
-TEST(Capancdt, NothingIsHandedOutBeforeTheClockIsWarm) {
+TEST(Capancdt, ReturnsNothingBeforeTheClockIsWarm) {
   Rack rack;
   rack.options.warm_up = 80ms;
   Capancdt driver(rack.options);
@@ -63,7 +63,7 @@ TEST(Capancdt, NothingIsHandedOutBeforeTheClockIsWarm) {
   EXPECT_EQ(got.lost, 0u);
 }
 
-TEST(Capancdt, EitherOrderOfTheSizes) {
+TEST(Capancdt, AcceptsBothOrdersOfTheSizes) {
   for (const SizeOrder sizes : {SizeOrder::bytes_per_frame_first, SizeOrder::frames_first}) {
     SimulatedCapancdt::Options device;
     device.faults.sizes = sizes;
@@ -79,7 +79,7 @@ TEST(Capancdt, EitherOrderOfTheSizes) {
   }
 }
 
-TEST(Capancdt, EveryMeaningOfTheCounterAndEcho) {
+TEST(Capancdt, AcceptsEveryCounterUnitAndEcho) {
   using Echo = SimulatedCapancdt::Echo;
   constexpr Echo kEchoes[] = {Echo::line, Echo::reply, Echo::mixed, Echo::none};
   for (int unit = 0; unit < kCounterUnits; ++unit) {
@@ -99,8 +99,8 @@ TEST(Capancdt, EveryMeaningOfTheCounterAndEcho) {
     ASSERT_GE(got.all.scans(), 100u) << got.error;
     EXPECT_EQ(driver.health().counter, static_cast<CounterUnit>(unit));
     EXPECT_NEAR(driver.info().rate_hz, 1e6 / 256 / 3, 1e-9);
-    EXPECT_GE(driver.health().lost, got.lost);  // some wait to be handed out
-    // Every tenth packet of two frames: of 18 frames that came, 2 are lost.
+    EXPECT_GE(driver.health().lost, got.lost);  // some losses are not returned yet
+    // Every tenth packet of two frames is lost: for 18 received frames, 2 are lost.
     EXPECT_EQ(got.lost, (got.all.scans() - 1) / 18 * 2) << unit;
   }
 }
@@ -134,7 +134,7 @@ TEST(Capancdt, LostFramesBeginABlock) {
   EXPECT_EQ(lost, (scans - 1) / 7);
 }
 
-TEST(Capancdt, DuplicatesAreDropped) {
+TEST(Capancdt, DropsDuplicates) {
   SimulatedCapancdt::Options device;
   device.faults.repeat_every = 3;
   Rack rack(device);
@@ -150,7 +150,7 @@ TEST(Capancdt, DuplicatesAreDropped) {
                 0.2 * 512e3 + 2);
 }
 
-TEST(Capancdt, AVanishedChannelIsMissing) {
+TEST(Capancdt, VanishedChannelIsMissing) {
   SimulatedCapancdt::Options device;
   device.faults.vanishing = 1;
   device.faults.vanish_from = 20;
@@ -186,7 +186,7 @@ TEST(Capancdt, EndsOfTheRangeAreOverRange) {
   EXPECT_EQ(got.all.value[1][0], 2000.0);
 }
 
-TEST(Capancdt, OfAMathsChannelTheEndsAreNotKnown) {
+TEST(Capancdt, MathsChannelHasNoEndsOfRange) {
   SimulatedCapancdt::Options device;
   device.inputs[2].maths = true;
   Rack rack(device, [](std::size_t, std::int64_t) { return 0.0; });
@@ -198,7 +198,7 @@ TEST(Capancdt, OfAMathsChannelTheEndsAreNotKnown) {
   EXPECT_EQ(got.count(1, Quality::good), got.all.scans());
 }
 
-TEST(Capancdt, AfterGarbageValuesAreSuspect) {
+TEST(Capancdt, ValuesAfterInvalidDataAreSuspect) {
   SimulatedCapancdt::Options device;
   device.faults.garbage_every = 10;
   Rack rack(device);
@@ -214,7 +214,7 @@ TEST(Capancdt, AfterGarbageValuesAreSuspect) {
   }
 }
 
-TEST(Capancdt, BytesInDribs) {
+TEST(Capancdt, AcceptsDataInSmallPieces) {
   SimulatedCapancdt::Options device;
   device.faults.most_bytes = 5;
   Rack rack(device);
@@ -228,7 +228,7 @@ TEST(Capancdt, BytesInDribs) {
   EXPECT_NEAR(got.all.value[0].back(), 100, 1e-4);
 }
 
-TEST(Capancdt, ASecondClientIsToldWhySilence) {
+TEST(Capancdt, SecondClientGetsTheReasonOfSilence) {
   Rack rack;
   Capancdt first(rack.options);
   ASSERT_EQ(error_of(first.open()), "");
@@ -240,10 +240,10 @@ TEST(Capancdt, ASecondClientIsToldWhySilence) {
   EXPECT_EQ(got.all.scans(), 0u);
   expect_has(got.error, "device \"probes\" at 127.0.0.1:");
   expect_has(got.error, "another client uses the data port, or the controller waits for a trigger");
-  EXPECT_TRUE(second.open());  // may be tried again
+  EXPECT_TRUE(second.open());  // a new attempt is possible
 }
 
-TEST(Capancdt, ReadKeepsToItsTimeout) {
+TEST(Capancdt, ReadReturnsAtItsTimeout) {
   Rack rack;
   Capancdt first(rack.options), second(rack.options);
   ASSERT_EQ(error_of(first.open()), "");
@@ -258,7 +258,7 @@ TEST(Capancdt, ReadKeepsToItsTimeout) {
   EXPECT_LT(took, 1500ms);
 }
 
-TEST(Capancdt, AResetConnectionIsAnErrorAndOpensAgain) {
+TEST(Capancdt, BrokenConnectionIsAnErrorAndReopens) {
   SimulatedCapancdt::Options device;
   device.faults.reset_connection_at = 30;
   Rack rack(device);
@@ -276,7 +276,7 @@ TEST(Capancdt, AResetConnectionIsAnErrorAndOpensAgain) {
   }
 }
 
-TEST(Capancdt, ACounterThatStartsAnewIsAnError) {
+TEST(Capancdt, RestartedCounterIsAnError) {
   SimulatedCapancdt::Options device;
   device.first_counter = 1'000'000;
   device.faults.reset_counter_at = 40;
@@ -284,11 +284,11 @@ TEST(Capancdt, ACounterThatStartsAnewIsAnError) {
   Capancdt driver(rack.options);
   ASSERT_EQ(error_of(driver.open()), "");
   const Collected got = collect(driver, 1000);
-  EXPECT_EQ(got.all.scans(), 40u);  // all before are handed out
+  EXPECT_EQ(got.all.scans(), 40u);  // all earlier scans are returned
   expect_has(got.error, "the counter in the data jumped from 1000039 to 0");
 }
 
-TEST(Capancdt, GarbageAloneIsAnError) {
+TEST(Capancdt, InvalidDataAloneIsAnError) {
   SimulatedCapancdt::Options device;
   device.frames_per_packet = 1000;
   device.faults.rate = 500;
@@ -301,7 +301,7 @@ TEST(Capancdt, GarbageAloneIsAnError) {
   expect_has(got.error, "are not data of a capaNCDT 6200; correct the key \"data_port\"");
 }
 
-TEST(Capancdt, TwoControllersSideBySide) {
+TEST(Capancdt, TwoControllersAreIndependent) {
   Rack left, right({}, [](std::size_t input, std::int64_t) { return input == 0 ? 1.0 : 2.0; });
   Capancdt a(left.options), b(right.options);
   ASSERT_EQ(error_of(a.open()), "");

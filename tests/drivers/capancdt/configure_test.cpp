@@ -37,7 +37,7 @@ void expect_error(const std::string& text, const std::string& message) {
   EXPECT_NE(spec.error().message.find(message), std::string::npos) << spec.error().message;
 }
 
-TEST(CapancdtConfigure, TheLeast) {
+TEST(CapancdtConfigure, ReadsTheRequiredKeys) {
   const auto spec = configure("address = \"10.0.0.7\"\n" + kChannel);
   ASSERT_TRUE(spec) << spec.error().message;
   EXPECT_EQ(spec->driver, "capancdt");
@@ -52,7 +52,7 @@ TEST(CapancdtConfigure, TheLeast) {
   EXPECT_EQ(info.channels, (std::vector<Channel>{{"A", Unit::um}}));
 }
 
-TEST(CapancdtConfigure, AveragingLongerThanAStopSettles) {
+TEST(CapancdtConfigure, RefusesAveragingLongerThanSettling) {
   const std::string text =
       "address = \"box\"\nsample_time_us = 32768\naveraging = \"moving\"\naveraged_values = 4\n" +
       kChannel;
@@ -62,7 +62,7 @@ TEST(CapancdtConfigure, AveragingLongerThanAStopSettles) {
   EXPECT_TRUE(configure(text, 0));
 }
 
-TEST(CapancdtConfigure, Everything) {
+TEST(CapancdtConfigure, ReadsEveryKey) {
   const auto spec = configure(
       "address = \"box:24\"\ndata_port = 10002\nserial = \"1001\"\nconfigure = false\n"
       "sample_time_us = 960\naveraging = \"arithmetic\"\naveraged_values = 4\nguard_counts = 0\n" +
@@ -74,7 +74,7 @@ TEST(CapancdtConfigure, Everything) {
   EXPECT_EQ((*driver)->info().description, "capaNCDT at box:24");
 }
 
-TEST(CapancdtConfigure, BadAddress) {
+TEST(CapancdtConfigure, RefusesBadAddresses) {
   expect_error(kChannel, "mdofd.toml:1: address: is missing");
   expect_error("address = \"\"\n" + kChannel,
                "mdofd.toml:1: address: must be the address of the controller");
@@ -82,7 +82,7 @@ TEST(CapancdtConfigure, BadAddress) {
                "mdofd.toml:1: address: \"box:x\" is not an address");
 }
 
-TEST(CapancdtConfigure, BadSettings) {
+TEST(CapancdtConfigure, RefusesBadSettings) {
   const std::string begin = "address = \"box\"\n";
   const struct {
     const char *key, *message;
@@ -104,7 +104,7 @@ TEST(CapancdtConfigure, BadSettings) {
   for (const auto& c : cases) expect_error(begin + c.key + "\n" + kChannel, c.message);
 }
 
-TEST(CapancdtConfigure, BadChannels) {
+TEST(CapancdtConfigure, RefusesBadChannels) {
   const std::string begin = "address = \"box\"\n";
   expect_error(begin, "channel: is missing");
   for (const char* input : {"0", "33", "AIN0", "", "1 ", "-1", "01"})

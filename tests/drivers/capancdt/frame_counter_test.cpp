@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint64_t kMostLost = 1000;
 
-// Packets with a counter of one unit, as a controller with this many channels sends them.
+// Packets of a controller with this many channels, with a counter in one unit.
 struct Source {
   CounterUnit unit;
   int channels, frames, averaged;
@@ -57,7 +57,7 @@ TEST(CapancdtFrameCounter, LearnsTheUnitAndCountsLosses) {
   }
 }
 
-TEST(CapancdtFrameCounter, HoldsBackUntilItKnows) {
+TEST(CapancdtFrameCounter, HoldsPacketsBackUntilTheUnitIsKnown) {
   Source source{CounterUnit::value, 4, 1, 1};
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
@@ -69,12 +69,12 @@ TEST(CapancdtFrameCounter, HoldsBackUntilItKnows) {
   EXPECT_EQ(counter.unit(), CounterUnit::value);
 }
 
-TEST(CapancdtFrameCounter, LearnsInSpiteOfLosses) {
+TEST(CapancdtFrameCounter, LearnsTheUnitDespiteLosses) {
   Source source{CounterUnit::frame, 4, 1, 1};
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
   for (int i = 0; i < 12; ++i) {
-    if (i % 4 == 1) source.counter += 3;  // looks like a count of values
+    if (i % 4 == 1) source.counter += 3;  // resembles a count of values
     ASSERT_TRUE(counter.add(source.next(), placed));
   }
   EXPECT_EQ(counter.unit(), CounterUnit::frame);
@@ -82,26 +82,26 @@ TEST(CapancdtFrameCounter, LearnsInSpiteOfLosses) {
   EXPECT_EQ(placed.back().first_frame, 11 + 9);
 }
 
-TEST(CapancdtFrameCounter, DropsWhatCameBefore) {
+TEST(CapancdtFrameCounter, DropsDuplicates) {
   Source source{CounterUnit::frame, 2, 2, 1, 1000};
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
   const Packet first = source.next();
   ASSERT_TRUE(counter.add(first, placed));
-  ASSERT_TRUE(counter.add(first, placed));  // while it learns
+  ASSERT_TRUE(counter.add(first, placed));  // before the unit is known
   for (int i = 0; i < 5; ++i) {
     const Packet packet = source.next();
     ASSERT_TRUE(counter.add(packet, placed));
     ASSERT_TRUE(counter.add(packet, placed));
   }
-  ASSERT_TRUE(counter.add(first, placed));  // an old one
+  ASSERT_TRUE(counter.add(first, placed));  // an old packet
   EXPECT_EQ(counter.duplicates(), 7u);
   EXPECT_EQ(counter.lost(), 0u);
   EXPECT_EQ(placed.size(), 6u);
 }
 
-// Each sent twice, for ever: that is no jump back.
-TEST(CapancdtFrameCounter, DuplicatesAreCountedInARowOnly) {
+// Each packet is sent twice, endlessly: this is not a jump back.
+TEST(CapancdtFrameCounter, CountsDuplicatesOnlyInARow) {
   Source source{CounterUnit::frame, 2, 2, 1, 1000};
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
@@ -113,8 +113,8 @@ TEST(CapancdtFrameCounter, DuplicatesAreCountedInARowOnly) {
   EXPECT_EQ(counter.duplicates(), 200u);
 }
 
-// 21 values in a packet: one sent twice a little later counts back by 42.
-TEST(CapancdtFrameCounter, DropsLargePacketsThatCameBefore) {
+// 21 values in a packet: a packet repeated a little later is 42 counts back.
+TEST(CapancdtFrameCounter, DropsDuplicatesOfLargePackets) {
   Source source{CounterUnit::value, 3, 7, 1, 1000};
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
@@ -130,8 +130,8 @@ TEST(CapancdtFrameCounter, DropsLargePacketsThatCameBefore) {
   EXPECT_EQ(placed.back().first_frame, 70);
 }
 
-TEST(CapancdtFrameCounter, LearnsAnewWhenPacketsGrow) {
-  // With one frame in a packet, frames and packets cannot be told apart.
+TEST(CapancdtFrameCounter, LearnsAgainWhenPacketsGrow) {
+  // With one frame in a packet, frames and packets cannot be distinguished.
   Source source{CounterUnit::packet, 2, 1, 1};
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
@@ -145,7 +145,7 @@ TEST(CapancdtFrameCounter, LearnsAnewWhenPacketsGrow) {
   EXPECT_EQ(counter.lost(), 0u);
 }
 
-TEST(CapancdtFrameCounter, LearnsAnewWhenAChannelComes) {
+TEST(CapancdtFrameCounter, LearnsAgainWhenAChannelIsAdded) {
   Source source{CounterUnit::value, 1, 1, 1};
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
@@ -157,7 +157,7 @@ TEST(CapancdtFrameCounter, LearnsAnewWhenAChannelComes) {
   EXPECT_EQ(placed.back().first_frame, 19);
 }
 
-TEST(CapancdtFrameCounter, AJumpIsAnError) {
+TEST(CapancdtFrameCounter, JumpIsAnError) {
   for (const std::uint32_t to : {0u, 500'000u, 1'002'000u, 4'000'000'000u}) {
     Source source{CounterUnit::frame, 2, 1, 1, 1'000'000};
     FrameCounter counter(1, kMostLost);
@@ -172,7 +172,7 @@ TEST(CapancdtFrameCounter, AJumpIsAnError) {
   }
 }
 
-TEST(CapancdtFrameCounter, ACounterThatStandsIsAnError) {
+TEST(CapancdtFrameCounter, ConstantCounterIsAnError) {
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
   Source source{CounterUnit::frame, 2, 1, 1};
@@ -182,7 +182,7 @@ TEST(CapancdtFrameCounter, ACounterThatStandsIsAnError) {
   EXPECT_LT(packets, 100);
 }
 
-TEST(CapancdtFrameCounter, ACounterOfNothingKnownIsAnError) {
+TEST(CapancdtFrameCounter, UnknownUnitIsAnError) {
   FrameCounter counter(1, kMostLost);
   std::deque<PlacedPacket> placed;
   Source source{CounterUnit::frame, 2, 1, 1};
@@ -195,7 +195,7 @@ TEST(CapancdtFrameCounter, ACounterOfNothingKnownIsAnError) {
   EXPECT_TRUE(placed.empty());
 }
 
-TEST(CapancdtRateWatch, TellsAnotherRate) {
+TEST(CapancdtRateWatch, ReportsAnotherRate) {
   for (const double ratio : {0.5, 0.85, 1.15, 3.0}) {
     RateWatch watch(1e6);
     std::optional<double> measured;
@@ -207,24 +207,24 @@ TEST(CapancdtRateWatch, TellsAnotherRate) {
   }
 }
 
-TEST(CapancdtRateWatch, BearsDelays) {
+TEST(CapancdtRateWatch, ToleratesDelays) {
   RateWatch watch(1e6);
   std::int64_t held_ns = 0;
   for (int i = 0; i < 60'000; ++i) {
-    if (i % 7000 == 0) held_ns = 900'000'000;  // the network is held up, and catches up
+    if (i % 7000 == 0) held_ns = 900'000'000;  // a delay of the network that is caught up
     held_ns = std::max<std::int64_t>(0, held_ns - 900'000);
     EXPECT_FALSE(watch.add(i, i * std::int64_t{1'000'000} + held_ns)) << i;
   }
 }
 
-TEST(CapancdtRateWatch, BearsSlowControllers) {
+TEST(CapancdtRateWatch, ToleratesSlowControllers) {
   RateWatch watch(400e6);  // 2.5 frames a second
   for (int i = 0; i < 1000; ++i)
     EXPECT_FALSE(watch.add(i, i * std::int64_t{400'000'000} + (i % 3) * 50'000'000)) << i;
 }
 
-// 64 s of the host's clock had passed before the first frame: they are no part of a stretch.
-TEST(CapancdtRateWatch, OneSlowStretchAtTheBeginningIsAHoldUp) {
+// 64 s of the host's clock elapse before the first frame and do not belong to a stretch.
+TEST(CapancdtRateWatch, SingleSlowStretchAtTheBeginningIsADelay) {
   RateWatch watch(1e6);
   std::int64_t t_ns = 64'000'000'000;
   for (int i = 0; i < 10'000; ++i) {
@@ -233,8 +233,8 @@ TEST(CapancdtRateWatch, OneSlowStretchAtTheBeginningIsAHoldUp) {
   }
 }
 
-// A tenth: 9 % are borne, of 11 % it tells.
-TEST(CapancdtRateWatch, TellsMoreThanATenth) {
+// The limit is a tenth: 9 % is tolerated, 11 % is reported.
+TEST(CapancdtRateWatch, ReportsMoreThanATenth) {
   const auto reported = [](double ratio) {
     RateWatch watch(1e6);
     bool tells = false;

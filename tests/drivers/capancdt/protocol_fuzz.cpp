@@ -1,5 +1,5 @@
-// libFuzzer: the data stream in pieces, the frame counter behind it, and the texts of the command
-// port, on any bytes.
+// libFuzzer: any bytes as the data stream, in pieces and with the frame counter, and as texts of
+// the command port.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -39,12 +39,12 @@ void expect_equal(const Packet& a, const Packet& b) {
   EXPECT_EQ(a.values, b.values);
 }
 
-TEST(CapancdtProtocol, EncodesTheVectorInEitherOrder) {
+TEST(CapancdtProtocol, EncodesTheVectorInBothOrders) {
   EXPECT_EQ(encode(vector_packet(), SizeOrder::bytes_per_frame_first), kBytesFirst);
   EXPECT_EQ(encode(vector_packet(), SizeOrder::frames_first), frames_first());
 }
 
-TEST(CapancdtProtocol, DecodesTheVectorInEitherOrder) {
+TEST(CapancdtProtocol, DecodesTheVectorInBothOrders) {
   for (const std::string& bytes : {kBytesFirst, frames_first()}) {
     PacketParser parser;
     parser.add(bytes);
@@ -67,7 +67,7 @@ TEST(CapancdtProtocol, ScalesTheVector) {
   EXPECT_EQ(to_um(kFullScale, 2000), 2000.0);
 }
 
-TEST(CapancdtProtocol, EndsOfTheRange) {
+TEST(CapancdtProtocol, DetectsEndsOfTheRange) {
   for (const std::int32_t raw : {0, kFullScale, -1, kFullScale + 1, INT32_MIN, INT32_MAX})
     EXPECT_TRUE(at_end_of_range(raw, 0)) << raw;
   for (const std::int32_t raw : {1, kFullScale - 1}) EXPECT_FALSE(at_end_of_range(raw, 0)) << raw;
@@ -76,7 +76,7 @@ TEST(CapancdtProtocol, EndsOfTheRange) {
     EXPECT_FALSE(at_end_of_range(raw, 16)) << raw;
 }
 
-TEST(CapancdtProtocol, SplitAtEveryByte) {
+TEST(CapancdtProtocol, DecodesPacketsSplitAtAnyByte) {
   const std::string two = kBytesFirst + frames_first();
   for (std::size_t cut = 0; cut <= two.size(); ++cut) {
     PacketParser parser;
@@ -91,7 +91,7 @@ TEST(CapancdtProtocol, SplitAtEveryByte) {
   }
 }
 
-TEST(CapancdtProtocol, ByteByByte) {
+TEST(CapancdtProtocol, DecodesPacketsByteByByte) {
   PacketParser parser;
   Packet packet;
   int packets = 0;
@@ -103,7 +103,7 @@ TEST(CapancdtProtocol, ByteByByte) {
   EXPECT_EQ(packets, 3);
 }
 
-TEST(CapancdtProtocol, FindsItsPlaceAfterGarbage) {
+TEST(CapancdtProtocol, FindsThePacketAfterInvalidData) {
   const std::string garbage = std::string("x\0SAEMSASAE", 11) + std::string(40, 'S');
   for (std::size_t cut = 1; cut < garbage.size(); ++cut) {
     PacketParser parser;
@@ -120,7 +120,7 @@ TEST(CapancdtProtocol, FindsItsPlaceAfterGarbage) {
   }
 }
 
-TEST(CapancdtProtocol, AfterGarbageOnlyTheSameDevice) {
+TEST(CapancdtProtocol, AfterInvalidDataAcceptsTheSameDeviceOnly) {
   Packet stranger = vector_packet();
   stranger.serial = 7;
   PacketParser parser;
@@ -133,9 +133,9 @@ TEST(CapancdtProtocol, AfterGarbageOnlyTheSameDevice) {
   EXPECT_EQ(parser.skipped(), 1 + kBytesFirst.size());
 }
 
-TEST(CapancdtProtocol, APacketThatIsCutShort) {
+TEST(CapancdtProtocol, SkipsATruncatedPacket) {
   for (std::size_t cut = 1; cut + 3 < kBytesFirst.size(); ++cut) {
-    if (cut >= 28 && cut < 32) continue;  // makes a counter that jumps, for FrameCounter
+    if (cut >= 28 && cut < 32) continue;  // a jump of the counter, which FrameCounter detects
     PacketParser parser;
     Packet packet;
     parser.add(kBytesFirst + kBytesFirst.substr(0, cut) + kBytesFirst + kBytesFirst);
@@ -146,7 +146,7 @@ TEST(CapancdtProtocol, APacketThatIsCutShort) {
   }
 }
 
-TEST(CapancdtProtocol, RefusesSizesThatCannotBe) {
+TEST(CapancdtProtocol, RefusesImpossibleSizes) {
   struct {
     int a, b;
   } const sizes[] = {{16, 0}, {0, 16}, {16, 1025}, {1025, 16}, {12, 2}, {0, 0}, {65535, 65535}};
@@ -164,7 +164,7 @@ TEST(CapancdtProtocol, RefusesSizesThatCannotBe) {
   }
 }
 
-TEST(CapancdtProtocol, NoChannelIsNoPacket) {
+TEST(CapancdtProtocol, RefusesAPacketWithoutChannels) {
   for (const std::uint64_t bits : {std::uint64_t{0}, std::uint64_t{0xAAAA}, ~std::uint64_t{0}}) {
     std::string bytes = kBytesFirst;
     for (std::size_t i = 0; i < 8; ++i) bytes[12 + i] = static_cast<char>(bits >> 8 * i);
@@ -175,7 +175,7 @@ TEST(CapancdtProtocol, NoChannelIsNoPacket) {
   }
 }
 
-TEST(CapancdtProtocol, PlacesOfChannels) {
+TEST(CapancdtProtocol, FindsThePositionsOfChannels) {
   Packet packet;
   packet.channel_bits = channel_bit(2) | channel_bit(5) | channel_bit(32);
   packet.values = {10, 20, 30, 11, 21, 31};
@@ -193,7 +193,7 @@ TEST(CapancdtProtocol, PlacesOfChannels) {
   expect_equal(back, packet);
 }
 
-TEST(CapancdtProtocol, LargestPacket) {
+TEST(CapancdtProtocol, DecodesTheLargestPacket) {
   Packet packet;
   for (int i = 1; i <= kMostChannels; ++i) packet.channel_bits |= channel_bit(i);
   packet.values.assign(static_cast<std::size_t>(kMostChannels) * kMostFrames, 0x123456);
@@ -206,8 +206,8 @@ TEST(CapancdtProtocol, LargestPacket) {
   }
 }
 
-// The manual's table of the header: each field at its offset, none of them as any other.
-TEST(CapancdtProtocol, EachFieldHasItsPlace) {
+// The manual's table of the header: each field has its offset and a different value.
+TEST(CapancdtProtocol, FieldsHaveTheirOffsets) {
   const std::string bytes = from_hex(
       "53 41 45 4D 01 02 03 04 11 12 13 14 40 00 00 00 00 00 00 00 31 32 33 34 04 00 01 00 41 42 "
       "43 44 56 34 12 00");
@@ -224,13 +224,13 @@ TEST(CapancdtProtocol, EachFieldHasItsPlace) {
   EXPECT_EQ(encode(packet, SizeOrder::bytes_per_frame_first), bytes);
 }
 
-TEST(CapancdtProtocol, APacketBeginsEmpty) {
+TEST(CapancdtProtocol, DefaultPacketIsEmpty) {
   EXPECT_EQ(Packet{}.channels(), 0);
   EXPECT_EQ(Packet{}.frames(), 0);
   EXPECT_EQ(Packet{}.counter, 0U);
 }
 
-TEST(CapancdtProtocol, EachValueOfAFrameHasItsPlace) {
+TEST(CapancdtProtocol, ValuesOfAFrameHaveTheirIndices) {
   Packet packet;
   packet.channel_bits = 0x15;  // channels 1 to 3
   packet.values = {11, 12, 13, 21, 22, 23};

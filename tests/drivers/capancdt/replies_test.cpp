@@ -11,7 +11,7 @@ std::string text_of(std::string_view command, std::string_view received) {
   return (reply->refused ? "refused " : "") + reply->text;
 }
 
-TEST(CapancdtReplies, ManualsExamples) {
+TEST(CapancdtReplies, ReadsTheManualsExamples) {
   EXPECT_EQ(text_of("$STI1200", "$STI1200,960OK\r\n"), ",960");
   EXPECT_EQ(text_of("$STI?", "$STI?960OK\r\n"), "960");
   EXPECT_EQ(text_of("$TRG0", "$TRG0OK\r\n"), "");
@@ -21,7 +21,7 @@ TEST(CapancdtReplies, ManualsExamples) {
   EXPECT_EQ(text_of("$VER", "$VERDT6200;V1.2aOK\r\n"), "DT6200;V1.2a");
 }
 
-TEST(CapancdtReplies, EchoOneWayOrTheOther) {
+TEST(CapancdtReplies, AcceptsEveryKindOfEcho) {
   EXPECT_EQ(text_of("$STI?", "$STI?\r$STI?960OK\r\n"), "960");
   EXPECT_EQ(text_of("$STI?", "$STI?\r\n$STI?960OK\r\n"), "960");
   EXPECT_EQ(text_of("$STI?", "$STI?$STI?960OK\r\n"), "960");
@@ -30,22 +30,22 @@ TEST(CapancdtReplies, EchoOneWayOrTheOther) {
   EXPECT_EQ(text_of("$TRG0", "Welcome\r\nSerial: 5\r\n$TRG0\r$TRG0OK\r\n"), "");
 }
 
-TEST(CapancdtReplies, NotYetThere) {
+TEST(CapancdtReplies, WaitsForACompleteReply) {
   const std::string whole = "$STI?\r$STI?960OK\r";
   for (std::size_t n = 0; n < whole.size(); ++n)
     EXPECT_EQ(text_of("$STI?", whole.substr(0, n)), "nothing") << n;
   EXPECT_EQ(text_of("$STI?", whole), "960");
-  EXPECT_EQ(text_of("$STI?", "$AVT?0OK\r\n"), "nothing");  // to something else
+  EXPECT_EQ(text_of("$STI?", "$AVT?0OK\r\n"), "nothing");  // reply to another command
   EXPECT_EQ(text_of("$VER", "$VER\r\n"), "nothing");
 }
 
-TEST(CapancdtReplies, Refusals) {
+TEST(CapancdtReplies, ReadsRefusals) {
   EXPECT_EQ(text_of("$COI", "$COI\r$UNKNOWN COMMAND\r\n"), "refused $UNKNOWN COMMAND");
   EXPECT_EQ(text_of("$AVN9", "$AVN9$WRONG PARAMETER\r\n"), "refused $WRONG PARAMETER");
   EXPECT_EQ(text_of("$COI", "$UNKNOWN COMM"), "nothing");
 }
 
-TEST(CapancdtReplies, WelcomeInWhateverWords) {
+TEST(CapancdtReplies, ReadsAWelcomeInAnyWords) {
   const Welcome welcome = parse_welcome("hello\r\nGeraet : DT6230 \r\nS/N:4711\r\nmore\r\nhal");
   EXPECT_EQ(welcome.lines, 4);
   EXPECT_EQ(welcome.name, "DT6230");
@@ -56,7 +56,7 @@ TEST(CapancdtReplies, WelcomeInWhateverWords) {
   EXPECT_EQ(parse_welcome("").lines, 0);
 }
 
-TEST(CapancdtReplies, Fields) {
+TEST(CapancdtReplies, FindsFields) {
   const std::string info = ":ANO2800,NAMCS2,SNO1001,OFS0,RNG2000,UNTum,DTY1";
   EXPECT_EQ(field(info, "ANO"), "2800");
   EXPECT_EQ(field(info, "SNO"), "1001");
@@ -65,7 +65,7 @@ TEST(CapancdtReplies, Fields) {
   EXPECT_EQ(field("", "ANO"), "");
 }
 
-TEST(CapancdtReplies, Ranges) {
+TEST(CapancdtReplies, ReadsRanges) {
   EXPECT_EQ(range_um_of(":RNG2000,UNTum"), 2000.0);
   EXPECT_EQ(range_um_of(":RNG500,UNT\xB5m"), 500.0);
   EXPECT_EQ(range_um_of(":RNG500,UNT\xC2\xB5m"), 500.0);
@@ -77,7 +77,7 @@ TEST(CapancdtReplies, Ranges) {
     EXPECT_EQ(range_um_of(none), std::nullopt) << none;
 }
 
-TEST(CapancdtReplies, NumbersAndLists) {
+TEST(CapancdtReplies, ReadsNumbersAndLists) {
   EXPECT_EQ(parse_integer("960"), 960);
   EXPECT_EQ(parse_integer(",960"), 960);
   for (const char* none : {"", ",", "9x", "99999999999", "1.5"})

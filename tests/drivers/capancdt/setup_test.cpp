@@ -1,11 +1,11 @@
-// How the driver comes to terms with a controller, simulated, over sockets.
+// How the driver sets up a simulated controller, over sockets.
 #include "tests/drivers/capancdt/rack.h"
 #include "tests/shown.h"
 
 namespace mdof::drivers::capancdt {
 namespace {
 
-TEST(CapancdtSetup, IdentityIsChecked) {
+TEST(CapancdtSetup, ChecksTheIdentity) {
   Rack rack;
   rack.options.serial = "1001";
   EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
@@ -14,7 +14,7 @@ TEST(CapancdtSetup, IdentityIsChecked) {
              "but the configuration has serial = 1002; correct the key \"serial\"");
 }
 
-TEST(CapancdtSetup, AChannelThatIsNotThere) {
+TEST(CapancdtSetup, RefusesAMissingChannel) {
   SimulatedCapancdt::Options device;
   device.inputs[2].present = false;
   Rack rack(device);
@@ -27,7 +27,7 @@ TEST(CapancdtSetup, AChannelThatIsNotThere) {
   expect_has(error_of(Capancdt(rack.options).open()), "no input \"5\"");
 }
 
-TEST(CapancdtSetup, RangeFromTheControllerOrTheConfiguration) {
+TEST(CapancdtSetup, UsesTheControllersOrConfiguredRange) {
   SimulatedCapancdt::Options device;
   device.inputs[0].range_um = 500;
   Rack reported(device);
@@ -46,7 +46,7 @@ TEST(CapancdtSetup, RangeFromTheControllerOrTheConfiguration) {
   EXPECT_NEAR(collect(given, 5).all.value.at(0).at(0), 100, 1e-4);
 }
 
-TEST(CapancdtSetup, SaysWhatTheControllerDoesToTheValues) {
+TEST(CapancdtSetup, ReportsCorrectionsByTheController) {
   SimulatedCapancdt::Options device;
   Rack plain(device);
   Capancdt without(plain.options);
@@ -70,8 +70,8 @@ TEST(CapancdtSetup, SaysWhatTheControllerDoesToTheValues) {
   EXPECT_EQ(test::shown(untold.info().notices), "linearisation_unknown\n");
 }
 
-// 8 values of 131 ms are 1.05 s, longer than a stop is given to settle.
-TEST(CapancdtSetup, AveragingLongerThanAStopSettlesIsRefused) {
+// 8 values of 131 ms take 1.05 s, longer than the settling time of a stop.
+TEST(CapancdtSetup, RefusesAveragingLongerThanSettling) {
   SimulatedCapancdt::Options device;
   device.sample_time_us = 131072;
   device.averaged_values = 8;
@@ -92,7 +92,7 @@ TEST(CapancdtSetup, AveragingLongerThanAStopSettlesIsRefused) {
   EXPECT_EQ(error_of(Capancdt(rack.options).open()), "");
 }
 
-TEST(CapancdtSetup, SettingsThatMayNotBeChanged) {
+TEST(CapancdtSetup, ReportsSettingsItMustNotChange) {
   SimulatedCapancdt::Options device;
   device.sample_time_us = 1024;
   device.trigger = 1;
@@ -114,7 +114,7 @@ TEST(CapancdtSetup, SettingsThatMayNotBeChanged) {
   EXPECT_GE(collect(driver, 5).all.scans(), 5u);
 }
 
-TEST(CapancdtSetup, ATriggerIsSetToContinuous) {
+TEST(CapancdtSetup, SetsTheTriggerToContinuous) {
   SimulatedCapancdt::Options device;
   device.trigger = 2;
   Rack rack(device);
@@ -123,7 +123,7 @@ TEST(CapancdtSetup, ATriggerIsSetToContinuous) {
   EXPECT_GE(collect(driver, 5).all.scans(), 5u);
 }
 
-TEST(CapancdtSetup, ADumbControllerIsAnError) {
+TEST(CapancdtSetup, SilentControllerIsAnError) {
   SimulatedCapancdt::Options device;
   device.faults.mute = true;
   Rack rack(device);
@@ -137,7 +137,7 @@ TEST(CapancdtSetup, ADumbControllerIsAnError) {
   expect_has(state.error().message, "is not open");
 }
 
-TEST(CapancdtSetup, NobodyThere) {
+TEST(CapancdtSetup, UnreachableControllerIsAnError) {
   Options options;
   {
     const ServedDevice gone(2);

@@ -17,7 +17,7 @@ std::string asked(SimulatedCapancdt& device, const std::string& text, std::int64
   return device.exchange(kCommand, 1, text, now_ns);
 }
 
-TEST(CapancdtDevice, SpeaksAsTheManualSays) {
+TEST(CapancdtDevice, AnswersAsTheManualStates) {
   SimulatedCapancdt device(half, {});
   device.opened(kCommand, 1, 0);
   EXPECT_EQ(asked(device, ""), "Welcome\r\nDevice: DT6220\r\nSerial number: 1001\r\n");
@@ -31,7 +31,7 @@ TEST(CapancdtDevice, SpeaksAsTheManualSays) {
   EXPECT_EQ(asked(device, "$AVN4\r$AVN?\r"), "$AVN4\r$AVN4OK\r\n$AVN?\r$AVN?4OK\r\n");
 }
 
-TEST(CapancdtDevice, AHalfTypedCommandIsForgottenAfterTenSeconds) {
+TEST(CapancdtDevice, ForgetsAHalfTypedCommandAfterTenSeconds) {
   SimulatedCapancdt device(half, {});
   device.opened(kCommand, 1, 0);
   asked(device, "$ST");
@@ -52,7 +52,7 @@ TEST(CapancdtDevice, StreamsToOneClientOnly) {
   EXPECT_EQ(device.exchange(kData, 3, "", kSecond + 1'000'000).size(), 48u);
 }
 
-TEST(CapancdtDevice, SendsWhatItsInputsSense) {
+TEST(CapancdtDevice, SendsTheSignalsOfItsInputs) {
   SimulatedCapancdt::Options options;
   options.frames_per_packet = 2;
   options.inputs[1].present = false;
@@ -71,7 +71,7 @@ TEST(CapancdtDevice, SendsWhatItsInputsSense) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(to_um(packet.values[i], 2000), um[i], 1e-4);
 }
 
-TEST(CapancdtDevice, TriggeredItIsSilent) {
+TEST(CapancdtDevice, SendsNothingWhileTriggered) {
   SimulatedCapancdt::Options options;
   options.trigger = 1;
   SimulatedCapancdt device(half, options);

@@ -1,4 +1,4 @@
-// The dialogue and the data header of a client that reads real controllers:
+// Commands, replies and the data header of a client that reads real controllers:
 // epics-modules/microEpsilon, capaNCDT6200Sup. Micro-Epsilon publishes no source.
 #include <gtest/gtest.h>
 
@@ -13,19 +13,19 @@ namespace {
 
 SimulatedCapancdt controller() {
   SimulatedCapancdt::Options options;
-  options.faults.echo = SimulatedCapancdt::Echo::reply;  // the reply once, as the client reads it
+  options.faults.echo = SimulatedCapancdt::Echo::reply;  // a single reply, as the client reads it
   return {[](std::size_t, std::int64_t) { return 1000; }, options};
 }
 
 struct Line {
   const char* command;
-  const char* in;  // of Db/capaNCDT6200.proto, as a regular expression
+  const char* in;  // from Db/capaNCDT6200.proto, as a regular expression
 };
 
-TEST(CapancdtVectors, TheSimulatedOneAnswersAsEpicsReadsIt) {
+TEST(CapancdtVectors, SimulatedDeviceAnswersAsEpicsReads) {
   SimulatedCapancdt device = controller();
   device.opened(0, 1, 0);
-  device.exchange(0, 1, "", 0);  // its welcome
+  device.exchange(0, 1, "", 0);  // the welcome text
   const Line lines[] = {
       {"$VER", R"(\$VER[^;]+;.*)"},
       {"$STI?", R"(\$STI\?\d+OK)"},
@@ -50,10 +50,10 @@ TEST(CapancdtVectors, TheSimulatedOneAnswersAsEpicsReadsIt) {
   }
 }
 
-// src/capaNCDT6200Sup.c: bytes 0 to 3 reversed are "MEAS", order number at 4, serial number at 8,
-// channels at 12, status at 20, two sizes at 24 and 26, counter at 28, values from 32, all
+// src/capaNCDT6200Sup.c: bytes 0 to 3 reversed are "MEAS", order number at byte 4, serial number at
+// 8, channels at 12, status at 20, two sizes at 24 and 26, counter at 28, values from 32 on, all
 // little-endian; 0xFFFFFF is the whole range (capaNCDT6200Protocol.h).
-TEST(CapancdtVectors, APacketHasThePlacesThatEpicsReads) {
+TEST(CapancdtVectors, PacketHasTheOffsetsThatEpicsReads) {
   SimulatedCapancdt device = controller();
   device.opened(1, 2, 0);
   const std::string packet = device.exchange(1, 2, "", 1'000'000);

@@ -20,7 +20,7 @@ std::string refusal(const std::string& toml) {
   return spec->make().has_value() && spec->live ? "accepted" : "not made";
 }
 
-TEST(CsvStreamConfiguration, KeysAndTheirErrors) {
+TEST(CsvStreamConfiguration, ReadsKeysAndReportsErrors) {
   EXPECT_EQ(refusal("source = \"tcp://127.0.0.1:9000\"\nsilence_s = 10\nstart_s = 5"), "accepted");
   EXPECT_EQ(refusal("source = \"fifo:/run/probe\"\nbad_lines = 0"), "accepted");
   EXPECT_EQ(refusal("command = [\"python3\", \"p.py\"]\nabsolute = true"), "accepted");

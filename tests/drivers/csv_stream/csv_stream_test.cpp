@@ -35,7 +35,7 @@ CsvStream over_tcp(const ServedDevice& served, milliseconds silence = millisecon
   return {"probe", options};
 }
 
-TEST(CsvStream, RowsOfATcpServerWithItsOwnTimes) {
+TEST(CsvStream, ReadsRowsOfATcpServerWithItsTimes) {
   SimulatedCsvStream device(counts, {.columns = {"encoder_mm", "A_um"}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
@@ -48,15 +48,15 @@ TEST(CsvStream, RowsOfATcpServerWithItsOwnTimes) {
   EXPECT_EQ(all.scans[7], (std::vector<double>{0.25, 1.25}));
   EXPECT_EQ(all.lost, 0u);
   expect_growing(all.time_ns);
-  // From where the clock has made up for a first row that waited for this computer.
+  // The first row may have waited for this computer; the clock has corrected this from here on.
   constexpr std::size_t kFrom = 50;
   EXPECT_NEAR(static_cast<double>(all.time_ns.back() - all.time_ns[kFrom]),
               static_cast<double>(all.time_ns.size() - 1 - kFrom) * 1e6, 2e6);
   EXPECT_LT(std::abs(monotonic_ns() - all.time_ns.back()), 5'000'000'000);
 }
 
-// The reader of the device marks what comes late as suspect: it asks the clock at each block.
-TEST(CsvStream, RowsThatComeLateMakeItsClockDoubtful) {
+// The reader of the device marks late samples as suspect; it asks the clock at each block.
+TEST(CsvStream, LateRowsMakeTheClockUncertain) {
   CsvStream stream("probe", command("printf 'time_s,A_um\\n5.00,1\\n'; sleep 0.5; "
                                     "printf '5.01,2\\n'; sleep 60"));
   EXPECT_EQ(stream.clock(), nullptr);  // no header yet
@@ -75,7 +75,7 @@ TEST(CsvStream, RowsThatComeLateMakeItsClockDoubtful) {
   EXPECT_FALSE(without.info().clock);
 }
 
-TEST(CsvStream, APositionInVoltsNeedsTheScaleOfTheRig) {
+TEST(CsvStream, PositionInVoltsNeedsTheRigsScale) {
   SimulatedCsvStream device(counts, {.columns = {"encoder_V", "A_um"}});
   const ServedDevice served(device);
   for (const bool scaled : {false, true}) {
@@ -93,7 +93,7 @@ TEST(CsvStream, APositionInVoltsNeedsTheScaleOfTheRig) {
     EXPECT_NE(reported.find("set um_per_V in [encoder] of rig_X.toml"), std::string::npos)
         << reported;
   }
-  // Of a source that sends no header line it is known at once.
+  // If the source sends no header line, the configuration reports this.
   DriverContext context;
   auto table = TomlTable::parse("source = \"fifo:x\"\nheader = \"encoder_V,A_um\"\n", "mdofd.toml");
   const auto spec = configure_csv_stream(*table, context);
@@ -120,7 +120,7 @@ TEST(CsvStream, BadLinesAreCountedAsLost) {
       << more.error;
 }
 
-TEST(CsvStream, ABrokenConnectionIsAnErrorAndComesBack) {
+TEST(CsvStream, BrokenConnectionIsAnErrorAndReopens) {
   SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.cut_row = 50}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
@@ -128,7 +128,7 @@ TEST(CsvStream, ABrokenConnectionIsAnErrorAndComesBack) {
   for (int round = 0; round < 2; ++round) {
     ASSERT_TRUE(stream.open());
     const Collected all = collect(stream, 1000);
-    EXPECT_EQ(all.scans.size(), 50u);  // the half row is no row
+    EXPECT_EQ(all.scans.size(), 50u);  // a half row is not a row
     EXPECT_NE(all.error.find(served.address() + ": the other side has closed"), std::string::npos)
         << all.error;
     expect_growing(all.time_ns);
@@ -137,7 +137,7 @@ TEST(CsvStream, ABrokenConnectionIsAnErrorAndComesBack) {
   }
 }
 
-TEST(CsvStream, ASilentServerIsAnError) {
+TEST(CsvStream, SilentServerIsAnError) {
   SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.silent_from = 5}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served, milliseconds(300));
@@ -147,7 +147,7 @@ TEST(CsvStream, ASilentServerIsAnError) {
   EXPECT_NE(all.error.find("no row for 0."), std::string::npos) << all.error;
 }
 
-TEST(CsvStream, AHeaderThatComesAgainStartsTheClockAnew) {
+TEST(CsvStream, RepeatedHeaderRestartsTheClock) {
   SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.restart_at = 60}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
@@ -158,7 +158,7 @@ TEST(CsvStream, AHeaderThatComesAgainStartsTheClockAnew) {
   EXPECT_LT(all.time_ns[149] - all.time_ns[0], 20'000'000'000);
 }
 
-TEST(CsvStream, TimesInMillisecondsAreRefused) {
+TEST(CsvStream, RefusesTimesInMilliseconds) {
   SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.time_scale = 1000}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
@@ -167,7 +167,7 @@ TEST(CsvStream, TimesInMillisecondsAreRefused) {
   EXPECT_NE(all.error.find("time_s must be in seconds"), std::string::npos) << all.error;
 }
 
-TEST(CsvStream, WithoutAHeaderOpenFails) {
+TEST(CsvStream, MissingHeaderFailsToOpen) {
   SimulatedCsvStream device(counts, {.columns = {"A_um"}, .faults = {.no_header = true}});
   const ServedDevice served(device);
   CsvStream stream = over_tcp(served);
@@ -177,7 +177,7 @@ TEST(CsvStream, WithoutAHeaderOpenFails) {
             std::string::npos);
 }
 
-TEST(CsvStream, NobodyListens) {
+TEST(CsvStream, ServerThatIsNotRunningIsAnError) {
   CsvStreamOptions options = options_for_test();
   {
     SimulatedCsvStream device(counts, {.columns = {"A_um"}});
@@ -190,7 +190,7 @@ TEST(CsvStream, NobodyListens) {
   EXPECT_NE(status.error().message.find(options.server->text()), std::string::npos);
 }
 
-TEST(CsvStream, RowsOfACommandThatExits) {
+TEST(CsvStream, ReadsRowsOfACommandUntilItExits) {
   CsvStream stream("probe", command("printf 'A_um,B_um\\n1,2\\n3,4\\n5,'; echo first >&2; "
                                     "echo 'sensor on fire' >&2; exit 3"));
   for (int round = 0; round < 2; ++round) {
@@ -206,7 +206,7 @@ TEST(CsvStream, RowsOfACommandThatExits) {
   }
 }
 
-TEST(CsvStream, ACommandThatIsNotThere) {
+TEST(CsvStream, MissingCommandIsAnError) {
   CsvStreamOptions options = options_for_test();
   options.command = {"/no/such/program"};
   const auto status = CsvStream("probe", options).open();
@@ -215,11 +215,11 @@ TEST(CsvStream, ACommandThatIsNotThere) {
             std::string::npos);
 }
 
-TEST(CsvStream, ACommandDiesWithItsDriverAndIsNotHeldUpByItsErrors) {
+TEST(CsvStream, CommandEndsWithItsDriverAndErrorsDoNotBlock) {
   const auto marker = std::filesystem::temp_directory_path() /
                       ("mdof_csv_stream_test." + std::to_string(::getpid()));
   {
-    // More than a pipe holds on standard error, then rows.
+    // More bytes on standard error than a pipe holds, then rows.
     CsvStream stream("probe", command("trap 'echo ended >" + marker.string() +
                                       "; exit 0' TERM; echo A_um; head -c 300000 /dev/zero | tr "
                                       "'\\0' 'x' >&2; echo 1; while :; do sleep 0.02; done"));
@@ -242,8 +242,9 @@ TEST(CsvStream, RowsThatWaitedTogetherAreSuspect) {
   EXPECT_GT(all.time_ns[1] - all.time_ns[0], 100'000'000);
 }
 
-// Each burst ends with its arrival. One after a pause of this computer is suspect, and passed over.
-TEST(CsvStream, RowsOfABurstAreSpreadBackToTheBurstBefore) {
+// Each burst ends with its arrival. A burst after a pause of this computer is suspect and is
+// ignored.
+TEST(CsvStream, BurstRowsAreSpreadBackToTheBurstBefore) {
   constexpr std::size_t kBursts = 25, kRows = 8;
   CsvStream stream("probe", command("echo A_um; for i in $(seq 25); do printf "
                                     "'1\n2\n3\n4\n5\n6\n7\n8\n'; sleep 0.016; done; sleep 5"));
@@ -263,7 +264,7 @@ TEST(CsvStream, RowsOfABurstAreSpreadBackToTheBurstBefore) {
   EXPECT_GT(spread, 0u);
 }
 
-TEST(CsvStream, EmptyFieldsAreMissingAndSimulatedIsSaid) {
+TEST(CsvStream, EmptyFieldsAreMissingAndSimulatedIsReported) {
   CsvStream stream("probe", command("printf '# simulated\\nA_um,B_um\\n,2\\n'; sleep 5"));
   ASSERT_TRUE(stream.open());
   EXPECT_TRUE(stream.info().simulated);
@@ -273,7 +274,7 @@ TEST(CsvStream, EmptyFieldsAreMissingAndSimulatedIsSaid) {
   EXPECT_EQ(block.quality_at(1, 0), Quality::simulated);
 }
 
-TEST(CsvStream, AHeaderOfStrangersIsRefused) {
+TEST(CsvStream, RefusesAHeaderWithoutChannelsOfTheRig) {
   CsvStream stream("probe", command("echo Z_um; sleep 5"));
   const auto status = stream.open();
   ASSERT_FALSE(status);
@@ -283,7 +284,7 @@ TEST(CsvStream, AHeaderOfStrangersIsRefused) {
       << status.error().message;
 }
 
-TEST(CsvStream, ACommandThatSaysNothing) {
+TEST(CsvStream, SilentCommandIsAnError) {
   CsvStreamOptions options = command("sleep 5");
   options.start = milliseconds(100);
   const auto status = CsvStream("probe", options).open();

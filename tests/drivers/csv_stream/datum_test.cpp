@@ -1,4 +1,4 @@
-// Whether a position that somebody has set outlasts a new start of the script.
+// A position that was set, and a new start of the script.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -19,16 +19,17 @@ CsvStream counting(const std::string& then, bool absolute = false) {
   return {"script", options};
 }
 
-// The quality of the next scan's encoder; the probe is good.
+// Quality of the encoder in the next scan; the probe must be good.
 Quality encoder_of_next(CsvStream& stream) {
   const Collected one = collect(stream, 1);
   EXPECT_EQ(one.quality.at(0).at(1), Quality::good) << one.error;
   return one.first_quality(0);
 }
 
-TEST(CsvStreamDatum, APositionThatWasSetIsLostWithANewStart) {
+TEST(CsvStreamDatum, SetPositionIsLostAtANewStart) {
   CsvStream stream = counting("sleep 60");
-  for (int start = 0; start < 2; ++start) {  // nothing was set: the script's own positions
+  // No position was set, so the script's positions are valid.
+  for (int start = 0; start < 2; ++start) {
     ASSERT_TRUE(stream.open());
     EXPECT_EQ(encoder_of_next(stream), Quality::good);
     EXPECT_EQ(stream.info().datum_lost, "");
@@ -44,7 +45,7 @@ TEST(CsvStreamDatum, APositionThatWasSetIsLostWithANewStart) {
   EXPECT_EQ(stream.info().datum_lost, "");
 }
 
-TEST(CsvStreamDatum, APositionThatIsAbsoluteStays) {
+TEST(CsvStreamDatum, AbsolutePositionIsKept) {
   CsvStream stream = counting("sleep 60", true);
   ASSERT_TRUE(stream.open());
   stream.trust_count();
@@ -53,8 +54,8 @@ TEST(CsvStreamDatum, APositionThatIsAbsoluteStays) {
   EXPECT_EQ(stream.info().datum_lost, "");
 }
 
-// As of a board that was reset while its line stayed open.
-TEST(CsvStreamDatum, AHeaderThatComesAgainIsANewStart) {
+// Like a board that was reset while its line stayed open.
+TEST(CsvStreamDatum, RepeatedHeaderIsANewStart) {
   const auto go = std::filesystem::temp_directory_path() /
                   ("mdof_csv_stream_datum_test." + std::to_string(::getpid()));
   CsvStream stream =

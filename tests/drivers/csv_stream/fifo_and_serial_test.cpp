@@ -31,7 +31,7 @@ class CsvStreamFifo : public testing::Test {
   CsvStreamOptions options_ = options_for_test();
 };
 
-TEST_F(CsvStreamFifo, WaitsForItsWriterAndForTheNext) {
+TEST_F(CsvStreamFifo, WaitsForItsWriterAndTheNextWriter) {
   options_.start = milliseconds(50);
   CsvStream stream("probe", options_);
   const auto early = stream.open();
@@ -55,7 +55,7 @@ TEST_F(CsvStreamFifo, WaitsForItsWriterAndForTheNext) {
   }
 }
 
-TEST_F(CsvStreamFifo, AWriterThatComesBeforeTheReopenIsNotLost) {
+TEST_F(CsvStreamFifo, KeepsRowsOfAWriterBeforeTheReopen) {
   CsvStream stream("probe", options_);
   const auto write = [this](const char* text) {
     const int fd = ::open(path_.c_str(), O_WRONLY);
@@ -72,7 +72,7 @@ TEST_F(CsvStreamFifo, AWriterThatComesBeforeTheReopenIsNotLost) {
   EXPECT_EQ(all.scans, (std::vector<std::vector<double>>{{2}, {3}}));
 }
 
-TEST_F(CsvStreamFifo, WhatIsNoFifoIsSaid) {
+TEST_F(CsvStreamFifo, RefusesAPathThatIsNoFifo) {
   std::filesystem::remove(path_);
   const auto status = CsvStream("probe", options_).open();
   ASSERT_FALSE(status);
@@ -81,7 +81,7 @@ TEST_F(CsvStreamFifo, WhatIsNoFifoIsSaid) {
   EXPECT_FALSE(CsvStream("probe", options_).open());
 }
 
-// A gauge that sends rows and nothing else, "\r\n" at their ends, from the middle of one on.
+// A gauge that sends only rows with "\r\n" at their ends, beginning in the middle of a row.
 class BareRows final : public SimulatedDevice {
  public:
   std::vector<Port> ports() const override { return {{"serial", 0}}; }
@@ -105,7 +105,7 @@ CsvStreamOptions over_serial(const std::string& port, const std::string& header)
   return options;
 }
 
-TEST(CsvStream, ASerialLineThatSendsNoHeader) {
+TEST(CsvStream, ReadsASerialLineWithoutHeader) {
   BareRows device;
   const ServedLine line(device);
   CsvStream stream("gauge", over_serial(line.path(), "encoder_mm,A_um"));
@@ -120,7 +120,7 @@ TEST(CsvStream, ASerialLineThatSendsNoHeader) {
   expect_growing(all.time_ns);
 }
 
-TEST(CsvStream, ASerialLineWithoutAHeaderSaysWhatToWrite) {
+TEST(CsvStream, SerialLineWithoutHeaderNeedsTheKey) {
   BareRows device;
   const ServedLine line(device);
   CsvStream stream("gauge", over_serial(line.path(), ""));

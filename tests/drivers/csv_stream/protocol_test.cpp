@@ -26,7 +26,7 @@ const std::string kText =
     "# simulated: no\r\n\r\ntime_s,encoder_mm,A_um,B_V\r\n0.001,1.5,2.25,-0.5\r\n"
     "0.002,1.75,,nan\r\n";
 
-TEST(CsvStreamProtocol, RowsComeOutWhateverThePieces) {
+TEST(CsvStreamProtocol, PiecesDoNotChangeTheRows) {
   for (const std::size_t piece : {1u, 2u, 7u, 1000u}) {
     CsvStreamProtocol protocol("probe", 0);
     const Fed fed = feed(protocol, kText, piece);
@@ -42,7 +42,7 @@ TEST(CsvStreamProtocol, RowsComeOutWhateverThePieces) {
   }
 }
 
-TEST(CsvStreamProtocol, TimeAndEncoderMayBeLeftOut) {
+TEST(CsvStreamProtocol, TimeAndEncoderAreOptional) {
   CsvStreamProtocol protocol("probe", 0);
   const Fed fed = feed(protocol, "A_um\n1\n2\n");
   ASSERT_EQ(fed.error, "");
@@ -51,7 +51,7 @@ TEST(CsvStreamProtocol, TimeAndEncoderMayBeLeftOut) {
   EXPECT_EQ(fed.rows[1].values, std::vector<double>{2});
 }
 
-TEST(CsvStreamProtocol, BadLinesAreCountedNamedAndSkipped) {
+TEST(CsvStreamProtocol, CountsAndReportsSkippedBadLines) {
   CsvStreamProtocol protocol("probe", 3);
   const Fed fed = feed(protocol, "A_um,B_um\n1,2\n1\n1,x\n3,4\n\n# a word\n5,6\n");
   ASSERT_EQ(fed.error, "");
@@ -66,7 +66,7 @@ TEST(CsvStreamProtocol, BadLinesAreCountedNamedAndSkipped) {
                                       "probe:6: empty line"}));
 }
 
-TEST(CsvStreamProtocol, OneBadLineTooManyIsAnErrorAfterTheRowsBeforeIt) {
+TEST(CsvStreamProtocol, OneBadLineTooManyIsAnErrorAfterEarlierRows) {
   CsvStreamProtocol protocol("probe", 1);
   const Fed fed = feed(protocol, "A_um,B_um\nx\n1,2\ny\n3,4\n", 1000);
   ASSERT_EQ(fed.rows.size(), 1u);
@@ -74,7 +74,7 @@ TEST(CsvStreamProtocol, OneBadLineTooManyIsAnErrorAfterTheRowsBeforeIt) {
   EXPECT_NE(fed.error.find("probe:2: 1 fields"), fed.error.npos) << fed.error;
 }
 
-TEST(CsvStreamProtocol, ALineADayIsNoError) {
+TEST(CsvStreamProtocol, RareBadLinesAreNoError) {
   CsvStreamProtocol protocol("probe", 1);
   ASSERT_EQ(feed(protocol, "A_um,B_um\n", 1000).error, "");
   std::string good;
@@ -84,14 +84,14 @@ TEST(CsvStreamProtocol, ALineADayIsNoError) {
   EXPECT_EQ(protocol.bad_lines(), 4u);
 }
 
-TEST(CsvStreamProtocol, AMissingHeaderIsSaid) {
+TEST(CsvStreamProtocol, ReportsAMissingHeader) {
   CsvStreamProtocol protocol("probe", 3);
   const Fed fed = feed(protocol, "0.1,2,3\n0.2,3,4\n");
   EXPECT_NE(fed.error.find("the line has numbers instead of the header"), fed.error.npos)
       << fed.error;
 }
 
-TEST(CsvStreamProtocol, TimeMustGrowUntilTheHeaderComesAgain) {
+TEST(CsvStreamProtocol, TimeMustGrowUntilTheHeaderIsRepeated) {
   CsvStreamProtocol protocol("probe", 3);
   const Fed fed = feed(protocol, "time_s,A_um\n5,1\n6,2\ntime_s,A_um\n0.5,3\n0.5,4\n");
   ASSERT_EQ(fed.rows.size(), 3u);
@@ -100,7 +100,7 @@ TEST(CsvStreamProtocol, TimeMustGrowUntilTheHeaderComesAgain) {
   EXPECT_NE(fed.error.find("the time must increase"), fed.error.npos) << fed.error;
 }
 
-TEST(CsvStreamProtocol, NoLineIsLongerThanItsLimit) {
+TEST(CsvStreamProtocol, LimitsTheLengthOfALine) {
   CsvStreamProtocol protocol("probe", 3);
   EXPECT_NE(feed(protocol, std::string(70'000, 'x'), 4096).error.find("newline"),
             std::string::npos);
@@ -110,7 +110,7 @@ TEST(CsvStreamProtocol, NoLineIsLongerThanItsLimit) {
   EXPECT_NE(feed(comments, text, 4096).error.find("no header line"), std::string::npos);
 }
 
-TEST(CsvStreamProtocol, TimesBeyondReasonAreBadLines) {
+TEST(CsvStreamProtocol, ImpossibleTimesAreBadLines) {
   CsvStreamProtocol protocol("probe", 3);
   const Fed fed = feed(protocol, "time_s,A_um\n9e9,1\n-9e9,1\n1,2\n");
   ASSERT_EQ(fed.rows.size(), 1u);

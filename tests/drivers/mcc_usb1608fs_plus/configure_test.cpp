@@ -30,7 +30,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(Usb1608Configure, TakesItsKeys) {
+TEST(Usb1608Configure, ReadsItsKeys) {
   const auto settings = read("serial = \"01A2B3C4\"\nrate_hz = 100000\nrange_v = 2\n", kChannels);
   ASSERT_TRUE(settings) << settings.error().message;
   EXPECT_EQ(settings->name, "daq");
@@ -49,13 +49,13 @@ TEST(Usb1608Configure, BadValuesNameTheirKey) {
   EXPECT_TRUE(has(refusal("rate = 5\n"), "rate_hz"));
 }
 
-TEST(Usb1608Configure, BadInputsAreRefused) {
+TEST(Usb1608Configure, RefusesBadInputs) {
   EXPECT_TRUE(has(refusal("", channel("A", "CH8")), "CH7"));
   EXPECT_TRUE(has(refusal("", channel("A", "CH0", "um_per_count = 1\n")), "not counts"));
   EXPECT_TRUE(has(refusal("", channel("A", "CH0") + channel("B", "CH0")), "CH0"));
 }
 
-TEST(Usb1608Configure, AnEncoderGivesVoltsAndHasNoCountToLose) {
+TEST(Usb1608Configure, EncoderInVoltsHasNoDatum) {
   const auto settings =
       read("", channel("A", "CH0") + channel("encoder", "CH5", "offset_mm = 3\n"));
   ASSERT_TRUE(settings) << settings.error().message;
@@ -65,7 +65,7 @@ TEST(Usb1608Configure, AnEncoderGivesVoltsAndHasNoCountToLose) {
   EXPECT_TRUE(has(refusal("", channel("encoder", "CH0", "um_per_count = 1\n")), "um_per_V"));
 }
 
-TEST(Usb1608Settings, AlwaysAskNotToStallAndAreQuickWhenSlow) {
+TEST(Usb1608Settings, RequestNoStallAndImmediateSlowScans) {
   mcc_usb1608fs_plus::Settings settings;
   settings.inputs.resize(5);
   for (std::size_t i = 0; i < 5; ++i) settings.inputs[i].input = i;
@@ -75,13 +75,13 @@ TEST(Usb1608Settings, AlwaysAskNotToStallAndAreQuickWhenSlow) {
   EXPECT_EQ(mcc_usb1608fs_plus::scan_setup(settings).options, 0x81);
 }
 
-TEST(Usb1608Settings, AQuarterOfASecondWaits) {
+TEST(Usb1608Settings, QuarterOfASecondOfTransfersIsPending) {
   for (const double samples_hz : {1000.0, 5000.0, 50'000.0, 400'000.0}) {
     const auto transfers = mcc_usb1608fs_plus::transfers_for(samples_hz);
     EXPECT_EQ(transfers.bytes % 64, 0U);
     EXPECT_GE(static_cast<double>(transfers.bytes * transfers.transfers) / 2 / samples_hz, 0.249);
   }
-  // No more than 64, where a packet is a transfer: a sixth of a second of 399 packets.
+  // At most 64 transfers if each has one packet: 1/6 s of 399 packets/s.
   EXPECT_EQ(mcc_usb1608fs_plus::transfers_for(399.0 * 32).transfers, 64U);
 }
 

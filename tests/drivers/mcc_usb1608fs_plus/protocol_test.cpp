@@ -12,7 +12,7 @@ namespace {
 
 using modbus::bytes;
 
-TEST(Usb1608Protocol, ScanStartIsTheVectors) {
+TEST(Usb1608Protocol, EncodesTheScanStartVectors) {
   const std::string at_1kHz = bytes("00 00 00 00 3F 9C 00 00 1F 80");
   const std::string at_10kHz = bytes("00 00 00 00 9F 0F 00 00 1F 80");
   EXPECT_EQ(scan_start({0, pacer_period(1000), 0x1F, kNoStall}), at_1kHz);
@@ -40,7 +40,7 @@ TEST(Usb1608Protocol, PacerPeriodsAreInRange) {
   EXPECT_NEAR(rate_of(pacer_period(3333)), 3333, 0.2);
 }
 
-TEST(Usb1608Protocol, StatusIsRead) {
+TEST(Usb1608Protocol, ReadsTheStatus) {
   for (const bool running : {false, true})
     for (const bool overrun : {false, true}) {
       const auto status = read_status(status_reply({running, overrun}));
@@ -62,7 +62,7 @@ TEST(Usb1608Protocol, RangesHaveTheirCodes) {
   EXPECT_EQ(config(3), bytes("03 03 03 03 03 03 03 03"));
 }
 
-TEST(Usb1608Protocol, ScansAreCutWhereverTransfersEnd) {
+TEST(Usb1608Protocol, CutsScansAtAnyTransferBoundary) {
   std::string sent;
   for (int i = 0; i < 1000; ++i) sent += {static_cast<char>(i & 0xFF), static_cast<char>(i >> 8)};
   for (const std::size_t size : {1U, 2U, 3U, 10U, 64U, 999U, 2000U}) {
@@ -77,12 +77,12 @@ TEST(Usb1608Protocol, ScansAreCutWhereverTransfersEnd) {
   }
 }
 
-TEST(Usb1608Protocol, VoltsAreCalibratedNeitherRoundedNorClipped) {
+TEST(Usb1608Protocol, VoltsAreNeitherRoundedNorClipped) {
   EXPECT_EQ(volts(32768, {}, 10), 0);
   EXPECT_EQ(volts(0, {}, 10), -10);
   EXPECT_NEAR(volts(65535, {}, 5), 5 * 32767.0 / 32768, 1e-12);
   EXPECT_NEAR(volts(40000, {1.01F, -100}, 10), (40000 * 1.01 - 100 - 32768) * 10 / 32768, 1e-6);
-  // Half a code, 0.15 mV, is kept: slope 1.25 is exact, so are these.
+  // Half a code, 0.15 mV, is kept: with slope 1.25 these values are exact.
   EXPECT_EQ(volts(32770, {1.25F, -8192}, 10), 0.5 * 10 / 32768 + 2 * 10.0 / 32768);
   EXPECT_EQ(volts(0, {1, -100.5F}, 10), -10 - 100.5 * 10 / 32768);
   EXPECT_EQ(volts(65535, {1, 100.25F}, 10), 10 + 99.25 * 10 / 32768);
@@ -91,7 +91,7 @@ TEST(Usb1608Protocol, VoltsAreCalibratedNeitherRoundedNorClipped) {
   EXPECT_FALSE(at_rail(1));
 }
 
-TEST(Usb1608Protocol, CalibrationIsAPairForARangeAndInput) {
+TEST(Usb1608Protocol, EachRangeAndInputHasItsConstants) {
   Calibrations all;
   for (std::size_t i = 0; i < kInputs; ++i)
     all[i] = {1 + 0.001F * static_cast<float>(i), static_cast<float>(i) - 3};
@@ -108,7 +108,7 @@ TEST(Usb1608Protocol, CalibrationIsAPairForARangeAndInput) {
   EXPECT_EQ(calibration_address(5, 7), 8 * (8 * 5 + 7));
 }
 
-TEST(Usb1608Protocol, ImpossibleCalibrationIsRefused) {
+TEST(Usb1608Protocol, RefusesImpossibleCalibration) {
   const auto pair = [](float slope, float offset) {
     Calibrations all;
     all[0] = {slope, offset};
@@ -121,7 +121,7 @@ TEST(Usb1608Protocol, ImpossibleCalibrationIsRefused) {
     EXPECT_FALSE(read_calibration(bad));
 }
 
-TEST(Usb1608Protocol, CalibrationMayBeATenthOff) {
+TEST(Usb1608Protocol, SlopeMayDifferByATenth) {
   const auto slope = [](const char* hex) {
     return read_calibration(bytes(hex) + std::string(4, '\0')).has_value();
   };
@@ -130,18 +130,20 @@ TEST(Usb1608Protocol, CalibrationMayBeATenthOff) {
   EXPECT_FALSE(slope("9A 99 59 3F"));  // 0.85
 }
 
-TEST(Usb1608Settings, AScanHasItsInputsAndOptions) {
+TEST(Usb1608Settings, ScanHasItsInputsAndOptions) {
   Settings settings;
   settings.rate_hz = 1000;
   settings.inputs.resize(2);
   settings.inputs[0].input = 2;
   settings.inputs[1].input = 7;
   EXPECT_EQ(scan_start(scan_setup(settings)), bytes("00 00 00 00 3F 9C 00 00 84 80"));
-  settings.rate_hz = 100;  // a packet of 64 bytes would take 160 ms: each scan at once
+  // A packet of 64 bytes would take 160 ms, so each scan is sent immediately.
+  settings.rate_hz = 100;
   EXPECT_EQ(scan_start(scan_setup(settings)), bytes("00 00 00 00 7F 1A 06 00 84 81"));
 }
 
-// Packets of 64 bytes; 5 ms of them in a transfer, 0.25 s of them under way, 4 to 64 transfers.
+// Packets of 64 bytes; a transfer has 5 ms of them, 0.25 s of them are pending, in 4 to 64
+// transfers.
 TEST(Usb1608Settings, TransfersHoldAQuarterOfASecond) {
   EXPECT_EQ(transfers_for(400'000).bytes, 62U * 64);  // 12,500 packets a second
   EXPECT_EQ(transfers_for(400'000).transfers, 51U);

@@ -57,7 +57,7 @@ TEST_F(Usb1608Device, StartWhileRunningStalls) {
   EXPECT_EQ(report(0x99).answer, Answer::stall);
 }
 
-TEST_F(Usb1608Device, AnOverrunStallsUnlessToldNotTo) {
+TEST_F(Usb1608Device, OverrunStallsUnlessDisabled) {
   SimulatedMccUsb1608fsPlus::Faults faults;
   faults.overrun_at = 20;
   device.set_faults(faults);
@@ -84,7 +84,7 @@ TEST_F(Usb1608Device, ImmediateTransfersDoNotWait) {
   EXPECT_EQ(device.in(kSamplesIn, 64, now).answer, Answer::not_yet);
 }
 
-TEST_F(Usb1608Device, LeavesAtItsTime) {
+TEST_F(Usb1608Device, UnplugsAtItsScan) {
   SimulatedMccUsb1608fsPlus::Faults faults;
   faults.unplug_at = 3;
   device.set_faults(faults);

@@ -1,4 +1,4 @@
-// What Measurement Computing's own driver sends and reads: mccdaq/uldaq.
+// Requests that Measurement Computing's driver sends, and replies that it reads: mccdaq/uldaq.
 #include <gtest/gtest.h>
 
 #include "drivers/mcc_usb1608fs_plus/simulated_mcc_usb1608fs_plus.h"
@@ -22,9 +22,9 @@ class Usb1608Vectors : public testing::Test {
       [](std::size_t input, std::int64_t) { return input == 2 ? 5.0 : -10.0; }, {}};
 };
 
-// src/usb/Usb1608fsPlus.cpp: setScanRunningBitMask 0x0002, setOverrunBitMask 0x0004; the request is
-// 0x44 (src/usb/UsbDaqDevice.cpp, CMD_STATUS_KEY).
-TEST_F(Usb1608Vectors, TheStatusBitsAreTheVendors) {
+// src/usb/Usb1608fsPlus.cpp: setScanRunningBitMask 0x0002, setOverrunBitMask 0x0004; request 0x44
+// (src/usb/UsbDaqDevice.cpp, CMD_STATUS_KEY).
+TEST_F(Usb1608Vectors, StatusBitsEqualTheVendors) {
   EXPECT_EQ(mismatch(ask(0x44, 0, 2), "00 00"), "");
   // src/usb/ai/AiUsb1608fsPlus.h, TAINSCAN_CFG: scan_count, pacer_period (u32), chan_mask, options;
   // 40 MHz / 1 kHz - 1; getOptionsCode: 0x80, do not stall. CMD_AINSCAN_START is 0x11.
@@ -34,20 +34,19 @@ TEST_F(Usb1608Vectors, TheStatusBitsAreTheVendors) {
   EXPECT_EQ(mismatch(ask(0x44, 0, 2), "00 00"), "");
 }
 
-// CMD_AINSCAN_CONFIG 0x14, a range code for each input (mapRangeCode: 0, 1, 3, 5 for 10, 5, 2, 1
-// V); samples are 16 bits, little-endian, lowest channel first (processScanData16), on endpoint
+// CMD_AINSCAN_CONFIG 0x14 has a range code for each input (mapRangeCode: 0, 1, 3, 5 for 10, 5, 2, 1
+// V). Samples are 16 bits, little-endian, lowest channel first (processScanData16), on endpoint
 // 0x81.
-TEST_F(Usb1608Vectors, SamplesComeAsTheVendorReadsThem) {
+TEST_F(Usb1608Vectors, SamplesHaveTheVendorsFormat) {
   EXPECT_EQ(report(0x14, bytes("00 00 00 00 00 00 00 00")), usb::Answer::done);
   EXPECT_EQ(report(0x11, bytes("00 00 00 00 3F 9C 00 00 06 81")), usb::Answer::done);
   const std::string samples = device.in(0x81, 64, 1'500'000).bytes;
   EXPECT_EQ(mismatch(samples, "00 00 00 C0"), "");
 }
 
-// src/usb/ai/AiUsb1608fsPlus.cpp, getCalCoefIndex: 8 inputs x the range's code + input, a slope and
-// an offset, each a float; the memory is read by request 0x30 (CMD_MEM_CAL_KEY), the address its
-// value.
-TEST_F(Usb1608Vectors, TheConstantsAreWhereTheVendorReadsThem) {
+// src/usb/ai/AiUsb1608fsPlus.cpp, getCalCoefIndex: 8 inputs x range code + input; a slope and an
+// offset, each a float. Request 0x30 (CMD_MEM_CAL_KEY) reads the memory; its value is the address.
+TEST_F(Usb1608Vectors, ConstantsHaveTheVendorsAddresses) {
   EXPECT_EQ(calibration_address(0, 0), 0);
   EXPECT_EQ(calibration_address(5, 3), 8 * (8 * 5 + 3));
   EXPECT_EQ(mismatch(ask(0x30, 8 * (8 * 3 + 1), 8), "00 00 80 3F 00 00 00 00"), "");
@@ -56,8 +55,9 @@ TEST_F(Usb1608Vectors, TheConstantsAreWhereTheVendorReadsThem) {
 }
 
 // src/usb/UsbDaqDevice.cpp: vendor 0x09db; src/usb/Usb1608fsPlus.cpp and AiUsb1608fsPlus.cpp: eight
-// inputs, a serial number of 8 characters, 100 kS/s each and 400 kS/s in all; product 0x00ea.
-TEST_F(Usb1608Vectors, NumbersAreTheVendors) {
+// inputs, a serial number of 8 characters, 100 kS/s per input and 400 kS/s in total; product
+// 0x00ea.
+TEST_F(Usb1608Vectors, NumbersEqualTheVendors) {
   EXPECT_EQ(kVendor, 0x09DB);
   EXPECT_EQ(kProduct, 0x00EA);
   EXPECT_EQ(kSamplesIn, 0x81);

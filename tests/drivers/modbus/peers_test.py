@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Our Modbus client against pymodbus' server, and mbpoll against our simulated slave: programs by
-other people at the other end, over TCP and RTU. Skipped (77) where they are not installed.
+"""Tests our Modbus client with the server of pymodbus, and our simulated slave with mbpoll, over TCP
+and RTU. Returns 77 (skipped) if these programs are not installed.
 
 usage: peers_test.py MODBUS_PEER
 """
@@ -25,7 +25,7 @@ if not shutil.which("mbpoll"):
     print("mbpoll is not installed")
     sys.exit(77)
 
-logging.disable()  # pymodbus calls every connection that ends an error
+logging.disable()  # pymodbus logs the end of each connection as an error
 PEER = sys.argv[1]
 UNIT = 5
 
@@ -42,7 +42,7 @@ def free_port():
 
 
 def serve_pymodbus(framer):
-    """Starts a server in a thread that ends with the program; gives its address."""
+    """Starts a server in a thread that ends with the program; returns its address."""
     slave = ModbusSlaveContext(
         hr=ModbusSequentialDataBlock(0, [1000 + i for i in range(200)]),
         ir=ModbusSequentialDataBlock(0, [2000 + i for i in range(200)]), zero_mode=True)
@@ -84,7 +84,7 @@ def mbpoll(*arguments):
 
 
 class Served:
-    """Our simulated slave of a profile; `at` is its port or line."""
+    """The simulated slave of a profile; `at` is its port or line."""
 
     def __init__(self, profile):
         self.process = subprocess.Popen([PEER, "serve", profile], stdin=subprocess.PIPE,

@@ -1,4 +1,4 @@
-// Recordings that were cut off, damaged or changed, or are none.
+// Truncated, damaged and changed recordings, and other files.
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,8 +8,9 @@
 namespace mdof::drivers {
 namespace {
 
-// 20 times: a child appends as fast as it can, is killed, and what it acknowledged is there.
-TEST_F(RecordingTest, NothingAcknowledgedIsLostBySigkill) {
+// 20 times: a child process appends as fast as possible and is killed; all acknowledged samples
+// must exist.
+TEST_F(RecordingTest, SigkillLosesNoAcknowledgedSamples) {
   for (int turn = 0; turn < 20; ++turn) {
     const fs::path file = folder_ / (std::to_string(turn) + ".mdofrec");
     int pipe_fd[2];
@@ -38,7 +39,7 @@ TEST_F(RecordingTest, NothingAcknowledgedIsLostBySigkill) {
   }
 }
 
-TEST_F(RecordingTest, AFlippedBitNamesFileChunkSpanAndWhatIsStillWhole) {
+TEST_F(RecordingTest, FlippedBitErrorNamesChunkSpanAndUndamaged) {
   write(file_, 5, true);
   {
     auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
@@ -56,9 +57,9 @@ TEST_F(RecordingTest, AFlippedBitNamesFileChunkSpanAndWhatIsStillWhole) {
     EXPECT_TRUE(contains(message, part)) << message;
 }
 
-TEST_F(RecordingTest, AChunkTakenOutIsNoticed) {
+TEST_F(RecordingTest, DetectsARemovedChunk) {
   write(file_, 5, true);
-  for (const int seq : {5, 2}) {  // the end first: only the seal knows of it
+  for (const int seq : {5, 2}) {  // the last chunk first: only the seal contains its number
     auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
     ASSERT_TRUE(db->execute("DROP TRIGGER IF EXISTS chunk_no_delete"));
     ASSERT_TRUE(db->execute("DELETE FROM chunk WHERE seq = " + std::to_string(seq)));
@@ -69,7 +70,7 @@ TEST_F(RecordingTest, AChunkTakenOutIsNoticed) {
   }
 }
 
-TEST_F(RecordingTest, AChangedRigIsNoticed) {
+TEST_F(RecordingTest, DetectsAChangedRig) {
   write(file_, 1, true);
   {
     auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
@@ -81,7 +82,7 @@ TEST_F(RecordingTest, AChangedRigIsNoticed) {
   EXPECT_TRUE(contains(outcome.status.error().message, "header"));
 }
 
-// Wherever a bit flips, the samples that come out are the right ones: as many as come.
+// A flipped bit never changes a sample, although fewer samples may be returned.
 TEST_F(RecordingTest, NoFlippedBitChangesASample) {
   write(file_, 5, true);
   const std::vector<std::int64_t> truth = read_all(file_).time_ns;
@@ -100,10 +101,10 @@ TEST_F(RecordingTest, NoFlippedBitChangesASample) {
       ++noticed;
     }
   }
-  EXPECT_GT(noticed, tried / 3);  // the rest fell on bytes that mean nothing
+  EXPECT_GT(noticed, tried / 3);  // the others changed bytes without meaning
 }
 
-TEST_F(RecordingTest, ACutFileIsAnError) {
+TEST_F(RecordingTest, TruncatedFileIsAnError) {
   write(file_, 5, true);
   const std::string sound = contents(file_);
   for (const std::size_t size :
@@ -115,7 +116,7 @@ TEST_F(RecordingTest, ACutFileIsAnError) {
   }
 }
 
-TEST_F(RecordingTest, WhatIsNotARecordingIsRefusedByName) {
+TEST_F(RecordingTest, RefusesOtherFilesByName) {
   EXPECT_EQ(read_all(folder_ / "absent.mdofrec").status.error().code, ErrorCode::not_found);
   put_contents(file_, "time_s,encoder_mm,A_um\n0,0,0\n" + std::string(1000, '#'));
   const Outcome text = read_all(file_);
@@ -129,7 +130,7 @@ TEST_F(RecordingTest, WhatIsNotARecordingIsRefusedByName) {
   EXPECT_TRUE(contains(read_all(other).status.error().message, "not a recording"));
 }
 
-TEST_F(RecordingTest, ANewerFormatIsRefusedWithBothVersions) {
+TEST_F(RecordingTest, RefusesANewerFormatWithBothVersions) {
   write(file_, 1, true);
   ASSERT_TRUE(sqlite::Connection::open(file_, sqlite::OpenMode::read_write)
                   ->execute("PRAGMA user_version = 9"));
@@ -140,7 +141,7 @@ TEST_F(RecordingTest, ANewerFormatIsRefusedWithBothVersions) {
       contains(outcome.status.error().message, "up to " + std::to_string(kRecordingFormat)));
 }
 
-TEST_F(RecordingTest, TheRequestIsKeptAndGuarded) {
+TEST_F(RecordingTest, RequestIsStoredAndProtected) {
   write(file_, 1, true);
   {
     RecordingLog log("replay", file_);
@@ -156,7 +157,7 @@ TEST_F(RecordingTest, TheRequestIsKeptAndGuarded) {
   };
   for (const char* sql : {"UPDATE header SET value = '{}' WHERE key = 'request'",
                           "DELETE FROM header WHERE key = 'request'",
-                          "PRAGMA user_version = 1"}) {  // whose hash would leave it out
+                          "PRAGMA user_version = 1"}) {  // its hash would not include the request
     const Outcome outcome = outcome_of(sql);
     ASSERT_FALSE(outcome.status) << sql;
     EXPECT_TRUE(contains(outcome.status.error().message, "header"))

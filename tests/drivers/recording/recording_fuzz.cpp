@@ -1,5 +1,6 @@
-// Damaged recordings: the input tells which bytes of a sealed one are changed and where it is cut
-// (three bytes each: place, place, value). All of it is read, or what is wrong with it is said.
+// Damaged recordings: the input states which bytes of a sealed recording are changed and where it
+// is truncated (three bytes each: two for the position, one for the value). Reading must return all
+// samples or report the damage.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -15,7 +16,7 @@ namespace {
 
 using namespace mdof;
 
-// Two devices, three chunks; sealed. Small, since all of it is written and read for each input.
+// Two devices, three chunks; sealed. Small, because it is written and read for each input.
 std::string whole_recording(const std::filesystem::path& file) {
   RecordingHeader header;
   header.software_version = "0.1.0";

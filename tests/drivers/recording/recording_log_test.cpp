@@ -14,7 +14,8 @@
 namespace mdof::drivers {
 namespace {
 
-// Runs `body` in a child that sees `folder` read-only; skips where this machine does not let us.
+// Runs `body` in a child process with `folder` mounted read-only; skips if this machine does not
+// permit it.
 template <class Body>
 void in_read_only_folder(const fs::path& folder, Body body) {
   constexpr int kCannot = 77;
@@ -34,7 +35,7 @@ void in_read_only_folder(const fs::path& folder, Body body) {
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
-TEST_F(RecordingTest, GivesBackWhatWasWrittenToTheSameBits) {
+TEST_F(RecordingTest, ReturnsTheWrittenSamplesBitForBit) {
   SampleBlock first = block(0, 3000), second = block(3000, 500);
   first.value[0][17] = std::bit_cast<double>(0x7ff8dead'beef0001);
   first.quality = {std::vector<Quality>(3000, Quality::simulated), {}};
@@ -64,7 +65,7 @@ TEST_F(RecordingTest, GivesBackWhatWasWrittenToTheSameBits) {
   EXPECT_EQ(log.progress().done, log.progress().total);
 }
 
-TEST_F(RecordingTest, TellsItsHeaderChannelsAndRate) {
+TEST_F(RecordingTest, ReturnsItsHeaderChannelsAndRate) {
   write(file_, 2, true);
   RecordingLog log("replay", file_);
   ASSERT_TRUE(log.open());
@@ -77,7 +78,7 @@ TEST_F(RecordingTest, TellsItsHeaderChannelsAndRate) {
   EXPECT_TRUE(log.notices().empty());
 }
 
-TEST_F(RecordingTest, FinishAndReaderAgreeOnTheHash) {
+TEST_F(RecordingTest, FinishAndReaderGiveTheSameHash) {
   auto writer = RecordingWriter::create(file_, header());
   ASSERT_TRUE(writer->append(block(0, 10)));
   const std::string sha256 = writer->finish("later").value();
@@ -85,7 +86,7 @@ TEST_F(RecordingTest, FinishAndReaderAgreeOnTheHash) {
   EXPECT_EQ(read_all(file_).sha256, sha256);
 }
 
-TEST_F(RecordingTest, TheSameSamplesGiveTheSameHashAndOthersDoNot) {
+TEST_F(RecordingTest, HashDependsOnTheSamples) {
   write(file_, 3, true);
   write(folder_ / "again.mdofrec", 3, true);
   write(folder_ / "longer.mdofrec", 4, true);
@@ -93,7 +94,7 @@ TEST_F(RecordingTest, TheSameSamplesGiveTheSameHashAndOthersDoNot) {
   EXPECT_NE(read_all(file_).sha256, read_all(folder_ / "longer.mdofrec").sha256);
 }
 
-TEST_F(RecordingTest, OpensAgainFromTheStart) {
+TEST_F(RecordingTest, OpensAgainFromTheBeginning) {
   write(file_, 2, true);
   RecordingLog log("replay", file_);
   SampleBlock b;
@@ -105,7 +106,7 @@ TEST_F(RecordingTest, OpensAgainFromTheStart) {
   }
 }
 
-TEST_F(RecordingTest, KeepsDevicesAndLostScansApart) {
+TEST_F(RecordingTest, KeepsDevicesAndLostScansSeparate) {
   {
     auto writer = RecordingWriter::create(file_, header());
     ASSERT_TRUE(writer->append(block(0, 10, "b")));
@@ -126,8 +127,8 @@ TEST_F(RecordingTest, KeepsDevicesAndLostScansApart) {
   EXPECT_EQ(seen, (decltype(seen){{"b", 0}, {"a", 0}, {"b", 10}}));
 }
 
-// Of a writer that was cut off: its last chunks are in the -wal alone.
-TEST_F(RecordingTest, IsReadThroughDescriptorsWhateverHasItsNameNow) {
+// The writer was interrupted, so its last chunks are only in the -wal file.
+TEST_F(RecordingTest, ReadsThroughOpenDescriptors) {
   const fs::path copy = folder_ / "copy.mdofrec", wal = copy.string() + "-wal";
   {
     auto writer = RecordingWriter::create(file_, header());
@@ -159,13 +160,13 @@ TEST_F(RecordingTest, IsReadThroughDescriptorsWhateverHasItsNameNow) {
   EXPECT_FALSE(fs::exists(copy.string() + "-shm"));
 }
 
-TEST_F(RecordingTest, AnUnsealedFileReadsUpToTheLastCommitWithAWarning) {
+TEST_F(RecordingTest, UnsealedFileIsReadToTheLastCommit) {
   {
     auto writer = RecordingWriter::create(file_, header());
     ASSERT_TRUE(writer->append(block(0, 1000)));
     ASSERT_EQ(writer->commit().value(), 1);
     ASSERT_TRUE(writer->append(block(1000, 1000)));  // never committed
-    const Outcome live = read_all(file_);            // also while it is being written
+    const Outcome live = read_all(file_);            // also during writing
     EXPECT_TRUE(live.status);
     EXPECT_EQ(live.time_ns.size(), 1000u);
   }
@@ -177,8 +178,8 @@ TEST_F(RecordingTest, AnUnsealedFileReadsUpToTheLastCommitWithAWarning) {
   EXPECT_EQ(test::number(after.notices[0], "chunk"), 1);
 }
 
-// Made by an mdof of before there was a format 2.
-TEST_F(RecordingTest, AFileOfFormatOneIsReadAndCheckedAsItWasWritten) {
+// Made by an mdof version before format 2.
+TEST_F(RecordingTest, ReadsAndChecksAFileOfFormatOne) {
   const fs::path kept = MDOF_TEST_DATA "/devices/recordings/format-1/mcc_usb1608fs_plus.mdofrec";
   RecordingLog log("replay", kept);
   ASSERT_TRUE(log.open());
@@ -189,7 +190,7 @@ TEST_F(RecordingTest, AFileOfFormatOneIsReadAndCheckedAsItWasWritten) {
   EXPECT_GT(outcome.time_ns.size(), 1000u);
 }
 
-TEST_F(RecordingTest, ReadingLeavesNothingBesideASealedFile) {
+TEST_F(RecordingTest, ReadingASealedFileLeavesNoFiles) {
   write(file_, 2, true);
   const std::string before = contents(file_);
   ASSERT_TRUE(read_all(file_).status);
@@ -197,7 +198,7 @@ TEST_F(RecordingTest, ReadingLeavesNothingBesideASealedFile) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
-TEST_F(RecordingTest, SealedAndUnsealedFilesAreReadInAReadOnlyFolder) {
+TEST_F(RecordingTest, ReadsFilesInAReadOnlyFolder) {
   write(file_, 2, true);
   write(folder_ / "unsealed.mdofrec", 2, false);
   in_read_only_folder(folder_, [&] {

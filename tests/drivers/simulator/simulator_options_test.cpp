@@ -36,7 +36,7 @@ std::string misfit(const std::string& toml, Axis axis) {
   return fit ? "accepted" : fit.error().message;
 }
 
-TEST(SimulatorOptions, AnEmptyTableGivesTheDefaults) {
+TEST(SimulatorOptions, EmptyTableGivesTheDefaults) {
   auto options = options_from("");
   ASSERT_TRUE(options) << options.error().message;
   ASSERT_TRUE(fit_to_rig(*options, rig_of(Axis::y)));
@@ -47,7 +47,7 @@ TEST(SimulatorOptions, AnEmptyTableGivesTheDefaults) {
   EXPECT_NE(options->errors[0].amplitude, 0);
 }
 
-TEST(SimulatorOptions, EveryKeyIsRead) {
+TEST(SimulatorOptions, ReadsEveryKey) {
   const auto options = options_from(R"(
     rate_hz = 4000
     packet_ms = 5
@@ -131,7 +131,7 @@ TEST(SimulatorOptions, EveryKeyIsRead) {
   EXPECT_EQ(options->disconnects[0].from_s, 3);
 }
 
-TEST(SimulatorOptions, SpacedTargetsJitterWithinTheirBoundAndByTheSeed) {
+TEST(SimulatorOptions, SpacedTargetsJitterByTheSeedWithinBounds) {
   const std::string spacing = "from_mm = 10\nto_mm = 50\ninterval_mm = 2\njitter_mm = 0.5\n";
   const auto first = options_from("seed = 1\n" + spacing);
   const auto again = options_from("seed = 1\n" + spacing);
@@ -147,7 +147,7 @@ TEST(SimulatorOptions, SpacedTargetsJitterWithinTheirBoundAndByTheSeed) {
   }
 }
 
-TEST(SimulatorOptions, AnImpossibleValueIsRefusedByItsKeyAndLine) {
+TEST(SimulatorOptions, RefusesImpossibleValuesWithKeyAndLine) {
   for (const char* bad : {"rate_hz = 0",
                           "rate_hz = 10001",
                           "rate_hz = nan",
@@ -175,7 +175,7 @@ TEST(SimulatorOptions, AnImpossibleValueIsRefusedByItsKeyAndLine) {
   }
 }
 
-TEST(SimulatorOptions, ContradictionsBetweenKeysAreRefused) {
+TEST(SimulatorOptions, RefusesContradictoryKeys) {
   EXPECT_NE(refusal("targets_mm = [1, 2]\nfrom_mm = 0").find("from_mm: contradicts"),
             std::string::npos);
   EXPECT_NE(refusal("from_mm = 5\nto_mm = 5").find("to_mm: must be greater"), std::string::npos);
@@ -188,14 +188,14 @@ TEST(SimulatorOptions, ContradictionsBetweenKeysAreRefused) {
   EXPECT_NE(refusal("[gap]\nlength_s = 0").find("gap.length_s"), std::string::npos);
 }
 
-TEST(SimulatorOptions, AnUnknownKeyIsRefusedWithTheNearestKnownOne) {
+TEST(SimulatorOptions, UnknownKeyErrorNamesTheNearestKey) {
   EXPECT_NE(refusal("noise_mu = 1").find("noise_um"), std::string::npos);
   EXPECT_NE(refusal("[[error]]\nname = \"EAX\"\namplitude_um = 1").find("amplitude_urad"),
             std::string::npos);
   EXPECT_NE(refusal("[gap]\nprobabilty = 1").find("probability"), std::string::npos);
 }
 
-TEST(SimulatorOptions, WhatDoesNotFitTheRigIsRefusedByName) {
+TEST(SimulatorOptions, RefusesOptionsThatDoNotFitTheRig) {
   const std::string eyx = "[[error]]\nname = \"EYX\"\n";
   EXPECT_EQ(misfit(eyx, Axis::x), "accepted");
   EXPECT_NE(misfit(eyx, Axis::y).find("EYX"), std::string::npos);
@@ -205,7 +205,7 @@ TEST(SimulatorOptions, WhatDoesNotFitTheRigIsRefusedByName) {
             std::string::npos);
 }
 
-TEST(SimulatorOptions, ErrorsThatAreNotGivenAreZeroOnceOneIsGiven) {
+TEST(SimulatorOptions, ErrorsThatAreNotGivenAreZero) {
   auto options = options_from("[[error]]\nname = \"EBX\"\namplitude_urad = 3\n");
   ASSERT_TRUE(options);
   ASSERT_TRUE(fit_to_rig(*options, rig_of(Axis::x)));

@@ -1,4 +1,4 @@
-// The parts of the simulator, each alone: motion, raw readings.
+// Parts of the simulator: motion, raw readings.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ SimulatorOptions short_travel() {
   return options;
 }
 
-TEST(SimulatorMotion, RestsAtEveryTargetBothWaysAndNowhereElse) {
+TEST(SimulatorMotion, RestsAtEveryTargetInBothDirectionsOnly) {
   SimulatorOptions options = short_travel();
   options.targets_mm = {-5, 1, 20};
   const Motion motion(options);
@@ -38,7 +38,7 @@ TEST(SimulatorMotion, RestsAtEveryTargetBothWaysAndNowhereElse) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(rests_mm[i], expected[i], 1e-9);
 }
 
-TEST(SimulatorMotion, KeepsItsSpeedAndAccelerationAndRunsPastBothEnds) {
+TEST(SimulatorMotion, KeepsSpeedAccelerationAndOverruns) {
   const SimulatorOptions options = short_travel();
   const Motion motion(options);
   const double dt_s = 1e-3;
@@ -59,7 +59,7 @@ TEST(SimulatorMotion, KeepsItsSpeedAndAccelerationAndRunsPastBothEnds) {
   EXPECT_NEAR(acceleration_mm_s2, 200, 3);
 }
 
-TEST(SimulatorMotion, AnAxisThatCannotMoveStands) {
+TEST(SimulatorMotion, AxisWithoutMotionStaysAtItsTarget) {
   SimulatorOptions options = short_travel();
   options.targets_mm = {7};
   options.overrun_mm = 0;
@@ -67,7 +67,7 @@ TEST(SimulatorMotion, AnAxisThatCannotMoveStands) {
   EXPECT_EQ(Motion(options).at(123'456'789).travel_m, from_mm(7));
 }
 
-TEST(SimulatorRaw, TheRigsCalibrationTakesTheRawReadingBackToTheDisplacement) {
+TEST(SimulatorRaw, CalibrationInvertsTheRawReading) {
   Probe probe;
   probe.range_m = 200e-6;
   probe.calibration.reads_gap = true;
@@ -81,7 +81,7 @@ TEST(SimulatorRaw, TheRigsCalibrationTakesTheRawReadingBackToTheDisplacement) {
   }
 }
 
-TEST(SimulatorRaw, HoldsAtTheEndOfTheRange) {
+TEST(SimulatorRaw, LimitsReadingsAtTheEndOfTheRange) {
   Probe probe;
   probe.range_m = 200e-6;
   EXPECT_EQ(raw_reading(probe, 150e-6).um, 100);

@@ -26,7 +26,7 @@ Rig five_probes() {
   return rig;
 }
 
-// First order, A and B above, C to E at the side: enough to tell the errors apart.
+// First-order model: A and B above, C to E at the side. It is sufficient to distinguish the errors.
 void forward(double d_m, const Errors5& e, std::span<double> probe_m) {
   for (std::size_t k = 0; k < probe_m.size(); ++k) {
     const double lever_m = d_m + 0.01 * static_cast<double>(k);
@@ -34,7 +34,7 @@ void forward(double d_m, const Errors5& e, std::span<double> probe_m) {
   }
 }
 
-// A clock that moves only when somebody sleeps.
+// A clock that advances only during sleep.
 struct ManualTime {
   std::int64_t now_ns = 5'000'000'000;
   Clock clock() {
@@ -76,7 +76,7 @@ void append(SampleBlock& all, const SampleBlock& block) {
   }
 }
 
-// Reads to the end, opening again after each disconnect.
+// Reads to the end and opens again after each disconnect.
 Recording record(Simulator& simulator, std::vector<int> timeouts_ms = {100}) {
   Recording recording;
   SampleBlock block;
@@ -101,7 +101,7 @@ Recording record(const SimulatorOptions& options) {
   return record(*make(options, time));
 }
 
-// FNV-1a of the bits of all values, qualities and times since the first.
+// FNV-1a hash of the bits of all values, qualities and times relative to the first.
 std::uint64_t hash_of(const SampleBlock& all) {
   std::uint64_t hash = 0xcbf29ce484222325;
   const auto mix = [&](std::uint64_t word) {
@@ -127,7 +127,7 @@ SimulatorOptions with_every_fault() {
   return options;
 }
 
-TEST(Simulator, SaysThatItIsSimulatedInItsInfoAndOnEverySample) {
+TEST(Simulator, MarksItsInfoAndSamplesAsSimulated) {
   ManualTime time;
   const auto simulator = make(fast(), time);
   EXPECT_TRUE(simulator->info().simulated);
@@ -139,7 +139,7 @@ TEST(Simulator, SaysThatItIsSimulatedInItsInfoAndOnEverySample) {
     for (const Quality q : column) ASSERT_EQ(q, Quality::simulated);
 }
 
-TEST(Simulator, ReadingsAreTheForwardModelOfTheTruth) {
+TEST(Simulator, ReadingsFollowTheForwardModel) {
   SimulatorOptions options = fast();
   options.noise_um = options.encoder_noise_nm = options.encoder_resolution_nm = 0;
   ManualTime time;
@@ -169,7 +169,7 @@ TEST(Simulator, NamedErrorsHaveTheirAmplitudeSlopeAndReversal) {
   EXPECT_EQ(machine.truth_at(0.020, 1)[kEx], 0);
 }
 
-TEST(Simulator, NoiseHasItsStandardDeviationAndTheEncoderItsResolution) {
+TEST(Simulator, NoiseAndEncoderResolutionAreAsConfigured) {
   SimulatorOptions options = fast();
   options.targets_mm = {5};
   options.overrun_mm = 0;
@@ -197,7 +197,7 @@ TEST(Simulator, NoiseHasItsStandardDeviationAndTheEncoderItsResolution) {
   }
 }
 
-TEST(Simulator, SameSeedSameBitsInWhateverPortions) {
+TEST(Simulator, SameSeedGivesTheSameBitsInAnyReads) {
   const std::uint64_t expected = hash_of(record(with_every_fault()).all);
   SimulatorOptions options = with_every_fault();
   EXPECT_EQ(hash_of(record(options).all), expected);
@@ -211,7 +211,7 @@ TEST(Simulator, SameSeedSameBitsInWhateverPortions) {
   options.real_time = true;
   for (const std::vector<int>& timeouts_ms : {std::vector{0, 1, 0, 7}, {1000}, {3, 50}}) {
     ManualTime time;
-    std::int64_t slow_ns = 0;  // a reader that is late now and then
+    std::int64_t slow_ns = 0;  // a reader that is sometimes late
     Clock clock = time.clock();
     clock.now_ns = [&] { return time.now_ns += slow_ns++ % 1000 == 0 ? 50'000'000 : 10'000; };
     auto simulator = Simulator::make("sim", five_probes(), options, forward, clock);
@@ -220,11 +220,11 @@ TEST(Simulator, SameSeedSameBitsInWhateverPortions) {
   }
 }
 
-TEST(Simulator, GivesTheseVeryBitsFromEveryCompilerAndBuildType) {
+TEST(Simulator, EveryCompilerGivesTheseBits) {
   EXPECT_EQ(hash_of(record(with_every_fault()).all), 0x1d2f8ece0fb8cf24u);
 }
 
-TEST(Simulator, SpikesComeAsOftenAndAsLargeAsAsked) {
+TEST(Simulator, SpikesHaveTheirProbabilityAndSize) {
   SimulatorOptions options = fast();
   const SampleBlock clean = record(options).all;
   options.spike_probability = 0.02;
@@ -243,7 +243,7 @@ TEST(Simulator, SpikesComeAsOftenAndAsLargeAsAsked) {
   EXPECT_EQ(spiky.value[5], clean.value[5]);
 }
 
-TEST(Simulator, ALostProbeIsMissingForItsTimeAndNoOther) {
+TEST(Simulator, LostProbeIsMissingOnlyInItsInterval) {
   SimulatorOptions options = fast();
   options.lost = {{"C", {0.5, 0.9}}};
   const SampleBlock all = record(options).all;
@@ -256,7 +256,7 @@ TEST(Simulator, ALostProbeIsMissingForItsTimeAndNoOther) {
   }
 }
 
-TEST(Simulator, SaturationIsFlaggedAndAtTheEndOfTheRange) {
+TEST(Simulator, SaturationIsFlaggedAtTheEndOfTheRange) {
   SimulatorOptions options = fast();
   options.saturation = {0.1, 0.05};
   const SampleBlock all = record(options).all;
@@ -270,7 +270,7 @@ TEST(Simulator, SaturationIsFlaggedAndAtTheEndOfTheRange) {
   EXPECT_LT(saturated, static_cast<int>(all.scans()) / 3);
 }
 
-TEST(Simulator, LostAndGivenScansAddUp) {
+TEST(Simulator, LostAndReturnedScansAddUp) {
   SimulatorOptions options = fast();
   options.errors = {{"EYX", 0, 50, 0, 0, 0}};
   const Recording whole = record(options);
@@ -292,7 +292,7 @@ TEST(Simulator, EndsAfterItsRepeatsOrNever) {
   const auto cycle = static_cast<double>(once->machine().motion().cycle_ns());
   EXPECT_NEAR(static_cast<double>(record(*once).all.scans()), cycle / 1e6, 1);
   SampleBlock block;
-  EXPECT_EQ(*once->read(block, milliseconds(1)), ReadState::end);  // and stays so
+  EXPECT_EQ(*once->read(block, milliseconds(1)), ReadState::end);  // repeatedly
   options.repeats = 3;
   EXPECT_NEAR(static_cast<double>(record(options).all.scans()), 3 * cycle / 1e6, 1);
   options.loop = true;
@@ -301,7 +301,7 @@ TEST(Simulator, EndsAfterItsRepeatsOrNever) {
   for (int i = 0; i < 100; ++i) ASSERT_EQ(*endless->read(block, milliseconds(1)), ReadState::more);
 }
 
-TEST(Simulator, NeverGivesMoreThanTheScansDue) {
+TEST(Simulator, NeverReturnsMoreThanTheScansDue) {
   SimulatorOptions options = fast();
   options.real_time = true;
   options.rate_hz = 4000;
@@ -313,7 +313,7 @@ TEST(Simulator, NeverGivesMoreThanTheScansDue) {
   SampleBlock block;
   std::size_t scans = 0;
   for (int i = 0; i < 200; ++i) {
-    if (i == 100) time.now_ns += 50'000'000;  // a stall: all that became due comes at once
+    if (i == 100) time.now_ns += 50'000'000;  // a stall: all scans due are returned at once
     ASSERT_TRUE(simulator->read(block, milliseconds(1)));
     scans += block.scans();
     ASSERT_EQ(scans, static_cast<std::size_t>((time.now_ns - start_ns) / 250'000 + 1));
@@ -322,7 +322,7 @@ TEST(Simulator, NeverGivesMoreThanTheScansDue) {
   EXPECT_EQ(time.now_ns - start_ns, 249'000'000);
 }
 
-TEST(Simulator, AReadTimesOutWithoutScans) {
+TEST(Simulator, ReadTimesOutWithoutScans) {
   SimulatorOptions options = fast();
   options.real_time = true;
   options.rate_hz = 1;
@@ -331,14 +331,14 @@ TEST(Simulator, AReadTimesOutWithoutScans) {
   ASSERT_TRUE(simulator->open());
   SampleBlock block;
   ASSERT_TRUE(simulator->read(block, milliseconds(10)));
-  EXPECT_EQ(block.scans(), 1u);  // the one at the start
+  EXPECT_EQ(block.scans(), 1u);  // the scan at the start
   const std::int64_t before_ns = time.now_ns;
   EXPECT_EQ(*simulator->read(block, milliseconds(10)), ReadState::more);
   EXPECT_EQ(block.scans(), 0u);
   EXPECT_EQ(time.now_ns - before_ns, 10'000'000);
 }
 
-TEST(Simulator, ADisconnectedDeviceOpensAgainOnlyWhenItIsBack) {
+TEST(Simulator, DisconnectedDeviceOpensOnlyAfterItsReturn) {
   SimulatorOptions options = fast();
   options.real_time = true;
   options.disconnects = {{0.1, 0.3}};
@@ -346,7 +346,7 @@ TEST(Simulator, ADisconnectedDeviceOpensAgainOnlyWhenItIsBack) {
   const std::int64_t start_ns = time.now_ns;
   const auto simulator = make(options, time);
   SampleBlock block;
-  EXPECT_FALSE(simulator->read(block, milliseconds(1)));  // not open yet
+  EXPECT_FALSE(simulator->read(block, milliseconds(1)));  // not open
   ASSERT_TRUE(simulator->open());
   Result<ReadState> state = ReadState::more;
   std::size_t scans = 0;
@@ -367,7 +367,7 @@ TEST(Simulator, ADisconnectedDeviceOpensAgainOnlyWhenItIsBack) {
   EXPECT_EQ(block.lost, 251u);
 }
 
-TEST(Simulator, OptionsThatDoNotFitTheRigNameTheDevice) {
+TEST(Simulator, OptionErrorsNameTheDevice) {
   SimulatorOptions options = fast();
   options.errors = {{"EXY", 1, 50, 0, 0, 0}};
   const auto simulator = Simulator::make("sim", five_probes(), options, forward);

@@ -68,8 +68,8 @@ class Driver {
   // DeviceInfo::datum_lost gives a reason.
   virtual void trust_count() {}
   // How often the encoder has passed the reference mark of EncoderOrigin::index_mm. The number
-  // grows with the block from whose first scan on positions are counted from the mark.
-  // DeviceInfo::datum_lost is cleared then.
+  // increases with a block: from the first scan of this block on, positions are counted from the
+  // mark, and DeviceInfo::datum_lost is cleared.
   virtual int marks_passed() const { return 0; }
   // As trust_count(), for the encoder of a further axis (DriverContext::further).
   virtual void trust_further_count(const std::string& /*channel*/) {}

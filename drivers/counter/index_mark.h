@@ -14,7 +14,6 @@ namespace mdof::drivers {
 // If the polarity of the index is wrong, the counter loads the preset again and again at all
 // positions except the mark. Therefore the mark counts as passed only after the count has moved on
 // from the preset. Until then positions are unknown.
-// then no place is known.
 class IndexMark {
  public:
   enum class State {

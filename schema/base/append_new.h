@@ -1,4 +1,4 @@
-// Appends those of `more` that are not in `to` yet, in their order.
+// Appends the items of `more` that `to` does not contain yet, in their order.
 #pragma once
 
 #include <algorithm>

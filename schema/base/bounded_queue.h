@@ -1,5 +1,5 @@
-// A queue between two threads with a bound; what does not fit is counted, never waited for unless
-// the caller says so.
+// A bounded queue between two threads. try_push() counts items that do not fit; push() and
+// push_for() wait for room.
 #pragma once
 
 #include <chrono>
@@ -19,7 +19,7 @@ class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t capacity) : capacity_(capacity) {}
 
-  // False, and one drop counted, if it is full or closed.
+  // False, and one drop counted, if the queue is full or closed.
   bool try_push(T value) {
     const std::lock_guard lock(mutex_);
     if (closed_ || items_.size() >= capacity_) {
@@ -31,15 +31,15 @@ class BoundedQueue {
     return true;
   }
 
-  enum class Wake { yes, no };  // no: whoever waits may sleep on, until his time is up
-  // Waits for room as long as `timeout`; false, and `value` untouched, if there is none or the
-  // queue was closed.
+  enum class Wake { yes, no };  // no: a waiting thread may sleep until its timeout
+  // Waits for room up to `timeout`. False, with `value` unchanged, if there is no room or the queue
+  // was closed.
   bool push_for(T& value, std::chrono::milliseconds timeout, Wake wake = Wake::yes) {
     std::unique_lock lock(mutex_);
     emptied_.wait_for(lock, timeout, [&] { return closed_ || items_.size() < capacity_; });
     if (closed_ || items_.size() >= capacity_) return false;
     items_.push_back(std::move(value));
-    lock.unlock();  // who wakes finds it free
+    lock.unlock();  // before the wake-up, so that the other thread finds the mutex free
     if (wake == Wake::yes) filled_.notify_one();
     return true;
   }
@@ -54,7 +54,7 @@ class BoundedQueue {
     return true;
   }
 
-  // Whatever the bound: for the few commands that must not wait behind it.
+  // Ignores the bound; for the few commands that must not wait for room.
   void push_always(T value) {
     const std::lock_guard lock(mutex_);
     if (closed_) return;
@@ -62,16 +62,16 @@ class BoundedQueue {
     filled_.notify_one();
   }
 
-  // The oldest; nothing if none came in time or the queue is closed and empty.
+  // The oldest item; nullopt if none arrived in time or the queue is closed and empty.
   std::optional<T> pop(std::chrono::milliseconds timeout) {
     std::unique_lock lock(mutex_);
     filled_.wait_for(lock, timeout, [&] { return closed_ || !items_.empty(); });
     return take_front();
   }
 
-  // All of them into `taken`, the oldest first; none if none came in time or the queue is closed
-  // and empty. What was in `taken` goes, its memory is reused. There is room for as many again at
-  // once, so the bound holds for what waits, beside what is in hand.
+  // Moves all items into `taken`, the oldest first; none if none arrived in time or the queue is
+  // closed and empty. The previous contents of `taken` are deleted and their memory is reused. The
+  // queue has its full capacity again immediately: the bound does not include the items in `taken`.
   void pop_all(std::deque<T>& taken, std::chrono::milliseconds timeout) {
     taken.clear();
     std::unique_lock lock(mutex_);
@@ -80,14 +80,14 @@ class BoundedQueue {
     emptied_.notify_all();
   }
 
-  // Waits for one; nothing if the queue is closed and empty.
+  // Waits for an item; nullopt if the queue is closed and empty.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
     filled_.wait(lock, [&] { return closed_ || !items_.empty(); });
     return take_front();
   }
 
-  // No more pushes; what is inside can still be popped.
+  // Rejects further pushes; the remaining items can still be popped.
   void close() {
     const std::lock_guard lock(mutex_);
     closed_ = true;

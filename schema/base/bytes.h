@@ -1,5 +1,5 @@
-// Numbers as bytes and back: what recordings, statistics and checkpoints are written with.
-// Little-endian; a varint is LEB128, seven bits a byte, least significant first.
+// Numbers as bytes and back, for recordings, statistics and checkpoints. Little-endian; a varint is
+// LEB128, seven bits a byte, least significant first.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ static_assert(
     std::endian::native == std::endian::little,
     "numbers are written in the byte order of the processor, which must be little-endian");
 
-// An integer or a double, as it lies in memory.
+// Appends an integer or a double in its memory representation.
 template <class T>
 void put_number(std::string& to, const T& x) {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -31,14 +31,14 @@ inline void put_varint(std::string& to, std::uint64_t x) {
   to.push_back(static_cast<char>(x));
 }
 
-// After its length, a varint.
+// Appends the length as a varint, then the text.
 inline void put_string(std::string& to, std::string_view text) {
   put_varint(to, text.size());
   to.append(text);
 }
 
-// Takes values from the front of some bytes. Past the end every value is zero or empty and ok() is
-// false, so that a reader is a straight list of calls with few checks.
+// Takes values from the front of some bytes. Beyond the end every value is zero or empty and ok()
+// is false, so a reader can call it repeatedly and check once.
 class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -74,7 +74,8 @@ class ByteReader {
     return 0;
   }
   std::string_view string() { return take(varint()); }
-  // How many items of at least so many bytes follow: a varint, which bounds what is allocated.
+  // Number of the following items, read as a varint. It fails if so many items of at least
+  // `bytes_each` bytes do not fit into the rest; this bounds allocations.
   std::size_t count(std::size_t bytes_each) {
     const std::uint64_t n = varint();
     if (n <= rest_.size() / bytes_each) return n;

@@ -1,13 +1,13 @@
-// Functions compiled for more than the baseline in files that are compiled for every x86-64: they
-// carry the instruction set themselves and are called only where the processor has it. (A file
-// compiled for it as a whole must not use inline functions of other headers: the linker may keep
-// that copy for everybody.)
+// Functions with a larger instruction set in files that are compiled for the x86-64 baseline. Each
+// such function has a target attribute and is called only if the processor supports it. (Do not
+// compile a whole file for a larger set: inline functions of its headers would be compiled for it
+// too, and the linker may use these copies everywhere.)
 #pragma once
 
 #include "schema/base/instruction_set.h"
 
 #if defined(__x86_64__)
-#if defined(__GNUC__) && !defined(__clang__)  // GCC 12 warns of its own intrinsics (PR 105593)
+#if defined(__GNUC__) && !defined(__clang__)  // GCC 12 warns about its own intrinsics (PR 105593)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
@@ -27,7 +27,7 @@
 
 namespace mdof {
 
-// Whether `most` allows what MDOF_AVX2 (MDOF_AVX512) names, and the processor has it.
+// Whether `most` and the processor allow the instructions of MDOF_AVX2 (MDOF_AVX512).
 inline bool has_avx2([[maybe_unused]] InstructionSet most = best_instruction_set()) {
 #if defined(__x86_64__)
   __builtin_cpu_init();

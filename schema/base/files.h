@@ -1,4 +1,4 @@
-// Files that are read whole: small ones as text (rigs, configurations), large ones in pieces.
+// Reads whole files: small ones as text (rigs, configurations), large ones in pieces.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,13 @@
 
 namespace mdof {
 
-// The file's bytes; an error names the path and what is wrong. Only regular files are read: a pipe
-// or a device could keep the caller waiting. Files over `limit_bytes` are refused.
+// The bytes of the file. An error names the path and the reason. Only regular files are read,
+// because a pipe or a device could block the caller. Files over `limit_bytes` are rejected.
 Result<std::string> read_text_file(const std::filesystem::path& file,
                                    std::size_t limit_bytes = std::size_t{4} << 20);
 
-// The same for a file of any size, handed on in pieces of up to 1 MiB. An error of `take` ends it.
+// Reads a file of any size in pieces of up to 1 MiB and passes each to `take`. An error of `take`
+// ends the reading.
 Status read_in_pieces(const std::filesystem::path& file,
                       const std::function<Status(std::string_view)>& take);
 

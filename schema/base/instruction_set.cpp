@@ -18,7 +18,7 @@ InstructionSet best_of_processor() {
   return InstructionSet::baseline;
 }
 
-// What the environment asks for: null where nothing.
+// The set named by the environment; nullptr: none.
 const char* asked_for() {
   const char* const name = std::getenv(kVariable);
   return name && *name ? name : nullptr;

@@ -1,5 +1,5 @@
-// Which vector instructions the compiled kernels use. All give the same bits; a test or a benchmark
-// may ask for one.
+// Vector instructions of the compiled kernels. All sets give the same bits; a test or a benchmark
+// may select one.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@ namespace mdof {
 enum class InstructionSet { baseline, avx2, avx512 };
 const char* to_string(InstructionSet set);
 
-// The best this processor has, or the one that the environment variable MDOF_INSTRUCTION_SET names
-// as to_string() does; it is read once.
+// The best set of this processor, or the set that the environment variable MDOF_INSTRUCTION_SET
+// names as in to_string(). The variable is read once.
 InstructionSet best_instruction_set();
-// All this processor has, baseline first.
+// All sets of this processor, baseline first.
 std::vector<InstructionSet> available_instruction_sets();
 
-// Error: MDOF_INSTRUCTION_SET names none, or one that this processor does not have; then
-// best_instruction_set() is the processor's. Programs say so when they start.
+// Error: MDOF_INSTRUCTION_SET names an unknown set, or one that this processor does not support;
+// best_instruction_set() is then the best of the processor. Programs check this when they start.
 Status check_instruction_set();
 
 }  // namespace mdof

@@ -1,4 +1,4 @@
-// Lists that are sent in pages, weighed in bytes: one way for all of them.
+// Lists sent in pages of limited size in bytes.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace mdof {
 
-// Of a line of 48 KiB, with room for what stands around the list.
+// The line limit is 48 KiB; the rest is for the members around the list.
 inline constexpr std::size_t kPageBytes = 44 * 1024;
 
-// Appends items to the array that is open in `json` until its text would be longer than
-// `max_bytes`; gives how many. The first is always taken: whoever makes items keeps them under a
-// page. `to_json` turns the index of one, from `begin` to `end` - 1, into JSON text.
+// Appends items to the open array of `json` until its text would be longer than `max_bytes`;
+// returns their number. The first item is always appended, so each item must be shorter than a
+// page. `to_json` converts an index, `begin` to `end` - 1, to JSON text.
 template <class ToJson>
 std::size_t append_page_of(JsonWriter& json, std::size_t begin, std::size_t end, ToJson to_json,
                            std::size_t max_bytes = kPageBytes) {
@@ -26,7 +26,7 @@ std::size_t append_page_of(JsonWriter& json, std::size_t begin, std::size_t end,
   return taken;
 }
 
-// The same of a vector or span, of which `to_json` turns an item into JSON text.
+// The same for a vector or span; `to_json` converts an item to JSON text.
 template <class Items, class ToJson>
 std::size_t append_page(JsonWriter& json, const Items& items, ToJson to_json,
                         std::size_t max_bytes = kPageBytes) {

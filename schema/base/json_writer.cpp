@@ -13,8 +13,8 @@ void append_number(std::string& text, T x) {
   text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, x).ptr);
 }
 
-// Length of the UTF-8 sequence that text starts with, 0 if it is none: the ranges of RFC 3629, so
-// no overlong forms, no surrogates, nothing above U+10FFFF.
+// Length of the UTF-8 sequence at the beginning of the text; 0 if invalid. The ranges are those of
+// RFC 3629: no overlong forms, no surrogates, nothing above U+10FFFF.
 std::size_t utf8_length(std::string_view text) {
   auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   auto within = [&](std::size_t i, int low, int high) {
@@ -35,7 +35,8 @@ std::size_t utf8_length(std::string_view text) {
 }
 
 void append_escaped(std::string& text, char c) {
-  constexpr std::string_view kShort = "\"\"\\\\\nn\rr\tt";  // pairs: character, its letter
+  constexpr std::string_view kShort =
+      "\"\"\\\\\nn\rr\tt";  // pairs: character, letter of its escape
   for (std::size_t i = 0; i < kShort.size(); i += 2)
     if (kShort[i] == c) {
       text += {'\\', kShort[i + 1]};

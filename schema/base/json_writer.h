@@ -1,6 +1,6 @@
-// Writes JSON text straight into a string: no tree, no locale, shortest doubles that read back to
-// the same bits (std::to_chars), non-finite numbers as null. Bytes of a string that are not UTF-8
-// are written as U+FFFD, so that the output is always valid.
+// Writes JSON text directly into a string, without a tree or a locale. Doubles are written with the
+// fewest digits that read back to the same bits (std::to_chars), non-finite numbers as null. Bytes
+// that are not UTF-8 are written as U+FFFD, so the output is always valid.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace mdof {
 
 class JsonWriter {
  public:
-  // `reserve_bytes`: for what is written often and known to be about so long.
+  // `reserve_bytes`: expected size of the text, to avoid reallocation.
   explicit JsonWriter(std::size_t reserve_bytes = 0) { text_.reserve(reserve_bytes); }
   JsonWriter& begin_object();
   JsonWriter& end_object();
@@ -30,7 +30,7 @@ class JsonWriter {
   JsonWriter& null();
   JsonWriter& raw(std::string_view json);  // a value that is already JSON
 
-  // key and value in one
+  // Writes key and value.
   template <class T>
   JsonWriter& field(std::string_view name, const T& x) {
     key(name);
@@ -41,7 +41,7 @@ class JsonWriter {
   std::string take() { return std::move(text_); }
 
  private:
-  void separate();  // a comma where one is due
+  void separate();  // writes a comma if required
   std::string text_;
   bool need_comma_ = false;
 };

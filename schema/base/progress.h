@@ -1,4 +1,4 @@
-// How far a long piece of work is, from whoever does it to whoever waits for it.
+// Progress of a long operation.
 #pragma once
 
 #include <functional>
@@ -6,11 +6,11 @@
 namespace mdof {
 
 struct Progress {
-  double done = 0, total = 0;  // total 0: not known
-  const char* unit = "";       // of both, such as "B" or "trials"
+  double done = 0, total = 0;  // total 0: unknown
+  const char* unit = "";       // of both, for example "B" or "trials"
 };
 
-// Called now and then on the thread that works; false: the work is given up.
+// Called repeatedly on the working thread; false: cancel the operation.
 using ProgressCallback = std::function<bool(const Progress&)>;
 
 }  // namespace mdof

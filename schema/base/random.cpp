@@ -9,7 +9,7 @@
 namespace mdof {
 namespace {
 
-// Two numbers side by side, which every x86-64 calculates at once; other processors one by one.
+// Two numbers in one register; every x86-64 calculates both at once, other processors one by one.
 typedef double Pair __attribute__((vector_size(16)));
 
 // c[0] + c[1] x + c[2] x² ...
@@ -102,7 +102,7 @@ double gaussian(double p) {
   return q < 0 ? -x : x;
 }
 
-// The centre's formula for all, two at a time, and what is beyond it one by one.
+// Calculates the central formula for all values, two at a time, and the tails one by one.
 void gaussians(std::span<double> p) {
   constexpr std::size_t kSome = 64;
   std::array<double, kSome> centre{};

@@ -1,5 +1,5 @@
-// Errors of the outside world are values: Result<T>, and a message a user can act on.
-// Bugs are assert()s; input of any kind never trips an assertion.
+// Errors of input and environment are values: Result<T> with a message that a user can act on. Bugs
+// are assert()s; no input fails an assertion.
 #pragma once
 
 #include <cassert>
@@ -12,18 +12,18 @@
 namespace mdof {
 
 enum class ErrorCode {
-  usage,      // the call itself is wrong: unknown option, method, parameter
-  bad_input,  // a file, a document or a value in it
+  usage,      // the call itself is wrong: unknown option, method or parameter
+  bad_input,  // a file, a document or a value in it is invalid
   not_found,  // the named run, table, device does not exist
   check,      // a result exists and fails its check
-  io,         // device, file system, database
-  conflict,   // not possible now: a run is under way, the axis moves, a table is active
-  changed,    // what the caller has read is no longer so: the generation is another
+  io,         // error of a device, the file system or the database
+  conflict,   // not possible now: a run is in progress, the axis moves, a table is active
+  changed,    // the data have changed since the caller read them: the generation differs
 };
 
-// `message` names the place (file, line, key, device, register) and what is wrong there, and the
-// remedy where that is no command or option of mdof; else `remedy` is its code and `remedy_for`
-// what it is for (a run, a kind, a value), which daemon/words puts into words.
+// `message` names the place (file, line, key, device, register), the error there and, if the remedy
+// is not a command or option of mdof, the remedy. Otherwise `remedy` is its code and `remedy_for`
+// its object (a run, a kind, a value); daemon/words contains the text.
 struct Error {
   ErrorCode code = ErrorCode::bad_input;
   std::string message;
@@ -48,7 +48,7 @@ inline tl::unexpected<Error> io_error(std::string message, Remedy remedy = Remed
   return fail(ErrorCode::io, std::move(message), remedy, std::move(remedy_for));
 }
 
-// Passes an error on with the place put before it: "rig.toml: probe \"A\": ...".
+// Passes an error on with the place in front: "rig.toml: probe \"A\": ...".
 inline tl::unexpected<Error> in_context(const std::string& place, Error error) {
   error.message = place + ": " + error.message;
   return tl::unexpected<Error>(std::move(error));
@@ -56,9 +56,9 @@ inline tl::unexpected<Error> in_context(const std::string& place, Error error) {
 
 }  // namespace mdof
 
-// `lhs` may be a declaration, which no parentheses may surround.
+// `lhs` may be a declaration, which must not be put in parentheses.
 // NOLINTBEGIN(bugprone-macro-parentheses)
-// Evaluates a Result expression; hands its error to the caller or gives the value.
+// Evaluates a Result expression; returns its error to the caller, or assigns its value.
 #define MDOF_CONCAT_INNER(a, b) a##b
 #define MDOF_CONCAT(a, b) MDOF_CONCAT_INNER(a, b)
 #define MDOF_TRY_IMPL(tmp, lhs, expr)                      \

@@ -8,7 +8,7 @@
 namespace mdof {
 namespace {
 
-// libcrypto fails here only for want of memory.
+// libcrypto fails here only if memory is exhausted.
 void check(int ok) {
   if (ok != 1) throw std::bad_alloc();
 }

@@ -1,4 +1,4 @@
-// SHA-256 of a stream of bytes, by libcrypto.
+// SHA-256 of a stream of bytes, calculated by libcrypto.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ class Sha256 {
  public:
   Sha256();
   void update(std::string_view bytes);
-  // 64 lower-case hexadecimal digits of all bytes so far; more may follow.
+  // 64 lower-case hexadecimal digits for all bytes so far; more bytes may follow.
   std::string hex() const;
 
  private:

@@ -1,4 +1,4 @@
-// What a thread does before its work.
+// Initialisation of a thread.
 #pragma once
 
 #include <pthread.h>
@@ -8,8 +8,8 @@
 
 namespace mdof {
 
-// Names the calling thread (Linux keeps 15 bytes), and leaves the signals that end a program to the
-// main thread: one that came here would interrupt a driver's call.
+// Names the calling thread (Linux keeps 15 bytes) and blocks the signals that end a program, so
+// that the main thread receives them. A signal in this thread would interrupt a driver's call.
 inline void start_thread_as(const std::string& name) {
   ::pthread_setname_np(::pthread_self(), name.substr(0, 15).c_str());
   sigset_t ending;

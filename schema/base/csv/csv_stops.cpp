@@ -9,15 +9,16 @@
 namespace mdof {
 namespace {
 
-constexpr std::size_t kStep = kStopsMargin;  // bytes a round
+constexpr std::size_t kStep = kStopsMargin;  // bytes per iteration
 
-// Where the next stops go. They are written in groups, the last with some too many.
+// Write position for the next stops. They are written in groups of four; the last group may contain
+// unused entries.
 struct Out {
   std::uint32_t* at;
   char* byte;
 };
 
-// All bits, or the first n where fewer than a round are left.
+// A mask of all 64 bits, or of the first n if fewer bytes are left.
 std::uint64_t of_the_text(std::size_t n) {
   return n < kStep ? (std::uint64_t{1} << n) - 1 : ~std::uint64_t{0};
 }
@@ -40,7 +41,7 @@ std::uint64_t of_the_text(std::size_t n) {
 #endif
 }
 
-// std::popcount(); without its call into a library where the processor is not known to have one.
+// std::popcount(), but without a library call if the processor may have no popcount instruction.
 template <bool kHasInstruction>
 [[gnu::always_inline]] inline std::uint64_t count_bits(std::uint64_t bits) {
   if constexpr (kHasInstruction) return static_cast<std::uint64_t>(std::popcount(bits));
@@ -49,7 +50,7 @@ template <bool kHasInstruction>
   return ((bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0f) * 0x0101010101010101 >> 56;
 }
 
-// In groups of four: a loop of unknown length is mispredicted at its end.
+// Writes in groups of four, because the end of a loop of unknown length is mispredicted.
 template <bool kPopcount>
 [[gnu::always_inline]] inline Out append(const char* text, std::size_t begin, std::uint64_t bits,
                                          Out out) {

@@ -1,5 +1,5 @@
-// Where the fields of CSV text end: found many bytes at a time, so that fields can be read without
-// waiting for the end of the one before.
+// Positions where the fields of CSV text end, found many bytes at a time, so that fields can be
+// read independently of each other.
 #pragma once
 
 #include <cstddef>
@@ -11,18 +11,18 @@
 
 namespace mdof {
 
-// All bytes below '-' (as signed numbers): ',', LF, CR and what has no business in a row of plain
-// numbers (space, '#', '+', '"', bytes beyond ASCII). Field k of the text is
-// [at[k] + 1, at[k + 1]), for which at[0] is -1 (mod 2^32).
+// Positions of all bytes below '-' (as signed numbers): ',', LF, CR and bytes that do not belong in
+// a row of plain numbers (space, '#', '+', '"', bytes beyond ASCII). Field k of the text is [at[k]
+// + 1, at[k + 1]), where at[0] is -1 (mod 2^32).
 struct CsvStops {
   std::size_t count = 0;
   std::unique_ptr<std::uint32_t[]> at;
   std::unique_ptr<char[]> byte;  // [k]: the byte at at[k]; [0]: LF
-  std::size_t room = 0;          // of both; memory never touched costs nothing
+  std::size_t room = 0;          // allocated length of both; untouched memory uses no RAM
 };
 
-// Replaces `stops` with those of the text, which is below 4 GiB; reads up to kStopsMargin bytes
-// behind it.
+// Replaces `stops` by the stops of the text, which must be shorter than 4 GiB. Reads up to
+// kStopsMargin bytes beyond its end.
 inline constexpr int kStopsMargin = 64;
 void find_stops(std::string_view text, CsvStops& stops,
                 InstructionSet set = best_instruction_set());

@@ -30,7 +30,7 @@ class Descriptor {
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
   int fd() const { return fd_; }
-  // 0: it is no regular file, or cannot be read.
+  // 0: not a regular file, or unreadable.
   off_t size() const {
     struct stat now {};
     return fd_ >= 0 && ::fstat(fd_, &now) == 0 && S_ISREG(now.st_mode) ? now.st_size : 0;
@@ -40,7 +40,7 @@ class Descriptor {
   int fd_;
 };
 
-// Beside a database nothing may be a link.
+// Files beside a database must not be symbolic links.
 int open_beside(const fs::path& database, const char* ending) {
   return open_foreign(beside(database, ending), O_NOFOLLOW);
 }
@@ -59,8 +59,9 @@ std::string bytes_at(const Descriptor& file, off_t offset, std::size_t count) {
 // https://www.sqlite.org/fileformat2.html#the_write_ahead_log: header of 32 bytes, then frames.
 constexpr off_t kWalHeader = 32;
 
-// What SQLite locks of a database (os_unix.c): readers hold all of the one, and who moves the -wal
-// into the database the other, of -shm; who has -shm open holds the third.
+// Byte ranges that SQLite locks (os_unix.c). Every reader of the database locks all of
+// kSharedBytes. A checkpoint (-wal into database) locks kCheckpointByte of -shm; a process that has
+// -shm open locks kShmInUseByte.
 struct Range {
   off_t begin, count;
 };
@@ -77,7 +78,7 @@ struct flock lock_on(const Range& range, short type) {
   return lock;
 }
 
-// Held until the descriptor is closed. A file system without locks has nobody to wait for.
+// Locks the range until the descriptor is closed. Succeeds on file systems without locks.
 bool share(const Descriptor& file, const Range& range) {
   struct flock lock = lock_on(range, F_RDLCK);
   return ::fcntl(file.fd(), F_OFD_SETLK, &lock) == 0 || (errno != EAGAIN && errno != EACCES);
@@ -98,7 +99,7 @@ Status copy_bytes(const Descriptor& from, const fs::path& name, const fs::path& 
   return {};
 }
 
-// Half of what is free, so that a hostile file fills no disk.
+// Allows half of the free space, so that a hostile file cannot fill the disk.
 Status check_room(const fs::path& database, off_t bytes, const fs::path& folder) {
   struct statvfs disk {};
   if (::statvfs(folder.c_str(), &disk) != 0) return failed(folder, "query the free space");
@@ -114,9 +115,9 @@ Status check_room(const fs::path& database, off_t bytes, const fs::path& folder)
 
 enum class Copied { yes, busy };
 
-// Consistent, because nobody writes into the database meanwhile: a rollback transaction needs all
-// of the shared bytes, a checkpoint its own. The -wal may grow; only one that is begun anew is
-// refused.
+// The copy is consistent, because the locks prevent writing into the database: committing a
+// rollback transaction needs all shared bytes, a checkpoint needs its own byte. The -wal may grow;
+// a -wal that was restarted during the copy is rejected.
 Result<Copied> copy_once(const fs::path& database, const fs::path& to) {
   const Descriptor file(open_foreign(database, 0));
   const Descriptor shm(open_beside(database, "-shm"));
@@ -142,8 +143,8 @@ fs::path beside(const fs::path& database, const char* ending) {
   return (ec ? database : real).string() + ending;
 }
 
-// Its end: length of the name (4 bytes), checksum of the name (4), the magic number of a journal
-// (8).
+// A super-journal's name is at the end of the journal: length of the name (4 bytes), checksum of
+// the name (4), magic number of a journal (8).
 Status check_journal(const fs::path& database) {
   constexpr std::string_view kMagic{"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7", 8};
   const fs::path name = beside(database, "-journal");
@@ -160,7 +161,7 @@ Status check_journal(const fs::path& database) {
                    "journal, or restore the database and the journal from a copy");
 }
 
-// As SQLite: one whose first byte is 0 has been used up.
+// As in SQLite, a journal whose first byte is 0 is no longer valid.
 bool has_journal(const fs::path& database) {
   const Descriptor journal(open_beside(database, "-journal"));
   return journal.size() > 0 && bytes_at(journal, 0, 1) != std::string(1, '\0');
@@ -181,7 +182,7 @@ bool is_open_for_writing(const struct stat& file) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator("/proc/self/fd", ec)) {
     const int fd = std::atoi(entry.path().filename().c_str());
-    // By name: the descriptor may be another thread's, which closes it meanwhile.
+    // stat() by name, because another thread may own the descriptor and close it meanwhile.
     struct stat mine {};
     if (::stat(entry.path().c_str(), &mine) != 0 || mine.st_dev != file.st_dev ||
         mine.st_ino != file.st_ino)
@@ -189,7 +190,7 @@ bool is_open_for_writing(const struct stat& file) {
     const int flags = ::fcntl(fd, F_GETFL);
     if (flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && !(flags & O_APPEND)) return true;
   }
-  return bool(ec);  // where it cannot be known, it may be
+  return bool(ec);  // if unknown, assume that it is open
 }
 
 bool is_open_for_writing(const fs::path& file) {
@@ -198,7 +199,7 @@ bool is_open_for_writing(const fs::path& file) {
 }
 
 int open_foreign(const fs::path& file, int flags) {
-  // What O_PATH opens is not opened for reading: to close it drops no lock.
+  // Closing a descriptor opened with O_PATH drops no lock.
   const Descriptor name(::open(file.c_str(), O_PATH | O_CLOEXEC | flags));
   struct stat now {};
   if (name.fd() < 0 || ::fstat(name.fd(), &now) != 0) return -1;

@@ -1,6 +1,5 @@
-// What lies beside a SQLite database (-wal, -shm, -journal), looked at without SQLite, and a
-// private copy of all of it: a file of somebody else is read without a byte written to it or beside
-// it.
+// Files beside a SQLite database (-wal, -shm, -journal), examined without SQLite, and a private
+// copy of all of them. A foreign database is read without writing to it or beside it.
 #pragma once
 
 #include <sys/stat.h>
@@ -13,42 +12,43 @@
 
 namespace mdof::sqlite {
 
-// The database's own companion: beside the file that a link leads to. `ending`: "-wal", ...
+// Path of a companion file of the database: beside the target of a symbolic link. `ending`: "-wal",
+// ...
 std::filesystem::path beside(const std::filesystem::path& database, const char* ending);
 
 // Error (bad_input): the rollback journal names a super-journal (a transaction over several
-// databases, which mdof never makes). SQLite would delete the file of that name, whatever it is.
+// databases, which mdof never makes). SQLite would delete the file of that name.
 Status check_journal(const std::filesystem::path& database);
 
-// A transaction is to be rolled back, or one to be taken from the -wal file, before anybody reads.
+// has_journal(): a transaction must be rolled back before reading. has_wal(): the -wal file
+// contains transactions.
 bool has_journal(const std::filesystem::path& database);
 bool has_wal(const std::filesystem::path& database);
 
-// Some other process has the database open in WAL mode. Opens -shm: never for a file of which
-// is_open_for_writing() is true.
+// Whether another process has the database open in WAL mode. Opens -shm: do not call it for a file
+// for which is_open_for_writing() is true.
 bool is_shared(const std::filesystem::path& database);
 
-// Whether this process has the file open for writing, by whatever name or link: its own database,
-// -wal or -shm, or a recording under way. One that is open for appending alone counts for nothing,
-// as SQLite has no lock by it. To close any other descriptor of such a file (also one of
-// open(2), or one that a client passed) drops the locks that SQLite has on it, and another program
-// may then delete a -wal that is in use. Ask before the file is opened; a descriptor of open(2)
-// with O_PATH drops nothing and answers the question without a race.
+// Whether this process has the file open for writing, by any name or link: its own database, -wal
+// or -shm, or a recording in progress. Files open only for appending do not count, because SQLite
+// has no lock on them. Closing any other descriptor of such a file (also one of open(2), or one
+// that a client passed) drops the locks of SQLite on it, and another program may then delete a -wal
+// that is in use. Ask before opening the file; a descriptor of open(2) with O_PATH drops no locks
+// and answers the question without a race.
 bool is_open_for_writing(const struct stat& file);
 bool is_open_for_writing(const std::filesystem::path& file);
 
-// A descriptor for reading of what the name means at this moment, never waiting; -1 and errno:
-// EBUSY: this process writes the file, and it was not opened; EINVAL: it is no regular file.
-// `flags`: O_NOFOLLOW, or 0.
+// Opens the file for reading without waiting. -1 and errno: EBUSY: this process writes the file,
+// which was not opened; EINVAL: not a regular file. `flags`: O_NOFOLLOW or 0.
 int open_foreign(const std::filesystem::path& file, int flags);
-// What is to be said of its errno.
+// Text for the errno of open_foreign().
 std::string foreign_error_text(int error);
 
-// Database, -journal and -wal as they are at one moment, in a folder of mode 0700 that is removed
-// with the copy.
+// A consistent copy of database, -journal and -wal in a folder of mode 0700. The folder is removed
+// with the object.
 class PrivateCopy {
  public:
-  // Waits up to `timeout_ms` for a program that writes the file at this moment.
+  // Waits up to `timeout_ms` for a program that is writing the file.
   static Result<PrivateCopy> make(const std::filesystem::path& database, int timeout_ms);
   PrivateCopy(PrivateCopy&& other) noexcept;
   PrivateCopy& operator=(PrivateCopy&&) = delete;

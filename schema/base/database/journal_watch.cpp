@@ -21,9 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kShmRegion = 32 * 1024;  // bytes that SQLite maps at a time
+constexpr int kShmRegion = 32 * 1024;  // bytes that SQLite maps at once
 
-// What SQLite has mapped of -shm files. Read by a signal handler: no lock, no memory.
+// Regions of -shm files that SQLite has mapped. A signal handler reads them, so they need neither
+// locks nor allocation.
 std::array<std::atomic<void*>, 4096> mapped;
 std::atomic<bool> shm_was_cut{false};
 static_assert(std::atomic<void*>::is_always_lock_free);
@@ -35,8 +36,8 @@ void note_mapped(void* region) {
   }
 }
 
-// Bytes 0xff: no checksum of a header fits, and no search in a hash table ends (SQLITE_CORRUPT). In
-// one step, so that no thread sees a table that is empty.
+// Replaces the region by bytes 0xff: no checksum of a header matches and no search in a hash table
+// ends (SQLITE_CORRUPT). The replacement is one step, so that no thread sees an empty table.
 void replace_by_damage(void* region) {
   void* damage =
       ::mmap(nullptr, kShmRegion, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -53,7 +54,7 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
     return region && at >= region && at < region + kShmRegion;
   };
   if (std::none_of(mapped.begin(), mapped.end(), holds)) {
-    ::signal(signal, SIG_DFL);  // another fault: it comes again, and ends the process
+    ::signal(signal, SIG_DFL);  // another fault: the signal occurs again and ends the process
     return;
   }
   shm_was_cut = true;
@@ -62,8 +63,8 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
   errno = before;
 }
 
-sqlite3_io_methods noting_methods;                 // the real ones, but for xShmMap
-const sqlite3_io_methods* real_methods = nullptr;  // of a database on an ordinary disk
+sqlite3_io_methods noting_methods;                 // the real methods, except for xShmMap
+const sqlite3_io_methods* real_methods = nullptr;  // for a database on an ordinary disk
 
 int map_and_note(sqlite3_file* file, int page, int size, int extend, void volatile** region) {
   const int code = real_methods->xShmMap(file, page, size, extend, region);
@@ -87,13 +88,14 @@ int open_guarded(sqlite3_vfs*, const char* name, sqlite3_file* file, int flags, 
   return code;
 }
 
-// The index of a -wal: how many of its frames are committed, and what a page of it has.
+// State of the -wal index: number of committed frames and page size.
 struct WalIndex {
   std::uint32_t frames = 0, page_bytes = 0;
   bool operator==(const WalIndex&) const = default;
 };
 
-// Of the header at the beginning of -shm, https://www.sqlite.org/walformat.html. None: not mapped.
+// Reads the header at the beginning of -shm, https://www.sqlite.org/walformat.html. False: not
+// mapped.
 bool read_index(sqlite3* database, WalIndex& index) {
   sqlite3_file* file = nullptr;
   void volatile* region = nullptr;
@@ -110,7 +112,7 @@ bool read_index(sqlite3* database, WalIndex& index) {
   return true;
 }
 
-// What -wal has at least.
+// Smallest valid size of the -wal.
 off_t bytes_of(const WalIndex& index) {
   constexpr off_t kHeader = 32, kFrameHeader = 24;
   if (index.frames == 0) return 0;
@@ -177,7 +179,8 @@ const std::string& JournalWatch::fault() {
   return fault_;
 }
 
-// A program may take all of it into the database and empty it; the index then says so.
+// Another program may have moved the whole -wal into the database and emptied it; the index then
+// shows it.
 bool JournalWatch::is_cut(off_t bytes) {
   WalIndex before, after;
   while (read_index(database_, before) && bytes < bytes_of(before)) {
@@ -192,7 +195,7 @@ bool JournalWatch::is_kept() {
   return fault().empty() || moved_;
 }
 
-// Close neither moves nor deletes what has the name now.
+// Closing the connection then neither moves nor deletes the current -wal.
 void JournalWatch::leave_files_alone() {
   sqlite3_db_config(database_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
 }
@@ -206,7 +209,7 @@ void JournalWatch::note(std::string what, bool foreign_wal) {
   if (!moved_) return lose(std::move(what));
   fault_ = std::move(what) + "; all data stored before this change are in the database file";
   if (!foreign_wal) return;
-  // It would be taken into the database when that is next opened.
+  // SQLite would read the foreign -wal when the database is next opened.
   std::error_code ec;
   const fs::path aside = wal_.string() + ".foreign";
   fs::rename(wal_, aside, ec);

@@ -1,10 +1,10 @@
-// The -wal and -shm files of a database in WAL mode that this process writes, as somebody else may
-// delete, replace or cut them: SQLite notices none of that, and goes on to write into files that
-// the next program does not find.
+// Watches the -wal and -shm files of a database in WAL mode that this process writes. Another
+// program may delete, replace or truncate them. SQLite does not notice this and continues to write
+// into files that the next program does not find.
 //
-// -shm stays a file that all programs map, though to keep it in memory (locking_mode = EXCLUSIVE)
-// would leave nothing to cut: readers (mdof runs, show, verify) open the database beside mdofd, and
-// they could not then.
+// -shm remains a file that all programs map. To keep it in memory (locking_mode = EXCLUSIVE) would
+// avoid truncation, but readers (mdof runs, show, verify) could then not open the database while
+// mdofd has it open.
 #pragma once
 
 #include <sys/types.h>
@@ -16,25 +16,26 @@ struct sqlite3;
 
 namespace mdof::sqlite {
 
-// Before the first database is opened: SQLite neither opens nor deletes a super-journal from then
-// on. Once a rollback is done it would delete the file that the journal names, whatever it is; mdof
-// makes no such journals.
+// Prevents SQLite from opening and deleting super-journals. After a rollback SQLite would delete
+// the file that the journal names, whatever it is; mdof makes no such journals. Call it before the
+// first database is opened.
 void guard_files();
 
-// From now on a -shm file that is cut short does not end this process by SIGBUS. What SQLite has
-// mapped of it is replaced by memory in which it finds damage (SQLITE_CORRUPT) and no stale page,
-// and each JournalWatch has a fault. For a daemon, before its threads start.
+// From now on a truncated -shm file does not end this process by SIGBUS. Its mapped regions are
+// replaced by memory in which SQLite detects damage (SQLITE_CORRUPT) and finds no outdated page,
+// and each JournalWatch reports a fault. For a daemon, before its threads start.
 void survive_cut_shm();
 
-// Thread-bound, as the connection.
+// Thread-bound, as the connection is.
 class JournalWatch {
  public:
-  // Of a connection in WAL mode that has read.
+  // For a connection in WAL mode that has already read.
   JournalWatch(sqlite3* database, const std::filesystem::path& file);
-  // "FILE-wal was deleted ...", for good once it was so; empty: all is as it was. What is in a -wal
-  // without a name is moved into the database at once, if that can be.
+  // "FILE-wal was deleted ..."; empty: no change detected. A fault is permanent. After a fault
+  // other than a truncated -wal, committed data are moved into the database immediately, if
+  // possible.
   const std::string& fault();
-  // Whether what was committed is found by the next program: there is no fault, or all was moved.
+  // Whether the next program finds all committed data: no fault, or all data were moved.
   bool is_kept();
 
  private:

@@ -1,5 +1,5 @@
 // Decimal text to double and back, exact in both directions and several times faster than the
-// standard library: 100 MB logs are read and written through these two.
+// standard library, for logs of 100 MB.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,19 @@
 namespace mdof {
 
 // Reads the longest number at `begin`: digits with an optional '-', '.' and exponent, or inf, nan;
-// no leading space or '+'. The double is the nearest one (ties to even), bit for bit that of
-// std::from_chars; a number too large becomes ±inf, one too small ±0, so that the caller has one
-// check: std::isfinite. Gives the position after the number, or nullptr where none begins.
+// no leading space or '+'. The result is the nearest double (ties to even), with the same bits as
+// std::from_chars. A number that is too large becomes ±inf, one too small ±0, so that the caller
+// needs only std::isfinite(). Returns the position after the number, or nullptr if there is no
+// number.
 const char* parse_double(const char* begin, const char* end, double& out);
 
-// Writes x with 17 significant digits, the same characters as printf("%.17g"); gives the end.
-// At most kDouble17Size characters; may touch all of them.
+// Writes x with 17 significant digits, the same characters as printf("%.17g"); returns the end. The
+// text has at most kDouble17Size characters; the function may write to all of them.
 inline constexpr int kDouble17Size = 40;
 char* write_double_17(char* out, double x);
 
-// The same for many numbers, eight at a time where the processor can: out[i] is the text of x[i].
+// The same for many numbers, eight at a time if the processor supports it: out[i] is the text of
+// x[i].
 struct DoubleText {
   char text[kDouble17Size];
   int size;

@@ -13,7 +13,7 @@ namespace {
 
 static_assert(kColumnMargin >= kScanMargin);
 
-// A field that is not plain, for instance with an exponent.
+// Reads a field that is not plain, for example one with an exponent.
 [[gnu::noinline, gnu::cold]] bool read_any_number(const char* p, const char* end, double& x) {
   return p != end && parse_double(p, end, x) == end && std::isfinite(x);
 }
@@ -47,7 +47,8 @@ ColumnText after(const ColumnText& column, std::size_t rows) {
   return {column.text, column.stop + rows * column.stride, column.stride};
 }
 
-// Several at a time while they are plain; eight where some are not, and the last few, one by one.
+// Reads several fields at a time while they are plain. Reads eight fields one by one if some are
+// not plain, and also the last few.
 template <class T, class ReadPlain>
 std::size_t read_groups(ReadPlain* read_plain, const ColumnText& column, std::size_t n, T* out) {
   std::size_t j = 0;

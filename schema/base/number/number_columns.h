@@ -9,9 +9,9 @@
 
 namespace mdof {
 
-// Fields of one column in rows that follow one another: field j is the text between
-// stop[j stride] and stop[j stride + 1], both excluded. kColumnMargin bytes before the first and
-// behind the last are readable.
+// Fields of one column in consecutive rows: field j is the text between stop[j stride] and stop[j
+// stride + 1], both excluded. kColumnMargin bytes before the first field and after the last are
+// readable.
 struct ColumnText {
   const char* text;
   const std::uint32_t* stop;
@@ -19,8 +19,8 @@ struct ColumnText {
 };
 inline constexpr int kColumnMargin = 64;
 
-// Reads up to n fields; gives the number of fields before the first that is not a finite decimal
-// number. The doubles are the nearest ones, as from parse_double(), whatever the processor.
+// Reads up to n fields. Returns the number of fields before the first that is not a finite decimal
+// number. The results are the nearest doubles, as from parse_double(), on every processor.
 std::size_t read_doubles(const ColumnText& column, std::size_t n, double* out,
                          InstructionSet set = best_instruction_set());
 // The same for decimal seconds to nanoseconds, as from parse_seconds().

@@ -6,13 +6,14 @@
 #include "schema/base/compiled_for.h"
 #include "schema/base/number/number_scan.h"
 
-#define HWY_DISABLE_F16C  // so that the sets ask for no more than has_avx2() and has_avx512()
+#define HWY_DISABLE_F16C  // so that the targets require no more than has_avx2() and has_avx512()
+                          // check
 #define HWY_DISABLE_PCLMUL_AES
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "schema/base/number/number_columns_vector.cpp"
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)  // no faster than a field at a time
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)  // not faster than one field at a time
 #include <hwy/foreach_target.h>                      // includes this file once for each set
-// after it
+// must follow foreach_target.h
 #include <hwy/highway.h>
 
 #include "schema/base/number/plain_fields-inl.h"
@@ -24,8 +25,8 @@ namespace mdof::HWY_NAMESPACE {
 constexpr hn::ScalableTag<double> df;
 using Doubles = hn::Vec<decltype(df)>;
 
-// A number for each place of the point (place_of_point()): of the 31 - i digits behind a point at
-// i, or, at 0, of none. As bits.
+// A number, as bits, for each place i of the point (place_of_point()): for 31 - i digits after a
+// point at i; entry 0: no point.
 using OfPlace = std::array<std::uint64_t, 32>;
 template <class Function>
 constexpr OfPlace make_table(int most_digits, std::uint64_t beyond, Function of_digits) {
@@ -36,18 +37,19 @@ constexpr OfPlace make_table(int most_digits, std::uint64_t beyond, Function of_
   }
   return table;
 }
-// 0 / 0 is not a number, and undecided
+// 0 / 0 is NaN and therefore counts as undecided
 constexpr OfPlace kPower = make_table(kLargestExactPower, 0, [](int digits) {
   return std::bit_cast<std::uint64_t>(kExactPowers[digits]);
 });
 constexpr OfPlace kInversePower = make_table(kLargestExactPower, 0, [](int digits) {
   return std::bit_cast<std::uint64_t>(1 / kExactPowers[digits]);
 });
-// Nanoseconds of the last digit. Beyond: in the upper half, where it is seen.
+// Nanoseconds of one unit of the last digit. With too many digits: a bit in the upper half, which
+// is detected.
 constexpr OfPlace kNanoseconds =
     make_table(9, std::uint64_t{1} << 63, [](int digits) { return kPowersOfTen[9 - digits]; });
 
-// (Without gather instructions: on many processors they are slower than this.)
+// No gather instructions: on many processors they are slower than this.
 HWY_INLINE Longs look_up(const OfPlace& table, Longs place) {
 #if HWY_TARGET == HWY_AVX2
   alignas(32) std::uint64_t i[4];
@@ -69,8 +71,8 @@ HWY_INLINE Doubles look_up_double(const OfPlace& table, Longs place) {
   return hn::BitCast(df, look_up(table, place));
 }
 
-// The bits of 2^exponent (52 or 84) with a number below 2^52 (2^32) in the lower ones of the
-// mantissa, less that power: the number, or 2^32 times it.
+// Puts a number below 2^52 (2^32) into the lower mantissa bits of 2^exponent (52 or 84) and
+// subtracts that power. The result is the number, or 2^32 times the number.
 HWY_INLINE Doubles small_to_double(Longs small, std::uint64_t power_bits) {
   const Longs power = hn::Set(d64, power_bits);
   return hn::Sub(hn::BitCast(df, hn::Or(small, power)), hn::BitCast(df, power));
@@ -78,10 +80,10 @@ HWY_INLINE Doubles small_to_double(Longs small, std::uint64_t power_bits) {
 constexpr std::uint64_t kTwo52 = std::bit_cast<std::uint64_t>(0x1p52);
 constexpr std::uint64_t kTwo84 = std::bit_cast<std::uint64_t>(0x1p84);
 
-// m / 10^k to the nearest double; false: not decided. With m = high + low (both doubles, exact) and
-// the quotient q of high, the rest r = high - q 10^k is exact; q + (r + low) / 10^k is then known
-// to 2^-50 of its small second part, and the sum is rounded right unless the bounds of that part
-// round apart.
+// m / 10^k to the nearest double; false: undecided. With m = high + low (both doubles, exact) and
+// the quotient q of high, the remainder r = high - q 10^k is exact. q + (r + low) / 10^k is then
+// known to 2^-50 of its small second part. The sum is correctly rounded unless the bounds of that
+// part are rounded differently.
 HWY_INLINE bool divide(const Plain& plain, Doubles& x) {
   const Longs place = place_of_point(plain.seen);
   const Doubles upper = small_to_double(hn::ShiftRight<32>(plain.mantissa), kTwo84);
@@ -96,10 +98,10 @@ HWY_INLINE bool divide(const Plain& plain, Doubles& x) {
   return hn::AllTrue(df, hn::Eq(x, hn::Add(q, hn::Sub(c, slack))));
 }
 
-// Turns mantissas into doubles.
+// Converts mantissas to doubles.
 struct ToDouble {
   using Out = double;
-  // Mantissa and power are exact, the one rounding is that of the division.
+  // Mantissa and power are exact, so only the division rounds.
   static HWY_INLINE bool narrow(const Plain& plain, double* out) {
     const Doubles power = look_up_double(kPower, place_of_point(plain.seen));
     store(hn::Div(small_to_double(plain.mantissa, kTwo52), power), plain, out);
@@ -119,11 +121,11 @@ struct ToDouble {
   }
 };
 
-// Turns mantissas of seconds into nanoseconds.
+// Converts mantissas of seconds to nanoseconds.
 struct ToNanoseconds {
   using Out = std::int64_t;
   static HWY_INLINE bool narrow(const Plain& plain, std::int64_t* out) { return wide(plain, out); }
-  // False: 10^18 or more, or not whole.
+  // False: 10^18 ns or more, or not a whole number of nanoseconds.
   static HWY_INLINE bool wide(const Plain& plain, std::int64_t* out) {
     const Longs scale = look_up(kNanoseconds, place_of_point(plain.seen));
     const auto factor = hn::BitCast(d32, scale);
@@ -140,7 +142,8 @@ struct ToNanoseconds {
   }
 };
 
-// Fields of one column are mostly of one kind: once some were wide, the others are taken for it.
+// Fields of one column mostly have one width: after the first wide group, all further groups are
+// read as wide.
 template <class Convert>
 HWY_INLINE std::size_t read_groups(const ColumnText& column, std::size_t n,
                                    typename Convert::Out* out) {

@@ -1,4 +1,4 @@
-// What schema/base/number/number_columns.cpp does several fields at a time where the processor can.
+// Vectorised part of schema/base/number/number_columns.cpp.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,16 @@
 
 namespace mdof {
 
-// Read fields in groups; give the number read. It ends before the first group with a field that is
-// not [-]ddd.ddd of at most 32 characters, a digit last, and 19 digits that matter, or whose
-// rounding would take a closer look.
+// Read fields in groups; return the number read. Reading ends before the first group with a field
+// that is not [-]ddd.ddd of at most 32 characters, a digit last, and 19 significant digits, or
+// whose rounding needs more than the fast calculation.
 struct PlainReaders {
   std::size_t (*doubles)(const ColumnText& column, std::size_t n, double* out);
   std::size_t (*times_ns)(const ColumnText& column, std::size_t n, std::int64_t* out);
 };
 
-// The widest of at most this set that the processor has; without vectors, readers that read none.
+// The widest readers of at most this set that the processor supports; without vectors, readers that
+// read nothing.
 PlainReaders plain_readers(InstructionSet most);
 
 }  // namespace mdof

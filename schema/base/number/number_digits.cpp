@@ -3,13 +3,14 @@
 #include "schema/base/compiled_for.h"
 #include "schema/base/number/number_round.h"
 
-#define HWY_DISABLE_F16C  // so that the sets ask for no more than has_avx2() and has_avx512()
+#define HWY_DISABLE_F16C  // so that the targets require no more than has_avx2() and has_avx512()
+                          // check
 #define HWY_DISABLE_PCLMUL_AES
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "schema/base/number/number_digits.cpp"
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_SSE4)
 #include <hwy/foreach_target.h>  // includes this file once for each set
-// after it
+// must follow foreach_target.h
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -26,7 +27,7 @@ using Longs = hn::Vec<decltype(d64)>;
 using Integers = hn::Vec<decltype(di64)>;
 constexpr std::size_t kNumbers = HWY_LANES(std::uint64_t);
 
-// The products of the lower halves.
+// Products of the lower 32-bit halves.
 HWY_INLINE Longs times(Longs a, Longs b) {
   return hn::MulEven(hn::BitCast(d32, a), hn::BitCast(d32, b));
 }
@@ -40,7 +41,7 @@ HWY_INLINE Longs lower_half(Longs a) {
   return hn::And(a, hn::Set(d64, 0xffffffff));
 }
 
-// 64 by 64 bits.
+// Product of 64 by 64 bits.
 struct Product {
   Longs high, low;
 };
@@ -53,7 +54,7 @@ HWY_INLINE Product multiply(Longs a, Longs b) {
 }
 
 HWY_INLINE Longs from_table(const std::uint64_t* table, Integers i) {
-#if HWY_TARGET == HWY_AVX2  // whose gather instruction is slower than this on many processors
+#if HWY_TARGET == HWY_AVX2  // its gather instruction is slower than this on many processors
   alignas(32) std::int64_t at[4];
   hn::Store(i, di64, at);
   return Longs{_mm256_set_epi64x(
@@ -109,8 +110,8 @@ HWY_INLINE Rounded round_to_17(Longs m, Integers e) {
           hn::Lt(near_half, hn::Set(d64, 7))};
 }
 
-// Numbers below 10^8 as eight bytes 0 ... 9, the first digit lowest: halves, quarters, eighths by
-// multiplication with a reciprocal.
+// Converts numbers below 10^8 to eight bytes 0 ... 9, the first digit lowest: halves, quarters,
+// eighths by multiplication with a reciprocal.
 HWY_INLINE Longs digits_of(Longs v) {
   const Longs upper4 = hn::ShiftRight<45>(times(v, 0xd1b71759));
   const Longs lower4 = hn::Sub(v, times(upper4, 10000));
@@ -125,7 +126,7 @@ HWY_INLINE Longs digits_of(Longs v) {
   return hn::BitCast(d64, hn::Or(upper, hn::ShiftLeft<8>(lower)));
 }
 
-// 17 digits to 1 + 8 + 8.
+// Splits 17 digits into 1 + 8 + 8.
 HWY_INLINE void split(Longs digits, std::size_t at, EightDigits& out) {
   constexpr std::uint64_t kTen8 = 100'000'000;
   const Longs nine =  // digits / 10^8
@@ -136,7 +137,7 @@ HWY_INLINE void split(Longs digits, std::size_t at, EightDigits& out) {
   hn::StoreU(digits_of(hn::Sub(digits, times(nine, kTen8))), d64, out.lower + at);
 }
 
-// Of the numbers x[at] and on; bits of those that are not decided.
+// Digits of the numbers from x[at] on; returns the bits of the undecided numbers.
 HWY_INLINE unsigned find_some_digits(const double* x, std::size_t at, EightDigits& out) {
   const Longs bits = hn::BitCast(d64, hn::LoadU(hn::ScalableTag<double>(), x + at));
   const Longs biased = hn::And(hn::ShiftRight<52>(bits), hn::Set(d64, 0x7ff));

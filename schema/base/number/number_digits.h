@@ -15,11 +15,11 @@ struct EightDigits {
   std::int64_t exponent[8];
 };
 
-// Bit i of the result: x[i] is not decided here (its size is not between 1e-98 and 1e7, it rounds
-// up to a power of ten, or its 18th digit is too near to a half).
+// Bit i of the result: x[i] is undecided (its magnitude is not between 1e-98 and 1e7, it rounds up
+// to a power of ten, or its 18th digit is too near to a half).
 using FindDigits = unsigned (*)(const double* x, EightDigits& digits);
 
-// With the widest vectors of at most this set that the processor has; null: it has none.
+// With the widest vectors of at most this set that the processor supports; nullptr: none.
 FindDigits find_digits(InstructionSet most);
 
 }  // namespace mdof

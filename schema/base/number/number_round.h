@@ -1,7 +1,7 @@
 // 17 digits of a double: x = m·2^e becomes the integer D = round(x·10^q), 10^16 <= D < 10^17, by
-// one multiplication with a 128-bit power of ten. Its error is below one unit of the 128 bits, so
-// the rounding is certain unless the fraction lies within that of a half; then std::to_chars
-// decides. (The idea of Grisu and Ryu printf, with the table of fast_float, good for 1e-292 ...
+// one multiplication with a 128-bit power of ten. The error is below one unit of the 128 bits, so
+// the rounding is certain unless the fraction is within one unit of a half; std::to_chars then
+// decides. (The idea of Grisu and Ryu printf, with the table of fast_float, valid for 1e-292 ...
 // 1e308.)
 #pragma once
 
@@ -14,9 +14,9 @@ namespace mdof {
 using PowerTable = fast_float::powers;
 __extension__ using Uint128 = unsigned __int128;
 
-// What is decided here: doubles of exponents between these, 1e-98 < 2^-325 and 2^24 > 1e7, ...
+// Range of exponents decided here: 1e-98 < 2^-325 and 2^24 > 1e7.
 inline constexpr int kDoubleBias = 1023, kLeastExponent = -325, kMostExponent = 23;
-inline constexpr int kMostPlainExponent = 6;  // ... that print as d.ddd ... ddddddd.ddd or smaller
+inline constexpr int kMostPlainExponent = 6;  // largest exponent printed without "e": ddddddd.ddd
 inline constexpr std::uint64_t kMost17Digits = 99'999'999'999'999'999;
 
 struct PowerOfTen {
@@ -41,7 +41,7 @@ struct Decimal17 {
 
 // x = m · 2^(e - 63) with the top bit of m set.
 inline Decimal17 round_to_17(std::uint64_t m, int e) {
-  int k = floor_log10_of_power_of_two(e);  // floor(log10(x)), but for the next power of ten
+  int k = floor_log10_of_power_of_two(e);  // floor(log10(x)), except next to a power of ten
   const PowerOfTen next = power_of_ten(k + 1);
   const bool same_binade = floor_log2_of_power_of_ten(k + 1) == e;
   k += same_binade & (m > next.high - (next.low == 0));

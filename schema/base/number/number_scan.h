@@ -1,6 +1,6 @@
-// The inner loop of every CSV reader: a field whose ends are known as a plain decimal number
-// [-]ddd.ddd, sixteen digits at a time and without data-dependent branches. What it does not
-// understand (an exponent, more digits, anything else) is left to parse_double().
+// The inner loop of every CSV reader: reads a field with known ends as a plain decimal number
+// [-]ddd.ddd, sixteen digits at a time and without data-dependent branches. Other fields (an
+// exponent, more digits) are left to parse_double().
 #pragma once
 
 #include <fast_float/fast_float.h>
@@ -37,13 +37,13 @@ inline constexpr std::uint64_t kPowersOfTen[] = {1,
                                                  10'000'000'000'000'000,
                                                  100'000'000'000'000'000,
                                                  1'000'000'000'000'000'000};
-// The same as doubles, and all others that are exact.
+// The same powers as doubles, and all further powers that are exact.
 inline constexpr int kLargestExactPower = 22;
 inline constexpr double kExactPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                           1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
                                           1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 
-// value = ±mantissa / 10^fraction_digits, at most 18 of them
+// value = ±mantissa / 10^fraction_digits, at most 18 fraction digits
 struct ScannedNumber {
   std::uint64_t mantissa = 0;
   unsigned fraction_digits = 0;
@@ -57,13 +57,13 @@ inline __m128i load16(const void* p) {
   return _mm_loadu_si128(static_cast<const __m128i*>(p));
 }
 
-// Bit i: byte i of the vector is c. (Also the cheap way to compare one byte: the setcc for *p == c
-// writes a part of a register, and waits for whatever was last computed in it.)
+// Bit i: byte i of the vector is c. (Also the fast way to compare one byte: the setcc of *p == c
+// writes a part of a register, and must wait for the last result in that register.)
 inline unsigned equal(__m128i text, char c) {
   return static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(text, _mm_set1_epi8(c))));
 }
 
-// The last n bytes of a vector, 0 <= n <= 16.
+// A mask of the last n bytes of a vector, 0 <= n <= 16.
 inline __m128i last(std::size_t n) {
   alignas(32) static constexpr signed char kMask[32] = {0,  0,  0,  0,  0,  0,  0,  0,  //
                                                         0,  0,  0,  0,  0,  0,  0,  0,  //
@@ -72,17 +72,17 @@ inline __m128i last(std::size_t n) {
   return load16(kMask + n);
 }
 
-// Sixteen characters, all but the last n of which count as '0', as four numbers of four digits.
-// Where one of the n is no digit, `wrong` gets a byte with its top bit set.
+// Sixteen characters as four numbers of four digits. All but the last n count as '0'. If one of the
+// n is not a digit, a byte of `wrong` has its top bit set.
 inline __m128i four_digits_each(__m128i text, std::size_t n, __m128i& wrong) {
   const __m128i d = _mm_and_si128(_mm_sub_epi8(text, _mm_set1_epi8('0')), last(n));
   wrong = _mm_adds_epu8(d, _mm_set1_epi8(127 - 9));
-  // in each 16 bits (a + 256 b) (256·10 + 1) = 256 (10 a + b) + a, what is above 2^16 left out
+  // in each 16 bits (a + 256 b) (256·10 + 1) = 256 (10 a + b) + a; the part above 2^16 is lost
   const __m128i twos = _mm_srli_epi16(_mm_mullo_epi16(d, _mm_set1_epi16(2561)), 8);
   return _mm_madd_epi16(twos, _mm_set1_epi32(1 << 16 | 100));
 }
 
-// Two times four numbers of four digits as two times two of eight.
+// Two times four numbers of four digits to two times two numbers of eight digits.
 inline __m128i eight_digits_each(__m128i first, __m128i second) {
   return _mm_madd_epi16(_mm_packs_epi32(first, second), _mm_set1_epi32(1 << 16 | 10000));
 }
@@ -98,7 +98,7 @@ inline bool sixteen_digits(__m128i text, std::size_t n, std::uint64_t& value) {
   return _mm_movemask_epi8(wrong) == 0;
 }
 
-// Up to 16 characters: the digits before the point move up by one, so that all are in a row.
+// Up to 16 characters: the digits before the point are shifted by one, so that all are contiguous.
 inline bool scan_short(const char* p, const char* end, std::size_t point, ScannedNumber& number) {
   const std::size_t size = static_cast<std::size_t>(end - p);
   const __m128i text = load16(end - 16);
@@ -114,7 +114,7 @@ inline bool scan_short(const char* p, const char* end, std::size_t point, Scanne
   return n != 0 && sixteen_digits(in_a_row, n, number.mantissa);
 }
 
-// Up to 8 digits before the point and 16 behind it at once, two more there singly; 19 in all.
+// Up to 8 digits before the point and 16 after it at once, two more after it one by one; 19 in all.
 inline bool scan_long(const char* p, const char* end, std::size_t point, ScannedNumber& number) {
   const std::size_t whole = point - number.negative;
   const std::size_t fraction = static_cast<std::size_t>(end - p) - point - 1;
@@ -162,12 +162,12 @@ inline bool scan_number(const char*, const char*, ScannedNumber&) {
 inline double to_double(const ScannedNumber& number) {
   const std::uint64_t sign = static_cast<std::uint64_t>(number.negative) << 63;
   if (number.mantissa < 1'000'000'000'000'000) {
-    // exact, like the power: the one rounding of the division is the only one
+    // mantissa and power are exact, so only the division rounds
     const double magnitude = static_cast<double>(static_cast<std::int64_t>(number.mantissa)) /
                              kExactPowers[number.fraction_digits];
     return std::bit_cast<double>(std::bit_cast<std::uint64_t>(magnitude) | sign);
   }
-  // for powers 10^-18 ... 10^0 always decided: am.power2 >= 0
+  // for powers 10^-18 ... 10^0 the result is always decided: am.power2 >= 0
   const fast_float::adjusted_mantissa am =
       fast_float::compute_float<fast_float::binary_format<double>>(
           -static_cast<int>(number.fraction_digits), number.mantissa);

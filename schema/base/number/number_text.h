@@ -5,8 +5,8 @@
 
 namespace mdof {
 
-// `digits` significant ones, without zeros at the end. An exponent only where it is shorter than
-// the zeros: from 1e15 and below 1e-6. Zero has no sign; not finite: "unknown".
+// `digits` significant digits without trailing zeros. An exponent only if it is shorter than the
+// zeros: from 1e15 and below 1e-6. Zero has no sign; non-finite: "unknown".
 std::string plain_number(double x, int digits = 4);
 
 }  // namespace mdof

@@ -1,5 +1,5 @@
-// Numbers as text with 17 significant digits: the digits by schema/base/number/number_round.h or
-// eight numbers at a time, then their places.
+// Numbers as text with 17 significant digits. schema/base/number/number_round.h finds the digits of
+// one number, number_digits.h those of eight at a time; this file arranges them.
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -27,11 +27,12 @@ void store8(char* out, uint64_t v) {
   std::memcpy(out, &v, 8);
 }
 
-// The 17 digits of a number: one, eight, eight; the eights as bytes 0 ... 9, the first lowest.
+// The 17 digits of a number: one, eight, eight. The eights are bytes 0 ... 9, the first digit
+// lowest.
 struct Digits {
   uint64_t first, upper, lower;
 
-  // Up to the last that is not 0.
+  // Number of digits up to the last that is not 0.
   int significant() const { return (lower ? 17 : 9) - std::countl_zero(lower ? lower : upper) / 8; }
   void store_rest(char* out) const {
     store8(out, upper | kZeros);
@@ -45,7 +46,7 @@ struct Sixteen {
 
 #ifdef __SSE2__
 // Two numbers below 10^8 as digits: halves, quarters, eighths by multiplication with a reciprocal,
-// all lanes at once.
+// in all lanes at once.
 Sixteen sixteen_digits(uint64_t first, uint64_t second) {
   const __m128i v = _mm_set_epi64x(static_cast<long long>(second), static_cast<long long>(first));
   const __m128i upper4 = _mm_srli_epi64(_mm_mul_epu32(v, _mm_set1_epi64x(0xd1b71759)), 45);
@@ -89,7 +90,8 @@ char* write_below_one(char* out, const Digits& digits, int exponent) {
   return first + digits.significant();
 }
 
-// "ddd.ddd" with `whole` digits before the point, 1 ... 7: the digits behind it move by one byte.
+// "ddd.ddd" with `whole` digits before the point, 1 ... 7: the digits after it are shifted by one
+// byte.
 char* write_up_to_7_whole(char* out, const Digits& digits, int whole) {
   const uint64_t head = digits.first | digits.upper << 8 | kZeros;
   const uint64_t before = (uint64_t{1} << 8 * whole) - 1;

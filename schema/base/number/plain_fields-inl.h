@@ -1,7 +1,7 @@
 // Fields of text [-]ddd.ddd as mantissas, as many at a time as a vector has 64-bit lanes. Written
-// once for vectors of 32 and of 64 bytes, with Highway: included by number_columns_vector.cpp, and
-// by that once for each of them. A vector is looked at in blocks of 16 bytes; the block of a field
-// holds its last 16 characters, for long fields with a second block of the 16 before these.
+// once with Highway for vectors of 32 and of 64 bytes: number_columns_vector.cpp includes this file
+// once for each. A vector is processed in blocks of 16 bytes. The block of a field holds its last
+// 16 characters; long fields have a second block with the 16 characters before these.
 #if defined(MDOF_PLAIN_FIELDS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef MDOF_PLAIN_FIELDS_INL_H
 #undef MDOF_PLAIN_FIELDS_INL_H
@@ -37,24 +37,24 @@ using Longs = hn::Vec<decltype(d64)>;
 constexpr std::size_t kFields = HWY_LANES(std::uint64_t);
 constexpr std::size_t kBlocksOfVector = kFields / 2;
 
-// Where the point of a field is, and whether it has a sign: 2 (32 + i) + sign for a point that is
-// the character i of the last 32, and only the sign where there is no point.
+// Place of the point of a field and its sign: 2 (32 + i) + sign if the point is character i of the
+// last 32; only the sign if there is no point.
 constexpr std::uint8_t kFirstPlace = 64;
-HWY_INLINE Longs place_of_point(Longs seen) {  // i; 0: none
+HWY_INLINE Longs place_of_point(Longs seen) {  // i; 0: no point
   return hn::And(hn::ShiftRight<1>(seen), hn::Set(d64, 31));
 }
 
 struct Plain {
   Longs mantissa, seen;
-  Longs odd;  // not all bits 0 in all lanes: a field is not plain
+  Longs odd;  // any bit set: a field is not plain
 };
 
-// Table: of one block, for all blocks.
+// A table for one block, used for all blocks.
 using Table = std::array<std::uint8_t, 16>;
 HWY_INLINE Bytes in_all_blocks(const Table& table) {
   return hn::LoadDup128(d8, table.data());
 }
-// The bytes of the block k of a field that say where its points are.
+// Bytes of block k of a field that encode the place of a point.
 template <int k>
 HWY_INLINE Bytes places() {
   static constexpr Table kPlaces = [] {
@@ -65,8 +65,8 @@ HWY_INLINE Bytes places() {
   }();
   return in_all_blocks(kPlaces);
 }
-// The character c everywhere but where it may not be: the last one of a field must be a digit, and
-// a point at the place 0 would look like none. (No field has a byte 255.)
+// The character c at all allowed places. The last character of a field must be a digit, and a point
+// at place 0 could not be distinguished from no point. (No field has a byte 255.)
 template <int k>
 HWY_INLINE Bytes allowed(char c) {
   static constexpr Table kNever = [] {
@@ -77,20 +77,21 @@ HWY_INLINE Bytes allowed(char c) {
   return hn::Or(in_all_blocks(kNever), hn::Set(d8, static_cast<std::uint8_t>(c)));
 }
 
-// 32 bytes from kLast + n on: the last n of them 255, n <= 32.
+// 32 bytes from kLast + n on: the last n of them are 255, n <= 32.
 constexpr std::array<std::uint8_t, 64> kLast = [] {
   std::array<std::uint8_t, 64> last{};
   for (std::size_t i = 32; i < last.size(); ++i) last[i] = 255;
   return last;
 }();
 
-// The fields of one vector: every second one of a group.
+// The fields of one vector: every second field of a group.
 struct Ends {
-  const std::uint8_t* text[kBlocksOfVector];  // behind their last characters
+  const std::uint8_t* text[kBlocksOfVector];  // end of each field
   const std::uint8_t* last[kBlocksOfVector];  // kLast + size
 };
 
-// Of the fields first, first + 2, ... False: one is empty or has more than 16 kBlocks characters.
+// Finds the ends of the fields first, first + 2, ... False: one is empty or has more than 16
+// kBlocks characters.
 template <int kBlocks>
 HWY_INLINE bool find_ends(const ColumnText& column, std::size_t first, Ends& ends) {
   const auto* const text = reinterpret_cast<const std::uint8_t*>(column.text);
@@ -117,7 +118,8 @@ HWY_INLINE hn::Vec<D> blocks(D d, const std::uint8_t* const* from, std::ptrdiff_
   }
 }
 
-// The blocks of the last bytes [0] and, where there are two, of the 16 bytes before [1].
+// Loads the last 16 bytes as block [0] and, if there are two blocks, the 16 bytes before as block
+// [1].
 HWY_INLINE void load_blocks(const std::uint8_t* const* from, std::ptrdiff_t offset,
                             Bytes (&block)[1]) {
   block[0] = blocks(d8, from, offset + 16);
@@ -140,7 +142,7 @@ HWY_INLINE void load_blocks(const std::uint8_t* const* from, std::ptrdiff_t offs
 #endif
 }
 
-// The block k of fields with each byte moved up by one.
+// Block k of the fields with each byte moved up by one.
 template <int k, int kBlocks>
 HWY_INLINE Bytes moved_up(const Bytes (&x)[kBlocks]) {
   if constexpr (k + 1 < kBlocks) {
@@ -150,9 +152,8 @@ HWY_INLINE Bytes moved_up(const Bytes (&x)[kBlocks]) {
   }
 }
 
-// Pairs of digits as numbers: 10 times the first and the second. (Later versions of Highway have it
-// as SatWidenMulPairwiseAdd. As a product by 2561, which would be portable, g++ makes shifts of
-// it.)
+// Pairs of digits as numbers: 10 times the first plus the second. (Later versions of Highway have
+// this as SatWidenMulPairwiseAdd. g++ converts the portable form, a product by 2561, into shifts.)
 HWY_INLINE Halves pairs(Bytes digits) {
   const Halves factors = hn::Set(di16, 1 << 8 | 10);
 #if HWY_TARGET == HWY_AVX2
@@ -162,22 +163,23 @@ HWY_INLINE Halves pairs(Bytes digits) {
 #endif
 }
 
-// Of neighbours, factor times the first and the second.
+// Neighbours joined: factor times the first plus the second.
 HWY_INLINE Words join(Halves x, int factor) {
   auto unused = hn::Zero(di32);
   return hn::ReorderWidenMulAccumulate(di32, x, hn::BitCast(di16, hn::Set(di32, 1 << 16 | factor)),
                                        hn::Zero(di32), unused);
 }
 
-// Numbers of four digits, four in each block of the fields 0, 2, ... and 1, 3, ..., as numbers of
-// sixteen. (On x86 the packing takes turns in blocks, which puts the fields in order.)
+// Joins numbers of four digits, four in each block of the fields 0, 2, ... and 1, 3, ..., to
+// numbers of sixteen digits. (On x86 the packing alternates between blocks, which puts the fields
+// in order.)
 HWY_INLINE Longs sixteens(Words even, Words odd) {
   const Words eights = join(hn::ReorderDemote2To(di16, even, odd), 10000);
   return hn::Add(hn::MulEven(hn::BitCast(d32, eights), hn::Set(d32, 100'000'000)),
                  hn::ShiftRight<32>(hn::BitCast(d64, eights)));
 }
 
-// What is in the vectors of a group.
+// Intermediate results of one vector of a group.
 template <int kBlocks>
 struct Half {
   Words fours[kBlocks];
@@ -185,7 +187,7 @@ struct Half {
   Bytes odd;   // 255: not a character of a plain number
 };
 
-// Adds what is in the block k. `digits`: their values, 0 elsewhere.
+// Adds the contents of block k. `digits`: values of the digits, 0 elsewhere.
 template <int k, int kBlocks>
 HWY_INLINE void look_at_block(const Bytes& all, const Bytes (&field)[kBlocks],
                               Bytes (&digits)[kBlocks], Bytes& seen, Bytes& odd) {
@@ -193,7 +195,7 @@ HWY_INLINE void look_at_block(const Bytes& all, const Bytes (&field)[kBlocks],
   const Bytes first = hn::AndNot(moved_up<k>(field), field[k]);
   const auto is_point = hn::Eq(text, allowed<k>('.'));
   const auto is_sign = hn::Eq(hn::And(text, first), allowed<k>('-'));
-  // so that digits are the largest signed bytes
+  // makes digits the largest signed bytes
   const Bytes high = hn::Add(text, hn::Set(d8, 127 - '9'));
   constexpr std::uint8_t kZero = 127 - 9;
   const auto is_digit = hn::RebindMask(d8, hn::Gt(hn::BitCast(di8, high), hn::Set(di8, kZero - 1)));
@@ -203,8 +205,8 @@ HWY_INLINE void look_at_block(const Bytes& all, const Bytes (&field)[kBlocks],
                               hn::IfThenElseZero(is_sign, hn::Set(d8, 1))));
 }
 
-// The digits in a row: those behind the point from where they are, those before it from one place
-// earlier; in fours.
+// Makes the digits contiguous (digits before the point are taken one place earlier) and joins them
+// in groups of four.
 template <int k, int kBlocks>
 HWY_INLINE Words in_a_row(const Bytes (&digits)[kBlocks], Bytes point) {
   const auto behind =
@@ -230,7 +232,7 @@ HWY_INLINE bool look_at(const ColumnText& column, std::size_t first, Half<kBlock
   return true;
 }
 
-// Adds the number before the last sixteen digits, which may be below 1024: 1024 · 10^16 < 2^64.
+// Adds the digits before the last sixteen. Their number must be below 1024: 1024 · 10^16 < 2^64.
 HWY_INLINE void add_upper(Longs upper, Plain& plain) {
   constexpr std::uint64_t kTen16 = 10'000'000'000'000'000;
   const auto factor = hn::BitCast(d32, upper);
@@ -240,16 +242,16 @@ HWY_INLINE void add_upper(Longs upper, Plain& plain) {
   plain.odd = hn::Or(plain.odd, hn::ShiftRight<10>(upper));
 }
 
-// The next kFields fields of up to 16 kBlocks characters; mantissas are below 2^52 where kBlocks is
-// 1. False: one of them is not plain.
+// Reads the next kFields fields of up to 16 kBlocks characters. Mantissas are below 2^52 if kBlocks
+// is 1. False: a field is not plain.
 template <int kBlocks>
 HWY_INLINE bool read_fields(const ColumnText& column, Plain& plain) {
-  // one after the other: the processor has no registers for the places of all
+  // one after the other, because the registers do not suffice for both
   Half<kBlocks> even, odd;
   if (!look_at(column, 0, even) || !look_at(column, 1, odd)) return false;
   plain.seen = hn::OddEven(odd.seen, even.seen);
   plain.mantissa = sixteens(even.fours[0], odd.fours[0]);
-  // two points make more than 127
+  // two points give a sum above 127
   plain.odd = hn::Or(hn::BitCast(d64, hn::Or(even.odd, odd.odd)), hn::ShiftRight<7>(plain.seen));
   if constexpr (kBlocks == 1) {
     plain.odd = hn::Or(plain.odd, hn::ShiftRight<52>(plain.mantissa));

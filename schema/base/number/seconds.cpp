@@ -18,7 +18,7 @@ bool parse_seconds(std::string_view field, std::int64_t& time_ns) {
   const char* const end = field.data() + field.size();
   if (field.empty() || parse_double(field.data(), end, seconds) != end) return false;
   if (!(std::abs(seconds) < kMaxSeconds)) return false;
-  if (field.find_first_not_of("-.0123456789") != field.npos) {  // an exponent
+  if (field.find_first_not_of("-.0123456789") != field.npos) {  // the field has an exponent
     time_ns = std::llround(seconds * kNsInOneSecond);
     return true;
   }

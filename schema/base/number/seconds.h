@@ -1,4 +1,4 @@
-// Decimal text of seconds to nanoseconds.
+// Converts decimal text in seconds to nanoseconds.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 
 namespace mdof {
 
-// To the nearest nanosecond, exactly; also times of which a double would lose the nanoseconds.
+// Exact to the nearest nanosecond, also for times at which a double has a coarser resolution.
 // False: not a number, or beyond ±9.2e9 s.
 bool parse_seconds(std::string_view field, std::int64_t& time_ns);
 

@@ -1,5 +1,6 @@
-// Files for people and controllers: each appears under its name whole, and those of one set all or
-// none. On a full disk, or when the program ends early, what was there before stays as it was.
+// Writes files for people and controllers. Each file appears under its name only when complete, and
+// the files of a set appear all or none. On a full disk, or if the program ends early, the previous
+// files remain unchanged.
 #pragma once
 
 #include <cstddef>
@@ -12,27 +13,29 @@
 
 namespace mdof {
 
-// replace: a text; what is no text (a database, a recording, a compressed log) is never replaced.
+// replace: text files only; a database, a recording or a compressed log is never replaced.
 enum class Existing { refuse, replace };
 
-// Written to temporary files in the same folders, then flushed to the disk and renamed. A symbolic
-// link is never written through or replaced. Devices and pipes (/dev/null) are written directly.
-// A replaced file keeps its permissions. A power cut between the renames of a set can leave some of
-// its files new and others old, each of them whole.
+// The files are written as temporary files in the same folders, then flushed to the disk and
+// renamed. Symbolic links are neither followed nor replaced. Devices and pipes (/dev/null) are
+// written directly. A replaced file keeps its permissions. A power cut between the renames of a set
+// can leave some of its files new and others old, each of them complete.
 class OutputFiles {
  public:
   explicit OutputFiles(Existing existing) : existing_(existing) {}
-  ~OutputFiles();  // removes what was not published
+  ~OutputFiles();  // removes unpublished files
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;
 
-  // Its number in the set. Errors: usage where the file exists and may not be replaced; io.
+  // Returns the number of the file in the set. Errors: usage if the file exists and must not be
+  // replaced; io.
   Result<std::size_t> add(const std::filesystem::path& path);
   Status write(std::size_t file, std::string_view text);
   Status publish();  // once, after everything was written
 
  private:
-  // direct: a device; exchanged: the old file has the temporary name now; replaced: it is gone.
+  // direct: a device; exchanged: the old file has the temporary name now; replaced: the old file is
+  // deleted.
   enum class Stage { direct, written, created, exchanged, replaced };
   struct File {
     std::filesystem::path path, temporary;
@@ -47,7 +50,8 @@ class OutputFiles {
   std::vector<File> files_;
 };
 
-// As a set of one. HTML and XML do not replace what is neither, nor the other way round: usage.
+// Writes a set of one file. Markup (HTML, XML) replaces only markup, other text only other text.
+// Error: usage.
 Status write_file(const std::filesystem::path& path, std::string_view text, Existing existing);
 
 }  // namespace mdof

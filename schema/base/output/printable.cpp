@@ -38,14 +38,14 @@ bool is_printable(std::uint32_t code) {
   return !(code >= 0x202A && code <= 0x202E) && !(code >= 0x2066 && code <= 0x2069);
 }
 
-// Of nearly all that is written, and quick: a text of bytes that need no closer look.
+// Fast check that applies to nearly all texts: no byte needs a closer examination.
 bool is_plain(std::string_view text) {
   bool plain = true;
   for (const char c : text) plain &= (c >= 0x20 && c != 0x7F) || c == '\n' || c == '\t';
   return plain;
 }
 
-// The text with `made` of each character that is not printable.
+// Replaces each non-printable character by the result of `made`.
 template <class Made>
 std::string replaced(std::string_view utf8, const Made& made) {
   std::string out;
@@ -79,7 +79,7 @@ std::string printable(std::string_view utf8) {
 
 std::string printable_json(std::string_view utf8) {
   return replaced(utf8, [](const Character& c) {
-    std::array<char, 8> text{};  // all of them have four digits
+    std::array<char, 8> text{};  // all these characters have codes of four digits
     std::snprintf(text.data(), text.size(), "\\u%04x", c.valid ? c.code & 0xFFFF : kReplacement);
     return std::string(text.data());
   });

@@ -1,4 +1,4 @@
-// Text from outside (notes, names, messages of devices) as it may reach a terminal.
+// Makes text from outside (notes, names, messages of devices) safe for a terminal.
 #pragma once
 
 #include <string>
@@ -6,14 +6,15 @@
 
 namespace mdof {
 
-// Whether a terminal takes no part of it as a command, or as an order to turn the text round.
+// Whether a terminal interprets no part of the text as a command or as a change of writing
+// direction.
 bool is_printable(std::string_view utf8);
 
-// The same with "?" for each character that is not printable: control characters but line end and
-// tab, DEL, U+0080 to U+009F, the marks of writing direction, bytes that are no UTF-8.
+// Replaces each non-printable character by "?": control characters except line end and tab, DEL,
+// U+0080 to U+009F, the marks of writing direction, and bytes that are not UTF-8.
 std::string printable(std::string_view utf8);
 
-// Of a JSON document: the same characters as escapes, so that it says what it said.
+// For a JSON document: writes these characters as escapes, so the content is unchanged.
 std::string printable_json(std::string_view utf8);
 
 }  // namespace mdof

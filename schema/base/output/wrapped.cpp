@@ -16,7 +16,7 @@ std::string with_margin(std::string_view lines, std::size_t spaces) {
 
 }  // namespace
 
-// Of UTF-8 only continuation bytes begin with 10.
+// In UTF-8 only continuation bytes begin with the bits 10.
 std::size_t text_width(std::string_view utf8) {
   return static_cast<std::size_t>(
       std::count_if(utf8.begin(), utf8.end(), [](char c) { return (c & 0xC0) != 0x80; }));

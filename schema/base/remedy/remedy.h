@@ -1,5 +1,5 @@
-// What a person can do about an error, as a code: the code that finds an error does not know
-// whether a command line, a program or a report shows it. daemon/words has the words.
+// Codes for the user's remedy of an error. Code that finds an error does not know whether a command
+// line, a program or a report shows it. The texts are in daemon/words.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 namespace mdof {
 
 enum class Remedy {
-  none,  // the message says it, or there is none
+  none,  // the message contains the remedy, or there is no remedy
 #define REMEDY(code) code,
 #include "schema/base/remedy/remedies.inc"
 #undef REMEDY

@@ -21,10 +21,10 @@ struct Session {
   fs::path file;
   sqlite3* database = nullptr;
   std::map<std::string, sqlite3_stmt*, std::less<>> statements;
-  std::optional<PrivateCopy> copy;  // what is open; `file` is what it was made from
+  std::optional<PrivateCopy> copy;  // the database that is open; `file` is its origin
   std::optional<JournalWatch> watch;
   mutable std::string damage;
-  int descriptor = -1;  // what is read, where it is not SQLite that has opened it
+  int descriptor = -1;  // descriptor read by open_descriptors(); else -1
 
   ~Session() {
     for (const auto& [text, statement] : statements) sqlite3_finalize(statement);
@@ -82,14 +82,15 @@ tl::unexpected<Error> error_of(const Session& session, std::string_view doing) {
   return io_error(text + " (SQLite error " + std::to_string(extended) + ")");
 }
 
-// Never the other way round: to read a file that is not ours must not change it, nor what is beside
-// it (with a -journal beside it SQLite would write, and delete the file that the journal names).
+// How a database is read. Reading a foreign file must not change it or the files beside it. (With a
+// -journal beside it, SQLite would write, and delete the file that the journal names.)
 enum class Reading { shared, unchanging, copied };
 
-// A reader needs the -shm file beside a database in WAL mode, and makes it. Where the folder does
-// not let it, and nothing waits in a -wal file, the database cannot change under us.
+// In WAL mode a reader needs the -shm file and creates it if it is missing. If the folder is
+// read-only and the -wal file is empty, the database cannot change while it is read.
 Reading way_to_read(const fs::path& file, OpenMode mode) {
-  if (is_open_for_writing(file)) return Reading::shared;  // here: its locks must stay
+  if (is_open_for_writing(file))
+    return Reading::shared;  // a file of this process: its locks must remain
   if (has_journal(file)) return Reading::copied;
   const bool foreign = mode == OpenMode::snapshot;
   const fs::path folder = beside(file, "").parent_path();
@@ -158,7 +159,7 @@ Statement& Statement::bind(double x) {
 }
 
 Statement& Statement::bind(std::string_view text) {
-  // A null pointer would bind NULL; an empty text is not that.
+  // A null pointer would bind NULL instead of an empty text.
   const char* data = text.data() ? text.data() : "";
   sqlite3_bind_text64(statement_, next_parameter_++, data, text.size(), SQLITE_TRANSIENT,
                       SQLITE_UTF8);
@@ -268,7 +269,7 @@ Result<Connection> Connection::open(const fs::path& file, OpenMode mode, int bus
     MDOF_TRY(PrivateCopy copy, PrivateCopy::make(file, busy_timeout_ms));
     session->copy.emplace(std::move(copy));
     name = session->copy->file().string();
-    flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX;  // to roll back, or take from the -wal
+    flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX;  // to roll back, or to read the -wal
   }
   if (sqlite3_open_v2(name.c_str(), &session->database, flags, nullptr) != SQLITE_OK)
     return error_of(*session, "open");
@@ -287,7 +288,7 @@ Result<Connection> Connection::open_descriptors(const fs::path& name, int databa
     return error_of(*session, "open");
   sqlite3_extended_result_codes(session->database, 1);
   Connection connection(std::move(session));
-  // So that the index of the -wal is in memory, and what is sorted as well.
+  // Keeps the index of the -wal and temporary tables in memory.
   MDOF_CHECK(connection.execute("PRAGMA locking_mode = EXCLUSIVE; PRAGMA temp_store = MEMORY"));
   return connection;
 }
@@ -374,7 +375,8 @@ Status Transaction::commit() {
     return error;
   }
   Session& session = *std::exchange(session_, nullptr);
-  // Before it is acknowledged: what went into a -wal that is gone is lost with this process.
+  // Check before the commit is acknowledged: data in a deleted -wal are lost when this process
+  // ends.
   if (session.watch && !session.watch->is_kept()) return io_error(session.watch->fault());
   return {};
 }

@@ -1,9 +1,9 @@
-// A thin, typed skin over SQLite's C API: a connection with a cache of prepared statements, and a
-// transaction that knows when SQLite has rolled back by itself. It lies in schema/ because the
-// store (daemon/) and the recording reader (drivers/) both speak it.
+// Thin typed wrapper of SQLite's C API: a connection with a cache of prepared statements, and a
+// transaction that detects when SQLite has rolled back by itself. It is in schema/ because the
+// store (daemon/) and the recording reader (drivers/) both use it.
 //
-// Thread-bound: a connection and all that comes from it belong to one thread.
-// Errors name the file and what was being done, carry SQLite's own text, and say what to do.
+// Thread-bound: a connection and all its objects belong to one thread. Errors name the file and the
+// operation, contain SQLite's own text, and state the remedy.
 #pragma once
 
 #include <cstdint>
@@ -21,25 +21,25 @@ struct sqlite3_stmt;
 namespace mdof::sqlite {
 
 enum class OpenMode {
-  read_only,   // of a database in use; writes nothing into it
-  snapshot,    // a file of anybody as it is now: nothing is written to it, nor beside it
+  read_only,   // for a database in use; does not write to it
+  snapshot,    // any file as it is now; does not write to it or beside it
   read_write,  // the file must exist
-  create,      // read_write, made where absent
+  create,      // read_write; creates a missing file
 };
 
-// How much a commit waits for; see SQLite's "PRAGMA synchronous".
+// Durability of a commit; see SQLite's "PRAGMA synchronous".
 enum class Durability {
-  full,    // on the medium before commit returns: survives a power cut
-  normal,  // survives the end of the process; a power cut may take the last commits
-  off,     // for benchmarks and throw-away files
+  full,    // stored on the medium before commit returns: survives a power cut
+  normal,  // survives the end of the process; a power cut may lose the last commits
+  off,     // for benchmarks and temporary files
 };
 const char* to_string(Durability durability);
 
-struct Session;  // the open database and its cache of statements; stays put when its owner is moved
+struct Session;  // the open database and its cache of statements; not moved when its owner is moved
 
-// Borrowed from its connection's cache; given back, reset, by the destructor.
-// Parameters are bound from the left, one call each; text is copied, bytes are not and must outlive
-// the statement's last step. A NaN is stored as NULL and read back as NaN.
+// Borrowed from the cache of its connection; the destructor resets and returns it. Parameters are
+// bound from the left, one call each. Text is copied; bytes are not copied and must outlive the
+// last step of the statement. A NaN is stored as NULL and read back as NaN.
 class Statement {
  public:
   Statement(Statement&& other) noexcept;
@@ -53,15 +53,15 @@ class Statement {
   Statement& bind_null();
   Statement& bind(std::optional<std::int64_t> x) { return x ? bind(*x) : bind_null(); }
 
-  Result<bool> step();  // true: a row is there
-  Status run();         // to the end; then ready to be bound again
+  Result<bool> step();  // true: a row is available
+  Status run();         // executes to the end; the statement can then be bound again
 
   std::int64_t integer(int column) const;
   double real(int column) const;
   std::string_view text(int column) const;   // valid until the next step
   std::string_view bytes(int column) const;  // valid until the next step
   bool is_null(int column) const;
-  // How the value is stored: 'n' NULL, 'i' integer, 'd' double, 't' text, 'b' bytes.
+  // Type of the stored value: 'n' NULL, 'i' integer, 'd' double, 't' text, 'b' bytes.
   char storage_class(int column) const;
   int columns() const;
 
@@ -77,24 +77,24 @@ class Connection {
  public:
   static Result<Connection> open(const std::filesystem::path& file, OpenMode mode,
                                  int busy_timeout_ms = 5000);
-  // To read a database through descriptors, as in sqlite_descriptors.h; `name` is for messages.
+  // Reads a database through descriptors (sqlite_descriptors.h); `name` is for messages.
   static Result<Connection> open_descriptors(const std::filesystem::path& name, int database,
                                              int wal);
   Connection(Connection&&) noexcept;
   Connection& operator=(Connection&&) noexcept;
   ~Connection();
 
-  Status execute(const std::string& sql);              // one or more statements without results
-  Result<Statement> prepare(std::string_view sql);     // cached by its text; not twice at a time
+  Status execute(const std::string& sql);           // one or more statements without results
+  Result<Statement> prepare(std::string_view sql);  // cached by its text; only one user at a time
   Result<std::int64_t> integer(std::string_view sql);  // first column of the first row; none: 0
   std::int64_t last_insert_rowid() const;
-  std::int64_t changes() const;       // rows written since it was opened
-  const std::string& damage() const;  // the last error that says the file is damaged; empty: none
+  std::int64_t changes() const;       // rows written since the connection was opened
+  const std::string& damage() const;  // the last error that reports a damaged file; empty: none
 
-  // From now on -wal and -shm are watched (journal_watch.h): no transaction begins, and none is
-  // acknowledged, that the next program would not find.
+  // From now on -wal and -shm are watched (journal_watch.h): no transaction begins or is
+  // acknowledged if the next program would not find it.
   void watch_journal();
-  std::string journal_fault();  // why nothing can be written any more; empty: it can
+  std::string journal_fault();  // why writing is impossible; empty: it is possible
 
   // The last error as an Error: "FILE: cannot DOING: ... (SQLITE_FULL). Remedy".
   tl::unexpected<Error> error(std::string_view doing) const;
@@ -107,8 +107,8 @@ class Connection {
   std::unique_ptr<Session> session_;
 };
 
-// BEGIN IMMEDIATE ... COMMIT; rolls back unless committed. After a full disk SQLite has rolled back
-// by itself, and a second ROLLBACK would be an error: the guard asks first.
+// BEGIN IMMEDIATE ... COMMIT; rolls back unless committed. If the disk is full, SQLite rolls back
+// by itself and a second ROLLBACK would be an error: the destructor checks this first.
 class Transaction {
  public:
   static Result<Transaction> begin(Connection& connection);

@@ -13,7 +13,7 @@ namespace mdof::sqlite {
 namespace {
 
 struct OpenFile {
-  sqlite3_file base;  // first: SQLite casts between the two
+  sqlite3_file base;  // must be first: SQLite casts between the two
   int descriptor;     // -1: an empty file
 };
 
@@ -25,7 +25,7 @@ int close_file(sqlite3_file*) {
   return SQLITE_OK;
 }
 
-// What is beyond the end reads as zeros.
+// Bytes beyond the end read as zeros.
 int read_file(sqlite3_file* file, void* to, int count, sqlite3_int64 offset) {
   auto* const bytes = static_cast<char*>(to);
   const auto wanted = static_cast<std::size_t>(std::max(count, 0));
@@ -87,7 +87,7 @@ const sqlite3_io_methods kMethods = [] {
   return m;
 }();
 
-// "DATABASE,WAL", and with "-wal" behind it.
+// Parses "DATABASE,WAL", with or without a following "-wal".
 struct Named {
   int database = -1, wal = -1;
 };

@@ -6,8 +6,8 @@
 namespace mdof {
 namespace {
 
-// Goes through a document as the parser would. Of a text that is no TOML it may be wrong from the
-// place on at which the parser gives up.
+// Scans a document as the parser does. For a text that is not TOML, the result may be wrong beyond
+// the place where the parser stops.
 class DepthScan {
  public:
   DepthScan(std::string_view text, std::size_t bound) : text_(text), bound_(bound) {}
@@ -32,7 +32,7 @@ class DepthScan {
     if (c == ',' || (c == '\n' && open_.empty())) dots_ = 0;
   }
 
-  // What is within belongs to the key that stands before.
+  // The contents belong to the key before the bracket.
   void open() {
     open_.push_back(dots_);
     outer_dots_ += dots_;
@@ -56,17 +56,18 @@ class DepthScan {
     const std::string_view three = quote == '"' ? R"(""")" : "'''";
     if (!is_next(three)) return skip_to_end(text_.substr(at_, 1), quote == '"', "\n");
     skip_to_end(three, quote == '"', {});
-    for (int more = 0; more < 2 && is_next(three.substr(0, 1)); ++more) ++at_;  // of the text
+    for (int more = 0; more < 2 && is_next(three.substr(0, 1)); ++more)
+      ++at_;  // up to two quotes belong to the text
   }
 
-  // From the opening quotes over the closing ones, or to what ends the text without them.
+  // Skips from the opening quotes to the end of the closing ones, or to `end` if they are missing.
   void skip_to_end(std::string_view quotes, bool escapes, std::string_view end) {
     for (at_ += quotes.size(); at_ < text_.size() && !is_next(quotes); ++at_) {
       if (!end.empty() && is_next(end)) return;
       if (text_[at_] == '\n') ++line_;
       if (escapes && text_[at_] == '\\') skip_escaped();
     }
-    at_ = std::min(at_ + quotes.size(), text_.size());  // a text without an end leaves nothing more
+    at_ = std::min(at_ + quotes.size(), text_.size());  // an unterminated text takes the rest
   }
 
   void skip_escaped() {
@@ -77,8 +78,10 @@ class DepthScan {
   std::string_view text_;
   std::size_t bound_;
   std::size_t at_ = 0, line_ = 1;
-  std::size_t dots_ = 0, outer_dots_ = 0;  // of the key at hand; of the keys before what is open
-  std::vector<std::size_t> open_;          // dots before each bracket
+  std::size_t dots_ = 0,
+              outer_dots_ =
+                  0;  // dots of the current key; dots of the keys before all open brackets
+  std::vector<std::size_t> open_;  // dots before each open bracket
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
-// How deep a TOML document nests, found from its text before anything is built from it: the parser
-// bounds values within values, but not the tables that a dotted key makes, and both it and the
-// destructor of its tree go down a level of the stack for each.
+// Nesting depth of a TOML document, found from its text before it is parsed. The parser limits
+// nested values, but not the tables of a dotted key, and both the parser and the destructor of its
+// tree recurse once for each level.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace mdof {
 
-inline constexpr std::size_t kMaxTomlDepth = 32;  // deeper than anything that mdof reads
+inline constexpr std::size_t kMaxTomlDepth = 32;  // deeper than any document that mdof reads
 
-// The line (1, 2, ...) where the document goes deeper than `bound`; nothing where it never does.
-// Counted are brackets and braces that are open and the dots of the keys before a value.
+// The first line (1, 2, ...) where the depth exceeds `bound`; nullopt: none. The depth is the
+// number of open brackets and braces plus the dots of the keys before a value.
 std::optional<std::size_t> toml_line_deeper_than(std::string_view text, std::size_t bound);
 
 }  // namespace mdof

@@ -18,16 +18,16 @@ struct TomlTable::Document {
   std::optional<Error> error;
 };
 
-// A table of the tree with the keys asked for so far and the sub-tables handed out.
+// A table of the tree with the keys read so far and the sub-tables returned to callers.
 struct TomlTable::Node {
   const toml::table* table = nullptr;
   std::string path;  // "probe[2]."
   std::set<std::string, std::less<>> asked;
-  std::set<std::string, std::less<>> looked_for;  // by has(): for hints, not yet read
+  std::set<std::string, std::less<>> looked_for;  // by has(): for hints, not read yet
   std::vector<std::shared_ptr<Node>> children;
   std::map<const toml::table*, std::shared_ptr<Node>> child_of;
 
-  // The same for all who ask: each may know some of its keys.
+  // The same node for all callers: each may know some of its keys.
   std::shared_ptr<Node> child(const toml::table* of, std::string its_path) {
     auto& known = child_of[of];
     if (known) return known;
@@ -115,7 +115,7 @@ void TomlTable::reject(std::string_view key, const std::string& why, Remedy reme
     document_->error = Error{ErrorCode::bad_input, where(key) + ": " + why, remedy, remedy_for};
 }
 
-// One of the keys that nobody has asked for yet may be this one, misspelt.
+// A key that was not read may be a misspelling of the missing one.
 void TomlTable::missing(std::string_view key, const char* form) {
   std::vector<std::string> others;
   for (const auto& [name, value] : *node_->table) {

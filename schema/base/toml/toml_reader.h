@@ -1,5 +1,5 @@
-// Reads a TOML document strictly: each key is asked for by name and type, every key that nobody
-// asked for is an error that names it and the nearest known one. Messages carry file and line.
+// Strict reader of TOML documents: the caller reads each key by name and type. A key that is not
+// read is an error, which names the nearest known key. Messages contain file and line.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@
 
 namespace mdof {
 
-// One table of a document. The first error met is kept; later calls do nothing and return their
-// default, so that a reader is a straight list of calls with one check at its end.
+// One table of a document. The first error is kept; later calls do nothing and return their
+// default, so that a reader can call repeatedly and check once at the end.
 class TomlTable {
  public:
-  // `source_name` is what messages call the document.
+  // `source_name` is the name of the document in messages.
   static Result<TomlTable> parse(std::string_view text, const std::string& source_name);
 
-  // A key that is only looked for is a hint to who misspelt it; to be known it must be read.
+  // has() only gives a hint for misspelt keys; a key must be read to be known.
   bool has(std::string_view key);
   bool is_array(std::string_view key);  // [[key]], or key = [...]
   bool is_table(std::string_view key);  // [key], or key = {...}
@@ -40,11 +40,11 @@ class TomlTable {
   std::vector<TomlTable> tables(std::string_view key);            // [[key]]; absent: none
   std::optional<TomlTable> table(std::string_view key);           // [key]
 
-  // Records an error of the caller's at this key ("position_mm: outside the target").
+  // Records an error of the caller at this key ("position_mm: outside the target").
   void reject(std::string_view key, const std::string& why, Remedy remedy = Remedy::none,
               const std::string& remedy_for = "");
-  // Ok, or the first error of this document, unknown keys of this table and its sub-tables
-  // included. To be called once, after all keys were asked for.
+  // Ok, or the first error of this document, including unknown keys of this table and its
+  // sub-tables. Call it once, after all keys were read.
   Status finish();
   std::string where(std::string_view key) const;  // "rig.toml:12: probe.range_um"
 
@@ -57,7 +57,7 @@ class TomlTable {
   std::shared_ptr<Node> node_;
 };
 
-// Letters to add, to leave out, to change, and neighbours to swap ("slove").
+// Number of letters to add, remove or change and of neighbours to swap ("slove").
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 // The candidate with the smallest edit distance to `word`; empty if none is near.

@@ -6,9 +6,9 @@
 //   X: EYX = δy   EZX = δz   EAX = εx   EBX = εy   ECX = εz
 //   Y: EXY = -δy  EZY = δz   EAY = -εy  EBY = εx   ECY = εz
 //   Z: EXZ = δy   EYZ = δz   EAZ = εy   EBZ = εz   ECZ = εx
-// Error = actual - nominal. The local errors are those of the target in the metrology frame; the
-// ISO names are errors of the body that moves: the same for the target, the negative for the
-// fixture (schema/rig/sides.h).
+// Error = actual - nominal. The local errors are errors of the target in the metrology frame. The
+// ISO names are errors of the moving body: equal to those of the target where the target moves,
+// their negative where the fixture moves (schema/rig/sides.h).
 #pragma once
 
 #include <array>
@@ -26,14 +26,14 @@ enum class Axis { x, y, z };
 char letter(Axis axis);                                  // 'X'
 std::optional<Axis> axis_from(std::string_view letter);  // "X", "Y", "Z"
 
-// Local errors in this order everywhere: m, m, rad, rad, rad.
+// Indices of the local errors, used everywhere; m, m, rad, rad, rad.
 enum LocalError { kDy = 0, kDz = 1, kEx = 2, kEy = 3, kEz = 4 };
 inline constexpr int kErrorCount = 5;
 using Errors5 = std::array<double, 5>;
 using Covariance5 = std::array<double, 25>;  // row-major, symmetric
 
-// One named error of an axis, in the order in which results list them:
-// the two straightness errors, then rotations about A, B, C.
+// One named error of an axis. Results list the errors in this order: the two straightness errors,
+// then the rotations about A, B and C.
 struct ErrorName {
   const char* name;  // "EYX"
   const char* key;   // "EYX_um" or "EAX_urad": the name with its unit
@@ -57,11 +57,11 @@ struct MovingAxis {
   Axis axis = Axis::x;
   Sides sides;
 };
-// Named errors of the body that moves. The covariance has no sign to change.
+// Named errors of the moving body. The covariance does not depend on the sign.
 Errors5 named_from_local(const MovingAxis& moving, const Errors5& local);
 Errors5 local_from_named(const MovingAxis& moving, const Errors5& named);
 
-// SI to the unit of the key: µm or µrad, both a factor of 1e6.
+// Converts SI to the unit of the key, µm or µrad; both have the factor 1e6.
 inline double to_key_unit(double si) {
   return si * 1e6;
 }

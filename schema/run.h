@@ -1,5 +1,5 @@
-// A run as it is stored: what was measured, from which recording, by which software, with what
-// result. Rows are never changed; a correction is a new run that supersedes an old one.
+// A stored run: what was measured, from which recording, by which software, with which result. Rows
+// are never changed; a correction is a new run that supersedes an old one.
 #pragma once
 
 #include <cstdint>
@@ -15,32 +15,33 @@
 
 namespace mdof {
 
-// Everything needed to get the same bits again.
+// Everything that is needed to reproduce the result bit by bit.
 struct Provenance {
-  std::string recording_kind;    // "csv", "recording", "live"
-  std::string recording_path;    // absolute
-  std::string recording_sha256;  // of the file's bytes (csv) or of the chain of chunks (recording)
-  std::string rig_text;          // rig and calibration as TOML
+  std::string recording_kind;  // "csv", "recording", "live"
+  std::string recording_path;  // absolute
+  std::string
+      recording_sha256;  // of the bytes of the file (csv) or of the chain of chunks (recording)
+  std::string rig_text;  // rig and calibration as TOML
   std::string model;
   std::string software_version;
-  std::string options_json;   // detection options used, one JSON object
+  std::string options_json;   // detection options as one JSON object
   std::string configuration;  // mdofd.toml for a live run, else empty
 };
 
-// partial: it ended before all was measured that was asked for, or most of it could not be solved;
-// its notices say what is missing. ended: it is no longer measured, but its end is not stored yet
-// (stored it is open, and nobody but mdofd knows).
+// partial: the run ended before all requested targets were measured, or most points could not be
+// solved; its notices say what is missing. ended: the measurement has ended, but the end is not
+// stored yet. The database still has the state open; only mdofd knows the state ended.
 enum class RunState { open, complete, partial, aborted, failed, ended };
 const char* to_string(RunState state);
 
-// A reference line through a straightness series and what is left of it. Slopes are over the
-// moving body's own travel in M: they do not change with the way in which its encoder counts.
+// A reference line through a straightness series and the residuals. Slopes refer to the travel of
+// the moving body in M: they do not depend on the counting direction of its encoder.
 struct StraightnessFigure {
   std::string error_key;  // "EYX_um"
   std::string approach;   // "forward", "reverse", "mean"
   double slope_least_squares_rad = 0, slope_end_point_rad = 0;
-  // Of the fitted slope, by what the line leaves of the errors: how well a line describes the axis,
-  // not how well its slope is known.
+  // Uncertainty of the fitted slope from the residuals: it says how well a line describes the axis,
+  // not how well the slope is known.
   double form_rad = 0;
   double straightness_least_squares_m = 0, straightness_end_point_m = 0;  // peak to valley
   double peak_position_m = 0, valley_position_m = 0;  // of the least-squares residuals
@@ -50,11 +51,11 @@ struct StraightnessFigure {
 struct AngleFigure {
   std::string error_key;  // "EAX_urad"
   std::string approach;
-  double start_rad = 0;  // what was subtracted
+  double start_rad = 0;  // the value that was subtracted
   double min_rad = 0, max_rad = 0;
 };
 
-// What the column temperature_C said from the first scan of a run to the last.
+// Values of the column temperature_C from the first scan of a run to the last.
 struct Temperature {
   double mean_C = 0, min_C = 0, max_C = 0;
   bool operator==(const Temperature&) const = default;
@@ -64,7 +65,7 @@ struct RunHeader {
   std::int64_t id = 0;  // 0 until stored
   Axis axis = Axis::x;
   Sides sides;
-  StatedAt stated;  // the points' errors and the figures
+  StatedAt stated;  // reference point of the errors and the figures
   RunState state = RunState::open;
   bool simulated = false;
   std::string started_utc;  // ISO 8601, for people
@@ -73,7 +74,7 @@ struct RunHeader {
   Provenance provenance;
   std::uint64_t scans = 0, scans_lost = 0;
   Notices notices;
-  std::optional<Temperature> temperature;  // none: nobody read it
+  std::optional<Temperature> temperature;  // none: not measured
 
   MovingAxis moving() const { return {axis, sides}; }
 };
@@ -83,7 +84,8 @@ struct Run {
   std::vector<MeasuredPoint> points;
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
-  std::optional<Plausibility> plausibility;  // none: the run has no points, or is older than this
+  std::optional<Plausibility>
+      plausibility;  // none: the run has no points or is older than this member
 };
 
 }  // namespace mdof

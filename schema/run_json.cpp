@@ -24,8 +24,8 @@ constexpr const char* kPositioningTableSense =
     "correction = factor times the error, added to the command of the axis \"command\" (see "
     "\"correction\" for factor and command)";
 
-// {"EYX_um": {"factor", "command", "reason"}, ...}: a correction is factor times the error, added
-// to the command of that axis; factor null: there is none, for that reason.
+// {"EYX_um": {"factor", "command", "reason"}, ...}. The correction is factor times the error, added
+// to the command of the axis "command". factor null: no correction, for the reason given.
 void write_corrections(JsonWriter& json, const CompensationTable& t) {
   const CorrectionSigns signs = correction_signs(t.machine, t.axis, t.sides, t.stated.reference);
   json.key("correction").begin_object();
@@ -44,7 +44,7 @@ void write_corrections(JsonWriter& json, const CompensationTable& t) {
   json.end_object();
 }
 
-// What a table holds of an approach.
+// Values of one approach of a table.
 struct Side {
   bool is_forward;
   const std::array<std::vector<double>, 5>&values, &u;
@@ -78,12 +78,12 @@ void write_side(JsonWriter& json, const CompensationTable& t, const Side& side, 
   json.end_object();
 }
 
-// -0 is noise of a subtraction: people and scripts read 0.
+// Converts -0, which results from subtractions, to 0.
 double plain(double x) {
   return x + 0.0;
 }
 
-// Five readings leave no equation over: what the model leaves of them says nothing.
+// True if there are more than five readings. Five readings leave no residual.
 bool redundant(const MeasuredPoint& p) {
   return std::count_if(p.point.probe_m.begin(), p.point.probe_m.end(),
                        [](double m) { return std::isfinite(m); }) > kErrorCount;
@@ -159,7 +159,7 @@ void write_temperature(JsonWriter& json, const std::optional<Temperature>& read)
 
 namespace {
 
-// Of an imported run its import says the travel alone, or nothing does.
+// For an imported run, moves is unknown and travel is known only if the import states it.
 void write_sides(JsonWriter& json, const RunHeader& h) {
   json.key("moves");
   is_imported(h) ? json.null() : json.value(h.sides.moves());
@@ -329,7 +329,7 @@ void write_table_members(JsonWriter& json, const CompensationTable& t) {
   for (const auto id : t.runs) json.value(id);
   json.end_array();
   write_reference(json, t);
-  if (t.has_positioning()) {  // whichever body moves, and whichever way it goes
+  if (t.has_positioning()) {  // positioning does not depend on the moving body and its direction
     json.key("moves").null().key("travel").null();
     json.field("positioning_sense", to_string(kTablePositioningSense));
   } else {

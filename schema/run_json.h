@@ -1,4 +1,4 @@
-// The JSON of runs, squareness and compensation tables: one form for the command line and the RPC.
+// JSON of runs, squareness and compensation tables: the same for the command line and the RPC.
 #pragma once
 
 #include "schema/base/json_writer.h"
@@ -14,58 +14,59 @@
 namespace mdof {
 
 // {"target", "target_mm", "run", "direction", "position_mm", five errors, "u": {...}, "u_random",
-//  "U", "k", "nu_eff", "samples", "flags"}; an unsolved point has null errors and its "reason".
+// "U", "k", "nu_eff", "samples", "flags"}. An unsolved point has null errors and a "reason".
 void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint& point,
                  const ErrorsUncertainty& uncertainty);
 
-// The scans of a CSV log are not numbered, and an imported run has none: nobody knows of one that
-// it is missing.
+// False if lost scans cannot be detected: the scans of a CSV log have no numbers, and an imported
+// run has no scans.
 bool lost_is_known(const RunHeader& header);
 
-// "key": ["text", ...] of an open object.
+// Writes "key": ["text", ...] into an open object.
 void write_strings(JsonWriter& json, const char* key, const std::vector<std::string>& texts);
 
-// "reference" and "reference_mm" (null for the carriage) of an open object.
+// Writes "reference" and "reference_mm" (null for the carriage) into an open object.
 void write_reference(JsonWriter& json, const StatedAt& at);
-// null for positioning: its place is the measuring line, which an imported file does not say.
+// Writes null for positioning: its reference is the measuring line, which an imported file does not
+// state.
 void write_reference(JsonWriter& json, const CompensationTable& table);
 
-// Identity, state and provenance, without points; the members of an open object.
+// Writes identity, state and provenance, without points, into an open object.
 void write_header_members(JsonWriter& json, const RunHeader& header, NoticeWords words);
 
-// A run with what is stated of it.
+// A run with its uncertainties and stated figures.
 struct RunMembers {
   const Run& run;
-  const RunHeader& header;  // the run's, or a shorter one
+  const RunHeader& header;  // the header of `run` or a shortened one
   const RunUncertainty& uncertainty;
-  const StatedFigures& figures;  // as of write_stated()
+  const StatedFigures& figures;  // for write_stated()
   bool with_points = true;
-  std::size_t most_visits = kAllVisits;  // of write_plausibility()
+  std::size_t most_visits = kAllVisits;  // for write_plausibility()
 };
-// The members of an open object.
+// Writes the members into an open object.
 void write_run_members(JsonWriter& json, const RunMembers& members, NoticeWords words);
 
 // {"EYX_um": {"forward": {...}, "reverse": {...}, "mean": {...}}, ...}. "form_urad": how well a
-// line describes the axis. The slope of the mean has the u of its budget, where it is among these.
+// line describes the axis. The slope of "mean" has the u of its budget, if `budgets` holds it.
 void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures,
                         const std::vector<Budget>& budgets = {});
-// The budget of its slope by least squares; none: it is not among them, which have those of the
-// mean of both approaches.
+// The budget of the least-squares slope of `figure`. nullptr if `budgets` does not hold it; budgets
+// exist for the mean of both approaches only.
 const Budget* budget_of_slope(const std::vector<Budget>& budgets, const StraightnessFigure& figure);
 void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
 
-// Members of an open object; `budgets`: of EC0Y, then of the slopes.
+// Writes the members into an open object. `budgets`: EC0Y first, then the slopes.
 void write_squareness_members(JsonWriter& json, const Squareness& squareness,
                               const std::vector<Budget>& budgets);
 
-// A JSON object with one member more: "notices".
+// Adds the member "notices" to a JSON object.
 std::string with_notices(std::string json, const Notices& notices, NoticeWords words);
 
-// One grid point: {"position_mm", "forward": {...}, "reverse": {...}}: errors, with "u" inside.
+// One grid point: {"position_mm", "forward": {...}, "reverse": {...}}, errors with their "u".
 void write_table_row(JsonWriter& json, const CompensationTable& table, std::size_t row);
-// What holds for the whole table; the members of an open object.
+// Writes the members that hold for the whole table into an open object.
 void write_table_members(JsonWriter& json, const CompensationTable& table);
-// Its members and "points".
+// The members of the table and its "points".
 std::string table_json(const CompensationTable& table);
 
 }  // namespace mdof

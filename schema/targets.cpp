@@ -36,7 +36,7 @@ std::vector<double> spaced_targets_mm(const TargetSpacing& s) {
     const Philox random = philox({i, 0, 0, kPurpose}, static_cast<std::uint64_t>(s.seed));
     const double offset_mm = s.jitter_mm * (2 * uniform(random[0], random[1]) - 1);
     const double even_mm = s.from_mm + i * s.interval_mm, shifted_mm = even_mm + offset_mm;
-    // Beyond the ends may be a limit of the machine.
+    // A shift beyond the ends is mirrored inwards: the machine may have a limit there.
     const bool is_within = shifted_mm >= s.from_mm && shifted_mm <= s.to_mm;
     targets_mm.push_back(is_within ? shifted_mm : std::min(even_mm - offset_mm, s.to_mm));
   }

@@ -1,4 +1,4 @@
-// The enumerations of the vocabulary as text.
+// Enumerations as text.
 #include "schema/point.h"
 #include "schema/run.h"
 #include "schema/sample.h"

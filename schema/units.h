@@ -1,5 +1,6 @@
-// The only place where a power of ten is written. Inside: SI (m, rad, s, V; time in integer ns).
-// At every edge a scalar's name ends in its unit: _um _mm _urad _s _hz _V.
+// Conversions between units; powers of ten are written here only. Internal values are SI (m, rad,
+// s, V; time in integer ns). At interfaces the name of a scalar ends in its unit: _um _mm _urad _s
+// _hz _V.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@ namespace mdof {
 inline constexpr std::int64_t kNsPerS = 1'000'000'000;
 inline constexpr double kInch_m = 0.0254;
 
-// Division by an exact power of ten is rounded once: 200 µm in and out is 200 µm again.
+// Division by an exact power of ten is rounded once, so 200 µm converted to m and back is 200 µm.
 inline constexpr double from_um(double x_um) {
   return x_um / 1e6;
 }

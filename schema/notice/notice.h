@@ -1,6 +1,6 @@
-// What a reader of a result should know, as data: a code, how much it weighs, what it is about and
-// named numbers. The words stand in daemon/words, so that a client branches on the code and a word
-// may change without changing what is stored.
+// A notice for the reader of a result, as data: a code, a severity, a subject and named numbers.
+// The texts are in daemon/words, so that a client branches on the code and a text may change
+// without a change of stored data.
 #pragma once
 
 #include <concepts>
@@ -15,9 +15,9 @@
 namespace mdof {
 
 enum class Severity {
-  information,  // a reader should know it; it keeps no result from a controller
-  doubtful,     // activation and export ask whether it is meant
-  invalid       // what is made of it is refused
+  information,  // information for the reader; the result can still be activated and exported
+  doubtful,     // activation and export require confirmation
+  invalid       // results built from it are rejected
 };
 const char* to_string(Severity severity);
 
@@ -42,32 +42,35 @@ struct NoticeValue : std::variant<double, std::string> {
 
 struct Notice {
   NoticeCode code = NoticeCode::legacy;
-  // Of its code; of `legacy`, `more_alike`, `not_shown` and a table's `datum_missing` its own.
+  // Severity of the code; `legacy`, `more_alike`, `not_shown` and the `datum_missing` of a table
+  // have their own.
   Severity severity = Severity::doubtful;
-  std::string subject;  // a probe, a plane, a device by its name; empty: the whole
+  std::string subject;  // name of a probe, a plane or a device; empty: the whole result
   std::vector<std::pair<std::string, NoticeValue>> values;
-  std::string source;  // the result that it is inherited from, "run 3"; empty: this one
+  std::string source;  // result that the notice was inherited from, "run 3"; empty: this result
 
   bool operator==(const Notice&) const = default;
 };
 using Notices = std::vector<Notice>;
 
-// With the severity of the code, and its keys in their order: else a bug, which is asserted.
+// A notice with the severity of the code. The keys must be those of the code in their order
+// (asserted).
 Notice notice(NoticeCode code, const std::string& subject = "",
               std::initializer_list<std::pair<std::string_view, NoticeValue>> values = {});
 
-// The same notice of another result: inherited from `source`, which comes before its own.
+// The same notice for another result; `source` is put before its own source.
 Notice inherited(const std::string& source, Notice notice);
 
-// nullptr: it has no such value.
+// nullptr: the notice has no value of this key.
 const NoticeValue* value(const Notice& notice, std::string_view key);
 
-// What each code carries, one blank between keys.
+// Keys of a code, separated by one blank.
 std::string_view keys(NoticeCode code);
 Severity severity(NoticeCode code);
 
 void append(Notices& to, Notices more);
-// Those of one code: at most ten, then `more_alike` with their code and how many are left out.
+// Appends notices of one code: at most ten, then `more_alike` with their code and the number
+// omitted.
 void append_first(Notices& to, Notices alike);
 
 }  // namespace mdof

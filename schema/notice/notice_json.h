@@ -1,5 +1,5 @@
-// Notices as JSON: {"code", "severity", "subject", "source", named values, "text"}, the second
-// pair where there is one. Databases and recordings keep them without text.
+// Notices as JSON: {"code", "severity", "subject", "source", named values, "text"}, "subject" and
+// "source" only if not empty. Databases and recordings store them without text.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace mdof {
 
-// The words of a notice for a reader, without its severity; daemon/words has them.
+// Text of a notice for a reader, without its severity; implemented in daemon/words.
 using NoticeWords = std::string (*)(const Notice&);
 
-// "key": [...] of an open object. Without words there is no "text".
+// Writes "key": [...] into an open object. Without `words` there is no "text".
 void write_notices(JsonWriter& json, const char* key, const Notices& notices, NoticeWords words);
-// The array alone, as it is stored.
+// The array as it is stored.
 std::string notices_json(const Notices& notices);
 
-// Of an array of such objects, or of the sentences that were stored before: "information: ..." has
-// that severity. A code that is not known (of a newer mdof) is read as `legacy` with its name.
+// Reads an array of such objects, or of the sentences that older versions stored ("information:
+// ..." has that severity). An unknown code (of a newer mdof) is read as `legacy` with its name.
 Result<Notices> read_notices(std::string_view json_array);
 
 }  // namespace mdof

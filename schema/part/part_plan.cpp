@@ -77,7 +77,7 @@ Result<PartPlan> parse_part_plan(std::string_view text, const std::string& sourc
     if (!layers || !layers->has(name)) continue;
     PartLayer layer{name, {}, true, false, {}};
     read_layer(*layers, layer);
-    // The same switch beside it: axes_on = false.
+    // Alternative switch: axes_on = false.
     const std::string on = std::string(name) + "_on";
     if (layers->has(on)) layer.on = layers->boolean(on);
     plan.layers.push_back(layer);

@@ -1,4 +1,4 @@
-// PART.toml: what a part's errors are predicted from (README.md of algo/part has the layers).
+// PART.toml: the inputs for the predicted errors of a part (layers: README.md of algo/part).
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@ namespace mdof {
 
 struct PartLayer {
   std::string name;               // "axes", "budget", "form", "milling"
-  std::vector<std::string> from;  // files or "table:N"; empty: what the machine describes itself
+  std::vector<std::string> from;  // files or "table:N"; empty: description in the machine file
   bool on = true;
-  bool compensated = false;   // what its compensation leaves
-  std::optional<double> u_m;  // of the form layer: standard uncertainty of its map
+  bool compensated = false;   // the layer contains the errors that remain after compensation
+  std::optional<double> u_m;  // for the form layer: standard uncertainty of its map
 };
 
 struct PartPlan {

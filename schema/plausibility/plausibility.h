@@ -1,5 +1,5 @@
-// What a run looks like as a whole, for people to judge whether it can be right: what was visited
-// how often, what was left out, what the encoder and the probes did.
+// Overall figures of a run, from which people judge whether it can be right: number of visits,
+// omitted stops, readings of encoder and probes.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,24 @@
 
 namespace mdof {
 
-// One row of the matrix n_ij: how many points with errors there are of a target, in each run.
+// One row of the matrix n_ij: number of points with errors for a target, by run.
 struct TargetVisits {
   double target_m = 0;
-  std::vector<int> forward, reverse;  // of run 1, 2, ...
+  std::vector<int> forward, reverse;  // for run 1, 2, ...
 };
 
 // A stop that belongs to no target.
 struct StopLeftOut {
   double position_m = 0;
-  std::int64_t begin_ns = 0;  // of its average
-  std::string reason;         // a notice's code, "stop_parked_at_start"; of an old run a sentence
+  std::int64_t begin_ns = 0;  // start of its average
+  std::string reason;         // code of a notice, "stop_parked_at_start"; for an old run a sentence
 };
 
 struct ProbeFigures {
   std::string id;
-  std::uint64_t points = 0;  // in which it has a value
-  double sd_m = 0;           // of single readings: the median of the dwells'
-  double travel_m = 0;       // from the lowest to the highest mean of a dwell
+  std::uint64_t points = 0;  // points for which the probe has a value
+  double sd_m = 0;           // standard deviation of single readings: median of the dwells
+  double travel_m = 0;       // between the lowest and the highest mean of a dwell
   double min_m = 0, max_m = 0;
 };
 
@@ -34,7 +34,8 @@ struct Plausibility {
   int runs = 0;
   std::vector<TargetVisits> n_ij;  // in the order of the targets
   std::vector<StopLeftOut> left_out;
-  std::uint64_t short_stops = 0;  // too short to be averaged, or creeping; at a target
+  std::uint64_t short_stops =
+      0;  // stops at a target that were too short or too slow (creeping) to be averaged
   double rate_hz = 0;
   double encoder_min_m = 0, encoder_max_m = 0;
   std::uint64_t scans = 0, scans_lost = 0, gaps = 0;  // gaps: intervals over three periods

@@ -1,5 +1,5 @@
-// The JSON of a run's plausibility: in the replies of run.get, in `mdof replay --json`, and as it
-// is stored.
+// JSON of a run's plausibility: in the replies of run.get, in `mdof replay --json`, and in the
+// database.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ inline constexpr std::size_t kAllVisits = static_cast<std::size_t>(-1);
 
 // {"cycle", "runs", "targets", "n_ij": [{"target", "target_mm", "forward": [...], "reverse":
 // [...]}], "left_out", "short_stops", "rate_hz", "encoder_min_mm", ..., "probes"}. Lengths are
-// rounded to 0.1 nm and deviations to 1 pm: they are read by people, and the same when stored and
-// read again. A matrix of more than `most_visits` numbers, and then of "left_out" all but the first
-// few, is left out: "n_ij" is null.
+// rounded to 0.1 nm and deviations to 1 pm, so that they are readable and unchanged when stored and
+// read again. If the matrix has more than `most_visits` numbers, "n_ij" is null. With any limit
+// "left_out" has only the first few stops.
 void write_plausibility(JsonWriter& json, const Plausibility& plausibility,
                         std::size_t most_visits = kAllVisits);
 std::string plausibility_json(const Plausibility& plausibility);
-// Of what plausibility_json() has written. Error: a member is not there, or of another kind; it is
-// named.
+// Reads the output of plausibility_json(). Error: names a member that is missing or has a wrong
+// type.
 Result<Plausibility> read_plausibility_json(const std::string& json);
 
 }  // namespace mdof

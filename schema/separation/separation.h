@@ -1,5 +1,5 @@
-// The machine's error apart from the shape of the target that it was measured against, from several
-// set-ups in which the target lay otherwise (algo/separation).
+// Separates the error of the machine from the shape of the target, using several set-ups with
+// different positions of the target (algo/separation).
 #pragma once
 
 #include <cstddef>
@@ -12,30 +12,30 @@
 
 namespace mdof {
 
-// A surface of the target: side, whose height is along y of the axis' local frame, or top, along z.
+// Surface of the target: side (height along y of the axis' local frame) or top (along z).
 enum class Surface { side, top };
 inline const char* to_string(Surface surface) {
   return surface == Surface::side ? "side" : "top";
 }
 
-// Shapes that no reading of these set-ups can determine: they are taken out of the result by least
-// squares, and nothing is put in their place.
+// Shapes that the readings of these set-ups cannot determine. They are removed from the result by
+// least squares.
 struct UnseenShape {
   std::string name;  // "offset", "parabola", "period 10 mm", "4 more shapes symmetric about -30 mm"
   std::size_t dimensions = 1;  // a period has two: sine and cosine
 };
 
-// A series over places, as far as it is seen: the true one would be this if its unseen shapes were
-// taken out of it by least squares over the same places.
+// A series over places, as far as it is determined: the true series minus its undetermined shapes,
+// which were fitted by least squares over the same places.
 struct SeenSeries {
   std::vector<double> place_m;  // ascending
   std::vector<double> seen_m;
-  std::vector<double> u_m;      // standard uncertainty of what is seen; NaN: not known
-  std::vector<double> freedom;  // effective degrees of freedom of u; NaN: u is not known
-  std::vector<double> k;        // of U = k u, 95 % of Student's t; NaN: u is not known
+  std::vector<double> u_m;      // standard uncertainty of seen_m; NaN: unknown
+  std::vector<double> freedom;  // effective degrees of freedom of u; NaN: u is unknown
+  std::vector<double> k;        // coverage factor of U = k u, 95 %, Student's t; NaN: u is unknown
   std::vector<UnseenShape> unseen;
 
-  // No more than offset and slope are missing, which are how the target was clamped.
+  // True if at most offset and slope are undetermined; these depend on the clamping of the target.
   bool whole() const {
     for (const UnseenShape& shape : unseen)
       if (shape.name != "offset" && shape.name != "slope") return false;
@@ -47,20 +47,23 @@ struct SeenSeries {
 
 struct Separation {
   SeenSeries machine;  // error of the moving body over the encoder's position
-  SeenSeries target;   // height over the place on the target, in C as it lay in the first set-up
+  SeenSeries
+      target;  // height over the place on the target, in C with the orientation of the first set-up
   std::size_t set_ups = 0, readings = 0, unknowns = 0, rank = 0;
   std::size_t freedom() const { return readings - rank; }
-  // Root mean square of what the fit leaves, by its freedom; NaN: nothing is left to test.
+  // Root mean square residual of the fit, divided by its degrees of freedom; NaN: no degrees of
+  // freedom.
   double residual_m = std::numeric_limits<double>::quiet_NaN();
-  std::string u_reason;     // where u comes from, or why there is none
-  bool noise_only = false;  // u has noise and repeatability of runs, and nothing that is declared
+  std::string u_reason;  // origin of u, or why it is unknown
+  bool noise_only =
+      false;  // u contains noise and repeatability of runs only, because nothing is declared
   Notices notices;
 };
 
-// What it was made of, so that the profile can be used later by those who were not there.
+// Origin of the profile, so that others can use it later.
 struct SeparationSource {
   std::string name;    // "run 3", "a.csv"
-  std::string sha256;  // of the run's stored result, of the file's bytes
+  std::string sha256;  // of the stored result of the run, or of the bytes of the file
   double height_sign = 1;
   bool end_for_end = false;
   double shift_m = 0;
@@ -69,17 +72,17 @@ struct SeparationSource {
 struct SeparationRecord {
   std::string method;  // "reversal", "shift"
   Surface surface = Surface::side;
-  Axis axis = Axis::x;    // that moves
-  Axis normal = Axis::y;  // heights count along its +
+  Axis axis = Axis::x;    // the moving axis
+  Axis normal = Axis::y;  // heights are positive along its + direction
   Sides sides;
   std::string error;  // "EYX"
-  std::string probe;  // whose own readings they are; empty: the error itself
+  std::string probe;  // the probe whose readings were used; empty: the error itself
   std::vector<SeparationSource> sources;
   bool simulated = false;
   std::string created_utc;
   Separation result;
-  bool doubtful = false;           // by its runs, or by itself
-  std::vector<std::string> marks;  // what a file of it says first: SIMULATED, DOUBTFUL
+  bool doubtful = false;           // because of its runs or its own notices
+  std::vector<std::string> marks;  // first words of an exported file: SIMULATED, DOUBTFUL
 };
 
 }  // namespace mdof

@@ -44,7 +44,7 @@ void write_series(JsonWriter& json, const SeenSeries& series, const char* place,
   json.end_array().end_object();
 }
 
-// NaN: not all places have the same.
+// NaN: the places have different values.
 double common(const Separation& fit, std::vector<double> SeenSeries::*of) {
   const double first = (fit.machine.*of).empty() ? std::nan("") : (fit.machine.*of).front();
   for (const SeenSeries* series : {&fit.machine, &fit.target})

@@ -8,13 +8,13 @@
 namespace mdof {
 
 // {"method", "surface", "axis", "error", "set_ups": [...], "machine": {...}, "target": {...}, ...}
-// In both series "seen_um" is what the readings determine, and "EYX_um" or "height_um" the same
-// where no more than offset and slope is unseen, else null. "k" and "nu_eff" (null: infinite) of
-// each place; beside them those that all places have, else null. Where u is not known, U, k and
-// nu_eff are null, and "u_from" says why.
+// In both series "seen_um" is the part that the readings determine. "EYX_um" or "height_um" has the
+// same value if at most offset and slope are undetermined, otherwise null. Each place has "k" and
+// "nu_eff" (null: infinite); outside the series they are present if all places have the same value,
+// otherwise null. If u is unknown, U, k and nu_eff are null, and "u_from" states why.
 std::string separation_json(const SeparationRecord& record);
 
-// What is in no u of a separation, for people.
+// Contributions that u of a separation does not include, for people.
 const char* not_in_separation_u();
 
 }  // namespace mdof

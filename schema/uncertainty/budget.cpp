@@ -5,7 +5,7 @@
 
 namespace mdof {
 bool is_noise_only(double u, double u_declared) {
-  constexpr double kSeen = 0.01;  // of u
+  constexpr double kSeen = 0.01;  // share of u
   return !(u_declared > kSeen * u);
 }
 

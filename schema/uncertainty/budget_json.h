@@ -1,4 +1,4 @@
-// The JSON of uncertainty budgets: one form for the command line and the RPC.
+// JSON of uncertainty budgets: the same for the command line and the RPC.
 #pragma once
 
 #include <optional>
@@ -13,22 +13,21 @@ namespace mdof {
 // {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "U_by", "noise_only",
 // "u_covers", "not_declared", "contributors": [{"contributor", "key", "value", "unit",
 // "distribution", "sensitivity", "contribution", "share", "dof"}]}}, values in the unit of the
-// figure's name.
-// Infinite degrees of freedom are null, and so is the sensitivity to what is seen in the run
-// itself. With trials: "trials": {"trials", "seed", "u", "low", "high"}. With a decision, of each:
-// write_decision().
+// figure's name. Infinite degrees of freedom are null. The sensitivity of a contributor that is
+// estimated from the run itself is null. With trials: "trials": {"trials", "seed", "u", "low",
+// "high"}. With a decision each figure has the members of write_decision().
 void write_budgets(JsonWriter& json, const std::vector<Budget>& budgets,
                    const std::optional<Decision>& decision = std::nullopt);
 
-// "value", "u", "u_random", "nu_eff", "k", "U", "U_by" of an open object.
+// Writes "value", "u", "u_random", "nu_eff", "k", "U", "U_by" into an open object.
 void write_stated_members(JsonWriter& json, const Budget& budget);
 
-// "uncertainty": {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U", "U_by"}} of
-// an open object: the results of budgets, without their contributors. Where they are left out:
-// "uncertainty_reason" behind it.
+// Writes "uncertainty": {"EYX_straightness_um": {"value", "u", "u_random", "nu_eff", "k", "U",
+// "U_by"}} into an open object: the results of budgets, without their contributors. If budgets are
+// omitted, "uncertainty_reason" follows.
 void write_stated(JsonWriter& json, const StatedFigures& figures);
 
-// As write_covers() of runs: of these figures.
+// As write_covers() of runs, for these figures.
 void write_covers(JsonWriter& json, const std::vector<Budget>& budgets);
 
 }  // namespace mdof

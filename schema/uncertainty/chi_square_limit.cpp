@@ -15,7 +15,7 @@ constexpr std::array<double, 11> kLimits = {23.928, 27.631, 30.665, 33.377, 35.8
 
 double chi_square_limit(int freedom) {
   const auto k = static_cast<std::size_t>(std::max(freedom, 1)) - 1;
-  // Beyond the table a straight line, above the true value.
+  // Linear extrapolation beyond the table, above the true value.
   return k < kLimits.size() ? kLimits[k] : kLimits.back() + 2.1 * static_cast<double>(k - 10);
 }
 

@@ -1,4 +1,4 @@
-// What may be said of a figure that has a tolerance: ISO 14253-1:2017.
+// Conformity of a figure to its tolerance: ISO 14253-1:2017.
 #pragma once
 
 #include <string>
@@ -12,15 +12,15 @@ const char* to_string(Conformity conformity);  // "conform", "not conform", "und
 
 struct Decision {
   Conformity conformity = Conformity::undecided;
-  double limit = 0;         // most that the figure may be in size; m, rad
-  double guard_band = 0;    // g, by which the limit is drawn in to prove conformity
+  double limit = 0;         // largest permitted magnitude of the figure; m, rad
+  double guard_band = 0;    // g, by which the limit is reduced to prove conformity
   double guard_factor = 0;  // g / u
-  std::string rule;         // by which standard, with which probability
-  std::string reason;       // of undecided, a sentence without a full stop; else empty
+  std::string rule;         // standard and probability of the decision
+  std::string reason;       // why undecided, a sentence without a full stop; else empty
 };
 
-// "tolerance", "conformity" and "decision": {"conformity", "rule", "guard_band",
-// "guard_band_factor", "reason"} of an open object, in the unit of the figure's name.
+// Writes "tolerance", "conformity" and "decision": {"conformity", "rule", "guard_band",
+// "guard_band_factor", "reason"} into an open object, in the unit of the figure's name.
 void write_decision(JsonWriter& json, const Decision& decision);
 
 }  // namespace mdof

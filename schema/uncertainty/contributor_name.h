@@ -1,5 +1,5 @@
-// What a line of an uncertainty budget is named, as data. Its words in English and German:
-// contributor_names.inc. Pure.
+// Name of a line of an uncertainty budget, as data. The texts in English and German are in
+// contributor_names.inc. Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -15,24 +15,24 @@ enum class ContributorKind {
 #undef CONTRIBUTOR
 };
 
-// `x_kind` or the one of the next component behind it, in the order of contributor_names.inc.
+// `x_kind`, or the kind of a later component in the order of contributor_names.inc.
 constexpr ContributorKind of_component(ContributorKind x_kind, std::size_t component) {
   return static_cast<ContributorKind>(static_cast<std::size_t>(x_kind) + component);
 }
 
 struct ContributorName {
   ContributorKind kind = ContributorKind::noise_repeatability;
-  std::string subject = {};            // id of its probe, plane or calibration record
-  std::vector<std::string> runs = {};  // of a figure of two runs: "X", or both
+  std::string subject = {};            // id of the probe, plane or calibration record
+  std::vector<std::string> runs = {};  // for a figure of two runs: "X", or both
 
   bool operator==(const ContributorName&) const = default;
 };
 
-// `pattern` of contributor_names.inc with the subject put in; of a figure of two runs their names
-// before it, joined by `and_word`: "X and Y, probe A: sensitivity".
+// `pattern` of contributor_names.inc with the subject inserted. For a figure of two runs, the names
+// of the runs come first, joined by `and_word`: "X and Y, probe A: sensitivity".
 std::string contributor_text(const ContributorName& name, std::string_view pattern,
                              std::string_view and_word);
-// In English: "contributor" of documents. German is in daemon/words/words.h.
+// English text: "contributor" of documents. The German text is in daemon/words/words.h.
 std::string contributor_text(const ContributorName& name);
 
 }  // namespace mdof

@@ -1,5 +1,5 @@
-// What a stated u contains and what it leaves out, as data. Its words in English and German:
-// covers.inc. Pure.
+// Contributions that a stated u includes or omits, as data. The texts in English and German are in
+// covers.inc. Pure functions.
 #pragma once
 
 #include <string>
@@ -14,17 +14,17 @@ enum class Covered {
 };
 using Covers = std::vector<Covered>;
 
-// Of what a fixture measured.
+// Facts about the u of results that a fixture measured.
 struct MeasuredCovers {
   bool noise_only = false, declares = false;
   bool repeated = true;  // false: no target of a run was visited twice from the same side
 };
 Covers covers(const MeasuredCovers& of);
 
-// One sentence in English, without a full stop: "u_covers" of documents. German is in
+// One English sentence without a full stop: "u_covers" of documents. The German text is in
 // daemon/words/words.h.
 std::string covers_text(const Covers& covers);
-// Of a budget, a run, a table: of all that states its u.
+// For a budget, a run or a table: any type with covers().
 template <class Stated>
 requires requires(const Stated& stated) {
   Covers(covers(stated));

@@ -6,7 +6,7 @@
 namespace mdof {
 namespace {
 
-// Its beginning is part of the interface: tools/linuxcnc's loader refuses a table of another sense.
+// The first word is part of the interface: the loader of tools/linuxcnc rejects other tables.
 constexpr const char* kSense =
     "correction: added to the commands of X, Y and Z, so that the tool reaches the commanded "
     "position";

@@ -1,5 +1,5 @@
-// A compensation table over a plane or a volume of a machine: what is added to the commands of its
-// linear axes, so that the tool is where the commands should have brought it.
+// Compensation table over a plane or a volume: values that are added to the commands of the linear
+// axes, so that the tool reaches the commanded position.
 #pragma once
 
 #include <array>
@@ -15,53 +15,58 @@
 
 namespace mdof {
 
-// The noise of the tables of one axis at one of its nodes. By component X, Y, Z of the correction,
-// m²: its variance there, and its covariance with that at the axis' next node, each as c0 + c1 p +
-// c2 q + c3 p² + c4 p q + c5 q² of the commands p, q (m) of the other two axes in the order X, Y,
-// Z.
+// Noise of the tables of one axis at one of its nodes. For each component X, Y, Z of the
+// correction, m²: the variance at the node, and the covariance with the next node of the axis, each
+// as c0 + c1 p + c2 q + c3 p² + c4 p q + c5 q² of the commands p, q (m) of the other two axes in
+// the order X, Y, Z.
 struct AxisNoise {
   using SquareForm = std::array<double, 6>;
   std::array<SquareForm, 3> variance{}, with_next{};
   bool operator==(const AxisNoise&) const = default;
 };
 
-// The nodes of the grid lie at all combinations of the commands, X fastest, then Y, then Z. An axis
-// with one command stands there: a plane has one such axis, or a machine without it.
+// The nodes of the grid are all combinations of the commands, X fastest, then Y, then Z. An axis
+// with one command is fixed there: a plane has one such axis, also if the machine has no such axis.
 struct VolumetricTable {
-  std::int64_t id = 0;  // 0 until stored; no table of an axis has the same
+  std::int64_t id = 0;  // 0 until stored; never equal to the id of a table of an axis
   std::string name;     // of the machine
   Chain machine;
-  std::string description;                 // MACHINE.toml, as it was given
-  std::vector<std::int64_t> runs;          // whose errors are in it
-  bool simulated = false;                  // wholly or in part
-  NoiseOnly noise_only = NoiseOnly::none;  // of the errors; of an older table some at least
-  std::string approach = "mean";           // of all axes: "mean", "forward", "reverse"
-  Vec3 tool_m{};                           // the tool's point, in the machine's coordinates at 0
+  std::string description;         // text of MACHINE.toml
+  std::vector<std::int64_t> runs;  // runs whose errors the table corrects
+  bool simulated = false;          // wholly or partly
+  NoiseOnly noise_only =
+      NoiseOnly::none;            // of the errors; `some` in an older table may also mean all
+  std::string approach = "mean";  // of all axes: "mean", "forward", "reverse"
+  Vec3 tool_m{};                  // point of the tool in machine coordinates, all axes at 0
   std::array<std::vector<double>, 3> command_m;  // X, Y, Z; each strictly increasing
-  Vec3 rotary_rad{};                             // where A, B, C stand
+  Vec3 rotary_rad{};                             // positions of A, B, C
 
-  // By node: added to the commands of X, Y, Z, m; standard uncertainty of the tool's place along X,
-  // Y, Z of the work, m (NaN: nothing that counts declares one).
+  // By node: correction added to the commands of X, Y, Z, m; standard uncertainty of the tool's
+  // position along X, Y, Z of the work, m (NaN: no error with an effect has a declared
+  // uncertainty).
   std::vector<Vec3> correction_m, u_m;
-  // The part of u_m by noise of the tables of the grid's axes, which is independent from one
-  // position of an axis to another: nodes with the same command of an axis have that axis' part in
-  // common. Empty: the table is older than this, or nothing declares one.
+  // The part of u_m from the noise of the tables of the grid's axes. It is independent between
+  // positions of an axis; nodes with the same command of an axis share that axis' part. Empty: the
+  // table is older than this member, or nothing is declared.
   std::vector<Vec3> u_independent_m;
-  // The same by axis and its commands; of an axis with one command: none. Empty: likewise.
+  // The same by axis and its commands; empty for an axis with one command. All empty: as above.
   std::array<std::vector<AxisNoise>, 3> noise;
-  // The largest that straight lines between nodes are off the correction of the model, found in the
-  // middle of cells, faces and edges; m, by axis.
+  // Largest difference between the linear interpolation between nodes and the correction of the
+  // model, found at the centres of cells, faces and edges; m, by axis.
   Vec3 interpolation_m{};
-  // The largest that the table leaves of a correction at a node because the errors differ by
-  // approach and it has one value: of the mean half the difference, of one approach the whole; each
-  // axis of the machine may come from either side. m, by axis; 0 of a table older than this.
+  // Largest part of a correction that remains at a node because the errors depend on the approach
+  // and the table has one value: half the difference for the approach "mean", the whole difference
+  // for one approach. Each machine axis may arrive from either side. m, by axis; 0 in a table older
+  // than this member.
   Vec3 reversal_m{};
-  // The largest that stays with the corrected commands: of the place (m) what the linear axes
-  // cannot reach, and the turn of the tool, which they cannot change (rad).
+  // Largest remaining errors with the corrected commands: the position error (m) that the linear
+  // axes cannot correct, and the rotation of the tool (rad), which they cannot change.
   double place_left_m = 0, turn_left_rad = 0;
-  // Names of errors: not measured, so not corrected; without u; whose table ends within the grid.
+  // Names of errors: not measured and therefore not corrected; without u; with a table that ends
+  // within the grid.
   std::vector<std::string> not_measured, u_not_declared, beyond_tables;
-  // Of the errors that it was built from; empty, too, of a table that is older than this.
+  // Notices of the errors that the table was built from; empty also in a table older than this
+  // member.
   Notices doubtful;
   std::string created_utc;
   std::string sha256;  // volumetric_sha256()
@@ -73,36 +78,36 @@ struct VolumetricTable {
     return x + command_m[0].size() * (y + command_m[1].size() * z);
   }
   Vec3 command_at(std::size_t node) const;
-  // The two parts: that one, and what its causes make common to all nodes, as squareness, what the
-  // rigs declare and u of files. NaN: not known apart.
+  // Two parts of u: u_independent_m, and the part that is common to all nodes (squareness, declared
+  // uncertainties, u of files). NaN: the parts are not known separately.
   Vec3 u_independent_at(std::size_t node) const;
   Vec3 u_common_at(std::size_t node) const;
 };
 
-// Where the rotary axes of the machine stand, as "A = 0 deg, C = 30 deg"; "": it has none. The
-// table holds there only.
+// Positions of the rotary axes, as "A = 0 deg, C = 30 deg"; "": the machine has none. The table is
+// valid only there.
 std::string rotary_text(const VolumetricTable& table);
 
-// The part of u that is left beside another, m; NaN where one is.
+// The other part of u, if `part_m` is one part; m. NaN if either is NaN.
 Vec3 u_beside(const Vec3& u_m, const Vec3& part_m);
 
-// All of `noise`, X first: the variances of a node, its covariances. set_noise() takes them for the
-// commands of the table; false: not as many as these have.
+// All numbers of `noise`, X first: the variances of a node, then its covariances. set_noise()
+// assigns them to the commands of the table; false: the number of values does not fit.
 std::vector<double> noise_numbers(const VolumetricTable& table);
 bool set_noise(VolumetricTable& table, const std::vector<double>& numbers);
 
-// SHA-256 of what the table says. Bytes hashed (schema/base/canonical.h):
+// SHA-256 of the contents of the table. Bytes hashed (schema/base/canonical.h):
 //   s "mdof volumetric table 1" (2 with u_independent_m, 3 with noise), s name, s chain, s travels,
 //   s description, i number of runs, i each run, i simulated, i noise_only (0: none, 1: some, 2:
-//   all), s approach, d tool_m[3], d rotary_rad[3], then of X, Y, Z i n, d command_m[n], d
+//   all), s approach, d tool_m[3], d rotary_rad[3], then for X, Y, Z i n, d command_m[n], d
 //   correction_m[nodes][3], d u_m[nodes][3], d u_independent_m[nodes][3] (2, 3), d noise (3;
-//   noise_numbers()), d interpolation_m[3], d place_left_m, d turn_left_rad, then of not_measured,
-//   u_not_declared, beyond_tables i n, s each. Where reversal_m is not 0, the first s goes on with
-//   ", reversal", and d reversal_m[3] follows; where there are doubtful notices, with ", doubtful",
-//   and s notices_json() ends all.
+//   noise_numbers()), d interpolation_m[3], d place_left_m, d turn_left_rad, then for not_measured,
+//   u_not_declared, beyond_tables i n, s each. If reversal_m is not 0, ", reversal" is appended to
+//   the first s and d reversal_m[3] follows; if there are doubtful notices, ", doubtful" is
+//   appended to the first s and s notices_json() is the last value.
 std::string volumetric_sha256(const VolumetricTable& table);
 
-// What its u covers: one sentence for people, without a full stop.
+// Contributions that u includes: one sentence for people, without a full stop.
 std::string covers_text(const VolumetricTable& table);
 
 }  // namespace mdof

@@ -1,4 +1,4 @@
-// One chunk of a recording: the SampleBlock of one device as compressed, checksummed bytes.
+// One chunk of a recording: the SampleBlock of one device as compressed bytes with checksum.
 //
 //   4 bytes  "MDC1"
 //   4 bytes  size of the unpacked bytes, little-endian, at most kMaxChunkBytes
@@ -12,7 +12,7 @@
 //     one byte 0 (all good), or 1 and for each channel: one byte 0 (all good), or 1 and n bytes
 //
 // A varint is LEB128: seven bits a byte, least significant first. Regular time stamps cost one byte
-// a scan before compression, and a plane of exponents packs to nearly nothing. Pure functions.
+// a scan before compression, and a plane of exponents compresses to almost nothing. Pure functions.
 #pragma once
 
 #include <cstddef>
@@ -24,16 +24,16 @@
 
 namespace mdof {
 
-// Bounds on what any input can cost; far above any device's.
+// Limits on the cost of any input, far above the needs of any device.
 inline constexpr std::size_t kMaxChunkBytes = 16u << 20;  // unpacked
 inline constexpr std::size_t kMaxChunkChannels = 1024;
 
-// Errors (bad_input): time stamps that do not increase, more than the bounds above.
+// Errors (bad_input): time stamps that do not increase, a limit above is exceeded.
 Result<std::string> encode_chunk(const SampleBlock& block);
 
-// Gives back the block bit for bit, NaN payloads included; `block` is replaced, its capacity
-// reused. Safe for any bytes: what is not a chunk is bad_input with the reason, and `block` is then
-// unspecified but valid.
+// Restores the block bit for bit, including NaN payloads; replaces `block` and reuses its capacity.
+// Safe for any bytes: invalid bytes give bad_input with the reason, and `block` is then unspecified
+// but valid.
 Status decode_chunk(std::string_view bytes, SampleBlock& block);
 
 }  // namespace mdof

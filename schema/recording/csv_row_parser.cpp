@@ -119,10 +119,10 @@ void CsvRowParser::mark_missing(std::size_t channel) {
   }
 }
 
-// As many rows as follow one another without anything odd. Column by column in batches: text and
-// stops stay in the nearest cache, and numbers of one kind follow one another.
+// Reads as many consecutive plain rows as possible. Reads column by column in batches, so that text
+// and stops stay in the nearest cache and numbers of one kind are adjacent.
 void CsvRowParser::parse_plain_rows() {
-  if (blank_lines_) return;         // the next line reports them first
+  if (blank_lines_) return;         // the next line reports the blank lines first
   if (header_.has_words()) return;  // a field may be quoted
   const std::size_t columns = header_.columns.size();
   for (;;) {
@@ -140,8 +140,8 @@ void CsvRowParser::parse_plain_rows() {
   }
 }
 
-// How many of the next lines have the right number of fields and end in LF, or in CR LF; at most a
-// batch, and what the block has room for.
+// Number of the next lines that have the correct number of fields and end in LF, or in CR LF; at
+// most one batch and the free space of the block.
 std::size_t CsvRowParser::plain_rows_ahead(bool crlf) const {
   const std::string& plain = crlf ? plain_crlf_rows_ : plain_rows_;
   const std::size_t stride = plain.size() / kBatchRows;
@@ -153,7 +153,8 @@ std::size_t CsvRowParser::plain_rows_ahead(bool crlf) const {
   return static_cast<std::size_t>(odd - found) / stride;
 }
 
-// Reads all channels of the next rows; gives the number of rows before the first odd field.
+// Reads all channels of the next rows; returns the number of rows before the first field that is
+// not plain.
 std::size_t CsvRowParser::read_columns(std::size_t rows, std::size_t stride) {
   for (std::size_t channel = 0; channel < header_.channels.size(); ++channel) {
     const std::uint32_t* stop = stops_.at.get() + next_stop_ + header_.channel_columns[channel];
@@ -166,8 +167,8 @@ std::size_t CsvRowParser::read_columns(std::size_t rows, std::size_t stride) {
   return rows;
 }
 
-// Of `rows` rows `read` are read, and the next is no number. A probe that was lost has no value in
-// many rows one after the other.
+// `read` of `rows` rows are read, and the next field is not a number. A probe that was lost has
+// missing values in many consecutive rows.
 std::size_t CsvRowParser::read_past_missing(std::size_t channel, const ColumnText& column,
                                             std::size_t rows, std::size_t read) {
   double* const out = block_.value[channel].data() + row_;
@@ -181,7 +182,7 @@ std::size_t CsvRowParser::read_past_missing(std::size_t channel, const ColumnTex
   return read;
 }
 
-// The same for the times; they end where time does not grow.
+// The same for the times; returns the number of rows before a time that does not increase.
 std::size_t CsvRowParser::read_times(std::size_t rows, std::size_t stride) {
   std::int64_t* const out = block_.time_ns.data() + row_;
   if (header_.time_column < 0) {
@@ -198,7 +199,7 @@ std::size_t CsvRowParser::read_times(std::size_t rows, std::size_t stride) {
   return rows;
 }
 
-// The line at begin_, whatever it is.
+// Parses the line at begin_, of any form.
 Status CsvRowParser::parse_one_line() {
   const std::size_t end = text_.find('\n', begin_);
   const CsvLine line = parse_csv_line(text_.substr(begin_, end - begin_), header_);
@@ -207,7 +208,7 @@ Status CsvRowParser::parse_one_line() {
     MDOF_CHECK(count_blank_line(end + 1 - begin_));
   } else {
     MDOF_CHECK(report_blank_lines());
-    if (block_ends_) return {};  // comes again after the block was passed on
+    if (block_ends_) return {};  // the line is parsed again after the block was returned
     if (line.state == CsvLine::State::bad) {
       MDOF_CHECK(report_bad(line_, line.reason));
     } else {
@@ -268,7 +269,7 @@ Status CsvRowParser::count_blank_line(std::size_t bytes) {
                    "empty lines, or record again");
 }
 
-// Blank lines that turn out not to be the end of the file.
+// Reports blank lines that are not at the end of the file.
 Status CsvRowParser::report_blank_lines() {
   blank_bytes_ = 0;
   for (; blank_lines_ > 0; --blank_lines_)

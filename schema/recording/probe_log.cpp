@@ -33,7 +33,7 @@ std::string where(const CsvHeader& header, std::size_t column) {
          "\": ";
 }
 
-// The channel of a column; nothing where the unit is not known.
+// The channel of a column; nullopt: unknown unit.
 std::optional<Channel> channel_of(const std::string& name) {
   static constexpr std::array kRead = {Unit::um, Unit::mm, Unit::volt, Unit::deg_c};
   static constexpr std::array kKept = {"s", "hz", "urad", "deg", "percent", "hPa", "kPa"};
@@ -47,7 +47,7 @@ std::optional<Channel> channel_of(const std::string& name) {
   return std::nullopt;
 }
 
-// What is not comma separated text, said so that the user knows which box to tick.
+// Rejects text that is not comma separated; the message names the setting to change.
 Status check_separator(const CsvHeader& header, std::string_view line) {
   if (line.find(',') != line.npos) return {};
   if (line.find(';') != line.npos)
@@ -76,12 +76,12 @@ bool has_time(CsvKind kind) {
   return kind == CsvKind::probe_log || kind == CsvKind::stream;
 }
 
-// Whether `name` is `of` with a unit or without: "encoder", "encoder_counts".
+// Whether `name` is `of`, with or without a unit: "encoder", "encoder_counts".
 bool is_named(std::string_view name, std::string_view of) {
   return name == of || (name.starts_with(of) && name.substr(of.size()).starts_with('_'));
 }
 
-// Time and place are to be in units that are certain; what a user may have meant is said.
+// Time and position must have known units; the message suggests the probable intention.
 Status check_unit(const CsvHeader& header, std::size_t column) {
   const std::string& name = header.columns[column];
   if (is_named(name, kTimeName) && name != kTimeColumn && has_time(header.kind))
@@ -187,10 +187,11 @@ bool CsvHeader::has_words() const {
 }
 
 bool CsvHeader::says_simulated() const {
-  return std::any_of(comments.begin(), comments.end(),
-                     [](const std::string& text) {  // of a log, and of what mdof made of a run
-                       return text.starts_with("simulated") || text.starts_with("SIMULATED");
-                     });
+  return std::any_of(
+      comments.begin(), comments.end(),
+      [](const std::string& text) {  // "simulated": a log; "SIMULATED": an export of a run
+        return text.starts_with("simulated") || text.starts_with("SIMULATED");
+      });
 }
 
 bool CsvHeader::says_noise_only() const {

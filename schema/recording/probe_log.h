@@ -1,21 +1,24 @@
-// The CSV files of the bench: what their header says, and the errors it can have.
+// CSV files of measurements: their header and its errors.
 //
-//   # any comment                                   no or more such lines
-//   time_s,encoder_mm,A_um,B_um,temperature_C       probe log: time_s and encoder_mm must be there
-//   encoder_mm,A_um,B_um                            frames: encoder_mm must be there
-//   A_um,B_um                                       stream: live rows, any channels, time_s or not
-//   position_mm,deviation_um                        table: measured series; the reader says which
+//   # any comment                                   zero or more such lines
+//   time_s,encoder_mm,A_um,B_um,temperature_C       probe log: time_s and encoder_mm are required
+//   encoder_mm,A_um,B_um                            frames: encoder_mm is required
+//   A_um,B_um                                       stream: live rows, any channels, with or
+//   without
+//                                                   time_s
+//   position_mm,deviation_um                        table: measured series; the reader requires
+//   columns
 //
-// Columns in any order; comma separated, '.' decimal, LF or CRLF, a UTF-8 byte order mark is
-// skipped. A column "A_um" is channel "A" in micrometres. Suffixes: _um _mm _V _C; a column that
-// ends in another unit of the project (_s _hz _urad _deg _percent _hPa) or in none is kept as
-// Unit::other under its whole name; any other suffix is an error. The axis position may also be
-// encoder_um, encoder_m or, where the rig says its scale, encoder_V; in no other unit, and time in
-// seconds alone.
+// Columns may have any order. Fields are separated by commas, the decimal sign is '.', lines end in
+// LF or CRLF, and a UTF-8 byte order mark is skipped. A column "A_um" is channel "A" in
+// micrometres. Suffixes: _um _mm _V _C. A column with another unit of the project (_s _hz _urad
+// _deg _percent _hPa _kPa) or without a unit is kept as Unit::other under its whole name; any other
+// suffix is an error. The axis position may also be encoder_um, encoder_m or, if the rig declares
+// the scale, encoder_V. Time must be in seconds.
 //
-// A table may have the columns of words of mdof's own documents (u_covers, not_declared, flags,
-// reason, travel), which are not read and may be quoted; and positioning_sense with "command" or
-// "body", which is read as kCommandSense or kBodySense.
+// A table may contain the text columns of mdof's own documents (u_covers, not_declared, flags,
+// reason, travel); they are not read and may be quoted. It may also contain positioning_sense with
+// "command" or "body", which is read as kCommandSense or kBodySense.
 #pragma once
 
 #include <cstddef>
@@ -30,10 +33,10 @@
 namespace mdof {
 
 enum class CsvKind {
-  probe_log,  // samples against time: time_s must grow from row to row
-  stream,     // rows as they come from a device
-  frames,     // positions and readings in any order; time_s, if there, is a column like any other
-  table,      // any named columns, in any order of rows; any cell may be missing
+  probe_log,  // samples against time: time_s must increase from row to row
+  stream,     // rows as a device sends them
+  frames,     // positions and readings in any order; time_s is optional and has no special meaning
+  table,      // any named columns, rows in any order; any cell may be missing
 };
 
 inline constexpr std::string_view kSenseColumn = "positioning_sense";
@@ -47,22 +50,22 @@ struct CsvHeader {
   int time_column = -1;                      // -1: none (frames, stream)
   std::vector<Channel> channels;             // all other columns, in their order
   std::vector<std::size_t> channel_columns;  // [channel] -> column
-  std::uint64_t lines = 0;                   // of the file, header included
-  std::size_t bytes = 0;                     // of the file, header included
+  std::uint64_t lines = 0;                   // lines of the file up to the header, included
+  std::size_t bytes = 0;                     // bytes of the file up to the header, included
 
-  // Whether a field of this channel may be empty or nan: a missing value. Not that of the encoder,
-  // without which a row has no place (but for a stream, whose channels come when they come, and a
-  // table, whose reader says which cells it needs).
+  // Whether a field of this channel may be empty or nan (missing value). The encoder is required,
+  // because a row without it has no position. Exceptions: a stream, whose channels arrive
+  // independently, and a table, whose reader checks the required cells.
   bool may_be_missing(std::size_t channel) const;
-  // Whether a column of words is among them, so that a field may be quoted.
+  // Whether the file has a text column, so that fields may be quoted.
   bool has_words() const;
-  // A comment begins so: no machine is behind the numbers.
+  // Whether a comment begins with "simulated" or "SIMULATED": the data are not from a machine.
   bool says_simulated() const;
-  // A comment begins so: u is that of noise and repeatability.
+  // Whether a comment states that u contains noise and repeatability only.
   bool says_noise_only() const;
 };
 
-// `text` is the beginning of a file, or all of it; it must reach beyond the header line.
+// `text` is the beginning of a file, or the whole file; it must include the complete header line.
 Result<CsvHeader> parse_csv_header(std::string_view text, CsvKind kind, const std::string& source);
 
 }  // namespace mdof

@@ -1,5 +1,5 @@
-// The recording file (*.mdofrec): a SQLite database with the tables of recording.sql.
-// Its chunks form a chain, so that no bit of it can change, vanish or move unseen:
+// The recording file (*.mdofrec): a SQLite database with the tables of recording.sql. Its chunks
+// form a hash chain, so that every change, removal or reordering is detected:
 //
 //   hash of header   = SHA-256 of each header entry as  key '\n' length-of-value '\n' value '\n'
 //   hash of chunk n  = SHA-256 of  hash n-1 (header's for n = 1) '\n' seq '\n' device '\n'
@@ -7,9 +7,10 @@
 //   hash of the seal = SHA-256 of  hash of the last chunk '\n' chunks '\n' scans '\n' lost '\n'
 //                      finished_utc
 //
-// Numbers are decimal, hashes are lower-case hex. The hash of the last chunk is the recording's.
+// Numbers are decimal, hashes are lower-case hex. The hash of the recording is that of the last
+// chunk.
 //
-// Format 1 had no header entry "request"; its files are read and checked as they were written.
+// Format 1 had no header entry "request"; its files are still read and checked in their own format.
 #pragma once
 
 #include <cstdint>
@@ -23,16 +24,16 @@ namespace mdof {
 inline constexpr int kRecordingFormat = 2;                // SQLite's user_version
 inline constexpr int kRecordingApplication = 0x6d646f72;  // SQLite's application_id: "mdor"
 
-// What has to be known to make results of the samples again.
+// Everything that is needed to calculate the results from the samples again.
 struct RecordingHeader {
   std::string software_version;
   std::string rig_text;       // TOML
-  std::string devices;        // JSON array: what the drivers said of themselves
+  std::string devices;        // JSON array: descriptions that the drivers gave
   std::string configuration;  // mdofd.toml, or empty
   std::string started_utc;    // for people
   bool simulated = false;
-  std::string request;            // JSON: what was asked of the run, with all options; or empty
-  int format = kRecordingFormat;  // of the file that it was read from
+  std::string request;            // JSON: the request of the run with all options; or empty
+  int format = kRecordingFormat;  // of the file that the header was read from
 };
 
 struct RecordingChunk {
@@ -51,7 +52,7 @@ struct RecordingSeal {
   std::string sha256;
 };
 
-// The rows of the header table, in the order in which they are hashed (the hash itself left out).
+// The rows of the header table in the order of hashing, without the hash itself.
 std::vector<std::pair<std::string, std::string>> entries(const RecordingHeader& header);
 
 std::string sha256_of(const RecordingHeader& header);

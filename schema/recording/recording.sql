@@ -1,6 +1,6 @@
--- A recording (*.mdofrec): the raw samples of one session, written before any opinion. Append only;
--- every chunk carries the hash of all that came before it, and a seal closes the file.
--- schema/recording/recording.h says over which bytes the hashes run.
+-- A recording (*.mdofrec): the raw samples of one session, before any processing. Append only;
+-- every chunk contains the hash of everything before it, and a seal closes the file.
+-- schema/recording/recording.h defines the bytes that are hashed.
 
 CREATE TABLE header (
   key TEXT PRIMARY KEY,
@@ -18,7 +18,7 @@ CREATE TABLE chunk (
   payload BLOB NOT NULL     -- schema/recording/chunk.h
 ) STRICT;
 
--- One row, when the recording has ended in good order.
+-- One row if the recording ended normally.
 CREATE TABLE seal (
   id INTEGER PRIMARY KEY CHECK (id = 1),
   chunks INTEGER NOT NULL,

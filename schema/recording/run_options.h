@@ -1,5 +1,5 @@
-// What a stored run says of the options that it was evaluated with, as far as its results are read
-// by them; all of them: daemon/measure/replay/request_json.h.
+// Options with which a stored run was evaluated, as far as a reader of its results needs them. All
+// options: daemon/measure/replay/request_json.h.
 #pragma once
 
 #include <optional>
@@ -14,11 +14,11 @@ namespace mdof {
 struct RunOptions {
   bool remove_drift = false;
   bool on_the_fly = false;
-  ImportedSense imported;  // of imported positioning; one of an older version: of the command
-  std::vector<std::string> about;                   // what an imported file says of itself
-  std::optional<double> limit_um, limit_um_per_mm;  // that an import asked for
+  ImportedSense imported;  // of imported positioning; the command for runs of older versions
+  std::vector<std::string> about;                   // statements of an imported file about itself
+  std::optional<double> limit_um, limit_um_per_mm;  // limits requested at import
 };
-// Of options that say nothing of one, or are none: as above.
+// Reads the options of a run; a missing or invalid option keeps its default.
 RunOptions run_options(const RunHeader& run);
 
 }  // namespace mdof

@@ -15,7 +15,7 @@ namespace {
 using Kind = Distribution::Kind;
 
 constexpr std::size_t kSampleLimit_bytes = std::size_t{16} << 20;
-constexpr double kMostDof = 10'000;  // beyond, t is normal to six digits of its tails
+constexpr double kMostDof = 10'000;  // above this, t equals normal to six digits in its tails
 
 struct KindName {
   const char* name;
@@ -50,7 +50,7 @@ Kind read_kind(TomlTable& table) {
   return Kind::constant;
 }
 
-// low and high, or half_width about mean.
+// Reads low and high, or half_width about the mean.
 void read_limits(TomlTable& table, Distribution& d) {
   if (table.has("half_width")) {
     for (const char* key : {"low", "high"})

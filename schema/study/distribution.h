@@ -8,11 +8,12 @@
 
 namespace mdof {
 
-// Reads `distribution` and its parameters; paths of samples are relative to `folder`. What is wrong
-// is recorded in the table, but for a bad sample file, whose error is given.
+// Reads `distribution` and its parameters; paths of samples are relative to `folder`. Errors are
+// recorded in the table, except those of a sample file, which are returned.
 Result<Distribution> read_distribution(TomlTable& table, const std::filesystem::path& folder);
 
-// One column of numbers, `#` comments, and perhaps a heading; ascending. Errors name file and line.
+// One column of numbers with `#` comments and an optional heading; ascending. Errors name file and
+// line.
 Result<std::vector<double>> load_sample(const std::filesystem::path& file);
 
 }  // namespace mdof

@@ -61,7 +61,7 @@ namespace {
 using namespace plan_parts;
 using Path = std::filesystem::path;
 
-// Gives the place of `word` among the choices; the first where it is none of them.
+// Returns the index of the word among the choices; 0 if the word is invalid.
 std::size_t read_choice(TomlTable& table, std::string_view key,
                         const std::vector<std::string>& choices, std::size_t fallback) {
   const std::string word = table.string(key, choices[fallback]);

@@ -1,5 +1,5 @@
-// A user's own sensitivity study: which quantities of which rig vary how, and what is asked.
-// The format is described in algo/sensitivity/PLAN.md.
+// A sensitivity study of a user: which quantities of which rig vary how, and the requested outputs.
+// algo/sensitivity/PLAN.md describes the format.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@
 
 namespace mdof {
 
-// JCGM 101 §6.4, by its parameters; values in the unit of the quantity.
+// Distribution by JCGM 101 §6.4 with its parameters; values in the unit of the quantity.
 struct Distribution {
   enum class Kind {
     constant,
@@ -33,7 +33,7 @@ struct Distribution {
   Kind kind = Kind::constant;
   double low = 0, high = 0;    // rectangular, triangular, trapezoidal, u_shaped
   double mode = 0;             // triangular
-  double beta = 0;             // trapezoidal: width of the top by that of the base, 0 ... 1
+  double beta = 0;             // trapezoidal: width of the top divided by that of the base, 0 ... 1
   double centre = 0;           // constant, normal, t
   double spread = 0;           // normal: standard deviation; t: scale
   double dof = 0;              // t
@@ -42,40 +42,40 @@ struct Distribution {
 const char* to_string(Distribution::Kind kind);
 
 struct PlannedQuantity {
-  std::string name;  // as written, a star for all probes included
+  std::string name;  // as written; may contain a star for all probes
   Distribution distribution;
   std::string where;  // "plan.toml:12: quantity[2].name", for messages
 };
 
-// Joint distribution by a Gaussian copula; of the quantities with their stars written out.
+// Joint distribution by a Gaussian copula. Stars in the names are expanded.
 struct PlannedCorrelation {
   std::vector<std::string> quantities;
   std::vector<double> matrix;  // row-major, symmetric, ones on the diagonal
   std::string where;
 };
 
-// What is asked of each trial.
+// Requested output of each trial.
 enum class OutputKind {
   error,              // estimate minus truth of one of the five errors: "EYX_um"
   straightness,       // error of a figure of a series: "EYX_straightness_um", least squares
   straightness_ends,  // "EYX_straightness_end_point_um"
   squareness,         // error of "EC0Y_urad", from a series of each axis
-  worst,              // of a whole run, the largest |error| of its points: "EYX_worst_um"
+  worst,              // largest |error| of the points of a whole run: "EYX_worst_um"
 };
 struct PlannedOutput {
   std::string key;
   OutputKind kind = OutputKind::error;
-  std::size_t error = 0;  // place in error_names() of the rig's axis
+  std::size_t error = 0;  // index in error_names() of the rig's axis
 };
 
 struct PlannedAdaptive {
-  int digits = 2;                            // where no tolerance is given
-  std::map<std::string, double> tolerances;  // numerical tolerance of an output, by key
+  int digits = 2;                            // used if no tolerance is given
+  std::map<std::string, double> tolerances;  // numerical tolerance by key of the output
 };
 
 struct PlannedIndices {
-  std::uint64_t trials = 65536;  // base trials; each costs two evaluations and one more a cause
-  bool each_probe = false;       // a star is one cause a probe, not one in all
+  std::uint64_t trials = 65536;  // base trials; each costs two evaluations plus one for each cause
+  bool each_probe = false;       // a star is one cause for each probe, not one for all
 };
 
 struct PlannedAllocation {
@@ -95,16 +95,16 @@ struct PlannedRun {
   double speed_mm_s = 20;
 };
 
-enum class Forward { rigid, small_angle };  // what the probes read: algo/model
+enum class Forward { rigid, small_angle };  // model of the probe readings: algo/model
 
-// Of the binned quantity: 33 MB of statistics a thread with five outputs, and a plan has ten at
-// most.
+// Limit for the binned quantity: 33 MB of statistics for each thread with five outputs; a plan has
+// at most ten outputs.
 inline constexpr std::size_t kMostStudyBins = 200;
 
 struct StudyPlan {
   std::string name;
   std::string source;  // file name, for messages
-  std::string text;    // the TOML itself: provenance
+  std::string text;    // the TOML text, for provenance
   Rig rig;
   std::optional<Rig> rig_y;    // for squareness: the rig of the second axis
   std::optional<Rig> compare;  // [compare] rig
@@ -120,7 +120,7 @@ struct StudyPlan {
   std::string binned_key;  // "" : no bins
   std::size_t bins = 1;
   std::size_t series_positions = 11;
-  double series_period_mm = 0;  // of the true errors along the travel; 0: the whole travel
+  double series_period_mm = 0;  // period of the true errors along the travel; 0: the whole travel
   double fixture_per_K = 0, target_per_K = 0;  // expansion coefficients, 1/K
   double flatness_length_mm = 30;              // longest wave of a random height
   std::optional<PlannedAdaptive> adaptive;
@@ -129,10 +129,10 @@ struct StudyPlan {
   PlannedRun run;
 };
 
-// Reads a plan, the rigs and the samples that it names (paths relative to the plan). Errors name
-// file, line and key, and for an unknown word the nearest known one. What only the mathematics
-// knows (a rig that cannot see an error, a correlation matrix that is none) make_plan_experiment()
-// states.
+// Reads a plan and the rigs and samples that it names (paths relative to the plan). Errors name
+// file, line and key, and for an unknown word the nearest known one. Mathematical errors (a rig
+// that cannot determine an error, an invalid correlation matrix) are found by
+// make_plan_experiment().
 Result<StudyPlan> load_study_plan(const std::filesystem::path& file);
 Result<StudyPlan> parse_study_plan(std::string_view toml_text, const std::string& source_name);
 

@@ -1,4 +1,4 @@
-// What a plan asks: outputs, precision, indices, tolerances, another fixture; and its settings.
+// Outputs, precision, indices, tolerances, compared fixture and settings of a plan.
 #include <algorithm>
 #include <set>
 

@@ -1,5 +1,5 @@
-// The parts of a plan's document, each read by its own function; for plan.cpp only. What is
-// wrong is recorded in the table.
+// Functions that each read one part of a plan's document; for plan.cpp only. Errors are recorded in
+// the table.
 #pragma once
 
 #include <filesystem>
@@ -13,17 +13,17 @@
 
 namespace mdof::plan_parts {
 
-// In this order: each needs what those before it have read.
+// Call in this order: each function needs the results of those before it.
 void read_outputs(TomlTable& table, StudyPlan& plan);
 Status read_quantities(TomlTable& table, const std::filesystem::path& folder, StudyPlan& plan);
 void read_dependence(TomlTable& table, StudyPlan& plan);  // correlations and bins
 void read_settings(TomlTable& table, StudyPlan& plan);    // series, expansion, flatness, run
 void read_analyses(TomlTable& table, const std::filesystem::path& folder, StudyPlan& plan);
 
-// The rig that `key` names; an empty one where it cannot be read, with the reason recorded.
+// Reads the rig that `key` names; an empty rig, with the error recorded, if it cannot be read.
 Rig read_rig(TomlTable& table, std::string_view key, const std::filesystem::path& folder);
 
-// "did you mean ..." or the list.
+// "did you mean ..." or the list of known words.
 std::string known_or_list(const std::string& word, const std::vector<std::string>& known);
 std::uint64_t read_count(TomlTable& table, std::string_view key, std::uint64_t fallback,
                          std::int64_t least, std::int64_t most);

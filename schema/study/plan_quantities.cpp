@@ -1,4 +1,4 @@
-// Quantities of a plan, the truth among them, and how they depend on each other.
+// Quantities of a plan, including the truth, and their dependence.
 #include <algorithm>
 #include <cmath>
 
@@ -18,10 +18,11 @@ namespace {
 using Kind = Distribution::Kind;
 using Path = std::filesystem::path;
 
-// The predefined values of the paper's simulations, where a plan has no [truth].
+// Default values if a plan has no [truth], from the simulations of the paper.
 constexpr double kTruth_um = 50, kTruth_urad = 1000, kTravel_mm = 60;
 
-// The targets of a name on the rigs of the plan; a name that no rig has is an error of the first.
+// Targets of a name on the rigs of the plan. If no rig has the name, the error is that of the first
+// rig.
 Result<std::vector<QuantityTarget>> resolve_on_rigs(const StudyPlan& plan,
                                                     const std::string& name) {
   auto targets = resolve_quantity(name, plan.rig);
@@ -55,7 +56,7 @@ void add_usual_range(StudyPlan& plan, const std::string& name, double low, doubl
   plan.quantities.push_back({name, d, plan.source + ": " + name + " (by default)"});
 }
 
-// [truth]: ranges of the five errors, of both axes where there are two rigs, and of the travel.
+// [truth]: ranges of the five errors, for both axes if there are two rigs, and of the travel.
 void read_truth(TomlTable& table, StudyPlan& plan) {
   auto truth = table.table("truth");
   if (!truth) return;
@@ -70,7 +71,7 @@ void read_truth(TomlTable& table, StudyPlan& plan) {
   }
 }
 
-// What nobody has said about the truth is as in the paper.
+// Sets missing values of the truth as in the paper.
 void complete_truth(StudyPlan& plan, bool said) {
   if (!has_quantity(plan, "travel_mm")) add_usual_range(plan, "travel_mm", 0, kTravel_mm);
   const bool any = std::any_of(plan.quantities.begin(), plan.quantities.end(),
@@ -85,7 +86,7 @@ void complete_truth(StudyPlan& plan, bool said) {
   }
 }
 
-// A radius or an angle from the axis has no sign; drawn beyond zero it would only change its side.
+// A radius or an angle from an axis has no sign; a negative value would only change its side.
 bool may_be_negative(Effect effect) {
   return effect != Effect::probe_circle && effect != Effect::probe_tilt;
 }
@@ -123,7 +124,7 @@ Status read_quantity(TomlTable& table, const Path& folder, StudyPlan& plan) {
   return {};
 }
 
-// No random number may be given twice, as itself and by a star.
+// A random number must not be given twice, by its own name and by a star.
 void reject_doubles(TomlTable& table, const StudyPlan& plan) {
   std::set<std::string> seen;
   for (const auto& quantity : plan.quantities) {
@@ -146,7 +147,7 @@ const PlannedQuantity* quantity_with(const StudyPlan& plan, const std::string& t
   return nullptr;
 }
 
-// All pairs alike, or a matrix row by row.
+// One coefficient for all pairs, or a matrix row by row.
 void read_matrix(TomlTable& table, PlannedCorrelation& group) {
   const std::size_t n = group.quantities.size();
   if (table.has("coefficient")) {
@@ -218,7 +219,7 @@ void read_bins(TomlTable& table, StudyPlan& plan, const std::set<std::string>& g
   if (!bins) return;
   plan.binned_key = bins->string("quantity", "travel_mm");
   plan.bins = static_cast<std::size_t>(bins->integer("count", 20));
-  if (plan.bins < 1 || plan.bins > kMostStudyBins)  // one below zero is large
+  if (plan.bins < 1 || plan.bins > kMostStudyBins)  // a negative count becomes a large number
     bins->reject("count", "must be from 1 to " + std::to_string(kMostStudyBins) +
                               ", because each bin takes 33 kB of memory per output and thread; for "
                               "finer bins write several plans, each with a part of the range");

@@ -77,7 +77,7 @@ void append_part(std::vector<QuantityTarget>& all, const std::string& prefix, Pa
   }
 }
 
-// Everything that can vary with this rig, in the order in which it is listed to the user.
+// All quantities that can vary with this rig, in the order of the list for the user.
 std::vector<QuantityTarget> all_targets(const Rig& rig) {
   std::vector<QuantityTarget> all;
   for (std::size_t k = 0; k < rig.probes.size(); ++k) {

@@ -1,5 +1,5 @@
-// The result of a sensitivity study: what is printed, stored and drawn. Values are in the unit that
-// ends their output's key ("EAX_urad", "EYX_um").
+// Result of a sensitivity study, which is printed, stored and plotted. Values are in the unit at
+// the end of the key of their output ("EAX_urad", "EYX_um").
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ struct Quantile {
   double p = 0, value = 0;
 };
 
-// A histogram fit for drawing: counts[i] trials in [from + i width, from + (i+1) width).
+// A histogram for plots: counts[i] trials in [from + i width, from + (i+1) width).
 struct Histogram {
   double from = 0, width = 0;
   std::vector<std::uint64_t> counts;
@@ -27,14 +27,14 @@ struct Histogram {
 struct OutputSummary {
   std::string key;
   std::uint64_t n = 0;         // trials solved
-  std::uint64_t unsolved = 0;  // trials without a solution: not in any figure
+  std::uint64_t unsolved = 0;  // trials without a solution: not included in any figure
   double mean = 0, mean_se = 0, sd = 0, sd_se = 0, min = 0, max = 0;
   std::vector<Quantile> quantiles;  // ascending p
   double coverage = 0.95;
   CoverageInterval symmetric;  // probabilistically symmetric, JCGM 101 §7.7
   CoverageInterval shortest;   // JCGM 101 §5.3.4
-  // No quantile and no end of an interval is further than this from the order statistic of the
-  // same trials (what sorting them all would give).
+  // Largest distance of a quantile or an end of an interval from the exact order statistic of the
+  // same trials, which sorting all of them would give.
   double resolution = 0;
   Histogram histogram;
 };
@@ -45,7 +45,7 @@ struct StudyBin {
   std::vector<OutputSummary> outputs;
 };
 
-// How the figures of one output settled with the number of trials.
+// Convergence of the figures of one output with the number of trials.
 struct ConvergencePoint {
   std::uint64_t trials = 0;
   double mean = 0, sd = 0, low = 0, high = 0;  // low, high: symmetric interval
@@ -65,22 +65,23 @@ struct OutputIndices {
   std::vector<CauseIndex> causes;  // largest total first
 };
 
-// What a tolerance may be, so that P(|output| <= limit) >= probability.
+// Largest tolerances for which P(|output| <= limit) >= probability.
 struct AllocatedTolerance {
   std::string tolerance;     // key in the plan with its unit, "probe_position_um"
-  double value = 0;          // largest that keeps the limit
-  double low = 0, high = 0;  // sampling uncertainty of it, 95 %
+  double value = 0;          // largest value that keeps the limit
+  double low = 0, high = 0;  // its sampling uncertainty, 95 %
 };
 struct Allocation {
   std::string output;
   double limit = 0, probability = 0;
-  double reached = 0;                                     // P with the plan's own tolerances
-  std::vector<AllocatedTolerance> alone;                  // each by itself, the others as planned
-  double common_factor = 0;                               // all allocated tolerances times this
-  std::vector<std::vector<AllocatedTolerance>> frontier;  // pairs: for a value of the first ...
+  double reached = 0;                     // P with the tolerances of the plan
+  std::vector<AllocatedTolerance> alone;  // each alone, the others as planned
+  double common_factor = 0;               // factor on all allocated tolerances together
+  std::vector<std::vector<AllocatedTolerance>>
+      frontier;  // pairs: a value of the first, and the largest of the second
 };
 
-// Two fixtures with the same random numbers.
+// Two fixtures compared with the same random numbers.
 struct ComparedOutput {
   std::string key;
   double sd_this = 0, sd_other = 0, ratio = 0, ratio_se = 0;  // ratio = other / this
@@ -91,7 +92,7 @@ const char* to_string(StudyState state);
 
 struct StudyResult {
   std::string name;       // "simulation-1", or the plan's name
-  std::string plan_toml;  // the plan, in full; of a preset the options in the same form
+  std::string plan_toml;  // the whole plan; for a preset its options in the same form
   std::string software;   // version
   std::string started_utc;
   std::uint64_t seed = 0, trials = 0;  // done

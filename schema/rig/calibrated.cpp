@@ -12,8 +12,7 @@
 namespace mdof {
 namespace {
 
-// A record of five probes has some 2 kB; one with a table of 1,000 linearity pairs for each, 200
-// kB.
+// A record of five probes has about 2 kB; with 1,000 linearity pairs for each probe it has 200 kB.
 constexpr std::size_t kMostRecords = 16, kMostRecordBytes = std::size_t{256} << 10;
 
 std::string too_many(std::size_t records) {
@@ -28,7 +27,7 @@ std::vector<std::string> names_of(TomlTable& rig) {
   return {rig.string("calibration")};
 }
 
-// Of the rig, as far as a record must fit it.
+// The data of the rig that a record must match.
 struct Fits {
   std::string source, name, axis;
   std::vector<std::string> probes;
@@ -87,7 +86,8 @@ Result<std::string> read_one(const std::filesystem::path& file, const Fits& rig,
   return std::string(parts.front());
 }
 
-// The reading t = raw - offset falls by what the offset grows: a correction by it moves along.
+// If the offset grows, the reading t = raw - offset decreases by the same amount; corrections by t
+// are shifted accordingly.
 void move_offset(Calibration& calibration, double offset_um) {
   const double by_um = offset_um - calibration.offset_um;
   calibration.offset_um = offset_um;
@@ -121,17 +121,17 @@ void apply(const std::string& record, const CalibratedProbe& found, Probe& probe
     move_offset(calibration, *found.offset_um);
     if (!probe.uncertainty.calibration.known()) probe.uncertainty.calibration = {found.u_offset_m};
   }
-  // Of the offset that the record has.
+  // Relative to the offset of the record.
   if (found.calibrated_um) calibration.calibrated_um = found.calibrated_um;
   if (found.linearity.empty()) return;
   calibration.linearity = found.linearity;
   calibration.polynomial_um.clear();
-  if (!found.calibrated_um)  // of a certificate, of an older version
+  if (!found.calibrated_um)  // a certificate, or a record of an older version
     calibration.calibrated_um = {found.linearity.front()[0], found.linearity.back()[0]};
 }
 
-// What takes the place of what an earlier record found, and the zeros that the rig declares, have
-// their covariances no longer.
+// Removes covariances that are no longer valid: of positions and directions of earlier records that
+// this record replaces, and of zeros that the rig declares.
 void keep_valid_values(CalibrationRecord& record, Rig& rig) {
   for (const CalibratedProbe& found : record.probes)
     for (const Probe& probe : rig.probes) {
@@ -172,7 +172,7 @@ void apply_certificates(TomlTable& record, Rig& rig) {
 Result<std::string> load_rig_text(const std::filesystem::path& file) {
   MDOF_TRY(std::string text, read_text_file(file));
   auto table = TomlTable::parse(text, file.string());
-  if (!table || table->has("calibration_record")) return text;  // parse_rig() says what is wrong
+  if (!table || table->has("calibration_record")) return text;  // parse_rig() reports the error
   const Fits rig = fits_of(*table, file.string());
   const auto names = names_of(*table);
   if (names.size() > kMostRecords)
@@ -220,7 +220,7 @@ void apply_records(TomlTable& table, std::string_view text, Rig& rig) {
 
 namespace {
 
-// As the file has it, which may be any number.
+// The file may contain any number.
 int freedom_of(const CalibrationRecord& record) {
   return static_cast<int>(std::clamp<std::int64_t>(record.freedom, 0, 1'000'000));
 }
@@ -243,7 +243,7 @@ Notices calibration_notices(const Rig& rig) {
   return notices;
 }
 
-// A rig is read only where it can name a record: lists have thousands of runs.
+// The rig is parsed only if it can contain a record, because lists have thousands of runs.
 Notices calibration_notices(std::string_view rig_text) {
   if (rig_text.find("calibration_record") == rig_text.npos) return {};
   const auto rig = parse_rig(rig_text, "rig");

@@ -1,5 +1,5 @@
-// The machine's kinematic chain, from the work to the tool: "w-Y-X-b-Z-t". w work, b bed, t tool;
-// axes between w and b carry the work, those between b and t the tool.
+// Kinematic chain of the machine, from the work to the tool: "w-Y-X-b-Z-t". w work, b bed, t tool.
+// Axes between w and b move the work, axes between b and t move the tool.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,15 @@
 namespace mdof {
 
 struct ChainAxis {
-  char letter = 'X';             // X Y Z linear, A B C rotary
-  bool carries_work = false;     // else it carries the tool
-  bool against_command = false;  // travel "-": its body goes along - when the command grows
+  char letter = 'X';          // X Y Z linear, A B C rotary
+  bool carries_work = false;  // else it moves the tool
+  bool against_command =
+      false;  // travel "-": its body moves in the - direction when the command increases
   bool operator==(const ChainAxis&) const = default;
 };
 
 struct Chain {
-  std::string text;             // empty: not known
+  std::string text;             // empty: unknown
   std::vector<ChainAxis> axes;  // from w to t
 
   bool known() const { return !text.empty(); }
@@ -32,12 +33,12 @@ struct Chain {
 Result<Chain> parse_chain(std::string_view text);
 
 // [machine] of a rig or a configuration: chain = "w-Y-X-b-Z-t", and travel = { X = "-" } for axes
-// that do not go along + when their command grows. Absent: a chain that is not known.
+// that do not move in the + direction when their command increases. Absent: unknown chain.
 Chain read_machine(TomlTable& root);
 
 // "X+ Y-": the travel of each axis, for people and for the hash of a table.
 std::string travels_of(const Chain& chain);
-// The two as they are stored; the inverse of text and travels_of().
+// Reads both stored texts; the inverse of Chain::text and travels_of().
 Result<Chain> chain_from(std::string_view text, std::string_view travels);
 
 }  // namespace mdof

@@ -9,7 +9,7 @@ int sign_of_error(const ChainAxis& measured) {
   return measured.carries_work ? -1 : 1;
 }
 
-// Why straightness stated there says nothing of the tool; empty: it does.
+// Why straightness at this reference does not apply to the tool; empty: it does.
 std::string gap_of_point(const ChainAxis& measured, Axis axis, Sides sides, Reference reference) {
   const bool at_carriage = reference == Reference::carriage;
   if (fixture_is_with_tool(measured, sides)) {
@@ -27,7 +27,7 @@ std::string gap_of_point(const ChainAxis& measured, Axis axis, Sides sides, Refe
          "correct the key moves of the rig; if not, build a table with the reference \"carriage\"";
 }
 
-// Why the correction turns with a rotary axis between the two; empty: it does not.
+// Why a rotary axis between the two changes the direction of the correction; empty: none does.
 std::string gap_of_rotary(const Chain& chain, const ChainAxis& measured,
                           const ChainAxis& correcting) {
   const auto [first, last] = std::minmax({&measured, &correcting});

@@ -1,5 +1,5 @@
-// The point at which straightness is stated: an error e(P) of the target is that of its
-// material which is at the point P of the metrology frame M.
+// The reference point of straightness: an error e(P) of the target is the error of its material at
+// the point P of the metrology frame M.
 #pragma once
 
 #include <string_view>
@@ -10,28 +10,28 @@
 namespace mdof {
 
 enum class Reference {
-  fixture,   // P = origin of M: does not depend on where the encoder is zero. The default
-  carriage,  // P = origin of C, which travels with the target: parameters of the paper's transform
+  fixture,   // P = origin of M: independent of the zero of the encoder. The default
+  carriage,  // P = origin of C, which moves with the target: parameters of the paper's transform
              // (Eq. 2-12)
   tool,      // P = tool_point_mm of the rig
 };
 const char* to_string(Reference reference);
-// False: it is none of "fixture", "carriage", "tool".
+// False: the name is not "fixture", "carriage" or "tool".
 bool reference_from(std::string_view name, Reference& reference);
 
-// What a result is stated at.
+// Reference point of a result.
 struct StatedAt {
   Reference reference = Reference::fixture;
-  Vec3 point_m{};  // P in M, machine axes; of no meaning for the carriage
+  Vec3 point_m{};  // P in M, machine axes; undefined for the carriage
   bool operator==(const StatedAt&) const = default;
 };
 inline constexpr StatedAt kAtFixture{Reference::fixture, {}};
 inline constexpr StatedAt kAtCarriage{Reference::carriage, {}};
 
 struct Rig;
-// Error (usage): the tool is asked for and the rig has no tool_point_mm.
+// Error (usage): the reference is the tool, but the rig has no tool_point_mm.
 Result<StatedAt> stated_at(const Rig& rig, Reference reference);
-// Where a table is to hold: at the rig's tool point where it has one, else at the fixture.
+// Default reference of a table: the tool point if the rig has one, else the fixture.
 StatedAt stated_at_by_default(const Rig& rig);
 
 }  // namespace mdof

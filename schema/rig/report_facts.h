@@ -1,5 +1,5 @@
-// What only a person knows of a measurement, for reports and certificates: [report] of a rig, or
-// --set KEY=VALUE of a command. Empty: not stated.
+// Facts about a measurement that only a person knows, for reports and certificates: [report] of a
+// rig, or --set KEY=VALUE of a command. Empty: not stated.
 #pragma once
 
 #include <string>
@@ -17,9 +17,9 @@ struct ReportFacts {
   std::string customer, customer_address;
   std::string laboratory, laboratory_address;  // who measured
   std::string machine, manufacturer, serial_number, operator_name;
-  std::string conditions;  // free words
-  std::string place;       // where it was measured: laboratory, customer, other
-  std::string date;        // of the measurement, YYYY-MM-DD: a CSV log has none
+  std::string conditions;  // free text
+  std::string place;       // where the measurement took place: laboratory, customer, other
+  std::string date;        // of the measurement, YYYY-MM-DD, because a CSV log has no date
   std::string country;     // of the laboratory, two capitals of ISO 3166-1
 };
 
@@ -29,15 +29,15 @@ struct ReportKey {
 };
 const std::vector<ReportKey>& report_keys();
 
-// [report] of a rig; an invalid value is rejected there.
+// Reads [report] of a rig; an invalid value is rejected there.
 ReportFacts read_report_facts(TomlTable& root);
 
 bool is_date(std::string_view text);  // YYYY-MM-DD
 
-// One key, as --set gives it. Errors (usage): an unknown key, an invalid value.
+// Sets one key of --set. Errors (usage): an unknown key, an invalid value.
 Status set_fact(ReportFacts& facts, std::string_view key, const std::string& value);
 
-// What each of them states. Error (usage): two state something else of one key.
+// Combines both. Error (usage): different values for one key.
 Result<ReportFacts> joined(const ReportFacts& a, const ReportFacts& b);
 
 }  // namespace mdof

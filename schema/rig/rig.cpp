@@ -15,7 +15,7 @@
 namespace mdof {
 namespace {
 
-constexpr double kMostDelay_us = 10e6;  // an average of more is no reading of an axis
+constexpr double kMostDelay_us = 10e6;  // a longer average is not a reading of one position
 
 Vec3 unit_vector(Vec3 v) {
   const double norm = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -158,7 +158,7 @@ TargetPlane read_plane(TomlTable& table) {
   return plane;
 }
 
-// One of two words; the first is the default.
+// Reads one of two words; the first is the default.
 bool read_choice(TomlTable& table, const char* key, const char* first, const char* second) {
   const std::string word = table.string(key, first);
   if (word != first && word != second)
@@ -213,7 +213,7 @@ void read_artefact(TomlTable& table, Rig& rig) {
   rig.u_artefact_angle_rad = from_urad(u_urad);
 }
 
-// The chain must have the rig's axis, and the two must agree which way it goes.
+// The chain must contain the rig's axis with the same direction of travel.
 void check_machine(TomlTable& table, const Rig& rig) {
   if (!rig.machine.known()) return;
   const std::string axis(1, letter(rig.axis));
@@ -226,7 +226,7 @@ void check_machine(TomlTable& table, const Rig& rig) {
                                "correct one of the two values");
 }
 
-constexpr std::size_t kMostProbes = 1000;  // each is compared with each
+constexpr std::size_t kMostProbes = 1000;  // limits the cost of comparing all pairs
 
 void reject_doubles(TomlTable& table, const std::vector<Probe>& probes) {
   for (std::size_t i = 0; i < probes.size(); ++i) {
@@ -270,13 +270,14 @@ std::optional<std::size_t> Rig::probe_index(std::string_view id) const {
 
 namespace {
 
-// Of a key of uncertainty.h: is it known wherever the rig could have it, and does it add anything?
+// A key of uncertainty.h: whether it is known for all parts that can have it, and whether it
+// contributes.
 struct DeclaredKey {
   const char* key;
   bool everywhere, somewhere;
 };
 
-// `of(item)`: the item's declared uncertainty.
+// `of(item)` is the declared uncertainty of the item.
 template <class Items, class Of>
 DeclaredKey declared_key(const char* key, const Items& items, Of of) {
   return {key,

@@ -1,4 +1,4 @@
-// The fixture: which probe sits where, looks where, and how its numbers are to be read.
+// The fixture: positions and directions of the probes, and the calibration of their readings.
 #pragma once
 
 #include <array>
@@ -26,55 +26,55 @@ namespace mdof {
 //   displacement = reads_gap ? -t : t
 // Outside `valid_um` a reading is at the end of the probe's range.
 struct Calibration {
-  bool reads_gap = false;          // reads = "gap": the raw number grows as the target recedes
-  std::optional<double> um_per_V;  // needed where the log has volts
-  std::string scale_record;        // id of the calibration record that um_per_V is taken from
+  bool reads_gap = false;          // reads = "gap": the raw number increases with the gap
+  std::optional<double> um_per_V;  // required if the log has volts
+  std::string scale_record;        // id of the calibration record that contains um_per_V
   double offset_um = 0;            // raw reading at the nominal surface
   std::vector<std::array<double, 2>>
-      linearity;                      // [reading_um, correction_um], ascending; ends held
-  std::vector<double> polynomial_um;  // instead: correction in µm, Σ c_i (reading_um)^i
+      linearity;  // [reading_um, correction_um], ascending; constant beyond the ends
+  std::vector<double> polynomial_um;  // alternative: correction in µm, Σ c_i (reading_um)^i
   std::optional<std::array<double, 2>>
       valid_um;  // raw_um from, to; default: from range_um and `reads`
-  // t between which a calibration record has calibrated the probe; none: not known.
+  // Range of t in which a calibration record has calibrated the probe; nullopt: unknown.
   std::optional<std::array<double, 2>> calibrated_um = std::nullopt;
   std::string certificate;  // number of the calibration certificate
-  std::string laboratory;   // that issued it
+  std::string laboratory;   // laboratory that issued the certificate
   std::string calibrated;   // YYYY-MM-DD
-  std::string due;          // YYYY-MM-DD, the last day on which it holds
+  std::string due;          // YYYY-MM-DD, last day of validity
 };
 
 struct Probe {
   std::string id;
   Vec3 position_m{};  // point of M where the probe's line meets the nominal target surface at d = 0
   Vec3 direction{};   // unit vector in M, machine axes: the probe reads displacement along it
-  std::string plane;  // id of the target plane it looks at; empty: the one that its direction gives
+  std::string plane;  // id of the target plane that it measures; empty: found from its direction
   double range_m = 0;  // full range; saturated at ±range/2 (a gap probe: at 0 and range)
   Calibration calibration;
-  // By how much its readings come later than the encoder's: its amplifier's filter.
+  // Delay of its readings against those of the encoder, from the filter of its amplifier.
   double delay_s = 0;
   ProbeUncertainty uncertainty = {};
-  // What the rig states, where a calibration found another direction: without [[plane]] the target
-  // was made and set up square to this, not to what was found.
+  // The direction in the rig, if a calibration found another direction. Without [[plane]] the
+  // target was made and aligned square to this nominal direction.
   std::optional<Vec3> nominal_direction = {};
 };
 
-// Known flatness of a target plane: height above the plane on a grid, bilinear between, ends held
-// (algo/plausibility/map_cover.h says where that happens).
-// Coordinates along the plane are two axes of C, in the order x, y, z with the normal's left out.
+// Known flatness of a target plane: height above the plane on a grid, bilinear between grid points
+// and constant beyond the ends (algo/plausibility/map_cover.h reports where this happens). The
+// coordinates are two axes of C, in the order x, y, z without the axis of the normal.
 struct HeightMap {
   std::vector<double> first_m, second_m;
   std::vector<double> height_m;  // [first][second], row-major
   bool empty() const { return height_m.empty(); }
 };
 
-// A target plane in C: normal · p = offset. A probe looks at the plane that it names, else at the
-// one whose normal is nearest to its direction, where that is unambiguous.
+// A target plane in C: normal · p = offset. A probe measures the plane that it names, otherwise the
+// plane whose normal is nearest to its direction, if that is unambiguous.
 struct TargetPlane {
   std::string id;
   Vec3 normal{};
-  std::optional<double> offset_m;  // default: where the probes' positions lie
+  std::optional<double> offset_m;  // default: from the positions of the probes
   HeightMap flatness;
-  // Standard uncertainty of its height beside the map, and the longest wave that it is made of.
+  // Standard uncertainty of its height in addition to the map, and its longest wavelength.
   DeclaredUncertainty u_flatness = {};
   double flatness_length_m = 0.03;
 };
@@ -85,45 +85,46 @@ struct Rig {
   std::string name;
   Axis axis = Axis::x;
   std::vector<Probe> probes;
-  // [encoder]: micrometres along the axis for a volt of an encoder that gives volts, negative where
-  // the volts fall as it goes on. None: such an encoder is refused.
+  // [encoder]: micrometres along the axis per volt of an encoder that outputs volts, negative if
+  // the voltage decreases with the position. nullopt: such an encoder is rejected.
   std::optional<double> encoder_um_per_V;
   Sides sides;                       // `moves` and `travel`
-  Chain machine;                     // [machine]; may be not known
+  Chain machine;                     // [machine]; may be unknown
   std::vector<TargetPlane> planes;   // empty: planes normal to the nominal directions
-  std::optional<Vec3> tool_point_m;  // P in M at which tables are to hold
-  // Of the square: the material encloses 90° + this at the corner of the two faces that the rigs of
-  // X and Y look at; with its standard uncertainty.
+  std::optional<Vec3> tool_point_m;  // P in M, default reference of tables
+  // Square: the angle of the material at the corner of the two faces that the rigs of X and Y
+  // measure is 90° + this.
   std::optional<double> artefact_angle_error_rad;
   std::optional<double> u_artefact_angle_rad;  // absent: not declared; 0 is a declaration
   RigUncertainty uncertainty;
   RigExpansion expansion;
-  // [drift]: of any probe's readings over a run; more is a warning of the run. m/s.
+  // [drift]: limit for the drift of any probe over a run; a larger drift gives a notice. m/s.
   std::optional<double> drift_limit_m_per_s = std::nullopt;
-  // What makes a capacitance probe read another gap than there is, and which of it is corrected.
-  // None: the rig says nothing of it.
+  // Effects on the readings of capacitance probes, and which of them are corrected. nullptr: the
+  // rig declares none.
   std::shared_ptr<const RigPhysics> physics = nullptr;
-  ReportFacts report;                      // [report]
-  std::vector<CalibrationRecord> records;  // that it refers to; applied (schema/rig/calibrated.h)
-  std::string text;                        // the TOML itself with its records: provenance
-  std::string source;                      // file name, for messages
+  ReportFacts report;  // [report]
+  std::vector<CalibrationRecord>
+      records;         // calibration records of the rig, already applied (schema/rig/calibrated.h)
+  std::string text;    // the TOML text with its records, for provenance
+  std::string source;  // file name, for messages
 
   MovingAxis moving() const { return {axis, sides}; }
 
   std::optional<std::size_t> probe_index(std::string_view id) const;
-  // Keys of uncertainty.h that are not declared, or 0, for a part that the rig has: what a budget
-  // leaves out.
+  // Keys of uncertainty.h that are neither declared nor 0, for a part that the rig has. A budget
+  // does not include their contributions.
   std::vector<std::string> undeclared_uncertainties() const;
-  bool declares_uncertainty() const;  // any of them, of any part
+  bool declares_uncertainty() const;  // any key, for any part
 };
 
-// What results measured on this day (YYYY-MM-DD..., UTC) have to say of the probes' calibrations
-// and of the records that are out of date.
+// Notices for results measured on this day (YYYY-MM-DD..., UTC): calibrations of probes and records
+// that are out of date.
 Notices overdue_calibrations(const Rig& rig, std::string_view day);
 
-// Reads a rig (schema/README.md); of one that refers to calibration records, with them behind it,
-// as load_rig_text() gives it. Errors name the file, line and key, and for an unknown key the
-// nearest known one.
+// Reads a rig (schema/README.md). A rig with calibration records must have them appended, as by
+// load_rig_text(). Errors name the file, line and key, and for an unknown key the nearest known
+// one.
 Result<Rig> parse_rig(std::string_view toml_text, const std::string& source_name);
 Result<Rig> load_rig(const std::filesystem::path& file);
 

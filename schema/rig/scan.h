@@ -1,12 +1,12 @@
-// A probe that looks at a part on a spindle while the axis of the rig goes along the part's radius,
-// beside the probes of the fixture, which see how straight it goes:
+// A probe that scans a part on a spindle while the axis of the rig moves along the radius of the
+// part. The probes of the fixture measure the straightness of the movement at the same time:
 //
 //   [scan]
 //   probe = "F"                # column F_um (or F_mm) of the log; no [[probe]] of the fixture
 //   position_mm = [0, 5, 30]   # in M, where its line meets the part
-//   measures = "+Z"            # heights count along it, out of the part; across the axis
-//   centre_mm = 12.5           # of the encoder, where it looks at the spindle's axis
-//   angle = "angle_deg"        # column: how far the part has turned about `measures`
+//   measures = "+Z"            # positive heights, out of the part; perpendicular to the axis
+//   centre_mm = 12.5           # encoder position at which it measures on the spindle's axis
+//   angle = "angle_deg"        # column: rotation of the part about `measures`
 //   sense = "+"                # right-handed; "-": left-handed
 #pragma once
 
@@ -27,10 +27,10 @@ struct RigScan {
   double sense = 1;
 };
 
-// For parse_rig(): what is wrong is recorded in the table.
+// For parse_rig(): errors are recorded in the table.
 std::optional<RigScan> read_scan(TomlTable& rig, Axis axis);
 
-// Of the text of a rig that parse_rig() has accepted; none: it has no [scan].
+// From the text of a rig that parse_rig() has accepted; nullopt: no [scan].
 Result<std::optional<RigScan>> scan_of_rig(std::string_view rig_text, Axis axis,
                                            const std::string& source);
 

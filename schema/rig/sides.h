@@ -1,7 +1,7 @@
-// Which body moves, and which way (algo/README.md, "Frames and signs").
+// The body that moves, and its direction (algo/README.md, "Frames and signs").
 //
-// The fixture holds the probes and carries the metrology frame M; the target is what they look at.
-// A machine moves one of the two against the other, and its encoder may count either way.
+// The fixture holds the probes and the metrology frame M; the probes measure the target. The
+// machine moves one of the two bodies, and its encoder may count in either direction.
 #pragma once
 
 namespace mdof {
@@ -9,17 +9,17 @@ namespace mdof {
 struct Sides {
   bool fixture_moves = false;  // moves = "fixture"; else the target moves
   bool against_encoder =
-      false;  // travel = "-": the moving body goes along - of M as the encoder grows
+      false;  // travel = "-": the body moves in the - direction of M as the encoder increases
 
   bool operator==(const Sides&) const = default;
 
-  // Travel of the body that moves, along + of M.
+  // Travel of the moving body in the + direction of M.
   double own_travel_m(double encoder_m) const { return against_encoder ? -encoder_m : encoder_m; }
-  // Travel d of the target in M, as the models have it.
+  // Travel d of the target in M, as used by the models.
   double target_travel_m(double encoder_m) const {
     return fixture_moves ? -own_travel_m(encoder_m) : own_travel_m(encoder_m);
   }
-  // An error of the moving body is that of the target in M times this.
+  // Factor from an error of the target in M to the error of the moving body.
   double error_sign() const { return fixture_moves ? -1.0 : 1.0; }
 
   const char* moves() const { return fixture_moves ? "fixture" : "target"; }

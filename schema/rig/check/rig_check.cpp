@@ -12,15 +12,15 @@
 namespace mdof {
 namespace {
 
-// Outside `possible` no number is right; outside `usual` it may be.
+// A number outside `possible` is wrong; a number outside `usual` may be right.
 struct Bounds {
   double least_possible, least_usual, most_usual, most_possible;
 };
-constexpr double kMost_m = 0.5;                       // of a fixture, from the origin of M
-constexpr Bounds kExtent_mm = {0.1, 1, 500, 500};     // of all probes' positions
+constexpr double kMost_m = 0.5;  // any coordinate of a fixture, from the origin of M
+constexpr Bounds kExtent_mm = {0.1, 1, 500, 500};     // largest distance of two probes
 constexpr Bounds kRange_um = {1, 5, 20e3, 100e3};     // capacitive: 10 µm to 10 mm
-constexpr Bounds kFull_V = {1e-3, 0.05, 100, 1000};   // that um_per_V makes of the range
-constexpr Bounds kShare = {0, 0, 0.1, 1};             // a correction, of the range
+constexpr Bounds kFull_V = {1e-3, 0.05, 100, 1000};   // full range in volts, from um_per_V
+constexpr Bounds kShare = {0, 0, 0.1, 1};             // a correction, as a share of the range
 constexpr Bounds kFlatness_um = {0, 0, 100, 10e3};    // heights of a target plane
 constexpr Bounds kArtefact_urad = {0, 0, 10e3, 1e5};  // of a square
 
@@ -35,7 +35,7 @@ std::string text_of(double x) {
   return text.data();
 }
 
-// "rig.toml:12: probe.range_um: ". The rig is read again: this is asked only when something is odd.
+// "rig.toml:12: probe.range_um: ". Parses the rig again, which happens only for a finding.
 std::string place(const Rig& rig, const char* table, std::size_t index, const char* key) {
   auto root = TomlTable::parse(rig.text, rig.source);
   if (!root) return rig.source + ": " + key + ": ";
@@ -119,7 +119,7 @@ void Check::check_calibration(std::size_t k) {
           " um); give the raw reading at the nominal surface, in um");
 }
 
-// The farthest two.
+// Checks the largest distance between two probes.
 void Check::check_distances() {
   double extent_m = 0;
   std::size_t a = 0, b = 0;
@@ -132,7 +132,7 @@ void Check::check_distances() {
       a = j, b = i;
     }
   }
-  if (extent_m == 0) return;  // no geometry at all, which the solver says better
+  if (extent_m == 0) return;  // all probes at one point: the solver reports it better
   within(kExtent_mm, to_mm(extent_m), "probe", b, "position_mm",
          " mm is an unusual distance between two probes (\"" + rig_.probes[a].id + "\" and \"" +
              rig_.probes[b].id + "\"); give positions in mm, not " +

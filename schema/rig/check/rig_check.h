@@ -1,6 +1,5 @@
-// Whether the numbers of a rig can be those of a fixture: what a wrong unit makes of them (mm typed
-// as µm, metres or volts) is found before anything is measured with it. What is impossible is an
-// error; what is only odd, a warning.
+// Checks whether the numbers of a rig are plausible, to find wrong units (mm entered as µm, metres
+// or volts) before a measurement. An impossible number is an error, an unusual one a notice.
 #pragma once
 
 #include <string>
@@ -15,7 +14,7 @@ namespace mdof {
 // Error: the first impossible number, with file, line, key and the unit that was probably meant.
 Status check_rig(const Rig& rig);
 
-// The odd ones, each with file, line and key, for whoever measures with this rig.
+// Unusual numbers, each with file, line and key, for the user of this rig.
 Notices doubtful_values(const Rig& rig);
 
 }  // namespace mdof

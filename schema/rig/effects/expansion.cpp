@@ -6,7 +6,7 @@ namespace mdof {
 namespace {
 
 constexpr double kReference_C = 20;    // ISO 1
-constexpr double kMostAbove_K = 100;   // no shop is as warm: a mistyped number
+constexpr double kMostAbove_K = 100;   // higher temperatures are typing errors
 constexpr double kMostPpmPerK = 1000;  // ten times that of plastics
 
 ThermalExpansion expansion_of(TomlTable& table, const std::string& body) {
@@ -20,7 +20,7 @@ ThermalExpansion expansion_of(TomlTable& table, const std::string& body) {
   return {ppm * 1e-6, u_ppm * 1e-6};
 }
 
-// The coefficient is needed where a temperature counts, and read where it is given.
+// The coefficient is required if a temperature has an effect, and is read whenever it is given.
 bool needs_expansion(TomlTable& table, const std::string& body, bool counts) {
   return counts || table.has(body + "_ppm_per_K") || table.has("u_" + body + "_ppm_per_K");
 }

@@ -1,4 +1,4 @@
-// What the temperature of a run makes of lengths that are stated at 20 °C, as a rig declares it:
+// Thermal expansion during a run, as a rig declares it; lengths are stated at 20 °C:
 //
 //   [temperature]
 //   scale_C = 22                     of the encoder's scale in the run; without it 20
@@ -9,8 +9,8 @@
 //   square_ppm_per_K, u_square_ppm_per_K                                of the target
 //   u_square_gradient_K_per_m = 0.5  of its temperature's slope along X, Y and Z
 //
-// Nothing is corrected. A target of one temperature keeps its angles and stays flat, and the zero
-// of the probes has its size: only a gradient counts.
+// Nothing is corrected. A target of uniform temperature keeps its angles and stays flat, and its
+// size is included in the zero of the probes, so only a gradient has an effect.
 #pragma once
 
 #include <cmath>
@@ -29,9 +29,9 @@ struct BodyExpansion {
   ThermalExpansion expansion;
   double above_20_K = 0;
   DeclaredUncertainty u_temperature;  // K
-  // Root mean square about 0 of its relative expansion, coefficient and temperature independent:
-  // the whole of what is known, as it is not corrected, and what is not known (GUM H.1.7 with its
-  // term of second order).
+  // Root mean square about 0 of the relative expansion, with coefficient and temperature
+  // independent. As nothing is corrected, it includes the known part and its uncertainty (GUM H.1.7
+  // with its second-order term).
   double relative() const {
     const double above = above_20_K, u = u_temperature.u;
     return std::sqrt(expansion.mean_square_per_K2() * (above * above + u * u));

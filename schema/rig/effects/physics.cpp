@@ -12,8 +12,8 @@ namespace mdof {
 namespace {
 
 constexpr double kMostRadius_mm = 50, kMostStandoff_um = 1e5, kMostTiltFactor = 100;
-constexpr int kLooks = 200;              // at a correction, over the range
-constexpr double kRangeCovered = 0.999;  // a reading beyond it is at the end of the range
+constexpr int kLooks = 200;              // points at which a correction is checked over the range
+constexpr double kRangeCovered = 0.999;  // a reading beyond this share is at the end of the range
 
 double positive(TomlTable& table, const char* key, double most) {
   if (!table.has(key)) return 0;
@@ -85,7 +85,7 @@ bool rises(const Calibration& c, const std::array<double, 2>& range) {
   return true;
 }
 
-// What is asked for must be there, be a function of the reading, and cover what can be read.
+// A requested correction must exist, be a function of the reading, and cover all possible readings.
 void check_linearity(TomlTable& table, const Probe& probe) {
   const Calibration& c = probe.calibration;
   const char* key = c.polynomial_um.empty() ? "linearity" : "polynomial_um";
@@ -146,7 +146,7 @@ bool says_anything(const RigPhysics& physics) {
          });
 }
 
-// u of what the tables of certificates leave, from the records behind the rig.
+// u of the corrections from certificates, read from the records that follow the rig.
 void take_certificates(TomlTable& table, const Rig& rig, RigPhysics& physics) {
   for (TomlTable& record : table.tables("calibration_record"))
     for (TomlTable& probe : record.tables("probe")) {
@@ -183,7 +183,7 @@ void read_physics(TomlTable& table, Rig& rig) {
   }
   physics.air = read_air(table);
   auto tables = table.tables("probe");
-  if (tables.size() != rig.probes.size()) return;  // which parse_rig() refuses
+  if (tables.size() != rig.probes.size()) return;  // parse_rig() rejects this
   for (std::size_t k = 0; k < tables.size(); ++k)
     physics.probes.push_back(read_probe_physics(tables[k], rig.probes[k]));
   take_certificates(table, rig, physics);
@@ -209,7 +209,7 @@ double linearity_um(const Calibration& c, double reading_um) {
     return sum;
   }
   const auto& table = c.linearity;
-  if (table.empty() || std::isnan(reading_um)) return 0.0;  // NaN has no place in the table
+  if (table.empty() || std::isnan(reading_um)) return 0.0;  // NaN cannot be looked up
   if (reading_um <= table.front()[0]) return table.front()[1];
   if (reading_um >= table.back()[0]) return table.back()[1];
   const auto above =

@@ -1,14 +1,14 @@
-// What makes a capacitance probe read another gap than there is, as far as a rig declares it:
+// Effects on the reading of the gap by a capacitance probe, as a rig declares them:
 //
-//   [corrections]                    each true or false; not named: as it is without this table
-//   linearity = true                 (a table or polynomial is applied, tilt and air are not)
+//   [corrections]                    true or false; defaults as without [corrections]:
+//   linearity = true                 a table or polynomial is applied, tilt and air are not
 //   tilt = true
 //   dielectric = true
 //   [[probe]] sensing_radius_mm, standoff_um, tilt_factor, u_tilt_factor, u_linearity_um
 //   [air]                            see DeclaredAir
 //
-// The probe stands where `measures` points: its gap is standoff - displacement. The equations are
-// those of algo/probe_physics.
+// The probe is on the side to which `measures` points: its gap is standoff - displacement. The
+// equations are in algo/probe_physics.
 #pragma once
 
 #include <array>
@@ -26,28 +26,28 @@ struct Rig;
 struct Calibration;
 struct Probe;
 
-// Of air, what its permittivity depends on: degrees Celsius, kPa, % relative humidity.
+// Quantities that determine the permittivity of the air: degrees Celsius, kPa, % relative humidity.
 inline constexpr std::size_t kAirQuantities = 3;
 using Air = std::array<double, kAirQuantities>;
 struct AirQuantity {
-  const char* key;   // of [air], and the name of a log's column: "humidity_percent"
+  const char* key;   // key of [air] and column of a log: "humidity_percent"
   const char* name;  // "humidity"
   const char* unit;  // "%"
   double least, most;
 };
 const std::array<AirQuantity, kAirQuantities>& air_quantities();
 
-// [air]: temperature_C, pressure_kPa, humidity_percent of the run, else of the log's columns of the
-// same names; the same with calibration_ before it, of when the probes were calibrated; and with u_
-// or u_calibration_ before that, standard uncertainties.
+// [air]: temperature_C, pressure_kPa, humidity_percent during the run; if absent, from the columns
+// of the log with the same names. With prefix calibration_: during the calibration of the probes.
+// With prefix u_ or u_calibration_: standard uncertainties.
 struct DeclaredAir {
   std::array<std::optional<double>, kAirQuantities> run;
   Air calibration{};
   std::array<DeclaredUncertainty, kAirQuantities> u_run, u_calibration;
 };
 
-// Where a rig names none (algo/README.md says why): the limits are those of an ideal disc, 1, and
-// as far on the other side.
+// Default tilt factor (algo/README.md gives the reason). The limits are the factor of an ideal
+// disc, 1, and the same distance on the other side.
 inline constexpr double kUsualTiltFactor = 5;
 inline constexpr double kTiltFactorHalfWidth = 4;
 
@@ -56,38 +56,39 @@ struct ProbePhysics {
   double standoff_m = 0;        // gap at displacement 0; 0: not declared
   double tilt_factor = kUsualTiltFactor;
   DeclaredUncertainty u_tilt_factor;
-  DeclaredUncertainty u_linearity;  // of a displacement, after its correction; m
+  DeclaredUncertainty u_linearity;  // of a displacement after its correction; m
 
   bool tilts() const { return sensing_radius_m > 0 && standoff_m > 0; }
 };
 
 struct RigPhysics {
   bool asked = false;             // there is a table [corrections]
-  std::optional<bool> linearity;  // not named: a table that the rig has is applied
+  std::optional<bool> linearity;  // absent: linearity is corrected if the rig has a table
   bool tilt = false, dielectric = false;
   std::vector<ProbePhysics> probes;  // in the order of the rig
   std::optional<DeclaredAir> air;
-  // linearity = false: what the probes' calibrations lost, in the order of the rig.
+  // linearity = false: the original calibrations of the probes, in the order of the rig.
   std::vector<std::shared_ptr<const Calibration>> left_out;
 
   bool corrects() const { return tilt || dielectric; }
-  // Its gaps and its air are known, so that the air's effect is, whether it is corrected or not.
+  // Standoffs and air are known, so the effect of the air is known, whether it is corrected or not.
   bool knows_air() const;
 };
 
-// Reads all of it, for parse_rig(), once the probes have their calibrations: `rig.physics`, none
-// where the rig says nothing. linearity = false takes the corrections from the probes. What is
-// wrong, or missing for what is asked, is recorded in the table.
+// Reads all these keys into `rig.physics`, for parse_rig(), after the probes have their
+// calibrations; nullptr if the rig declares nothing. linearity = false removes the corrections from
+// the probes. Errors and keys missing for a correction are recorded in the table.
 void read_physics(TomlTable& table, Rig& rig);
 
-// As Rig::undeclared_uncertainties() and Rig::declares_uncertainty(), of what stands here.
+// As Rig::undeclared_uncertainties() and Rig::declares_uncertainty(), for the keys of this file.
 std::vector<std::string> undeclared_physics(const Rig& rig);
 bool declares_physics(const Rig& rig);
 
-// Columns that a log must have for a correction: "humidity_percent".
+// Columns that a correction requires in a log: "humidity_percent".
 std::vector<std::string> columns_of_air(const Rig& rig);
 
-// What the calibration adds to a reading (Calibration in rig.h), µm; the ends of a table are held.
+// Value that the calibration adds to a reading (Calibration in rig.h), µm; beyond a table its end
+// value.
 double linearity_um(const Calibration& calibration, double reading_um);
 
 // Readings t = raw - offset at the ends of the probe's range, µm.

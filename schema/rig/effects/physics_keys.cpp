@@ -1,4 +1,4 @@
-// What a rig leaves open of its probes' physics, by the names of its keys.
+// Undeclared keys for the effects on a rig's probes.
 #include <algorithm>
 
 #include "schema/rig/effects/physics.h"
@@ -18,7 +18,7 @@ bool left_out_linearity(const RigPhysics& physics) {
   });
 }
 
-// The conditions of a run of which only its log knows are not kept with it.
+// Conditions of a run that only its log contains are not stored with the rig.
 void add_undeclared_air(const RigPhysics& physics, std::vector<std::string>& keys) {
   for (std::size_t q = 0; q < kAirQuantities; ++q) {
     const std::string key = air_quantities()[q].key;

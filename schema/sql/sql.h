@@ -1,4 +1,4 @@
-// The SQL of schema/sql/, embedded when the project is built: nothing is looked up at run time.
+// The SQL of schema/sql/, embedded at build time; no file is read at run time.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@ namespace mdof::sql {
 
 // One step of the database's schema: a file NNN_name.sql, applied in one transaction.
 struct Migration {
-  int version;       // NNN: user_version once applied
+  int version;  // One step of the database schema: a file NNN_name.sql, applied in one transaction.
   const char* name;  // "001_runs.sql"
   const char* text;
 };

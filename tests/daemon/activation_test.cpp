@@ -1,4 +1,4 @@
-// A table is put in force only if it is what was built.
+// A table is activated only if it is the table that was built.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -42,14 +42,14 @@ class ActivationTest : public ::testing::Test {
   CompensationTable table_;
 };
 
-TEST_F(ActivationTest, OfATableThatIsWhatWasBuilt) {
+TEST_F(ActivationTest, ActivatesTheTableThatWasBuilt) {
   const auto done = activated(store_->add_table(table_).value());
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_TRUE(done->changed);
 }
 
-// The ledger of the store knows what was built.
-TEST_F(ActivationTest, OfAnotherIsRefusedByItsName) {
+// The ledger of the store contains the hash of the built table.
+TEST_F(ActivationTest, RejectsAnotherTableWithItsId) {
   const auto id = store_->add_table(table_).value();
   store_.reset();
   {

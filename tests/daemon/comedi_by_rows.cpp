@@ -1,8 +1,8 @@
-// Preloaded into mdofd by each_device_test.py: a Comedi board in the place of comedilib's, so that
-// a real program meets a simulated machine by it. "/dev/comedi0" is here the address of a
-// csv_stream of mdof-simulate; its columns, µm, are the board's inputs, of 10 µm/V, and each row is
-// a scan. The board reads 5 % and 50 mV high, which a calibration file puts right; its name is in
-// MDOF_COMEDI_CALIBRATION. What is not here is comedilib's own.
+// Preloaded into mdofd by each_device_test.py: a simulated Comedi board that replaces comedilib, so
+// that the real program reads a simulated machine. "/dev/comedi0" is here the address of a
+// csv_stream of mdof-simulate. Its columns, µm, are the inputs of the board, 10 µm/V, and each row
+// is a scan. The board reads 5 % and 50 mV too high, which the calibration file named in
+// MDOF_COMEDI_CALIBRATION corrects. Functions that are not defined here are those of comedilib.
 #include <comedilib.h>
 #include <netdb.h>
 #include <sys/socket.h>
@@ -46,7 +46,7 @@ sampl_t code_of(double volts) {
   return static_cast<sampl_t>(std::clamp(code, 0.0, static_cast<double>(kMost)));
 }
 
-// "time_s,A_um,…" of one row; the header gives none.
+// Voltages of one row "time_s,A_um,…"; empty for the header.
 std::vector<double> volts_of(const char* row) {
   std::vector<double> volts;
   char* end = nullptr;
@@ -63,8 +63,8 @@ std::vector<double> volts_of(const char* row) {
 
 struct comedi_t_struct {       // NOLINT(readability-identifier-naming): comedilib names it
   int rows = -1;               // from mdof-simulate
-  int ends[2] = {-1, -1};      // of the samples: that which is read, that which is written
-  std::vector<unsigned> list;  // of channels
+  int ends[2] = {-1, -1};      // of the pipe of samples: read end, write end
+  std::vector<unsigned> list;  // channels
   std::thread scanning;
 
   void scan() const {
@@ -82,7 +82,7 @@ struct comedi_t_struct {       // NOLINT(readability-identifier-naming): comedil
     ::shutdown(ends[1], SHUT_WR);
   }
 
-  // False: nobody reads any more.
+  // False: the read end is closed.
   bool pass_on(const std::string& row) const {
     const auto volts = volts_of(row.c_str());
     if (volts.empty()) return true;
@@ -171,7 +171,7 @@ int comedi_get_cmd_src_mask(comedi_t*, unsigned subdevice, comedi_cmd* mask) {
   return 0;
 }
 
-// Takes any rate: what it is given has to be that of the rows.
+// Accepts any rate; the rate must be that of the rows.
 int comedi_command_test(comedi_t*, comedi_cmd* command) {
   const bool fits = command->start_src == TRIG_NOW && command->scan_begin_src == TRIG_TIMER &&
                     command->convert_src == TRIG_NOW && command->stop_src == TRIG_NONE &&

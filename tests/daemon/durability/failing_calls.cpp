@@ -1,8 +1,9 @@
-// Preloaded into mdofd by failing_call_test.py: the n-th call that writes or flushes a file fails,
-// and with MDOF_FAIL_STICKY=1 each one after it.
+// Preloaded into mdofd by failing_call_test.py: the n-th call that writes or flushes a file fails;
+// with MDOF_FAIL_STICKY=1 all later calls fail too.
 //   MDOF_FAIL_CALL = n (1 is the first), MDOF_FAIL_ERRNO = errno
-//   MDOF_FAIL_TOLD = a file that is made when it has failed
-// Only what SQLite uses on its files: pwrite, fsync, fdatasync, ftruncate, fallocate.
+//   MDOF_FAIL_TOLD = a file that is created when the call has failed
+// Includes only the calls that SQLite uses on its files: pwrite, fsync, fdatasync, ftruncate,
+// fallocate.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>

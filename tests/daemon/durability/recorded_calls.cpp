@@ -1,8 +1,8 @@
-// Preloaded into mdofd by crash_state_test.py: writes down, in their order, the calls that change
-// or flush a file below MDOF_RECORD_BELOW, into the file MDOF_RECORD_TO. A record is the line
+// Preloaded into mdofd by crash_state_test.py: records all calls that change or flush a file below
+// MDOF_RECORD_BELOW, in their order, in the file MDOF_RECORD_TO. A record is the line
 //   time_ns op offset length path
-// with op W (pwrite), S (fsync, fdatasync), T (ftruncate: length) or U (unlink), and for W `length`
-// bytes after it. The time is CLOCK_MONOTONIC when the call had returned.
+// with op W (pwrite), S (fsync, fdatasync), T (ftruncate: length) or U (unlink). For W, `length`
+// bytes follow. The time is CLOCK_MONOTONIC after the call returned.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/uio.h>
@@ -48,7 +48,8 @@ void note(char op, long offset, long length, const std::string& path, const void
                     now.tv_sec * 1'000'000'000 + now.tv_nsec, op, offset, length, path.c_str());
   const iovec parts[] = {{line, static_cast<std::size_t>(n)},
                          {const_cast<void*>(bytes), bytes ? static_cast<std::size_t>(length) : 0}};
-  if (::writev(record_file(), parts, 2) < n) std::abort();  // no truth without the record
+  if (::writev(record_file(), parts, 2) < n)
+    std::abort();  // the result is worthless without the record
 }
 
 }  // namespace

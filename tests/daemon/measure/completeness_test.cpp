@@ -20,7 +20,7 @@ MeasuredPoint point(int target, int direction, int run = 1, const std::string& r
   return p;
 }
 
-// There and back, so often.
+// Points of `repeats` passes forward and back.
 std::vector<MeasuredPoint> passes(int repeats) {
   std::vector<MeasuredPoint> points;
   for (int run = 1; run <= repeats; ++run) {
@@ -36,9 +36,9 @@ TEST(Completeness, AllTargetsOfAllRepeatsFromBothSidesAreComplete) {
   EXPECT_TRUE(missing_notices(kTargets_m, 2, passes(3)).empty());
 }
 
-TEST(Completeness, WhatIsMissingIsSaidByTargetAndApproach) {
+TEST(Completeness, ReportsMissingPointsByTargetAndApproach) {
   auto points = passes(2);
-  points.resize(9);  // the way back of the second repeat did not come
+  points.resize(9);  // the second repeat lacks its reverse pass
   EXPECT_FALSE(all_measured(kTargets_m, 2, points));
   const auto missing = missing_notices(kTargets_m, 2, points);
   EXPECT_EQ(shown(missing),
@@ -51,7 +51,7 @@ TEST(Completeness, WhatIsMissingIsSaidByTargetAndApproach) {
             0u);
 }
 
-TEST(Completeness, AnUnsolvedPointIsMissingAndItsReasonIsSaid) {
+TEST(Completeness, ReportsAnUnsolvedPointAsMissingWithItsReason) {
   auto points = passes(1);
   points[4] = point(2, -1, 1, "probe \"B\" is lost");
   EXPECT_FALSE(all_measured(kTargets_m, 1, points));
@@ -59,7 +59,7 @@ TEST(Completeness, AnUnsolvedPointIsMissingAndItsReasonIsSaid) {
   EXPECT_EQ(shown(missing),
             "points_missing missing=1 of=6 targets=target 2 at 2.000 mm: 1 reverse\n"
             "points_unsolved unsolved=1 points=6 reason=probe \"B\" is lost\n");
-  points.push_back(point(2, -1, 2));  // measured once more
+  points.push_back(point(2, -1, 2));  // the point is measured again
   EXPECT_TRUE(all_measured(kTargets_m, 1, points));
   EXPECT_TRUE(missing_notices(kTargets_m, 1, points).empty());
 }
@@ -73,13 +73,13 @@ TEST(Completeness, MostPointsUnsolvedIsNotComplete) {
   EXPECT_TRUE(missing_notices({}, 0, {points.begin() + 263, points.end()}).empty());
 }
 
-TEST(Completeness, AFreeRunIsAsItWasAskedFor) {
+TEST(Completeness, ARunWithoutTargetsHasNoMissingPoints) {
   EXPECT_TRUE(missing_notices({}, 0, passes(1)).empty());
-  EXPECT_FALSE(all_measured({}, 0, passes(1)));  // until it is stopped
+  EXPECT_FALSE(all_measured({}, 0, passes(1)));  // it ends when it is stopped
   EXPECT_FALSE(all_measured(kTargets_m, 0, passes(1)));
 }
 
-TEST(Completeness, WithoutRepeatsATargetIsMeasuredOnceAtLeast) {
+TEST(Completeness, WithoutRepeatsEachTargetIsNeededOnce) {
   EXPECT_TRUE(missing_notices(kTargets_m, 0, {point(1, 1), point(2, 1), point(3, -1)}).empty());
   const auto missing = missing_notices(kTargets_m, 0, {point(1, 1), point(2, 1)});
   EXPECT_EQ(shown(missing), "targets_missing missing=1 of=3 targets=target 3 at 4.100 mm\n");
@@ -94,8 +94,8 @@ TEST(Completeness, ManyMissingTargetsAreCountedNotListed) {
   EXPECT_LT(text.size(), 400u);
 }
 
-// A point of no target, as in a run without them, is of none.
-TEST(Completeness, AStrayTargetNumberIsLeftOut) {
+// In a run without targets, points have no valid target number.
+TEST(Completeness, IgnoresInvalidTargetNumbers) {
   EXPECT_FALSE(all_measured(kTargets_m, 1, {point(0, 1), point(99, 1), point(-3, 1)}));
 }
 

@@ -1,4 +1,4 @@
-// How often stated intervals of 95 % hold the truth, by figure.
+// Counts how often stated 95 % intervals contain the true value, by figure.
 #pragma once
 
 #include <gtest/gtest.h>

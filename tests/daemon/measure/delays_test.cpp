@@ -1,4 +1,4 @@
-// delay_us of channels: what is refused, what alignment is told, and what it does to a run.
+// delay_us of channels: invalid values, options of the alignment, and the effect on a run.
 #include "daemon/measure/delays.h"
 #include "daemon/words/error_text.h"
 
@@ -23,7 +23,7 @@ Status read_with(const std::string& text, ChannelDelays& delays) {
   return device.finish();
 }
 
-TEST(Delays, AreReadOfEachChannelThatHasOne) {
+TEST(Delays, AreReadForEachChannel) {
   ChannelDelays delays = {{"encoder", 0.001}};
   const auto read = read_with(
       "channel = [{ id = \"A\", input = \"1\", delay_us = 3840 }, { id = \"B\" }]\n", delays);
@@ -32,7 +32,7 @@ TEST(Delays, AreReadOfEachChannelThatHasOne) {
   EXPECT_TRUE(read_with("channel = [{ id = \"A\", delay_us = 100_000 }]", delays));
 }
 
-TEST(Delays, WhatCannotBeIsRefusedWithTheRemedy) {
+TEST(Delays, RejectsInvalidValuesWithTheRemedy) {
   const std::pair<const char*, const char*> cases[] = {
       {"id = \"A\", delay_us = -1",
        "mdofd.toml:1: channel[1].delay_us: must be from 0 to 10000000"},
@@ -53,14 +53,14 @@ TEST(Delays, WhatCannotBeIsRefusedWithTheRemedy) {
   }
 }
 
-TEST(Delays, AreTakenOutAgainstTheEncoders) {
+TEST(Delays, AreCorrectedRelativeToTheEncoder) {
   const Rig rig = two_probes();
   const auto options = with_delays({}, rig, {{"A", 0.004}, {"encoder", 0.001}});
   EXPECT_EQ(options.align.delay_s, (std::map<std::string, double>{{"A", 0.003}, {"B", -0.001}}));
   EXPECT_EQ(options.dwell.leave_s, 0.004);
 }
 
-TEST(Delays, ThatAreAllTheSameLeaveTheScansAsTheyAre) {
+TEST(Delays, EqualDelaysLeaveTheScansUnchanged) {
   const Rig rig = two_probes();
   EXPECT_TRUE(with_delays({}, rig, {}).align.delay_s.empty());
   EXPECT_EQ(with_delays({}, rig, {}).json(), PipelineOptions().json());
@@ -69,7 +69,7 @@ TEST(Delays, ThatAreAllTheSameLeaveTheScansAsTheyAre) {
   EXPECT_EQ(with_delays({}, rig, same).dwell.leave_s, 0.004);
 }
 
-TEST(Delays, ThatOfAProbesAmplifierIsAddedToItsChannels) {
+TEST(Delays, TheDelayOfAProbesAmplifierIsAdded) {
   Rig rig = two_probes();
   rig.probes[1].delay_s = 0.008;
   const auto options = with_delays({}, rig, {{"A", 0.004}, {"B", 0.001}, {"encoder", 0.002}});
@@ -78,7 +78,7 @@ TEST(Delays, ThatOfAProbesAmplifierIsAddedToItsChannels) {
   EXPECT_DOUBLE_EQ(options.dwell.leave_s, 0.009);
 }
 
-TEST(Delays, AReplayTakesThoseOfItsRigInsteadOfTheRecordedOnes) {
+TEST(Delays, AReplayUsesTheDelaysOfItsRig) {
   Rig rig = two_probes(), recorded = two_probes();
   const auto of_csv = with_delays_of(rig, Rig(), {});
   EXPECT_TRUE(of_csv.align.delay_s.empty());
@@ -92,7 +92,7 @@ TEST(Delays, AReplayTakesThoseOfItsRigInsteadOfTheRecordedOnes) {
   EXPECT_EQ(with_delays_of(rig, Rig(), {}).align.delay_s.at("A"), 0.006);
 }
 
-TEST(Delays, AReplayMayNotSettleForLess) {
+TEST(Delays, AReplayRejectsATooShortSettlingTime) {
   PipelineOptions options = with_delays({}, two_probes(), {{"A", 0.08}});
   EXPECT_TRUE(check_settling(options));
   options.dwell.settle_s = 0.05;

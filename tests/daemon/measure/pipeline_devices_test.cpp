@@ -1,4 +1,4 @@
-// Probes and encoder on two devices, each with scans and troubles of its own.
+// Probes and encoder on two devices, each with its own scans and faults.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace {
 
 const std::vector<std::string> kTop = {kEncoderChannel, "A", "B", "C"}, kSide = {"D", "E"};
 
-// `side_falls_silent`: the scan from which the second device gives nothing more.
+// `side_falls_silent`: the scan after which the second device delivers nothing.
 class TwoDevices {
  public:
   explicit TwoDevices(std::size_t side_falls_silent = SIZE_MAX) : silent_(side_falls_silent) {
     axis_.pass_both_ways({0, 5, 10, 15, 20});
     axis_.pass_both_ways({0, 5, 10, 15, 20});
   }
-  // Feeds what comes in 50 ms; false: there is nothing more.
+  // Feeds the samples of 50 ms; false: no more samples.
   bool feed(Pipeline& pipeline) {
     const std::size_t begin = at_;
     at_ += 50;
@@ -40,7 +40,7 @@ class TwoDevices {
   std::size_t silent_, at_ = 0;
 };
 
-TEST(PipelineOfTwoDevices, MeasuresAsOneDoes) {
+TEST(PipelineOfTwoDevices, MeasuresAsOneDeviceDoes) {
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   TwoDevices devices;
   while (devices.feed(pipeline)) continue;
@@ -51,7 +51,7 @@ TEST(PipelineOfTwoDevices, MeasuresAsOneDoes) {
   EXPECT_EQ(run->points.back().run, 2);
 }
 
-TEST(PipelineOfTwoDevices, TheSilenceOfOneIsToldAndDoesNotHoldUpTheOtherForEver) {
+TEST(PipelineOfTwoDevices, ReportsASilentDeviceAndContinuesAfterAWhile) {
   constexpr std::size_t kSilent = 3000;  // scans: 3 s, at the sixth stop
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   TwoDevices devices(kSilent);
@@ -77,9 +77,9 @@ TEST(PipelineOfTwoDevices, TheSilenceOfOneIsToldAndDoesNotHoldUpTheOtherForEver)
   }
 }
 
-// A live run takes turns between devices every few scans, its recording every 0.1 s. The second
-// device is late, comes in steps, and loses scans from the third stop on.
-TEST(PipelineOfTwoDevices, HowDevicesTakeTurnsChangesNoBit) {
+// A live run alternates between devices every few scans, its recording every 0.1 s. The samples of
+// the second device arrive late and in batches, and scans are lost from the third stop on.
+TEST(PipelineOfTwoDevices, TheOrderOfBlocksChangesNoBit) {
   TestAxis axis;
   axis.pass_both_ways({0, 5, 10, 15, 20});
   const auto late_side = [&](std::size_t begin, std::size_t end) {
@@ -123,7 +123,7 @@ TEST(PipelineOfTwoDevices, HowDevicesTakeTurnsChangesNoBit) {
   }
 }
 
-TEST(PipelineOfTwoDevices, AnEncoderThatFallsSilentTakesNoMemory) {
+TEST(PipelineOfTwoDevices, ASilentEncoderUsesNoMemory) {
   PipelineOptions options;
   Pipeline pipeline = Pipeline::create(five_probe_rig(), options).value();
   TestAxis axis;
@@ -132,7 +132,7 @@ TEST(PipelineOfTwoDevices, AnEncoderThatFallsSilentTakesNoMemory) {
               side = axis.block(0, axis.scans(), kSide, "capa");
   ASSERT_TRUE(pipeline.push(all));
   ASSERT_TRUE(pipeline.push(side));
-  // An hour of the other device, whose samples no frame will ever need.
+  // An hour of the other device, whose samples belong to no frame.
   SampleBlock more = side;
   for (std::int64_t k = 0; k < 600; ++k) {
     more = axis.block(0, axis.scans(), kSide, "capa");

@@ -1,4 +1,4 @@
-// Samples in, points out: the errors of each place, and a reason wherever there is none.
+// From samples to points: the errors at each position, or the reason why there are none.
 #include "daemon/measure/pipeline.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ Pipeline pipeline_of(const Rig& rig = five_probe_rig(), const PipelineOptions& o
   return Pipeline::create(rig, options).value();
 }
 
-// With what `spoil` does to the samples.
+// Measures the samples after `spoil` has changed them.
 Result<Run> measured(const TestAxis& axis, const Rig& rig, const PipelineOptions& options,
                      const std::function<void(SampleBlock&)>& spoil = {}) {
   Pipeline pipeline = pipeline_of(rig, options);
@@ -36,7 +36,7 @@ Result<Run> measured(const TestAxis& axis, const std::function<void(SampleBlock&
   return measured(axis, five_probe_rig(), {}, spoil);
 }
 
-// Channel `c` of the blocks of both_ways() with the scans of one stop, 0 ... 9.
+// Channel `c` of the blocks of both_ways(), and the scans of one stop, 0 ... 9.
 constexpr std::size_t kWay = 100, kStand = 400, kC = 3;
 std::size_t begin_of_stop(std::size_t stop) {
   return kWay + stop * (kWay + kStand) + (stop >= kStops_mm.size() ? kWay : 0);
@@ -56,7 +56,7 @@ std::string all_notices(const Run& run) {
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
-TEST(Pipeline, EveryStopHasTheErrorsOfItsPlace) {
+TEST(Pipeline, EveryStopHasTheErrorsOfItsPosition) {
   const auto run = measured(both_ways());
   ASSERT_TRUE(run) << run.error().message;
   ASSERT_EQ(run->points.size(), 10u);
@@ -97,9 +97,9 @@ TEST(Pipeline, AnAxisThatNeverStopsIsNotComplete) {
   EXPECT_EQ(between_two->header.state, RunState::complete) << all_notices(*between_two);
 }
 
-// A table that goes along - of M as the encoder grows, and a fixture that goes along +: in both the
-// target's travel is minus the encoder.
-TEST(Pipeline, WhichBodyMovesAndWhichWayTellsTheTravel) {
+// A table that moves in the - direction of M as the encoder increases, and a fixture that moves in
+// the + direction: in both cases the travel of the target is minus the encoder.
+TEST(Pipeline, TheMovingBodyAndItsDirectionGiveTheTravel) {
   for (const Sides sides : {Sides{false, true}, Sides{true, false}}) {
     Rig rig = five_probe_rig();
     rig.sides = sides;
@@ -111,7 +111,7 @@ TEST(Pipeline, WhichBodyMovesAndWhichWayTellsTheTravel) {
   }
 }
 
-TEST(Pipeline, HowSamplesAreCutIntoBlocksChangesNoBit) {
+TEST(Pipeline, TheDivisionIntoBlocksChangesNoBit) {
   const TestAxis axis = both_ways();
   const mdof::Run whole = measured(axis).value();
   for (const std::size_t per_block : {1u, 7u, 500u}) {
@@ -119,7 +119,7 @@ TEST(Pipeline, HowSamplesAreCutIntoBlocksChangesNoBit) {
     for (std::size_t i = 0; i < axis.scans(); i += per_block) {
       SampleBlock block = axis.block(i, i + per_block);
       ASSERT_TRUE(pipeline.push(block));
-      if (per_block == 500) pipeline.points();  // asked in between, or only at the end
+      if (per_block == 500) pipeline.points();  // read in between, or only at the end
     }
     const auto run = pipeline.finish();
     ASSERT_EQ(run->points.size(), whole.points.size());
@@ -130,7 +130,7 @@ TEST(Pipeline, HowSamplesAreCutIntoBlocksChangesNoBit) {
   }
 }
 
-TEST(Pipeline, AProbeThatIsMissingAtOneStopCostsThatPointAlone) {
+TEST(Pipeline, AProbeMissingAtOneStopCostsOnlyThatPoint) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
     lose(block, kC, begin_of_stop(2), begin_of_stop(2) + kStand);
   });
@@ -148,9 +148,9 @@ TEST(Pipeline, AProbeThatIsMissingAtOneStopCostsThatPointAlone) {
   EXPECT_TRUE(algo::has_flag(lost.point, Flag::lost, "C")) << lost.point.flags.size();
 }
 
-// What stays inside the range of a probe that vibrates across its end is not its mean.
-// It vibrates by 0.9 um about 99 um, and each tenth reading is beyond 100 um.
-TEST(Pipeline, AProbeThatTouchesTheEndOfItsRangeIsNoReading) {
+// A probe vibrates across the end of its range. The mean of the readings within the range is then
+// wrong. It vibrates by 0.9 um about 99 um, and each tenth reading is beyond 100 um.
+TEST(Pipeline, AProbeAtTheEndOfItsRangeGivesNoReading) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
     for (std::size_t i = 0; i < kStand; ++i)
       block.value[kC][begin_of_stop(2) + i] =
@@ -173,7 +173,7 @@ TEST(Pipeline, AFewMissingReadingsOfAStopCostNoPoint) {
   expect_true_errors(run->points[2], 10);
 }
 
-TEST(Pipeline, AProbeThatIsDeadThroughoutIsTheReasonWhyNothingIsSolved) {
+TEST(Pipeline, AProbeThatIsAlwaysDeadIsTheReasonOfTheFailure) {
   const auto refusal = [](const std::function<void(SampleBlock&)>& spoil) {
     const auto run = measured(both_ways(), spoil);
     return run ? "measured" : run.error().message;
@@ -191,8 +191,8 @@ TEST(Pipeline, AProbeThatIsDeadThroughoutIsTheReasonWhyNothingIsSolved) {
   EXPECT_SAYS(saturated, "range_um");
 }
 
-// Six probes can do without one: it is said, and the rest is measured.
-TEST(Pipeline, ADeadProbeThatIsNotNeededIsAWarning) {
+// With six probes one is not needed: a notice is given, and the run is measured.
+TEST(Pipeline, ADeadProbeThatIsNotNeededGivesANotice) {
   Rig rig = five_probe_rig();
   Probe more = rig.probes[0];
   more.id = "F";
@@ -210,7 +210,7 @@ TEST(Pipeline, ADeadProbeThatIsNotNeededIsAWarning) {
   for (const auto& p : run->points) expect_true_errors(p, 1e3 * p.target_m);
 }
 
-TEST(Pipeline, NothingMeasuredIsAnErrorWithItsReason) {
+TEST(Pipeline, ReportsWhyNothingWasMeasured) {
   const auto refusal = [](const TestAxis& axis, const PipelineOptions& options = {}) {
     const auto run = measured(axis, five_probe_rig(), options);
     return run ? "measured" : run.error().message;
@@ -227,7 +227,7 @@ TEST(Pipeline, NothingMeasuredIsAnErrorWithItsReason) {
   EXPECT_SAYS(refusal(both_ways(), elsewhere), "none of the 10 stops is near a given target");
 }
 
-TEST(Pipeline, AStopThatNeverEndsIsAPointOnceTheRunDoes) {
+TEST(Pipeline, AnUnfinishedStopIsAPointWhenTheRunEnds) {
   TestAxis axis;
   for (const double mm : {0.0, 5.0}) axis.stop_at(mm);
   axis.stand(60);
@@ -249,7 +249,7 @@ TEST(Pipeline, AStopThatNeverEndsIsAPointOnceTheRunDoes) {
   EXPECT_EQ(run->header.scans, axis.scans());
 }
 
-TEST(Pipeline, WhatWasAskedForDecidesWhetherItIsComplete) {
+TEST(Pipeline, TheRequestDecidesWhetherARunIsComplete) {
   PipelineOptions options;
   for (const double mm : kStops_mm) options.sequence.targets_m.push_back(1e-3 * mm);
   options.repeats = 1;
@@ -260,7 +260,7 @@ TEST(Pipeline, WhatWasAskedForDecidesWhetherItIsComplete) {
   EXPECT_SAYS(all_notices(*run), "points_missing missing=10 of=20 ");
 }
 
-TEST(Pipeline, TheTemperatureIsTheMeanOfWhatWasRead) {
+TEST(Pipeline, TheTemperatureIsTheMeanOfItsReadings) {
   const auto run = measured(both_ways(), [](SampleBlock& block) {
     block.channels.push_back({"temperature", Unit::deg_c});
     block.value.emplace_back(block.scans(), kNaN);
@@ -272,10 +272,10 @@ TEST(Pipeline, TheTemperatureIsTheMeanOfWhatWasRead) {
   EXPECT_EQ(run->header.temperature->max_C, 21);
 }
 
-TEST(Pipeline, LostScansAreCountedAndHideTheWay) {
+TEST(Pipeline, LostScansAreCountedAndHideTheTravel) {
   const TestAxis axis = both_ways();
   Pipeline pipeline = pipeline_of();
-  const std::size_t unseen = begin_of_stop(7) - kWay;  // the way to that stop, and a little more
+  const std::size_t unseen = begin_of_stop(7) - kWay;  // the travel to that stop, and a little more
   SampleBlock before = axis.block(0, unseen), after = axis.block(unseen + kWay + 50, axis.scans());
   after.lost = kWay + 50;
   ASSERT_TRUE(pipeline.push(before));
@@ -312,7 +312,7 @@ TEST(Pipeline, TheLiveViewShowsTheNewestInstantAndKeepsNoPoints) {
   EXPECT_TRUE(view.points().empty());
 }
 
-TEST(Pipeline, TimeThatGoesBackwardsIsRefusedWithTheDevice) {
+TEST(Pipeline, RejectsDecreasingTimeWithTheDevice) {
   Pipeline pipeline = pipeline_of();
   const TestAxis axis = both_ways();
   SampleBlock late = axis.block(500, 600), early = axis.block(100, 200);
@@ -322,16 +322,17 @@ TEST(Pipeline, TimeThatGoesBackwardsIsRefusedWithTheDevice) {
   EXPECT_SAYS(pushed.error().message, "device \"daq\": the time does not increase");
 }
 
-TEST(Pipeline, ARigThatCannotSeeAnErrorIsRefusedByName) {
+TEST(Pipeline, RejectsARigThatCannotDetermineAnError) {
   Rig rig = five_probe_rig();
-  rig.probes[4].position_m[0] = rig.probes[3].position_m[0];  // E beside D: no yaw
+  rig.probes[4].position_m[0] =
+      rig.probes[3].position_m[0];  // E beside D: yaw cannot be determined
   rig.probes[4].position_m[2] = 0;
   const auto pipeline = Pipeline::create(rig, {});
   ASSERT_FALSE(pipeline);
   EXPECT_SAYS(pipeline.error().message, "ECX");
 }
 
-TEST(Pipeline, ARunHoldsSoManyStopsAndSaysHowManyAreLeftOut) {
+TEST(Pipeline, LimitsTheStopsAndReportsTheOmittedOnes) {
   PipelineOptions options;
   options.most_stops = 7;
   Pipeline pipeline = pipeline_of(five_probe_rig(), options);

@@ -1,5 +1,5 @@
-// What a run says beside its points: of whom it is, where its positions come from, what was lost
-// and left out.
+// Additional data of a run beside its points: its axis, the datum of its positions, lost scans and
+// omitted stops.
 #include <gtest/gtest.h>
 
 #include "algo/points/flags.h"
@@ -15,7 +15,7 @@ TestAxis pass_over_five() {
   return axis;
 }
 
-// Scans of the stops of pass_over_five(), 0 ... 9.
+// First scans of the stops of pass_over_five(), 0 ... 9.
 constexpr std::size_t kToStop = 100, kAtStop = 400;
 constexpr std::size_t first_scan_of(std::size_t stop) {
   return kToStop + stop * (kToStop + kAtStop) + (stop >= 5 ? kToStop : 0);
@@ -32,7 +32,7 @@ Result<Run> run_of(Pipeline& pipeline, std::vector<SampleBlock> blocks) {
   return pipeline.finish();
 }
 
-TEST(PipelineTold, TheAxisAndItsFiguresAreThoseOfTheRig) {
+TEST(PipelineTold, AxisAndFiguresAreThoseOfTheRig) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig('Y'), {}).value();
   const auto run = run_of(pipeline, {axis.whole()});
@@ -43,7 +43,7 @@ TEST(PipelineTold, TheAxisAndItsFiguresAreThoseOfTheRig) {
   EXPECT_EQ(told_of(*run).find("datum_missing"), std::string::npos);
 }
 
-TEST(PipelineTold, AHeightMapThatEndsBeforeTheTravelIsNoticed) {
+TEST(PipelineTold, ReportsAHeightMapShorterThanTheTravel) {
   const TestAxis axis = pass_over_five();
   Rig rig = five_probe_rig();
   for (const char* id : {"top", "side"}) {
@@ -65,7 +65,7 @@ TEST(PipelineTold, AHeightMapThatEndsBeforeTheTravelIsNoticed) {
   EXPECT_HAS_PART(test::shown(after), "map_too_short side ");
 }
 
-TEST(PipelineTold, PositionsWithoutADatumAreANotice) {
+TEST(PipelineTold, ReportsPositionsWithoutADatum) {
   const TestAxis axis = pass_over_five();
   PipelineOptions options;
   options.datum.kind = EncoderDatum::Kind::none;
@@ -76,8 +76,8 @@ TEST(PipelineTold, PositionsWithoutADatumAreANotice) {
   EXPECT_EQ(run->header.notices.front(), notice(NoticeCode::datum_missing, "t7"));
 }
 
-// One stop in which the encoder was suspect throughout.
-TEST(PipelineTold, AStopWithoutAPlaceIsLeftOutAndItsTimeIsSaid) {
+// The encoder is suspect during one whole stop.
+TEST(PipelineTold, AStopWithoutAPositionIsOmittedWithItsTime) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   SampleBlock block = axis.whole();
@@ -91,12 +91,11 @@ TEST(PipelineTold, AStopWithoutAPlaceIsLeftOutAndItsTimeIsSaid) {
   EXPECT_EQ(run->points.size(), 9u);
   for (const auto& p : run->points)
     EXPECT_FALSE(p.target == 3 && p.point.direction < 0) << "the one at 10 mm on the way back";
-  EXPECT_HAS_PART(
-      told_of(*run),
-      "stops_not_placed daq points=1 from_s=3.8");  // 3.7 s and what it is given to settle
+  EXPECT_HAS_PART(told_of(*run),
+                  "stops_not_placed daq points=1 from_s=3.8");  // 3.7 s plus the settling time
 }
 
-TEST(PipelineTold, WhatTheEncoderDidNotSeeIsAWarning) {
+TEST(PipelineTold, ReportsAHoleInTheRecording) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   const std::size_t unseen = first_scan_of(7) - kToStop;
@@ -107,8 +106,8 @@ TEST(PipelineTold, WhatTheEncoderDidNotSeeIsAWarning) {
   EXPECT_HAS_PART(told_of(*run), "recording_hole length_s=0.15");
 }
 
-// Less than a window of the dwells: nothing can have happened in it.
-TEST(PipelineTold, AFewScansLostWithinAStopNeitherEndItNorHideAWay) {
+// The gap is shorter than a window of the dwells, so no movement can be hidden in it.
+TEST(PipelineTold, AFewLostScansDoNotEndAStop) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   const std::size_t lost_at = first_scan_of(7) + 200;
@@ -122,8 +121,8 @@ TEST(PipelineTold, AFewScansLostWithinAStopNeitherEndItNorHideAWay) {
     EXPECT_FALSE(algo::has_flag(p.point, Flag::approach_assumed)) << p.target;
 }
 
-// An axis that turns at its end targets has one visit of them.
-TEST(PipelineTold, HowTheSequenceWasTakenIsSaidWhereItIsADoubt) {
+// An axis that turns at its end targets visits them once.
+TEST(PipelineTold, ReportsAnAssumedSequence) {
   TestAxis axis;
   for (const double mm : {0.0, 5.0, 10.0, 15.0, 20.0, 15.0, 10.0, 5.0, 0.0}) axis.stop_at(mm);
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
@@ -133,8 +132,8 @@ TEST(PipelineTold, HowTheSequenceWasTakenIsSaidWhereItIsADoubt) {
   EXPECT_HAS_PART(told_of(*run), "pendulum");
 }
 
-// A second device whose samples come further apart than anything is interpolated over.
-TEST(PipelineTold, AProbeThatIsTooSlowIsTheReasonWithTheRemedy) {
+// The samples of a second device are further apart than the longest interpolated gap.
+TEST(PipelineTold, ReportsATooSlowProbeWithTheRemedy) {
   const TestAxis axis = pass_over_five();
   Pipeline pipeline = Pipeline::create(five_probe_rig(), {}).value();
   const SampleBlock side = axis.block(0, axis.scans(), {"D", "E"}, "adam");

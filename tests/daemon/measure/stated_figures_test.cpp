@@ -1,4 +1,4 @@
-// Where the uncertainty of a run's figures is left out, the reason stands in its place.
+// If the uncertainty of a run's figures is omitted, the reason is given instead.
 #include <gtest/gtest.h>
 
 #include "daemon/measure/budgets.h"
@@ -34,7 +34,7 @@ std::string json_of(const StatedFigures& figures) {
   return json.take();
 }
 
-TEST(StatedFigures, AreTheSameAtOnceAndApart) {
+TEST(StatedFigures, AreTheSameTogetherAndAlone) {
   const auto run = run_with(declared_toml(), 20);
   const StatedRun stated = stated_run(run);
   EXPECT_EQ(stated.figures.why, "");
@@ -44,7 +44,7 @@ TEST(StatedFigures, AreTheSameAtOnceAndApart) {
   EXPECT_EQ(stated.points.points[3].U, uncertainty_of(run).points[3].U);
 }
 
-TEST(StatedFigures, SayWhyTheyAreLeftOut) {
+TEST(StatedFigures, StateWhyTheyAreOmitted) {
   const auto why = [](const auto& run) {
     EXPECT_EQ(figure_budgets(run).why, stated_run(run).figures.why);
     EXPECT_TRUE(stated_run(run).figures.budgets.empty());

@@ -1,7 +1,7 @@
-// Do the stated 95 % intervals hold the truth, from samples through the whole pipeline? Simulated
-// runs along X and Y in five rigs whose every declared contributor was drawn from its distribution:
-// errors of a point, straightness, slope, ranges, EC0Y, table values. MDOF_COVERAGE_RUNS=2000 for
-// figures worth quoting, so many pairs of runs in all.
+// Checks that stated 95 % intervals contain the true value, from samples through the whole
+// pipeline. Runs along X and Y are simulated for five rigs; every declared contributor is drawn
+// from its distribution. Figures: errors of a point, straightness, slope, ranges, EC0Y, table
+// values. Set MDOF_COVERAGE_RUNS=2000 (total number of pairs of runs) for figures worth quoting.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -30,19 +30,19 @@ constexpr double kWhite_m = 60e-9;   // of a reading
 constexpr double kBeside_m = 20e-9;  // pink: rms; random walk: at the end of the log
 constexpr double kDrift_um_per_h = 3, kSquare_urad = 1;
 constexpr int kRepeats = 3;
-constexpr int kWatched = 6;  // the target whose errors are looked at
-// A tool below the fixture, and a place far along: the levers of a small machine.
+constexpr int kWatched = 6;  // the target whose errors are checked
+// A tool below the fixture, and a distant position: the lever arms of a small machine.
 const Eigen::Vector3d kTool_m(6e-3, -4e-3, -30e-3), kFar_m(40e-3, 20e-3, 10e-3);
 
-enum class Noise { white, pink, walk };  // the others beside the white
+enum class Noise { white, pink, walk };  // added to the white noise
 enum class Declares { all, nothing };
 
 struct Lengths {
   double l_mm, h_mm, z_mm;
-  bool sixth, reversed;  // a sixth probe; the probes listed the other way round
+  bool sixth, reversed;  // a sixth probe; the probes listed in reverse order
   double flatness_length_mm = 30;
-  // What a careful user of a typical shop declares, and no more: a gain of 0.1 %, a drift of 0.2 µm
-  // over the 33 s of a run, a fixture turned by 2 mrad. Its readings come in steps.
+  // Declares what a careful user of a typical shop knows: a gain of 0.1 %, a drift of 0.2 µm over
+  // the 33 s of a run, a fixture rotated by 2 mrad. The readings are quantised.
   bool shop = false;
 };
 constexpr Lengths kRigs[] = {{10, 15, 20, false, false},
@@ -54,7 +54,7 @@ constexpr Lengths kRigs[] = {{10, 15, 20, false, false},
 constexpr double kStep_m = 10e-9;
 const char* const kOfShop = "[installation]\nu_angle_mrad = [2, 2, 2]\n[drift]\nu_um_per_h = 22\n";
 
-// The lines before each of a key.
+// Inserts the lines before each occurrence of a key.
 std::string with_before(std::string toml, const std::string& key, const std::string& lines) {
   for (std::size_t at = 0; (at = toml.find(key, at)) != std::string::npos; at += key.size()) {
     toml.insert(at, lines);
@@ -63,7 +63,7 @@ std::string with_before(std::string toml, const std::string& key, const std::str
   return toml;
 }
 
-// As a user writes it, for axis X or Y; Y's frame is x = +Y, y = -X.
+// The rig as a user writes it, for axis X or Y; Y's frame is x = +Y, y = -X.
 Rig rig_of(const Lengths& of, Axis axis, Declares declares) {
   const bool y = axis == Axis::y;
   const auto probe = [&](const char* id, double along, double across, double up, bool top) {
@@ -101,8 +101,8 @@ Rig rig_of(const Lengths& of, Axis axis, Declares declares) {
       .value();
 }
 
-// Noise of one probe: white, and beside it a sum of slow and fast parts, whose power falls as 1/f,
-// or a random walk.
+// Noise of one probe: white noise plus a sum of slow and fast parts with a power of 1/f, or plus a
+// random walk.
 class ProbeNoise {
  public:
   double next(Noise kind, FaultyFixture& random) {
@@ -212,7 +212,7 @@ Run true_run(const Rig& rig) {
   return exact.measure();
 }
 
-// Of one point of the run, another one each time.
+// Counts one point of the run, a different one each time.
 void count_points(Coverage& coverage, const Rig& rig, const Run& run, const Run& truth,
                   std::uint64_t seed) {
   const auto u = algo::run_uncertainty(rig, run);
@@ -226,7 +226,8 @@ void count_points(Coverage& coverage, const Rig& rig, const Run& run, const Run&
     count(coverage, std::string("point ") + error_names(run.header.axis)[k].name, value[k],
           true_value[k], u.points[at].U[k]);
   if (rig.declares_uncertainty()) return;
-  const auto control = algo::uncertainty_of_stops(rig, run);  // without the run's repeatability
+  const auto control =
+      algo::uncertainty_of_stops(rig, run);  // control: without the run's repeatability
   for (std::size_t k = 0; k < kErrorCount; ++k)
     count(coverage, "by stops", value[k], true_value[k], control.points[at].U[k]);
 }
@@ -266,13 +267,14 @@ double count_figures(Coverage& coverage, const Rig& rig, const Run& run, const R
   return slope;
 }
 
-// A pair of runs; `declared` is what the solution is told.
+// Measures a pair of runs. Without `tell_calibration`, the rig of the solution has no u of the
+// zeros.
 void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64_t seed,
                   bool tell_calibration, Declares declares) {
   std::map<Axis, Rig> rigs, faulty;
   std::map<Axis, Run> runs;
   double slopes = 0, square = 0;
-  std::vector<double> gains;  // the probes of X are those of Y, and so is the top of the target
+  std::vector<double> gains;  // X and Y use the same probes and the same top of the target
   std::optional<algo::test_faults::DrawnSurface> top;
   for (const Axis axis : {Axis::x, Axis::y}) {
     faulty[axis] = rigs[axis] = rig_of(of, axis, declares);
@@ -305,7 +307,7 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
   const auto budget =
       algo::squareness_budget(rigs[Axis::x], runs[Axis::x], rigs[Axis::y], runs[Axis::y], artefact)
           .value();
-  // The square itself is off by `square`, which nobody knows: the slopes of the runs have it not.
+  // The error of the square itself is unknown, and the slopes of the runs do not include it.
   count(coverage, "EC0Y", budget.value, -slopes - square, budget.U);
 }
 
@@ -319,7 +321,7 @@ Coverage coverage_of(Noise kind, int pairs, Declares declares = Declares::all,
   return coverage;
 }
 
-// Of one fixture.
+// Coverage for one fixture.
 Coverage coverage_of(const Lengths& of, int pairs) {
   Coverage coverage;
   for (int i = 0; i < pairs; ++i)
@@ -343,7 +345,7 @@ TEST(StatedUncertainty, HoldsTheTruthWithARandomWalk) {
   expect_covered(coverage_of(Noise::walk, pairs), pairs, 94);
 }
 
-// Nothing hides what the run itself has to show of its points.
+// The repeatability of the run itself must be sufficient for its points.
 TEST(StatedUncertainty, HoldsThePointsOfARigThatDeclaresNothing) {
   const int pairs = coverage_runs(100);
   for (const Noise kind : {Noise::white, Noise::pink}) {
@@ -358,7 +360,7 @@ TEST(StatedUncertainty, HoldsThePointsOfARigThatDeclaresNothing) {
   }
 }
 
-// From a tenth of the travel of 40 mm to ten times it.
+// From a tenth of the travel of 40 mm to ten times the travel.
 TEST(StatedUncertainty, HoldsTheTruthWhateverTheLengthOfTheFlatness) {
   const int pairs = coverage_runs(8);
   for (const double length_mm : {4.0, 13.0, 400.0}) {
@@ -373,8 +375,8 @@ TEST(StatedUncertainty, HoldsTheTruthOfATypicalShopThatDeclaresIt) {
   expect_covered(coverage_of({10, 15, 20, false, false, 30, true}, pairs), pairs, 93);
 }
 
-// The control: what is not declared is not covered.
-TEST(StatedUncertainty, WithoutOneContributorDoesNot) {
+// Control: an undeclared contributor is not covered.
+TEST(StatedUncertainty, DoesNotHoldTheTruthWithoutOneContributor) {
   const Coverage coverage =
       coverage_of(Noise::white, std::max(25, coverage_runs(25) / 10), Declares::all, false);
   EXPECT_LT(coverage.at("point EYX").percent(), 88);

@@ -1,5 +1,5 @@
-// An axis that moves and stops as a test says, seen by an encoder and five probes: a model of its
-// own, to first order, that shares nothing with the code under test.
+// A simulated axis that moves and stops as a test requires, measured by an encoder and five probes:
+// a separate first-order model that shares no code with the code under test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,19 +21,19 @@ inline Rig five_probe_rig(char axis = 'X') {
   return load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_" + axis + ".toml").value();
 }
 
-// The target's five errors in the axis' frame at travel d, as the rig's readings have them.
+// The five errors of the target in the axis' frame at travel d, in the units of the rig's readings.
 struct TrueErrors {
-  double dy_um, dz_um, ex_urad, ey_urad, ez_urad;  // of the point of the target that is C's origin
+  double dy_um, dz_um, ex_urad, ey_urad, ez_urad;  // of the point of the target at the origin of C
 
   static TrueErrors at(double d_mm) {
     return {1 + 0.2 * d_mm, 0.5 - 0.1 * d_mm, 3 + d_mm, 2 - 0.5 * d_mm, -4 + 0.7 * d_mm};
   }
-  // Of the point at the fixture's origin; m, rad.
+  // Errors of the point at the fixture's origin; m, rad.
   std::array<double, 5> at_fixture(double d_mm) const {
     return {1e-6 * (dy_um - 1e-3 * d_mm * ez_urad), 1e-6 * (dz_um + 1e-3 * d_mm * ey_urad),
             1e-6 * ex_urad, 1e-6 * ey_urad, 1e-6 * ez_urad};
   }
-  // What probes A ... E of the default fixture read.
+  // Readings of probes A ... E of the default fixture.
   std::array<double, 5> readings_um(double d_mm) const {
     const auto top = [&](double x, double y) {
       return dz_um + 1e-3 * (ex_urad * y + ey_urad * (d_mm - x));
@@ -51,7 +51,7 @@ class TestAxis {
   static constexpr std::int64_t kPeriod_ns = 1'000'000;
   static constexpr std::array<const char*, 5> kProbes = {"A", "B", "C", "D", "E"};
 
-  // `travel`: of the target for 1 of the encoder, 1 or -1.
+  // `travel`: travel of the target per unit of the encoder, 1 or -1.
   explicit TestAxis(double at_mm = -1, double travel = 1) : at_mm_(at_mm), travel_(travel) {}
 
   void move_to(double to_mm, double in_s = 0.1) {
@@ -67,7 +67,7 @@ class TestAxis {
     move_to(mm);
     stand(s);
   }
-  // Forward over the targets and back, turning 1 mm beyond both ends.
+  // Forward over the targets and back, reversing 1 mm beyond both ends.
   void pass_both_ways(std::vector<double> targets_mm) {
     for (const double mm : targets_mm) stop_at(mm);
     move_to(targets_mm.back() + 1);

@@ -8,7 +8,7 @@ namespace {
 
 class CompensationMethods : public MethodsTest {
  protected:
-  // A table of a run of X, in force; its generation.
+  // Activates a table of a run of X; returns its generation.
   std::string activate() {
     add_run();
     EXPECT_EQ(call("compensation.build", R"({"runs":[1],"keep_slope":true})").code(), 0);
@@ -22,7 +22,7 @@ class CompensationMethods : public MethodsTest {
   }
 };
 
-TEST_F(CompensationMethods, ATableOfARunThatWasMeasuredUnderAnotherAsksFirst) {
+TEST_F(CompensationMethods, ARunMeasuredUnderAnotherTableNeedsConfirmation) {
   const char* const says = "was measured while table 2 was active";
   activate();
   for (const auto& [utc, asks] :
@@ -41,7 +41,7 @@ TEST_F(CompensationMethods, ATableOfARunThatWasMeasuredUnderAnotherAsksFirst) {
   }
 }
 
-TEST_F(CompensationMethods, ATableThatIsBuiltIsNotYetInForce) {
+TEST_F(CompensationMethods, ABuiltTableIsNotYetActive) {
   add_run();
   const Answer built = call("compensation.build", R"({"runs":[1]})");
   ASSERT_EQ(built.code(), 0) << built.text();
@@ -59,7 +59,7 @@ TEST_F(CompensationMethods, ATableThatIsBuiltIsNotYetInForce) {
   EXPECT_EQ(call("compensation.grid", R"({"axis":"X"})").code(), rpc::kNotFound);
 }
 
-TEST_F(CompensationMethods, WhatCannotBeBuiltIsRefused) {
+TEST_F(CompensationMethods, RejectsInvalidBuilds) {
   add_run('X', "a"), add_run('Y', "b"), add_run('X', "c", false);
   EXPECT_EQ(call("compensation.build", R"({"runs":[9]})").code(), rpc::kNotFound);
   EXPECT_SAID(call("compensation.build", R"({"runs":[1,1]})").message(), "given twice");
@@ -75,7 +75,7 @@ TEST_F(CompensationMethods, WhatCannotBeBuiltIsRefused) {
   EXPECT_EQ(carriage.at("/result/reference"), "\"carriage\"") << carriage.text();
 }
 
-TEST_F(CompensationMethods, InForceItIsServedWithItsGeneration) {
+TEST_F(CompensationMethods, AnActiveTableIsServedWithItsGeneration) {
   const std::string generation = activate();
   EXPECT_NE(generation, "0");
   const Answer status = call("compensation.status");
@@ -89,7 +89,7 @@ TEST_F(CompensationMethods, InForceItIsServedWithItsGeneration) {
   EXPECT_EQ(at.at("/result/table"), "1");
 }
 
-TEST_F(CompensationMethods, StoredTablesAreListedAndReadWhetherActiveOrNot) {
+TEST_F(CompensationMethods, StoredTablesAreListedAndReadActiveOrNot) {
   const std::string generation = activate();
   ASSERT_EQ(call("compensation.build", R"({"runs":[1]})").at("/result/table"), "2");
   const Answer list = call("compensation.list", R"({"axis":"X"})");
@@ -125,14 +125,14 @@ TEST_F(CompensationMethods, TheReasonIsInTheHistory) {
   EXPECT_EQ(history.at("/result/history/2/detail"), "");
 }
 
-TEST_F(CompensationMethods, ValuesAreTheErrorsOfTheirPlaceAndSide) {
+TEST_F(CompensationMethods, ValuesAreTheErrorsOfPositionAndApproach) {
   activate();
   const TrueErrors first = TrueErrors::at(0), truth = TrueErrors::at(15);
   for (const int direction : {-1, 0, 1}) {
     const Answer at = value_at(15, direction);
     EXPECT_NEAR(at.number("/result/error/EYX_um"), 1e6 * truth.at_fixture(15)[0], 1e-2)
         << at.text();
-    // Angles from the start.
+    // Angles relative to the start.
     EXPECT_NEAR(at.number("/result/error/EAX_urad"), truth.ex_urad - first.ex_urad, 1e-2);
     EXPECT_NEAR(at.number("/result/error/EBX_urad"), truth.ey_urad - first.ey_urad, 1e-2);
     EXPECT_EQ(at.number("/result/direction"), direction);
@@ -146,14 +146,14 @@ TEST_F(CompensationMethods, ValuesAreTheErrorsOfTheirPlaceAndSide) {
   EXPECT_GT(value_at(5, 1).number("/result/u/EYX_um"), 0);
 }
 
-TEST_F(CompensationMethods, WithoutAChainThereIsNoCorrectionAndTheReasonIsSaid) {
+TEST_F(CompensationMethods, WithoutAChainTheCorrectionIsNullWithAReason) {
   activate();
   const Answer at = value_at(5, 1);
   EXPECT_EQ(at.at("/result/correction"), "null") << at.text();
   EXPECT_SAID(at.at("/result/correction_reason"), "chain");
 }
 
-TEST_F(CompensationMethods, ADirectionIsOneOfThree) {
+TEST_F(CompensationMethods, RejectsOtherDirectionsThanTheThree) {
   activate();
   for (const int direction : {-2, 2}) {
     EXPECT_EQ(value_at(5, direction).code(), rpc::kInvalidParams);
@@ -161,7 +161,7 @@ TEST_F(CompensationMethods, ADirectionIsOneOfThree) {
   }
   EXPECT_EQ(call("compensation.at", R"({"axis":"X"})").code(), rpc::kInvalidParams);
   EXPECT_EQ(call("compensation.at", R"({"axis":"Q","position_mm":1})").code(), rpc::kInvalidParams);
-  // Of the other kind of table: not ignored.
+  // Parameters of the other kind of table are rejected, not ignored.
   for (const char* params :
        {R"({"axis":"volume","direction":1})", R"({"axis":"volume","position_mm":1})",
         R"({"axis":"X","position_mm":1,"Y_mm":7})"})
@@ -171,7 +171,7 @@ TEST_F(CompensationMethods, ADirectionIsOneOfThree) {
   EXPECT_EQ(call("compensation.at", R"({"axis":"Y","position_mm":1})").code(), rpc::kNotFound);
 }
 
-TEST_F(CompensationMethods, AGridIsReadByPageAndAnotherGenerationIsTold) {
+TEST_F(CompensationMethods, AGridIsReadByPageAndReportsAnotherGeneration) {
   const std::string generation = activate();
   const Answer page = call("compensation.grid", R"({"axis":"X","offset":3,"count":1})");
   ASSERT_EQ(page.size("/result/points"), 1u) << page.text();
@@ -187,7 +187,7 @@ TEST_F(CompensationMethods, AGridIsReadByPageAndAnotherGenerationIsTold) {
   EXPECT_SAID(changed.message(), "generation is now " + generation);
 }
 
-TEST_F(CompensationMethods, OutOfForceNothingIsServed) {
+TEST_F(CompensationMethods, ADeactivatedTableIsNotServed) {
   const std::string generation = activate();
   const Answer out = call("compensation.deactivate", R"({"axis":"X"})");
   EXPECT_EQ(out.at("/result/changed"), "true") << out.text();
@@ -199,7 +199,7 @@ TEST_F(CompensationMethods, OutOfForceNothingIsServed) {
   EXPECT_EQ(history.at("/result/history/0/deed"), "\"compensation.deactivate\"") << history.text();
 }
 
-TEST_F(CompensationMethods, WhatWasDecidedOfAnotherGenerationIsRefusedWithWhatIsActive) {
+TEST_F(CompensationMethods, RejectsARequestForAnotherGeneration) {
   const std::string generation = activate();
   const std::string shown = R"("expected_generation":)" + generation;
   ASSERT_EQ(call("compensation.build", R"({"runs":[1]})").at("/result/table"), "2");
@@ -223,8 +223,8 @@ TEST_F(CompensationMethods, WhatWasDecidedOfAnotherGenerationIsRefusedWithWhatIs
             "true");
 }
 
-// A measured table in force is not replaced by a simulated one unasked, and every reply says so.
-TEST_F(CompensationMethods, ASimulatedTableIsPutInForceOnlyWhenAskedForAndMarked) {
+// A simulated table replaces an active measured table only on request, and every reply marks it.
+TEST_F(CompensationMethods, ASimulatedTableIsActivatedOnlyOnRequest) {
   activate();
   simulated_ = true;
   const std::string run = std::to_string(add_run());
@@ -242,7 +242,7 @@ TEST_F(CompensationMethods, ASimulatedTableIsPutInForceOnlyWhenAskedForAndMarked
   EXPECT_EQ(call("compensation.status").at("/result/axes/X/simulated"), "true");
 }
 
-TEST_F(CompensationMethods, ADoubtfulTableInForceIsMarkedInEveryReply) {
+TEST_F(CompensationMethods, ADoubtfulActiveTableIsMarkedInEveryReply) {
   for (const bool whole : {true, false}) {
     const std::string run = std::to_string(add_run('X', whole ? "a" : "b", whole));
     const Answer built = call("compensation.build", R"({"partial":true,"runs":[)" + run + "]}");
@@ -257,7 +257,7 @@ TEST_F(CompensationMethods, ADoubtfulTableInForceIsMarkedInEveryReply) {
   }
 }
 
-TEST_F(CompensationMethods, ATableOrASquarenessOfASupersededRunSaysSoAndTheTableAsks) {
+TEST_F(CompensationMethods, ResultsOfASupersededRunHaveANotice) {
   const char* const code = R"("code":"made_from_superseded")";
   add_run('X'), add_run('Y');
   const auto notices = [&](const char* method, const char* params) {
@@ -280,7 +280,7 @@ TEST_F(CompensationMethods, ATableOrASquarenessOfASupersededRunSaysSoAndTheTable
   EXPECT_EQ(call("compensation.activate", R"({"table":3})").code(), 0);
 }
 
-TEST_F(CompensationMethods, ATableBeyondItsLimitsIsNotBuilt) {
+TEST_F(CompensationMethods, RejectsATableBeyondItsLimits) {
   add_run();
   const Answer refused = call("compensation.build", R"({"runs":[1],"limit_um":0.01})");
   EXPECT_EQ(refused.code(), rpc::kBadInput) << refused.text();
@@ -291,7 +291,7 @@ TEST_F(CompensationMethods, ATableBeyondItsLimitsIsNotBuilt) {
   EXPECT_EQ(call("compensation.build", R"({"runs":[1]})").code(), 0);
 }
 
-TEST_F(CompensationMethods, WhatHasWarningsIsPutInForceOnlyWhenAskedFor) {
+TEST_F(CompensationMethods, ATableWithWarningsIsActivatedOnlyOnRequest) {
   add_run('X', "", false);
   call("compensation.build", R"({"runs":[1],"partial":true})");
   EXPECT_EQ(call("compensation.activate", R"({"table":9})").code(), rpc::kNotFound);

@@ -11,15 +11,15 @@ std::string at(const std::string& frame, const std::string& more) {
          frame + R"(\n","machine_source":"m.toml")" + more + "}";
 }
 
-TEST_F(MachineMethodTest, SaysTheErrorAtACommandWithItsU) {
+TEST_F(MachineMethodTest, GivesTheErrorAtACommandWithItsU) {
   const Answer answer =
       call("machine.at", at(R"(EXX_um = [[0, 0], [20, 4]]\nu_EXX_um = 0.1)", R"(,"X_mm":10)"));
   ASSERT_EQ(answer.code(), 0) << answer.text();
-  EXPECT_NEAR(answer.number("/result/error/x_um"), -2, 1e-9);  // the work goes 2 too far
+  EXPECT_NEAR(answer.number("/result/error/x_um"), -2, 1e-9);  // the work moves 2 µm too far
   EXPECT_NEAR(answer.number("/result/u/x_um"), 0.1, 1e-12);
 }
 
-TEST_F(MachineMethodTest, WhatIsNotDeclaredIsNullWithAReason) {
+TEST_F(MachineMethodTest, AnUndeclaredUIsNullWithAReason) {
   const Answer answer = call("machine.at", at("EXX_um = 3", ""));
   ASSERT_EQ(answer.code(), 0) << answer.text();
   EXPECT_NE(answer.text().find(R"("u":{"x_um":null)"), std::string::npos) << answer.text();
@@ -27,7 +27,7 @@ TEST_F(MachineMethodTest, WhatIsNotDeclaredIsNullWithAReason) {
   EXPECT_NE(answer.text().find(R"("EBX")"), std::string::npos);  // not measured
 }
 
-// EYX has a value without u: 0 would be read as exactly known.
+// EYX has a value without u: u = 0 would mean that it is known exactly.
 TEST_F(MachineMethodTest, UOfAComponentWithoutKnownUIsNull) {
   const Answer answer = call("machine.at", at(R"(EXX_um = 3\nu_EXX_um = 0.1\nEYX_um = 1)", ""));
   ASSERT_EQ(answer.code(), 0) << answer.text();
@@ -36,7 +36,7 @@ TEST_F(MachineMethodTest, UOfAComponentWithoutKnownUIsNull) {
   EXPECT_NE(answer.text().find(R"("not_declared":["EYX"])"), std::string::npos) << answer.text();
 }
 
-TEST_F(MachineMethodTest, RefusesWhatItCannotRead) {
+TEST_F(MachineMethodTest, RejectsInvalidMachines) {
   for (const auto& [frame, more, says] : {std::tuple{"EXX_um = nan", "", "m.toml"},
                                           {"EXXX_um = 1", "", "EXX"},
                                           {R"(EXX_file = \"/etc/passwd\")", "", "not read files"},

@@ -1,5 +1,5 @@
-// All methods of mdofd with a store and an axis of their own, called by lines of JSON-RPC as from
-// the socket, without one. No test framework, so that the fuzzers have it too.
+// All methods of mdofd with a separate store and axis, called with lines of JSON-RPC as from the
+// socket, but without a socket. It uses no test framework, so that fuzzers can use it too.
 #pragma once
 
 #include <unistd.h>
@@ -20,7 +20,7 @@
 
 namespace mdof::daemon {
 
-// Who calls, and what they may. Subscribes to what the daemon has.
+// Identity and rights of the caller. Subscribes to the topics of the daemon.
 class BenchCaller final : public rpc::Caller {
  public:
   std::optional<rpc::Credentials> who = rpc::Credentials{1234, 5678, 42};
@@ -45,7 +45,7 @@ class BenchCaller final : public rpc::Caller {
   }
 };
 
-// Thread-bound. `folder` has to be there; its database is made.
+// Thread-bound. `folder` must exist; its database is created.
 class MethodsBench {
  public:
   MethodsBench(const std::filesystem::path& folder, store::Durability durability)
@@ -77,7 +77,7 @@ class MethodsBench {
     keeper.reset();
   }
 
-  // The reply to one message; empty: there is none to give.
+  // The reply to one message; empty: no reply.
   std::string call(std::string_view message) {
     std::string padded(message), out;
     padded.append(rpc::Dispatcher::kPadding, '}');
@@ -91,7 +91,7 @@ class MethodsBench {
     if (open) out = *sink->reply;
     return out;
   }
-  // By name, with its parameters as JSON.
+  // Calls a method by name, with its parameters as JSON.
   std::string call(const std::string& method, const std::string& params) {
     return call(R"({"jsonrpc":"2.0","id":1,"method":")" + method + R"(","params":)" + params + "}");
   }
@@ -114,7 +114,7 @@ class MethodsBench {
     void finish(std::string_view text) override { reply = text; }
     std::optional<std::string> reply;
   };
-  // What other threads have posted, or a while of waiting for it.
+  // Executes one posted task, or waits a short time for it.
   void turn() {
     auto& context = *loop.core()->context;
     if (context.stopped()) context.restart();

@@ -1,4 +1,4 @@
-// Methods with runs that are stored and an axis whose device a test feeds.
+// Methods with stored runs and an axis whose device a test feeds.
 #pragma once
 
 #include <simdjson.h>
@@ -9,12 +9,12 @@
 
 namespace mdof::daemon {
 
-// One reply, to be asked by JSON pointer: "/result/runs/0/note".
+// One reply, read by JSON pointer: "/result/runs/0/note".
 class Answer {
  public:
   explicit Answer(std::string text) : text_(std::move(text)) {}
   const std::string& text() const { return text_; }
-  // As minified JSON; empty: there is none.
+  // The value as minified JSON; empty: none.
   std::string at(std::string_view pointer) const {
     simdjson::dom::parser parser;
     simdjson::dom::element e;
@@ -25,7 +25,7 @@ class Answer {
     const std::string text = at(pointer);
     return text.empty() ? kNaN : std::strtod(text.c_str(), nullptr);
   }
-  // Of a list; 0 where there is none.
+  // Size of a list; 0 if there is none.
   std::size_t size(std::string_view pointer) const {
     simdjson::dom::parser parser;
     simdjson::dom::array list;
@@ -65,14 +65,15 @@ class MethodsTest : public FedStation {
         AxisConfig{five_probe_rig(), {fed_by(feed_, live)}}, PipelineOptions(), "",
         folder_ / "recordings", *bench_->keeper, events_.sink()));
   }
-  // Measured by the pipeline, both ways; its id.
+  // Adds a run measured by the pipeline in both directions; returns its id.
   std::int64_t add_run(char axis = 'X', const std::string& note = "", bool whole = true) {
     const Rig rig = five_probe_rig(axis);
     Pipeline pipeline = Pipeline::create(rig, {}).value();
     TestAxis moved;
     moved.pass_both_ways({0, 5, 10, 15, 20});
     SampleBlock block = moved.whole();
-    for (auto& time_ns : block.time_ns) time_ns += runs_ * 1'000'000'000'000;  // a run of its own
+    for (auto& time_ns : block.time_ns)
+      time_ns += runs_ * 1'000'000'000'000;  // each run has its own time range
     EXPECT_TRUE(pipeline.push(block));
     mdof::Run run = pipeline.finish().value();
     run.header.note = note;
@@ -98,9 +99,10 @@ class MethodsTest : public FedStation {
 
   std::unique_ptr<MethodsBench> bench_;
   int runs_ = 0;
-  bool simulated_ = false;  // those that are added from now on
+  bool simulated_ = false;  // for runs added from now on
   std::optional<std::int64_t> supersedes_;
-  std::string recorded_utc_;  // the same: when a recording began; empty: a log without time
+  std::string recorded_utc_;  // for runs added from now on: when a recording began; empty: a log
+                              // without time
 };
 
 }  // namespace mdof::daemon

@@ -1,6 +1,6 @@
-// Lines of JSON-RPC through every method of mdofd, one store and one axis for all of them: whatever
-// comes in, what goes out is nothing or one line of JSON within the limit, and no call ends without
-// an answer. What one input has stored the next one finds.
+// Lines of JSON-RPC through every method of mdofd, with one store and one axis for all inputs. For
+// any input, the output is empty or one line of JSON within the limit, and every call has an
+// answer. Data stored by one input are visible to the next.
 #include <simdjson.h>
 
 #include <cstddef>
@@ -25,7 +25,7 @@ Rig rig_of(char axis) {
   return load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_" + axis + ".toml").value();
 }
 
-// As of a short log: six stops both ways, with errors that are a little different at each.
+// As from a short log: six stops in both directions, with slightly different errors.
 Run made_run(char axis, std::int64_t number) {
   const Rig rig = rig_of(axis);
   Run run;
@@ -54,7 +54,7 @@ Run made_run(char axis, std::int64_t number) {
   return run;
 }
 
-// An axis that is read from a log, which is empty: its runs begin, and end at once.
+// An axis that is read from an empty log: its runs begin and end at once.
 class NoSamples final : public drivers::Driver {
  public:
   drivers::DeviceInfo info() const override { return {}; }
@@ -85,7 +85,7 @@ struct Served {
   simdjson::dom::parser parser;
 
   Served() {
-    // What the lock keeps for the whole process is to outlive this, which lives as long.
+    // The data that the lock keeps for the whole process must outlive this object.
     (void)store::WriterLock::open_runs_claimed(folder.path() / "mdof.db");
     const auto stored = bench.keeper->run([](store::Store& store) -> Result<std::string> {
       std::int64_t number = 0;
@@ -97,7 +97,7 @@ struct Served {
     answer(R"({"jsonrpc":"2.0","id":1,"method":"compensation.build","params":{"runs":[1]}})");
     answer(R"({"jsonrpc":"2.0","id":1,"method":"compensation.activate",)"
            R"("params":{"table":1,"simulated":true,"despite_warnings":true}})");
-    if (!bench.active.axes[0]) std::abort();  // else half of the methods have nothing to do
+    if (!bench.active.axes[0]) std::abort();  // otherwise half of the methods cannot be tested
   }
 
   void answer(std::string_view line) {

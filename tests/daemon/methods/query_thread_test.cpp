@@ -7,8 +7,8 @@
 namespace mdof::daemon {
 namespace {
 
-// Clients whose calls are answered on the thread "query"; the first call of a test holds it until
-// the test lets it go on.
+// Clients whose calls are answered on the thread "query". The first call of a test blocks the
+// thread until the test releases it.
 class Queries : public MethodsTest {
  protected:
   struct Client : rpc::ReplySink {
@@ -52,7 +52,7 @@ class Queries : public MethodsTest {
     bench_->dispatcher->handle(std::string_view(text).substr(0, bytes), bench_->caller, client, out,
                                client->batch, rpc::Dispatcher::Clock::time_point::max());
   }
-  // Nothing that is sent from now on is taken before go_on().
+  // Messages sent from now on are not processed before go_on().
   void hold() {
     holder_ = std::make_shared<Client>();
     send(holder_, "slow");
@@ -83,7 +83,7 @@ class Queries : public MethodsTest {
   std::shared_ptr<Client> holder_;
 };
 
-TEST_F(Queries, TheLoopAnswersWhileOneIsBeingMade) {
+TEST_F(Queries, TheLoopAnswersWhileAQueryRuns) {
   hold();
   EXPECT_EQ(call("server.info").at("/result/server"), "\"mdofd\"");
   EXPECT_EQ(call("compensation.at", R"({"axis":"X","position_mm":1})").code(), rpc::kNotFound);
@@ -91,7 +91,7 @@ TEST_F(Queries, TheLoopAnswersWhileOneIsBeingMade) {
   await(holder_, 1);
 }
 
-TEST_F(Queries, OneCallOfAClientWaitsForNoMoreThanOneOfEachOther) {
+TEST_F(Queries, OneClientDoesNotDelayTheOthers) {
   hold();
   const auto greedy = std::make_shared<Client>(), other = std::make_shared<Client>();
   for (int i = 0; i < 100; ++i) send(greedy, "note");
@@ -102,7 +102,7 @@ TEST_F(Queries, OneCallOfAClientWaitsForNoMoreThanOneOfEachOther) {
   await(greedy, 100);
 }
 
-TEST_F(Queries, TheCallsOfAClientThatHasGoneAreDropped) {
+TEST_F(Queries, CallsOfADisconnectedClientAreDropped) {
   hold();
   auto gone = std::make_shared<Client>(), stays = std::make_shared<Client>();
   for (int i = 0; i < 50; ++i) send(gone, "note");
@@ -114,7 +114,7 @@ TEST_F(Queries, TheCallsOfAClientThatHasGoneAreDropped) {
   EXPECT_EQ(noted(), 2);
 }
 
-TEST_F(Queries, TooManyOfOneClientAreRefusedAndCounted) {
+TEST_F(Queries, TooManyCallsOfOneClientAreRejectedAndCounted) {
   hold();
   const auto client = std::make_shared<Client>(), other = std::make_shared<Client>();
   for (int i = 0; i < 258; ++i) send(client, "note");
@@ -131,7 +131,7 @@ TEST_F(Queries, TooManyOfOneClientAreRefusedAndCounted) {
   EXPECT_EQ(noted(), 257);
 }
 
-// All that reads the database or calculates: held as long as another's call is being made.
+// Every method that reads the database or calculates waits while the query thread is busy.
 TEST_F(Queries, NoMethodThatReadsTheDatabaseRunsOnTheLoop) {
   add_run('X');
   add_run('Y');

@@ -16,7 +16,7 @@ class RunMethods : public MethodsTest {
   }
 };
 
-TEST_F(RunMethods, ARunIsStartedWithWhatWasAskedForAndStopped) {
+TEST_F(RunMethods, ARunIsStartedAsRequestedAndStopped) {
   add_axis();
   const Answer begun = call("run.start", R"({"axis":"X","targets_mm":[0,5,10],"repeats":1,)"
                                          R"("note":"after scraping"})");
@@ -61,7 +61,7 @@ TEST_F(RunMethods, ARunIsStartedWithWhatWasAskedForAndStopped) {
   EXPECT_EQ(call("history.list").at("/result/history/1/deed"), "\"run.resume\"");
 }
 
-// A fixture goes from axis to axis with its probes.
+// A fixture is moved from axis to axis with its probes.
 TEST_F(RunMethods, TheProbesOfADeviceMeasureOneAxisAtATime) {
   feed_ = std::make_shared<Feed>();
   SharedDevices devices;
@@ -84,7 +84,7 @@ TEST_F(RunMethods, TheProbesOfADeviceMeasureOneAxisAtATime) {
   EXPECT_EQ(call("run.stop", R"({"run":2})").at("/result/run"), "2");
 }
 
-TEST_F(RunMethods, TargetsByIntervalAreWhatAListWouldBe) {
+TEST_F(RunMethods, TargetsByIntervalEqualAListOfTargets) {
   add_axis();
   const Answer even = call("run.start", R"({"axis":"X","from_mm":-1,"to_mm":2,"interval_mm":1.5})");
   EXPECT_EQ(even.at("/result/targets_mm"), "[-1,0.5,2]") << even.text();
@@ -98,21 +98,21 @@ TEST_F(RunMethods, TargetsByIntervalAreWhatAListWouldBe) {
     EXPECT_NEAR(moved.number("/result/targets_mm/" + std::to_string(i)), 30.0 * i, 2);
 }
 
-// Its recording's JSON has no -0, and a replay is to give the same bits.
+// The JSON of a recording has no -0, and a replay must give the same bits.
 TEST_F(RunMethods, ATargetOfMinusZeroIsZero) {
   add_axis();
   const Answer begun = call("run.start", R"({"axis":"X","targets_mm":[-0.0,5]})");
   EXPECT_EQ(begun.at("/result/targets_mm"), "[0,5]") << begun.text();
 }
 
-TEST_F(RunMethods, IntervalsThatHideTheScalesErrorAreWarnedOf) {
+TEST_F(RunMethods, IntervalsThatHideTheScaleErrorGiveANotice) {
   add_axis();
   const Answer begun = call("run.start", R"({"axis":"X","from_mm":0,"to_mm":10,"interval_mm":1,)"
                                          R"("scale_period_um":20})");
   EXPECT_EQ(begun.at("/result/notices/0/code"), "\"scale_period_hidden\"") << begun.text();
 }
 
-TEST_F(RunMethods, WhatCannotBeMeasuredIsRefusedByItsKey) {
+TEST_F(RunMethods, RejectsInvalidRequestsByTheirKey) {
   add_axis();
   EXPECT_TEXT(refused_start(R"("targets_mm":[0,5,5])"), "targets_mm must be in ascending order");
   EXPECT_TEXT(refused_start(R"("targets_mm":[5,0])"), "targets_mm must be in ascending order");
@@ -138,7 +138,7 @@ TEST_F(RunMethods, FifteenHundredTargetsFitIntoTheReply) {
   EXPECT_EQ(most.size("/result/targets_mm"), 1500u) << most.text().substr(0, 200);
 }
 
-TEST_F(RunMethods, OnlyARunUnderWayIsStopped) {
+TEST_F(RunMethods, OnlyARunInProgressIsStopped) {
   add_axis();
   const std::int64_t done = add_run();
   for (const std::int64_t id : {done, std::int64_t{99}, std::int64_t{0}, std::int64_t{-1}}) {
@@ -148,7 +148,7 @@ TEST_F(RunMethods, OnlyARunUnderWayIsStopped) {
   }
 }
 
-TEST_F(RunMethods, ARunThatCannotGoOnSaysWhy) {
+TEST_F(RunMethods, ARunThatCannotContinueStatesWhy) {
   add_axis();
   EXPECT_EQ(call("run.resume", R"({"run":9})").code(), rpc::kNotFound);
   add_run('X', "whole"), add_run('X', "part", false), add_run('Y');
@@ -176,7 +176,7 @@ TEST_F(RunMethods, RunsAreListedNewestFirstByPageAndAxis) {
   EXPECT_EQ(call("run.list", R"({"axis":"x y"})").code(), rpc::kInvalidParams);
 }
 
-TEST_F(RunMethods, ASupersededRunNamesTheRunThatHasTheResult) {
+TEST_F(RunMethods, ASupersededRunNamesTheRunThatReplacesIt) {
   add_run('X', "first");
   supersedes_ = 1;
   add_run('X', "second");
@@ -189,7 +189,7 @@ TEST_F(RunMethods, ASupersededRunNamesTheRunThatHasTheResult) {
   EXPECT_EQ(all.at("/result/runs/2/superseded_by"), "3");
 }
 
-TEST_F(RunMethods, PointsComeByPageInTheUnitsOfTheirKeysAndAtTheReferenceAskedFor) {
+TEST_F(RunMethods, PointsArePagedWithUnitsAndReference) {
   add_run();
   const Answer page = call("run.points", R"({"run":1,"offset":3,"count":2})");
   EXPECT_EQ(page.number("/result/total"), 10);
@@ -214,7 +214,7 @@ TEST_F(RunMethods, PointsComeByPageInTheUnitsOfTheirKeysAndAtTheReferenceAskedFo
   EXPECT_TEXT(tool.message(), "tool_point_mm");
 }
 
-TEST_F(RunMethods, ARunIsGotWithItsFiguresAndWithoutItsPoints) {
+TEST_F(RunMethods, ARunIsReadWithFiguresAndWithoutPoints) {
   add_run('Y', "of Y");
   const Answer run = call("run.get", R"({"run":1})");
   EXPECT_EQ(run.at("/result/axis"), "\"Y\"");
@@ -226,7 +226,7 @@ TEST_F(RunMethods, ARunIsGotWithItsFiguresAndWithoutItsPoints) {
   EXPECT_EQ(call("run.get", R"({"run":7})").code(), rpc::kNotFound);
 }
 
-TEST_F(RunMethods, ABudgetIsThatOfTheFigureAskedFor) {
+TEST_F(RunMethods, ABudgetIsThatOfTheRequestedFigure) {
   add_run('X'), add_run('Y');
   const Answer whole = call("run.budget", R"({"run":1,"figure":"EYX_straightness_um"})");
   ASSERT_EQ(whole.code(), 0) << whole.text();
@@ -247,7 +247,7 @@ TEST_F(RunMethods, ABudgetIsThatOfTheFigureAskedFor) {
   EXPECT_EQ(call("squareness.budget", R"({"run_x":2,"run_y":1})").code(), rpc::kBadInput);
 }
 
-TEST_F(RunMethods, SquarenessIsThatOfARunAlongXAndOneAlongY) {
+TEST_F(RunMethods, SquarenessNeedsARunAlongXAndOneAlongY) {
   add_run('X'), add_run('Y');
   const Answer plain = call("squareness.fit", R"({"run_x":1,"run_y":2})");
   ASSERT_EQ(plain.code(), 0) << plain.text();
@@ -272,7 +272,7 @@ TEST_F(RunMethods, SquarenessIsThatOfARunAlongXAndOneAlongY) {
             rpc::kInvalidParams);
 }
 
-TEST_F(RunMethods, APartialRunIsTakenOnlyWhenAskedFor) {
+TEST_F(RunMethods, APartialRunIsUsedOnlyOnRequest) {
   add_run('X', "", false), add_run('Y');
   const Answer refused = call("squareness.fit", R"({"run_x":1,"run_y":2})");
   EXPECT_NE(refused.code(), 0);
@@ -282,9 +282,9 @@ TEST_F(RunMethods, APartialRunIsTakenOnlyWhenAskedFor) {
   EXPECT_TEXT(taken.at("/result/notices"), "made_from_partial");
 }
 
-TEST_F(RunMethods, HistoryComesByPage) {
+TEST_F(RunMethods, HistoryIsPaged) {
   add_run('X'), add_run('Y');
-  // The same fit is stored once, another one beside it.
+  // The same fit is stored only once, a different one additionally.
   for (const char* artefact : {"0", "0", "1", "2"})
     call("squareness.fit",
          R"({"run_x":1,"run_y":2,"artefact_angle_error_urad":)" + std::string(artefact) + "}");

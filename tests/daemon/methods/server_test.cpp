@@ -12,7 +12,7 @@ namespace {
 
 class ServerMethods : public MethodsTest {
  protected:
-  // A log of an axis with known errors, as a user would have exported it.
+  // A log of an axis with known errors, as a user would export it.
   std::string write_log() {
     TestAxis axis;
     axis.pass_both_ways({0, 5, 10});
@@ -37,7 +37,7 @@ class ServerMethods : public MethodsTest {
   }
 };
 
-TEST_F(ServerMethods, TellsWhatItServes) {
+TEST_F(ServerMethods, ReportsItsState) {
   add_axis();
   const Answer info = call("server.info");
   EXPECT_EQ(info.at("/result/server"), "\"mdofd\"");
@@ -68,7 +68,7 @@ TEST_F(ServerMethods, ListsDevicesWithTheirAxisAndState) {
   EXPECT_EQ(list.number("/result/devices/0/scans"), 500);
 }
 
-TEST_F(ServerMethods, TheFixtureIsGivenWithTheEndsOfItsRanges) {
+TEST_F(ServerMethods, ReportsTheFixtureWithTheEndsOfItsRanges) {
   EXPECT_EQ(call("rig.get", R"({"axis":"X"})").code(), rpc::kNotFound);
   add_axis();
   const Answer rig = call("rig.get", R"({"axis":"X"})");
@@ -88,16 +88,16 @@ TEST_F(ServerMethods, TheFixtureIsGivenWithTheEndsOfItsRanges) {
   }
 }
 
-TEST_F(ServerMethods, WhatIsLeftOfTheDiskIsSaid) {
+TEST_F(ServerMethods, ReportsTheFreeDiskSpace) {
   const Answer health = call("server.health");
   EXPECT_GT(health.number("/result/free_bytes"), 0) << health.text();
-  EXPECT_GE(health.number("/result/database_bytes"), 4096);  // a page of SQLite
+  EXPECT_GE(health.number("/result/database_bytes"), 4096);  // one page of SQLite
   EXPECT_EQ(health.at("/result/newest_recording"), "null");
-  add_run();  // of a CSV: it says nothing of recordings
+  add_run();  // from a CSV log, not from a recording
   EXPECT_EQ(call("server.health").at("/result/newest_recording"), "null");
 }
 
-TEST_F(ServerMethods, ALostDatabaseIsToldAndNothingIsStored) {
+TEST_F(ServerMethods, ReportsALostDatabaseAndStoresNothing) {
   add_axis();
   std::filesystem::rename(folder_ / "mdof.db", folder_ / "aside.db");
   Answer info = call("server.info");
@@ -133,7 +133,7 @@ TEST_F(ServerMethods, SubscribesToTheLiveViewAndEventsAndEndsBoth) {
   EXPECT_EQ(call("live.subscribe", R"({"interval_ms":20})").code(), 0);
 }
 
-TEST_F(ServerMethods, TheEncoderIsSetWhereTheAxisStandsAndNotWhileItIsNotKnown) {
+TEST_F(ServerMethods, SetsTheEncoderOnlyWhileThePositionIsKnown) {
   EXPECT_EQ(call("encoder.set", R"({"axis":"X","position_mm":1})").code(), rpc::kNotFound);
   add_axis();
   const Answer nothing = call("encoder.set", R"({"axis":"X","position_mm":1})");
@@ -142,7 +142,7 @@ TEST_F(ServerMethods, TheEncoderIsSetWhereTheAxisStandsAndNotWhileItIsNotKnown) 
   TestAxis axis(3);
   axis.stand(2);
   Answer set = nothing;
-  for (int i = 0; i < 20 && set.code() != 0; ++i) {  // a busy machine may be too late with it
+  for (int i = 0; i < 20 && set.code() != 0; ++i) {  // a busy machine may be too slow
     SampleBlock block = axis.whole();
     const std::int64_t shift_ns = drivers::monotonic_ns() - block.time_ns.back();
     for (auto& time_ns : block.time_ns) time_ns += shift_ns;
@@ -157,7 +157,7 @@ TEST_F(ServerMethods, TheEncoderIsSetWhereTheAxisStandsAndNotWhileItIsNotKnown) 
   EXPECT_EQ(set.at("/result/device"), "\"daq\"");
 }
 
-TEST_F(ServerMethods, ALogIsReplayedForWhoMayReadIt) {
+TEST_F(ServerMethods, ReplaysALogThatTheCallerMayRead) {
   bench_->replayer = std::make_unique<Replayer>(*bench_->keeper);
   bench_->methods.replayer = bench_->replayer.get();
   bench_->caller.who = rpc::Credentials{0, 0, 1};
@@ -177,7 +177,7 @@ TEST_F(ServerMethods, ALogIsReplayedForWhoMayReadIt) {
   EXPECT_EQ(no_rig.code(), rpc::kBadInput) << no_rig.text();
 }
 
-TEST_F(ServerMethods, ALogThatTheCallerMayNotReadIsNotReadForIt) {
+TEST_F(ServerMethods, RejectsALogThatTheCallerMayNotRead) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root gives a file to others";
   bench_->replayer = std::make_unique<Replayer>(*bench_->keeper);
   bench_->methods.replayer = bench_->replayer.get();
@@ -201,14 +201,14 @@ TEST_F(ServerMethods, ALogThatTheCallerMayNotReadIsNotReadForIt) {
   EXPECT_TRUE(may_read(kOther, kAnother, 0004));
   EXPECT_FALSE(may_read(kOther, kAnother, 0440)) << "anybody else";
   EXPECT_TRUE(may_read(0, 0, 0));
-  // One of the daemon's own group, as its recordings are, is open to who may use the socket.
+  // A file of the daemon's own group, such as a recording, is open to all users of the socket.
   ASSERT_EQ(::chown(log.c_str(), kOwner, ::getegid()), 0);
   EXPECT_TRUE(may_read(kOther, kAnother, 0440));
   bench_->caller.who.reset();
   EXPECT_HAS(call("run.replay", replay_of(log)).message(), "only over the Unix socket");
 }
 
-TEST_F(ServerMethods, APathThatIsNoLogIsRefused) {
+TEST_F(ServerMethods, RejectsAPathThatIsNotALog) {
   EXPECT_HAS(call("run.replay", replay_of(write_log())).message(), "cannot replay or import files");
   bench_->replayer = std::make_unique<Replayer>(*bench_->keeper);
   bench_->methods.replayer = bench_->replayer.get();

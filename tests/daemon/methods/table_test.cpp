@@ -1,4 +1,4 @@
-// What holds for each method by its row: who may call it, what it refuses, and by which name.
+// Properties of each method in the table: who may call it, and which parameters it rejects by name.
 #include <set>
 
 #include "tests/daemon/methods/methods_fixture.h"
@@ -10,7 +10,7 @@ using rpc::ParamType;
 
 class MethodTableTest : public MethodsTest {
  protected:
-  // The example's parameters, with another value for one of them.
+  // The parameters of the example, with another value for one of them.
   static std::string with(const rpc::Method& method, const std::string& name,
                           const std::string& value) {
     std::string all = "{";
@@ -26,8 +26,8 @@ class MethodTableTest : public MethodsTest {
   }
 };
 
-// To leave a mark out lets a client on TCP change something, or anybody put a table in force.
-TEST_F(MethodTableTest, WhoMayCallWhat) {
+// Without these marks a client on TCP could change data, or any user could activate a table.
+TEST_F(MethodTableTest, PermissionsAreAsListed) {
   const std::set<std::string> writing = {"run.start",
                                          "run.resume",
                                          "run.stop",
@@ -55,7 +55,7 @@ TEST_F(MethodTableTest, WhoMayCallWhat) {
   EXPECT_EQ(methods().size(), writing.size() + reading.size());
 }
 
-TEST_F(MethodTableTest, WhoMayOnlyReadChangesNothing) {
+TEST_F(MethodTableTest, AReadOnlyCallerChangesNothing) {
   add_axis();
   add_run();
   bench_->caller.writes = false;
@@ -72,7 +72,7 @@ TEST_F(MethodTableTest, WhoMayOnlyReadChangesNothing) {
   EXPECT_EQ(call("run.list").number("/result/total"), 1);
 }
 
-TEST_F(MethodTableTest, OnlyApproversPutATableInForce) {
+TEST_F(MethodTableTest, OnlyApproversActivateATable) {
   const std::int64_t run = add_run();
   ASSERT_EQ(call("compensation.build", R"({"runs":[)" + std::to_string(run) + "]}").code(), 0);
   bench_->options.approvers = rpc::ServerOptions::Group{77, "metrology"};
@@ -88,7 +88,7 @@ TEST_F(MethodTableTest, OnlyApproversPutATableInForce) {
       "true");
 }
 
-TEST_F(MethodTableTest, AValueOfAnotherTypeIsRefusedByName) {
+TEST_F(MethodTableTest, RejectsAValueOfAnotherTypeByName) {
   add_axis();
   int tried = 0;
   for (const auto& [name, method] : methods())
@@ -102,7 +102,7 @@ TEST_F(MethodTableTest, AValueOfAnotherTypeIsRefusedByName) {
   EXPECT_GT(tried, 50);
 }
 
-TEST_F(MethodTableTest, AValueBeyondItsBoundIsRefusedByNameAndOneOnItIsNot) {
+TEST_F(MethodTableTest, RejectsValuesBeyondTheirBoundsOnly) {
   add_axis();
   const auto beyond = [](double x, double step) {
     return JsonWriter().value(std::abs(x) >= 1e15 ? 2 * x : x + step).take();
@@ -132,7 +132,7 @@ TEST_F(MethodTableTest, AValueBeyondItsBoundIsRefusedByNameAndOneOnItIsNot) {
   EXPECT_GT(tried, 50);
 }
 
-TEST_F(MethodTableTest, WhatIsRequiredIsMissedByNameAndWhatIsUnknownIsTold) {
+TEST_F(MethodTableTest, ReportsMissingAndUnknownParametersByName) {
   for (const auto& [name, method] : methods()) {
     const Answer unknown = call(name, R"({"nonsense":1})");
     EXPECT_EQ(unknown.code(), rpc::kInvalidParams) << unknown.text();
@@ -147,8 +147,8 @@ TEST_F(MethodTableTest, WhatIsRequiredIsMissedByNameAndWhatIsUnknownIsTold) {
   }
 }
 
-// An example is what somebody copies.
-TEST_F(MethodTableTest, EveryExampleIsTakenAsItStands) {
+// Users copy the examples.
+TEST_F(MethodTableTest, EveryExampleIsAccepted) {
   for (const auto& [name, method] : methods()) {
     const Answer answer = call(name, method.example);
     EXPECT_NE(answer.code(), rpc::kInvalidParams) << answer.text();

@@ -7,7 +7,7 @@ namespace {
 
 #define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
 
-// All errors of X and Y, 0 but EXX, EBX and EC0Y; X carries the work. As JSON text.
+// All errors of X and Y, 0 except EXX, EBX and EC0Y; X moves the work. As JSON text.
 std::string a_machine(const std::string& more = "") {
   std::string text =
       R"(name = \"mill\"\nmachine = {chain = \"w-X-b-Y-t\"}\ntool = {point_mm = [0, 0, 20]}\n)" +
@@ -42,7 +42,7 @@ class VolumeMethods : public MethodsTest {
   }
 };
 
-TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndTakenBack) {
+TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndDeactivated) {
   const Answer none = value_at("");
   EXPECT_EQ(none.code(), rpc::kNotFound);
   EXPECT_SAYS(none.message(), "no volumetric table is active");
@@ -78,9 +78,9 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndTakenBack) {
   EXPECT_EQ(call("compensation.list", R"({"axis":"X"})").at("/result/volumes"), "[]");
   EXPECT_EQ(call("compensation.list", R"({"axis":"volume"})").at("/result/tables/0/table"), "1");
 
-  // The work goes 2 µm too far and turns by 100 µrad about Y at the end of X, where the tool is 20
-  // mm above: its material there is 2 µm further on; both are taken back by X. EC0Y: at 20 mm of Y
-  // the tool is 1 µm at -X; X, which moves the work, takes 1 µm back as well.
+  // At the end of X the work moves 2 µm too far and rotates by 100 µrad about Y. The tool is 20 mm
+  // above, where the material is therefore another 2 µm too far; X corrects both. EC0Y: at 20 mm of
+  // Y the tool is 1 µm at -X; X, which moves the work, corrects this 1 µm as well.
   const Answer at = value_at(R"(,"X_mm":20,"Y_mm":20)");
   EXPECT_NEAR(at.number("/result/correction/X_um"), -(2 + 2 + 1), 1e-3) << at.text();
   EXPECT_NEAR(at.number("/result/correction/Y_um"), 0, 1e-3);
@@ -92,7 +92,7 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndTakenBack) {
   const Answer outside = value_at(R"(,"X_mm":10,"Y_mm":7,"Z_mm":3)");
   EXPECT_EQ(outside.at("/result/inside"), "false");
   EXPECT_EQ(outside.at("/result/u/X_um"), "null");
-  EXPECT_SAYS(value_at(R"(,"X_mm":10)").message(), "Y_mm is missing");  // no command is guessed
+  EXPECT_SAYS(value_at(R"(,"X_mm":10)").message(), "Y_mm is missing");  // no command is assumed
 
   EXPECT_EQ(activate(1).at("/result/changed"), "false");
   EXPECT_EQ(call("compensation.deactivate", R"({"axis":"volume"})").at("/result/changed"), "true");
@@ -102,7 +102,7 @@ TEST_F(VolumeMethods, ATableIsBuiltActivatedServedAndTakenBack) {
   EXPECT_EQ(call("history.list").at("/result/total"), "3");
 }
 
-TEST_F(VolumeMethods, TheGridComesInPagesAndIsWhatAtSays) {
+TEST_F(VolumeMethods, TheGridIsPagedAndEqualsAt) {
   ASSERT_EQ(build(R"("axes": "XY", "step_mm": 0.5)").at("/result/nodes"), "1681");
   const std::string generation = activate(1).at("/result/generation");
   std::size_t nodes = 0;
@@ -123,7 +123,7 @@ TEST_F(VolumeMethods, TheGridComesInPagesAndIsWhatAtSays) {
   EXPECT_EQ(nodes, 1681u);
   EXPECT_EQ(call("compensation.grid", R"({"axis":"volume","offset":1681})").size("/result/points"),
             0u);
-  // u of files is not known apart.
+  // The parts of u are unknown for errors from files.
   const Answer parts = call("compensation.grid", R"({"axis":"volume","count":1,"u_parts":true})");
   EXPECT_EQ(parts.size("/result/points/0"), 15u);
   EXPECT_EQ(parts.at("/result/points/0/14"), "null");
@@ -161,7 +161,7 @@ TEST_F(VolumeMethods, AnAxisAndTheVolumeAreNotActiveTogether) {
   EXPECT_SAYS(call("compensation.activate", of_axis).message(), "would correct the errors twice");
 }
 
-TEST_F(VolumeMethods, WhatCannotBeBuiltIsRefused) {
+TEST_F(VolumeMethods, RejectsInvalidBuilds) {
   const auto says = [&](const std::string& more, const std::string& part,
                         const std::string& machine = a_machine()) {
     EXPECT_SAYS(build(more, machine).message(), part);
@@ -181,7 +181,7 @@ TEST_F(VolumeMethods, WhatCannotBeBuiltIsRefused) {
   EXPECT_EQ(call("compensation.status").at("/result/volume"), "null");
 }
 
-TEST_F(VolumeMethods, SimulatedAndIncompleteTablesAreAskedFor) {
+TEST_F(VolumeMethods, SimulatedAndIncompleteTablesNeedConfirmation) {
   ASSERT_EQ(build(R"("axes": "XY", "step_mm": 5)", a_machine(R"(simulated = true\n)"))
                 .at("/result/simulated"),
             "true");

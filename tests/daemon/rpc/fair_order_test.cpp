@@ -10,7 +10,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Some that ask for another turn as soon as they had one, each turn at the price of its owner.
+// Members that ask for another turn after each turn; a turn costs the price of its member.
 class Busy {
  public:
   explicit Busy(std::map<char, int> price_ms) : price_ms_(std::move(price_ms)) {
@@ -39,16 +39,16 @@ class Busy {
   FairOrder<char> order_;
 };
 
-TEST(FairOrder, ThoseOfOnePriceComeInTurn) {
+TEST(FairOrder, MembersOfEqualPriceAlternate) {
   EXPECT_EQ(Busy({{'a', 1}, {'b', 1}, {'c', 1}}).turns(7), "abcabca");
 }
 
-TEST(FairOrder, WhoTakesThreeTimesAsLongComesAThirdAsOften) {
+TEST(FairOrder, AMemberOfTripleCostHasAThirdOfTheTurns) {
   const std::string turns = Busy({{'a', 1}, {'b', 3}}).turns(80);
   EXPECT_NEAR(std::count(turns.begin(), turns.end(), 'b'), 20, 1) << turns;
 }
 
-TEST(FairOrder, WhoComesNowAndThenIsNextButForThoseWhoHaveUsedAsLittle) {
+TEST(FairOrder, AnOccasionalMemberIsServedSoon) {
   Busy busy({{'a', 50}, {'b', 50}, {'c', 50}});
   busy.turns(30);
   for (int i = 0; i < 10; ++i) {
@@ -57,7 +57,7 @@ TEST(FairOrder, WhoComesNowAndThenIsNextButForThoseWhoHaveUsedAsLittle) {
   }
 }
 
-TEST(FairOrder, ThoseWhoComeAnewEachTimeDoNotKeepOthersOut) {
+TEST(FairOrder, NewMembersDoNotBlockTheOthers) {
   FairOrder<char> order;
   const auto come = [&order] {
     FairShare fresh;
@@ -76,13 +76,13 @@ TEST(FairOrder, ThoseWhoComeAnewEachTimeDoNotKeepOthersOut) {
       ++served;
       order.add('s', stays);
     } else {
-      come();  // in the place of the one that goes
+      come();  // replaces the member that leaves
     }
   }
   EXPECT_NEAR(served, 100, 10);
 }
 
-TEST(FairOrder, WhoHasDoneNothingForLongSavesNoTurnsUp) {
+TEST(FairOrder, AnIdleMemberSavesNoTurns) {
   Busy busy({{'a', 1}});
   busy.turns(1000);
   busy.come('x', 100);

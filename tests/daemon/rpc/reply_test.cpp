@@ -1,4 +1,4 @@
-// Handlers that answer later, from wherever.
+// Handlers that answer later and from any thread.
 #include <condition_variable>
 #include <deque>
 
@@ -8,7 +8,7 @@
 namespace mdof::rpc::test {
 namespace {
 
-// A thread that answers calls in the order it is told to: the storage thread's stand-in.
+// A thread that answers calls in the requested order; it replaces the storage thread.
 class Worker {
  public:
   void take(Reply reply, std::string result) {
@@ -136,13 +136,13 @@ TEST_F(Replies, NotificationsGetNoneEvenLater) {
   EXPECT_EQ(client.line(), result(3));
 }
 
-TEST_F(Replies, OneDestroyedUncalledIsAnInternalError) {
+TEST_F(Replies, ADestroyedReplyIsAnInternalError) {
   RawClient client(server_.path);
   EXPECT_EQ(at(client.ask(R"({"jsonrpc":"2.0","method":"never","id":1})"), "/error/code"),
             "-32603");
   client.send(later(2) + "\n");
   worker_.wait_for(1);
-  worker_.drop_all();  // on this thread, not the loop's
+  worker_.drop_all();  // on this thread, not on the loop
   const auto reply = client.line();
   EXPECT_EQ(at(reply, "/error/code"), "-32603");
   EXPECT_EQ(at(reply, "/id"), "2");
@@ -192,7 +192,7 @@ TEST_F(Replies, ManyThreadsMayAnswer) {
   for (auto& thread : threads) thread.join();
 }
 
-TEST_F(Replies, EveryErrorCodeHasItsNumberAndComesBackFromIt) {
+TEST_F(Replies, EveryErrorCodeIsConvertedBothWays) {
   auto client = Client::connect(server_.path);
   ASSERT_TRUE(client.has_value());
   RawClient raw(server_.path);
@@ -213,8 +213,8 @@ TEST_F(Replies, EveryErrorCodeHasItsNumberAndComesBackFromIt) {
   }
 }
 
-// A client branches on the code; the words are for people.
-TEST_F(Replies, AnErrorHasItsRemedyAsWordsAndAsCode) {
+// A client branches on the code; the text is for people.
+TEST_F(Replies, AnErrorHasItsRemedyAsTextAndAsCode) {
   RawClient client(server_.path);
   for (const std::string method : {"fail_at_once", "fail_later"})
     EXPECT_EQ(

@@ -1,5 +1,5 @@
-// Lines of JSON-RPC through the dispatcher and a method with a parameter of each type: whatever
-// comes in, what goes out is nothing or one line of JSON within the limit.
+// Lines of JSON-RPC through the dispatcher and a method with a parameter of each type: for any
+// input, the output is empty or one line of JSON within the limit.
 #include <simdjson.h>
 
 #include <cstddef>

@@ -14,7 +14,7 @@ class Requests : public ::testing::Test {
   TestServer server_;
 };
 
-TEST_F(Requests, IdsComeBackAsTheyWere) {
+TEST_F(Requests, IdsAreReturnedUnchanged) {
   for (const char* id : {"1", "0", "-0", "-7", "1.50", "1e3", "0.1", "9007199254740993", "null",
                          R"("")", R"("a\"b\\c")", R"("µ")"})
     EXPECT_EQ(ask(std::string(R"({"jsonrpc":"2.0","method":"get_data","id":)") + id + "}"),
@@ -24,7 +24,7 @@ TEST_F(Requests, IdsComeBackAsTheyWere) {
             R"({"jsonrpc":"2.0","result":["hello",5],"id":2.50}])");
 }
 
-TEST_F(Requests, AnIdOfAnotherKindIsRefused) {
+TEST_F(Requests, RejectsAnIdOfAnotherType) {
   for (const char* id : {"true", "[]", "{}"}) {
     const auto reply = ask(std::string(R"({"jsonrpc":"2.0","method":"get_data","id":)") + id + "}");
     EXPECT_EQ(at(reply, "/error/code"), "-32600");
@@ -36,8 +36,8 @@ TEST_F(Requests, AnIdOfAnotherKindIsRefused) {
       "-32600");
 }
 
-// RFC 8259, 4: which of two members of one name counts is unpredictable.
-TEST_F(Requests, AMemberGivenTwiceIsRefusedByItsName) {
+// RFC 8259, 4: it is undefined which of two members with the same name is used.
+TEST_F(Requests, RejectsADuplicateMemberByName) {
   const std::string whole = R"("jsonrpc":"2.0","method":"get_data","params":[],"id":8)";
   const std::string twice[][3] = {{R"("jsonrpc":"2.0")", "jsonrpc", "8"},
                                   {R"("method":"get_data")", "method", "8"},
@@ -59,7 +59,7 @@ TEST_F(Requests, AMemberGivenTwiceIsRefusedByItsName) {
   EXPECT_EQ(at(ask("{" + whole + R"(,"note":1,"note":2})"), "/result"), R"(["hello",5])");
 }
 
-TEST_F(Requests, OtherVersionsAreRefusedWithTheirId) {
+TEST_F(Requests, RejectsOtherVersionsWithTheirId) {
   for (const char* version : {R"("1.0")", "2.0", "null"}) {
     const auto reply = ask(std::string(R"({"jsonrpc":)") + version + R"(,"method":"sum","id":8})");
     EXPECT_EQ(at(reply, "/error/code"), "-32600");
@@ -70,14 +70,14 @@ TEST_F(Requests, OtherVersionsAreRefusedWithTheirId) {
             "-32600");
 }
 
-TEST_F(Requests, AMissedMethodNamesTheNearest) {
+TEST_F(Requests, AnUnknownMethodNamesTheNearest) {
   const auto reply = call("get_dat", "[]");
   EXPECT_EQ(at(reply, "/error/code"), "-32601");
   EXPECT_EQ(at(reply, "/error/message"), R"("Method not found")");
   EXPECT_EQ(at(reply, "/error/data"), R"("did you mean \"get_data\"?")");
 }
 
-TEST_F(Requests, ParametersAreCheckedAgainstTheRow) {
+TEST_F(Requests, ParametersAreCheckedAgainstTheTable) {
   const auto message = [&](const std::string& params) {
     const auto reply = call("subtract", params);
     EXPECT_EQ(at(reply, "/error/code"), "-32602") << params;
@@ -102,14 +102,14 @@ TEST_F(Requests, ParametersAreCheckedAgainstTheRow) {
   EXPECT_EQ(at(call("sum", R"({"a":1,"b":null,"c":3.0})"), "/result"), "4");
 }
 
-TEST_F(Requests, ALongNameIsNotSentBackWhole) {
+TEST_F(Requests, ALongNameIsNotReturnedInFull) {
   const std::string name(60000, 'n');
   EXPECT_LT(call("sum", "{\"" + name + "\":1}").size(), 400u);
   EXPECT_EQ(at(call(name, "[]"), "/error/code"), "-32601");
 }
 
-TEST_F(Requests, ResultsTooLargeAskForPages) {
-  // The envelope of id 1 has 36 bytes with the string's quotes; then comes a line feed.
+TEST_F(Requests, TooLargeResultsAskForPages) {
+  // The envelope for id 1 has 36 bytes with the quotes of the string; a line feed follows.
   EXPECT_EQ(call("bytes", "[49115]").size(), 49151u);
   const auto reply = call("bytes", "[49116]");
   EXPECT_EQ(at(reply, "/error/code"), "-32013");
@@ -117,7 +117,7 @@ TEST_F(Requests, ResultsTooLargeAskForPages) {
             std::string::npos);
 }
 
-TEST_F(Requests, ABatchKeepsWhatFitsAndNamesTheRest) {
+TEST_F(Requests, ABatchKeepsRepliesThatFitAndNamesTheOthers) {
   std::string batch;
   for (int i = 0; i < 100; ++i)
     batch += (i ? "," : "[") +
@@ -143,7 +143,7 @@ TEST_F(Requests, LinesMayEndInCrLfAndBeEmpty) {
   EXPECT_EQ(client.line(), R"({"jsonrpc":"2.0","result":["hello",5],"id":1})");
 }
 
-TEST_F(Requests, RepliesToAClientThatHasDoneSending) {
+TEST_F(Requests, RepliesToAClientThatHasShutDownSending) {
   RawClient client(server_.path);
   client.send("{\"jsonrpc\":\"2.0\",\"method\":\"get_data\",\"id\":1}\n{\"jsonrpc\":");
   ::shutdown(client.fd(), SHUT_WR);
@@ -159,7 +159,7 @@ TEST_F(Requests, PipelinedRequestsAreAllAnswered) {
   for (int i = 0; i < 5000; ++i)
     all += R"({"jsonrpc":"2.0","method":"bytes","params":[1000],"id":)" + std::to_string(i) + "}\n";
   std::thread sender([&] { client.send(all); });
-  std::this_thread::sleep_for(100ms);  // so that the server runs into its limit and must wait
+  std::this_thread::sleep_for(100ms);  // the server reaches its limit and must wait
   for (int i = 0; i < 5000; ++i) ASSERT_EQ(at(client.line(), "/id"), std::to_string(i));
   sender.join();
 }
@@ -179,7 +179,7 @@ TEST_F(Requests, DiscoverDescribesEveryMethod) {
   EXPECT_EQ(at(document, "/methods/8/params/0/schema/type"), R"("integer")");
 }
 
-TEST_F(Requests, DiscoverIsPagedWhereItDoesNotFit) {
+TEST_F(Requests, DiscoverIsPagedIfItDoesNotFit) {
   EXPECT_EQ(at(call("rpc.discover", "[]"), "/result/components/errors/changed/code"), "-32001");
   EXPECT_EQ(at(call("rpc.discover", "[]"), "/result/components/errors/conflict/code"), "-32002");
   std::size_t offset = 0, seen = 0, pages = 0;

@@ -1,4 +1,4 @@
-// A server on a thread of its own and a client that may misbehave, for the tests of this folder.
+// A server on its own thread and a client that may misbehave, for the tests of this folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ namespace mdof::rpc::test {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// JSON with the members of objects in order and numbers in one form: equal text, equal value.
+// JSON with sorted members and one form of numbers: equal text means equal value.
 inline std::string canonical(simdjson::dom::element e) {
   std::string out;
   if (simdjson::dom::array array; !e.get(array)) {
@@ -50,7 +50,7 @@ inline std::string canonical(const std::string& text) {
   return parser.parse(text).get(e) ? "not JSON: " + text : canonical(e);
 }
 
-// A member's text: path "/error/code", as minified JSON; empty: there is none.
+// The text of a member: path "/error/code", as minified JSON; empty: no such member.
 inline std::string at(const std::string& json, std::string_view path) {
   simdjson::dom::parser parser;
   simdjson::dom::element e;
@@ -69,7 +69,7 @@ class RawClient {
 
   int fd() const { return fd_.get(); }
 
-  // False: the server no longer takes it.
+  // False: the server has closed the connection.
   bool send(std::string_view bytes) {
     while (!bytes.empty()) {
       const ssize_t n = ::send(fd(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -79,7 +79,7 @@ class RawClient {
     return true;
   }
 
-  // The next line; "<closed>" or "<time out>" where there is none.
+  // The next line; "<closed>" or "<time out>" if there is none.
   std::string line(std::chrono::milliseconds timeout = 20s) {
     for (;;) {
       if (const auto lf = text_.find('\n'); lf != std::string::npos) {
@@ -106,7 +106,7 @@ class RawClient {
   std::string text_;
 };
 
-// The methods of the specification's examples, and some of our own.
+// The methods of the specification's examples and some additional ones.
 inline void add_methods(MethodTable& table) {
   using Text = Result<std::string>;
   const auto sum = [](const Params& p) -> Text {
@@ -178,7 +178,7 @@ class TestServer {
     service.reset();
   }
 
-  // Runs `work` on the loop and gives its result.
+  // Runs `work` on the loop and returns its result.
   template <class Work>
   auto on_loop(Work work) {
     std::packaged_task<decltype(work())()> task(std::move(work));
@@ -189,7 +189,7 @@ class TestServer {
   std::size_t connections() {
     return on_loop([this] { return service->session_count(); });
   }
-  // Waits until so many are left.
+  // Waits until the number of connections is n.
   bool connections_become(std::size_t n, std::chrono::milliseconds timeout = 20s) {
     for (const auto end = Clock::now() + timeout; Clock::now() < end;
          std::this_thread::sleep_for(2ms))
@@ -207,7 +207,7 @@ class TestServer {
   EventLoop loop;
   std::unique_ptr<Service> service;
   std::unique_ptr<LineServer> server;
-  std::unique_ptr<HttpServer> page;  // where a test makes one
+  std::unique_ptr<HttpServer> page;  // if the test creates one
 
  private:
   static inline int count_ = 0;

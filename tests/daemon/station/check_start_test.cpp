@@ -45,14 +45,14 @@ const std::string kProbes = R"({ id = "A", input = "AIN0" }, { id = "B", input =
   { id = "C", input = "AIN2" }, { id = "D", input = "AIN3" }, { id = "E", input = "AIN4" })";
 const std::string kAxis = "[[axis]]\nrig = \"rig_X.toml\"\n";
 
-TEST_F(CheckStart, FoldersThatCanBeMadeAreNoMistake) {
+TEST_F(CheckStart, MissingFoldersThatCanBeCreatedAreAccepted) {
   EXPECT_EQ(refusal("[store]\ndatabase = \"" + in_folder("a/b/mdof.db") + "\"\n[rpc]\nsocket = \"" +
                     in_folder("c/d/s") + "\"\n"),
             "");
-  EXPECT_FALSE(fs::exists(folder_ / "a"));  // looked at, not made
+  EXPECT_FALSE(fs::exists(folder_ / "a"));  // checked, not created
 }
 
-TEST_F(CheckStart, APathThatIsNoneIsNamedWithLineAndKey) {
+TEST_F(CheckStart, NamesAnInvalidPathWithLineAndKey) {
   std::ofstream(folder_ / "file") << "x";
   const struct {
     std::string text, says;
@@ -74,7 +74,7 @@ TEST_F(CheckStart, APathThatIsNoneIsNamedWithLineAndKey) {
     EXPECT_NE(refusal(c.text).find(c.says), std::string::npos) << refusal(c.text);
 }
 
-TEST_F(CheckStart, AFolderWithoutPermissionSaysWhomToGiveItTo) {
+TEST_F(CheckStart, AFolderWithoutPermissionNamesTheGroup) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   fs::create_directories(folder_ / "closed");
   ::chmod(in_folder("closed").c_str(), 0500);
@@ -85,7 +85,7 @@ TEST_F(CheckStart, AFolderWithoutPermissionSaysWhomToGiveItTo) {
   EXPECT_EQ(says.find("root"), std::string::npos) << says;
 }
 
-TEST_F(CheckStart, VoltsWithoutAScaleAreFoundBeforeTheFirstSample) {
+TEST_F(CheckStart, FindsVoltsWithoutAScaleBeforeTheFirstSample) {
   const std::string store = "[store]\ndatabase = \"" + in_folder("mdof.db") + "\"\n";
   const std::string good = store + kAxis + t7("t7", kEncoder + ", " + kProbes);
   EXPECT_EQ(refusal(good), "");
@@ -95,14 +95,14 @@ TEST_F(CheckStart, VoltsWithoutAScaleAreFoundBeforeTheFirstSample) {
   EXPECT_NE(says.find("um_per_V"), std::string::npos) << says;
 }
 
-TEST_F(CheckStart, TwoDevicesThatAreOneAreNamed) {
+TEST_F(CheckStart, NamesTwoEntriesForOneDevice) {
   const std::string says = refusal("[store]\ndatabase = \"" + in_folder("mdof.db") + "\"\n" +
                                    kAxis + t7("one", kEncoder) + t7("two", kProbes));
   for (const char* part : {"\"one\"", "\"two\"", "127.0.0.1:50200", "mdofd.toml"})
     EXPECT_NE(says.find(part), std::string::npos) << says;
 }
 
-TEST_F(CheckStart, TheFolderOfTheSocketIsMadeForOthersToPass) {
+TEST_F(CheckStart, OthersMayEnterTheFolderOfTheSocket) {
   const mode_t before = ::umask(0077);
   ASSERT_TRUE(make_socket_folder(in_folder("run/mdof/s")));
   ::umask(before);
@@ -115,8 +115,8 @@ TEST_F(CheckStart, TheFolderOfTheSocketIsMadeForOthersToPass) {
   EXPECT_FALSE(make_socket_folder(in_folder("file/below/s")));
 }
 
-// What is printed where there is no configuration is one that works.
-TEST_F(CheckStart, TheFirstConfigurationToCopyIsAccepted) {
+// The example printed if there is no configuration must be valid.
+TEST_F(CheckStart, ThePrintedFirstConfigurationIsAccepted) {
   const std::string text = first_configuration("/etc/mdof/mdofd.toml");
   const auto config = text.find("# --- /etc/mdof/mdofd.toml"), rig = text.find("# --- rig_X.toml");
   ASSERT_NE(config, std::string::npos);

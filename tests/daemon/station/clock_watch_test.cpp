@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000, kYears = 300'000'000 * kSecond;
 
-TEST(ClockWatch, TellsEachStepOnceAndByHowMuch) {
+TEST(ClockWatch, ReportsEachStepOnceWithItsSize) {
   ClockWatch watch;
   EXPECT_FALSE(watch.look(kYears, kSecond));
   EXPECT_FALSE(watch.look(kYears + kSecond, 2 * kSecond));
@@ -16,8 +16,8 @@ TEST(ClockWatch, TellsEachStepOnceAndByHowMuch) {
   EXPECT_EQ(watch.look(4 * kSecond, 5 * kSecond), -(kYears + 3600 * kSecond));
 }
 
-// As NTP brings a clock right: at most half a millisecond a second.
-TEST(ClockWatch, TakesASlewedClockForNoStep) {
+// NTP corrects a clock by at most half a millisecond a second.
+TEST(ClockWatch, ASlewedClockIsNotAStep) {
   ClockWatch watch;
   for (std::int64_t s = 0; s < 1000; ++s)
     EXPECT_FALSE(watch.look(kYears + s * (kSecond + 500'000), s * kSecond));

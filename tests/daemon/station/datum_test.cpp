@@ -1,5 +1,5 @@
-// An encoder that counts from 0 again in the midst of a run: what came before stays right, what
-// comes after is not taken at a wrong place.
+// An encoder that restarts counting at 0 during a run: points before it remain valid, and later
+// points get no wrong position.
 #include "daemon/measure/pipeline.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kStop = 500, kMove = 100;  // scans, at 1 kHz
 
-// Stops at 0, 5, 10, 15, 20 mm and back; from stop `restart` on the encoder shows 7 mm less and is
+// Stops at 0, 5, 10, 15, 20 mm and back. From stop `restart` on, the encoder shows 7 mm less and is
 // suspect.
 class LostCountAxis {
  public:
@@ -81,7 +81,7 @@ std::string notices(const Run& run) {
 constexpr int kRestart = 8;  // at 15 mm on the way back
 constexpr std::size_t kBefore = kRestart * (kMove + kStop);
 
-TEST(Datum, StopsAfterItIsLostAreLeftOutAndCounted) {
+TEST(Datum, StopsAfterItsLossAreOmittedAndCounted) {
   const LostCountAxis axis(kRestart);
   for (const std::size_t per_block : {1u, 64u, 100'000u}) {
     const auto whole = measured(axis, axis.scans(), per_block);
@@ -102,14 +102,14 @@ TEST(Datum, StopsAfterItIsLostAreLeftOutAndCounted) {
   }
 }
 
-TEST(Datum, AFalsePlaceIsNoGivenTarget) {
+TEST(Datum, AWrongPositionIsNotAGivenTarget) {
   const LostCountAxis axis(kRestart);  // 7 mm less: 15 mm looks like 8, 12 would look like 5
   const auto run = measured(axis, axis.scans(), 100, {0, 0.005, 0.008, 0.010, 0.015, 0.020});
   ASSERT_TRUE(run) << run.error().message;
   for (const auto& p : run->points) EXPECT_NE(p.target, 3) << "a stop at 15 mm counted as 8 mm";
 }
 
-TEST(Datum, LostFromTheStartIsTheReasonWhyNothingWasMeasured) {
+TEST(Datum, LossFromTheStartIsTheReasonOfTheFailure) {
   const LostCountAxis axis(0);
   const auto run = measured(axis, axis.scans(), 100);
   ASSERT_FALSE(run);
@@ -132,7 +132,7 @@ TEST(Datum, SingleSuspectReadingsCostNoStop) {
   EXPECT_EQ(notices(*run).find("stops_not_placed"), std::string::npos) << notices(*run);
 }
 
-// A device whose encoder has nothing to say yet when the run begins.
+// The encoder of a device has no position yet when the run begins.
 TEST(Datum, AFirstScanWithoutPositionFailsNoRun) {
   const LostCountAxis axis(99);
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();

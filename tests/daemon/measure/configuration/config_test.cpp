@@ -40,7 +40,7 @@ class ConfigFile : public ::testing::Test {
 
 const std::string kAxis = "[[axis]]\nrig = \"rig_X.toml\"\n[axis.device]\ndriver = \"simulator\"\n";
 
-TEST_F(ConfigFile, AGoodOneIsRead) {
+TEST_F(ConfigFile, ReadsAValidFile) {
   const auto config = load("[measure]\nmodel = \"exact\"\nsettle_s = 0.2\n" + kAxis);
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->axes.size(), 1u);
@@ -49,7 +49,7 @@ TEST_F(ConfigFile, AGoodOneIsRead) {
   EXPECT_TRUE(config->axes[0].simulated());
 }
 
-TEST_F(ConfigFile, WhoMayComeIsRead) {
+TEST_F(ConfigFile, ReadsTheAccessRules) {
   const auto config = load("[rpc]\nidle_timeout_s = 7\ncnc_group = \"root\"\n" + kAxis);
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->access.idle.count(), 7);
@@ -57,7 +57,7 @@ TEST_F(ConfigFile, WhoMayComeIsRead) {
   EXPECT_EQ(config->access.connections_of_user, 32u);
 }
 
-TEST_F(ConfigFile, EachMistakeIsNamedWithLineAndRemedy) {
+TEST_F(ConfigFile, NamesEachMistakeWithLineAndRemedy) {
   const struct {
     std::string text, says;
   } cases[] = {
@@ -92,7 +92,7 @@ TEST_F(ConfigFile, EachMistakeIsNamedWithLineAndRemedy) {
   }
 }
 
-TEST_F(ConfigFile, AReplayOfAnotherAxisIsRefusedAtStartUp) {
+TEST_F(ConfigFile, RejectsAReplayOfAnotherAxis) {
   const std::string says =
       refusal("[[axis]]\nrig = \"rig_Y.toml\"\n[axis.device]\ndriver = \"replay\"\nfile = \"" +
               kData + "/five-probe/log_X.csv.gz\"\n");
@@ -100,7 +100,7 @@ TEST_F(ConfigFile, AReplayOfAnotherAxisIsRefusedAtStartUp) {
   EXPECT_NE(says.find("log_X"), std::string::npos) << says;
 }
 
-TEST_F(ConfigFile, AReplayedSimulationStaysOne) {
+TEST_F(ConfigFile, AReplayedSimulationIsMarkedSimulated) {
   std::ofstream(folder_ / "made.csv") << "# simulated by a test\ntime_s,encoder_mm,A_um\n0,0,0\n";
   const auto config = load(
       "[[axis]]\nrig = \"rig_X.toml\"\n[axis.device]\ndriver = \"replay\"\nfile = \"made.csv\"\n");
@@ -108,7 +108,7 @@ TEST_F(ConfigFile, AReplayedSimulationStaysOne) {
   EXPECT_TRUE(config->axes[0].simulated());
 }
 
-TEST_F(ConfigFile, ARigThatCannotSeeIsRefusedAtStartUp) {
+TEST_F(ConfigFile, RejectsARigThatCannotDetermineAllErrors) {
   std::ifstream in(folder_ / "rig_X.toml");
   std::string rig((std::istreambuf_iterator<char>(in)), {});
   rig = rig.substr(0, rig.rfind("[[probe]]"));
@@ -131,15 +131,15 @@ TEST_F(ConfigFile, ChannelsOfAnyDriverMayHaveADelay) {
       << refusal("[measure]\nsettle_s = 0.003\n" + delayed);
   EXPECT_NE(refusal(kAxis + "channel = [{ id = \"B\", input = \"1\" }]\n").find("unknown key"),
             std::string::npos);
-  // Its scans are then interpolated, as of several devices.
+  // Its scans are then interpolated, as with several devices.
   const std::string gap = "[measure]\nmax_gap_s = 0.05\n", slow = "rate_hz = 10\n";
   EXPECT_EQ(refusal(gap + kAxis + slow), "accepted");
   EXPECT_NE(refusal(gap + delayed + slow).find("max_gap_s = 0.05"), std::string::npos);
 }
 
-// Probes of a slow AD7746 beside a counter: accepted by themselves, refused with a gap that is
-// shorter than their interval.
-TEST_F(ConfigFile, AGapShorterThanAProbesIntervalIsRefusedAtStartUp) {
+// Probes of a slow AD7746 beside a counter: accepted by default, rejected with a gap that is
+// shorter than their sampling interval.
+TEST_F(ConfigFile, RejectsAGapShorterThanAProbesInterval) {
   std::string axis = "[[axis]]\nrig = \"rig_X.toml\"\n";
   const auto iio = [&](const std::string& name, const std::string& first, const char* second) {
     axis += "[[axis.device]]\ndriver = \"linux_iio\"\nname = \"" + name + "\"\ndevice = \"" + name +

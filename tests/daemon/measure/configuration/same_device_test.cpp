@@ -1,4 +1,4 @@
-// One device, the axes that have it: `same_as`.
+// One device that several axes share: `same_as`.
 #include "daemon/measure/configuration/same_device.h"
 
 #include <gtest/gtest.h>
@@ -74,14 +74,15 @@ TEST_F(SameDevice, EachAxisHasItsEncoderAndBothTheProbes) {
   EXPECT_TRUE(x.encoder.counts && y.encoder.counts);
   EXPECT_EQ(x.encoder.offset_mm, std::nullopt);
   EXPECT_EQ(y.encoder.offset_mm, 7.0);
-  EXPECT_EQ(config->axes[1].delays, (ChannelDelays{{"A", 200e-6}}));  // not that of X's encoder
+  EXPECT_EQ(config->axes[1].delays,
+            (ChannelDelays{{"A", 200e-6}}));  // not the delay of X's encoder
   std::vector<std::string> read;
   for (const auto& channel : y.make().value()->info().channels) read.push_back(channel.id);
   EXPECT_EQ(read, (std::vector<std::string>{"A", "B", "C", "D", "E", "encoder", "encoder_Y"}));
 }
 
-// A fixture of its own at other inputs, and a third axis.
-TEST_F(SameDevice, AnAxisMayHaveProbesOfItsOwn) {
+// A separate fixture at other inputs, and a third axis.
+TEST_F(SameDevice, AnAxisMayHaveItsOwnProbes) {
   std::string own = kSame + "channel = [{ id = \"encoder\", input = \"DIO2\", um_per_count = 1 }";
   int ain = 9;
   for (const char* id : {"A", "B", "C", "D", "E"})
@@ -106,7 +107,7 @@ TEST_F(SameDevice, TheEncoderMayComeFromAnotherDevice) {
   EXPECT_FALSE(config->axes[1].devices[0].encoder.counts);
 }
 
-TEST_F(SameDevice, EachMistakeIsNamedWithLineAndRemedy) {
+TEST_F(SameDevice, NamesEachMistakeWithLineAndRemedy) {
   const std::string counter =
       "[[axis]]\nrig = \"rig_X.toml\"\n[[axis.device]]\ndriver = \"linux_counter\"\nname = \"c\"\n"
       "channel = [{ id = \"encoder\", input = \"count0\", um_per_count = 1 }]\n"

@@ -1,5 +1,5 @@
-// Devices that sample less often than a gap is long: the gap follows their rate, or they are
-// refused.
+// Devices whose sampling interval is longer than the gap: the gap is adapted to their rate, or they
+// are rejected.
 #include "daemon/measure/configuration/slow_channels.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ drivers::DeviceInfo device(const std::string& name, double rate_hz,
   return info;
 }
 
-TEST(SlowChannels, OnlyTheSlowOnesHaveAGapOfTheirOwn) {
+TEST(SlowChannels, OnlySlowChannelsHaveTheirOwnGap) {
   const auto align = with_intervals({}, {device("adam", 10, {"A", "B"}), device("t7", 1000, {"C"}),
                                          device("script", 0, {"D"}), device("ad7746", 45, {"E"})});
   EXPECT_DOUBLE_EQ(align.gap_s("A"), 0.25);
@@ -27,7 +27,7 @@ TEST(SlowChannels, OnlyTheSlowOnesHaveAGapOfTheirOwn) {
   EXPECT_EQ(align.interval_s.size(), 3u);
 }
 
-TEST(SlowChannels, WhatCannotWorkIsRefusedWithTheRemedy) {
+TEST(SlowChannels, RejectsAnImpossibleRateWithTheRemedy) {
   const auto adam = device("adam", 10, {"A"});
   EXPECT_TRUE(check_rate(adam, {}, false));
   EXPECT_TRUE(check_rate(adam, {.max_gap_s = 0.1}, true));

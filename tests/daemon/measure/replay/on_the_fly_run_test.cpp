@@ -1,4 +1,4 @@
-// What a run in motion has from its samples beside the positions and readings.
+// Data that a run in motion takes from its samples beside positions and readings.
 #include "daemon/measure/replay/on_the_fly_run.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace mdof::daemon {
 namespace {
 
-// 20 mm and back at 20 mm/s.
+// Moves 20 mm forward and back at 20 mm/s.
 SampleBlock to_and_fro() {
   TestAxis axis(0);
   axis.move_to(20, 1);
@@ -26,7 +26,7 @@ Result<Run> run_on_the_fly(SampleBlock block) {
 }
 
 // The encoder is suspect from 0.3 s to 0.4 s after the first scan: from 6 to 8 mm.
-TEST(OnTheFlyRun, PointsWhileTheEncoderWasSuspectAreLeftOut) {
+TEST(OnTheFlyRun, OmitsPointsWhileTheEncoderIsSuspect) {
   const auto all = run_on_the_fly(to_and_fro());
   ASSERT_TRUE(all) << all.error().message;
   SampleBlock block = to_and_fro();
@@ -47,7 +47,7 @@ TEST(OnTheFlyRun, PointsWhileTheEncoderWasSuspectAreLeftOut) {
       << notices;
 }
 
-TEST(OnTheFlyRun, AnEncoderThatIsSuspectThroughoutGivesNoRun) {
+TEST(OnTheFlyRun, AnEncoderThatIsAlwaysSuspectGivesNoRun) {
   SampleBlock block = to_and_fro();
   block.quality.assign(block.channels.size(), {});
   block.quality[0].assign(block.scans(), Quality::suspect);
@@ -56,8 +56,8 @@ TEST(OnTheFlyRun, AnEncoderThatIsSuspectThroughoutGivesNoRun) {
   EXPECT_NE(run.error().message.find("were suspect"), std::string::npos) << run.error().message;
 }
 
-// A single late reading, as of a slow USB reply, spoils no point.
-TEST(OnTheFlyRun, ASingleSuspectScanSpoilsNothing) {
+// A single late reading, such as a slow USB reply, affects no point.
+TEST(OnTheFlyRun, ASingleSuspectScanAffectsNoPoint) {
   SampleBlock block = to_and_fro();
   block.quality.assign(block.channels.size(), {});
   block.quality[0].assign(block.scans(), Quality::good);
@@ -66,12 +66,12 @@ TEST(OnTheFlyRun, ASingleSuspectScanSpoilsNothing) {
             run_on_the_fly(to_and_fro())->points.size());
 }
 
-TEST(OnTheFlyRun, MorePointsThanARunHoldsAreRefused) {
+TEST(OnTheFlyRun, RejectsMorePointsThanARunHolds) {
   PipelineOptions options;
   options.on_the_fly.emplace();
   options.most_stops = 30;
   OnTheFlyRun run = OnTheFlyRun::create(five_probe_rig(), options).value();
-  SampleBlock block = to_and_fro();  // some 20 points, of the pass that has ended
+  SampleBlock block = to_and_fro();  // about 20 points, of the finished pass
   ASSERT_TRUE(run.push(block));
   TestAxis far(0);
   far.move_to(50, 1);

@@ -23,7 +23,7 @@ PipelineOptions asked_options() {
   return options;
 }
 
-TEST(RequestJson, ComesBackAsItWas) {
+TEST(RequestJson, IsReadBackUnchanged) {
   const AskedFor asked{
       "after \"scraping\"\n",
       {notice(NoticeCode::cycle_unknown), notice(NoticeCode::clock_not_settled, "t7")},
@@ -42,8 +42,8 @@ TEST(RequestJson, ComesBackAsItWas) {
   EXPECT_EQ(back->options.on_the_fly->to_mm, 61.25);
 }
 
-// Whoever adds an option to PipelineOptions::json() must read it back as well: else a replay of a
-// recording is measured otherwise than its run.
+// An option added to PipelineOptions::json() must also be read back. Otherwise a replay of a
+// recording is evaluated with other options than its run.
 TEST(RequestJson, EveryNumberOfTheOptionsIsReadBack) {
   const std::string text = asked_options().json();
   const std::regex number(R"(("[A-Za-z_]+":)([0-9][0-9.e+-]*))");
@@ -60,13 +60,13 @@ TEST(RequestJson, EveryNumberOfTheOptionsIsReadBack) {
   EXPECT_GE(numbers, 10);
 }
 
-TEST(RequestJson, TargetsComeBackToTheLastBit) {
+TEST(RequestJson, TargetsAreReadBackBitForBit) {
   PipelineOptions options;
   for (int i = 0; i < 5000; ++i) options.sequence.targets_m.push_back(from_mm(0.037 + 0.1 * i));
   EXPECT_EQ(read_options_json(options.json(), {})->sequence.targets_m, options.sequence.targets_m);
 }
 
-TEST(RequestJson, ADatumComesBackWhole) {
+TEST(RequestJson, ADatumIsReadBackCompletely) {
   const EncoderDatum data[] = {
       {EncoderDatum::Kind::none, 0, "qsb", "", ""},
       {EncoderDatum::Kind::set, from_mm(12.5), "t7", "2026-11-23T07:00:00Z", "anna"},
@@ -83,7 +83,7 @@ TEST(RequestJson, ADatumComesBackWhole) {
   }
 }
 
-TEST(RequestJson, WhatIsNotSaidStaysAsItWas) {
+TEST(RequestJson, MissingOptionsKeepTheirValues) {
   const PipelineOptions base = asked_options();
   EXPECT_EQ(read_request_json("", base)->options.json(), base.json());
   EXPECT_EQ(read_request_json("{}", base)->options.json(), base.json());
@@ -94,7 +94,7 @@ TEST(RequestJson, WhatIsNotSaidStaysAsItWas) {
   EXPECT_EQ(back->options.sequence.targets_m, base.sequence.targets_m);
 }
 
-TEST(RequestJson, WhatCannotBeReadIsNamed) {
+TEST(RequestJson, NamesInvalidMembers) {
   const std::pair<const char*, const char*> cases[] = {
       {"{", "not a JSON"},
       {"[]", "not a JSON object"},

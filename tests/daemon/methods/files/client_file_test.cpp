@@ -43,7 +43,7 @@ std::string text_of(const ClientFile& opened) {
   return text;
 }
 
-TEST_F(ClientFiles, WhatIsReadIsWhatWasOpenedWhateverHasItsNameNow) {
+TEST_F(ClientFiles, ReadsTheOpenedFileAfterItsNameWasReused) {
   const std::string path =
       write("log.csv", "time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n0,0,1,2,3,4,5\n");
   const auto opened = open_for({::getuid(), 0}, path);
@@ -58,20 +58,20 @@ TEST_F(ClientFiles, WhatIsReadIsWhatWasOpenedWhateverHasItsNameNow) {
   EXPECT_EQ(block.value.back().front(), 5);
 }
 
-TEST_F(ClientFiles, ALinkIsRefused) {
+TEST_F(ClientFiles, RejectsALink) {
   const std::string path = (folder_ / "link.csv").string();
   fs::create_symlink(write("log.csv", "1\n"), path);
   EXPECT_NE(refusal(path).find("is a link"), std::string::npos) << refusal(path);
 }
 
-// To open it for reading waits for one that writes, for ever.
-TEST_F(ClientFiles, APipeIsRefusedAtOnce) {
+// Opening a pipe for reading waits for a writer indefinitely.
+TEST_F(ClientFiles, RejectsAPipeAtOnce) {
   const std::string path = (folder_ / "pipe").string();
   ASSERT_EQ(::mkfifo(path.c_str(), 0666), 0);
   EXPECT_NE(refusal(path).find("is not a regular file"), std::string::npos) << refusal(path);
 }
 
-TEST_F(ClientFiles, AFileWithALeaseIsNotWaitedFor) {
+TEST_F(ClientFiles, DoesNotWaitForAFileWithALease) {
   const std::string path = write("log.csv", "1\n");
   const int holder = ::open(path.c_str(), O_RDONLY);
   if (::fcntl(holder, F_SETLEASE, F_WRLCK) != 0) GTEST_SKIP() << "no leases on this file system";
@@ -82,7 +82,7 @@ TEST_F(ClientFiles, AFileWithALeaseIsNotWaitedFor) {
   EXPECT_EQ(refusal(path), "");
 }
 
-TEST_F(ClientFiles, TheRightsAreThoseOfAllGroupsOfTheUser) {
+TEST_F(ClientFiles, UsesAllGroupsOfTheUser) {
   if (::geteuid() != 0) GTEST_SKIP() << "only root gives a file to others";
   const std::string path = write("log.csv", "1\n");
   ASSERT_EQ(::chown(path.c_str(), 2001, 3001), 0);
@@ -96,7 +96,7 @@ TEST_F(ClientFiles, TheRightsAreThoseOfAllGroupsOfTheUser) {
       << "a member of the group without the right";
 }
 
-TEST_F(ClientFiles, TheWalOfARecordingIsOpenedByTheSameRules) {
+TEST_F(ClientFiles, AppliesTheSameRulesToTheWalOfARecording) {
   const std::string path = write("run.mdofrec", "1\n");
   EXPECT_EQ(open_for({::getuid(), 0}, path)->wal.get(), -1);
   fs::create_symlink("/etc/shadow", path + "-wal");

@@ -1,4 +1,4 @@
-// What plots are made of: numbers as words, axes, SVG, colours.
+// Components of plots: numbers as text, axes, SVG, colours.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -99,7 +99,7 @@ TEST(PlotAxis, TakesAPowerOfTenOutOfSmallAndLargeLabels) {
   EXPECT_EQ(labels(large), (Labels{"0.0", "0.5", "1.0", "1.5", "2.0"}));
 }
 
-TEST(PlotAxis, IsSensibleWhateverTheRange) {
+TEST(PlotAxis, IsSensibleForAnyRange) {
   for (const auto& [low, high] : {std::pair{-kInf, kInf},
                                   {kNaN, kNaN},
                                   {5.0, 5.0},
@@ -127,7 +127,7 @@ TEST(PlotAxis, IsSensibleWhateverTheRange) {
   }
 }
 
-// px between the two labels that are nearest to each other.
+// Smallest distance between two labels, px.
 double least_gap(const Axis& axis, double length_px) {
   double least = length_px;
   for (std::size_t i = 1; i < axis.ticks.size(); ++i) {
@@ -159,13 +159,13 @@ TEST(PlotAxis, IsLogarithmicToTheHundredthOfAPixel) {
             (Labels{"2×10⁴", "5×10⁴", "10⁵", "2×10⁵", "5×10⁵", "10⁶"}));
 }
 
-TEST(PlotAxis, OfOneNumberOfTrialsHasItInTheMiddle) {
+TEST(PlotAxis, ASingleNumberOfTrialsIsInTheMiddle) {
   const Axis axis = logarithmic_axis({1e6, 1e6, false}, 320);
   EXPECT_NEAR(axis.fraction(1e6), 0.5, 1e-9);
   EXPECT_EQ(logarithmic_axis({0, 0, false}, 320).fraction(kNaN), 0);
 }
 
-TEST(PlotSvg, EscapesWhatXmlDoesNotAllow) {
+TEST(PlotSvg, EscapesCharactersThatXmlForbids) {
   EXPECT_EQ(xml_escaped("a<b>&\"'µ"), "a&lt;b&gt;&amp;&quot;&#39;µ");
   EXPECT_EQ(xml_escaped(std::string_view("a\0b\x1b", 4)),
             "a\xef\xbf\xbd"
@@ -187,7 +187,7 @@ TEST(PlotSvg, IsWellFormedAndHasRoundCoordinates) {
   EXPECT_EQ(text.find("http", text.find("xmlns") + 40), std::string::npos);
 }
 
-// That the check can fail.
+// Checks that the XML check can fail.
 TEST(PlotSvg, TheXmlCheckFindsFaults) {
   const std::string head = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   EXPECT_EQ(xml_fault(head + "<svg a=\"1\"><g>x</g></svg>\n"), "");
@@ -234,7 +234,7 @@ TEST(PlotStyle, HasTheContrastItClaimsInLightAndDark) {
   }
 }
 
-TEST(PlotStyle, SaysBothColoursOfEveryMark) {
+TEST(PlotStyle, DefinesBothColoursOfEveryMark) {
   const std::string css = style_sheet();
   const std::size_t dark = css.find("@media (prefers-color-scheme:dark){");
   ASSERT_NE(dark, std::string::npos);

@@ -1,5 +1,5 @@
-// Plots of a made-up study: what is drawn is right where it can be read off, whatever the figures
-// are the files are valid XML, and the same figures give the same bytes.
+// Plots of an artificial study: known values are drawn correctly, the files are valid XML for any
+// figures, and equal figures give equal bytes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-// A triangular density over [-half, half] with round statistics; exact arithmetic, no random
-// numbers, so that the bytes of its plots can be told in advance.
+// A triangular density over [-half, half] with round statistics. It needs only exact arithmetic and
+// no random numbers, so that the bytes of its plots are known in advance.
 OutputSummary triangular(std::string key, double half) {
   OutputSummary o;
   o.key = std::move(key);
@@ -47,7 +47,7 @@ std::vector<StudyBin> bins_of(const std::vector<OutputSummary>& outputs, int n) 
   for (int i = 0; i < n; ++i) {
     StudyBin bin{3.0 * i, 3.0 * (i + 1), {}};
     for (std::size_t k = 0; k < outputs.size(); ++k) {
-      // displacements grow with the travel, angles do not
+      // displacements increase with the travel, angles do not
       const double half = (k < 2 ? 0.2 + 0.8 * i / n : 1.0) * -outputs[k].histogram.from;
       bin.outputs.push_back(triangular(outputs[k].key, half));
     }
@@ -110,7 +110,7 @@ class Plots : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // Every file written, by its name; each has to be well-formed and free of NaN and infinity.
+  // All files written, by name; each must be well-formed and free of NaN and infinity.
   std::map<std::string, std::string> write(const StudyResult& result) {
     const Status written = charts::write_study_plots(result, folder_);
     EXPECT_TRUE(written) << written.error().message;
@@ -134,7 +134,7 @@ std::set<std::string> names(const std::map<std::string, std::string>& files) {
   return all;
 }
 
-TEST_F(Plots, AreOneFileForEachThingThereIs) {
+TEST_F(Plots, AreOneFileForEachFigure) {
   EXPECT_EQ(names(write(study())),
             (std::set<std::string>{"histogram-EYX_um.svg", "histogram-EZX_um.svg",
                                    "histogram-EAX_urad.svg", "histogram-EBX_urad.svg",
@@ -142,7 +142,7 @@ TEST_F(Plots, AreOneFileForEachThingThereIs) {
                                    "sensitivity.svg", "convergence.svg", "allocation.svg"}));
 }
 
-TEST_F(Plots, OfWhatIsAbsentAreNotWritten) {
+TEST_F(Plots, AreNotWrittenForMissingFigures) {
   StudyResult r;
   EXPECT_TRUE(write(r).empty());
   r.outputs = {triangular("EAX_urad", 1)};
@@ -161,7 +161,7 @@ TEST_F(Plots, AreTheSameBytesInEveryBuild) {
             "6b0168847ad8aa9702efb607293dd00341d1f4026954e735cb141b7d0ba621e3");
 }
 
-TEST_F(Plots, DoNotDependOnTimesOrWhereTheyWereMade) {
+TEST_F(Plots, DoNotDependOnTimeOrFolder) {
   StudyResult r = study();
   const auto before = write(r);
   r.started_utc = "2025-01-01T00:00:00Z";
@@ -185,7 +185,7 @@ TEST_F(Plots, ShowTheirFigures) {
   EXPECT_TRUE(has("convergence.svg", "10⁸"));
 }
 
-TEST_F(Plots, SayThatAStudyWasInterrupted) {
+TEST_F(Plots, StateThatAStudyWasInterrupted) {
   StudyResult r = study();
   r.state = StudyState::interrupted;
   r.trials = 300'000;
@@ -193,7 +193,7 @@ TEST_F(Plots, SayThatAStudyWasInterrupted) {
             std::string::npos);
 }
 
-TEST_F(Plots, OfTextFromOutsideAreStillValid) {
+TEST_F(Plots, AreValidForAnyText) {
   StudyResult r = study();
   r.name = "<b>&\"'" + std::string(1, '\x02') + std::string(300, 'n');
   r.outputs[0].key = "../a b/ä_um";
@@ -205,8 +205,8 @@ TEST_F(Plots, OfTextFromOutsideAreStillValid) {
   EXPECT_EQ(files.size(), 9u);
 }
 
-// Each number that a study can have, replaced by extreme ones.
-TEST_F(Plots, OfExtremeFiguresAreStillValid) {
+// Each number that a study can have, replaced by extreme numbers.
+TEST_F(Plots, AreValidForExtremeFigures) {
   for (const double x : {0.0, 1e-320, 1e-12, 1e9, 1.7e308, -1.7e308, kNaN, kInf}) {
     StudyResult r = study();
     OutputSummary& o = r.outputs[0];
@@ -230,7 +230,7 @@ TEST_F(Plots, OfExtremeFiguresAreStillValid) {
   }
 }
 
-TEST_F(Plots, OfAFrontierNameOnlyIntervalsThatAreDrawn) {
+TEST_F(Plots, TheLegendNamesOnlyIntervalsThatAreDrawn) {
   StudyResult r = study();
   const auto names_intervals = [&] {
     for (const auto& [name, text] : write(r))
@@ -242,7 +242,7 @@ TEST_F(Plots, OfAFrontierNameOnlyIntervalsThatAreDrawn) {
   EXPECT_FALSE(names_intervals());
 }
 
-TEST_F(Plots, OfAConstantHaveOneBar) {
+TEST_F(Plots, AConstantHasOneBar) {
   StudyResult r;
   OutputSummary o = triangular("EAX_urad", 1);
   o.histogram = {2.5, 0, {1000}, 0, 0};
@@ -256,7 +256,7 @@ TEST_F(Plots, OfAConstantHaveOneBar) {
   EXPECT_NE(text.find(">2.50<"), std::string::npos);  // the tick below the bar
 }
 
-TEST_F(Plots, OfManyCausesShowTheLargestAndSayWhatIsLeftOut) {
+TEST_F(Plots, ShowTheLargestOfManyCausesAndCountTheOthers) {
   StudyResult r;
   r.indices = {{"EAX_urad", {}}};
   for (int i = 0; i < 50; ++i)
@@ -268,7 +268,7 @@ TEST_F(Plots, OfManyCausesShowTheLargestAndSayWhatIsLeftOut) {
             std::string::npos);
 }
 
-TEST_F(Plots, SayWhenExtremesAreCutOff) {
+TEST_F(Plots, StateThatExtremesAreCutOff) {
   StudyResult r = study();
   constexpr const char* kNote = "An extreme outside a panel is drawn at the edge of the panel.";
   EXPECT_EQ(write(r).at("error-against-travel.svg").find(kNote), std::string::npos);
@@ -276,7 +276,7 @@ TEST_F(Plots, SayWhenExtremesAreCutOff) {
   EXPECT_NE(write(r).at("error-against-travel.svg").find(kNote), std::string::npos);
 }
 
-TEST_F(Plots, NeedAFolderThatCanBeWritten) {
+TEST_F(Plots, NeedAWritableFolder) {
   const Status in_a_file = charts::write_study_plots(study(), "/dev/null/plots");
   ASSERT_FALSE(in_a_file);
   EXPECT_EQ(in_a_file.error().code, ErrorCode::io);
@@ -287,7 +287,7 @@ TEST_F(Plots, NeedAFolderThatCanBeWritten) {
   ASSERT_FALSE(no_file);
   EXPECT_NE(no_file.error().message.find("histogram-EYX_um.svg: cannot be written"),
             std::string::npos);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);  // nothing half-written
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);  // no partly written file
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Charts of runs that no recording has: very many stops, none, one target, numbers that are none.
+// Charts of runs that no recording contains: very many stops, no stop, one target, invalid numbers.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -35,7 +35,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
   return n;
 }
 
-TEST(RunCharts, OfVeryManyStopsKeepTheOneOutlierAndStaySmall) {
+TEST(RunCharts, ManyStopsKeepTheOutlierInASmallFile) {
   StatedResults results = axis_with(143'000, 143'000);
   results.run.points[71'234].errors.local[kDy] = 5e-6;
   const std::string svg = five_errors_svg(results, Language::english);
@@ -45,17 +45,17 @@ TEST(RunCharts, OfVeryManyStopsKeepTheOneOutlierAndStaySmall) {
   EXPECT_NE(svg.find("The 143\u00a0000 points are drawn in groups"), std::string::npos);
 }
 
-TEST(RunCharts, OfOneTargetHaveItsPointsAndSayThatThereIsNoStraightness) {
+TEST(RunCharts, OneTargetHasPointsButNoStraightness) {
   const RunCharts drawn = charts_of_run(axis_with(6, 1), Language::english);
-  ASSERT_EQ(drawn.charts.size(), 3u);  // the errors, and what the visits differ by
+  ASSERT_EQ(drawn.charts.size(), 3u);  // the errors, and the differences between the visits
   for (const NamedChart& chart : drawn.charts) EXPECT_EQ(xml_fault(chart.svg), "") << chart.file;
   EXPECT_EQ(count_of(drawn.charts[0].svg, "data-row="), 30u);
-  EXPECT_EQ(count_of(drawn.charts[0].svg, "data-band="), 10u);  // two approaches of five errors
+  EXPECT_EQ(count_of(drawn.charts[0].svg, "data-band="), 10u);  // two approaches for five errors
   ASSERT_GE(drawn.left_out.size(), 1u);
   EXPECT_NE(drawn.left_out[0].find("at least three targets"), std::string::npos);
 }
 
-TEST(RunCharts, OfARunWithoutErrorsAreNoneAndSaySo) {
+TEST(RunCharts, ARunWithoutErrorsHasNoChartsAndAReason) {
   StatedResults results = axis_with(4, 2);
   for (MeasuredPoint& p : results.run.points) p.errors = {};
   for (const StatedResults& each : {results, axis_with(0, 1)}) {
@@ -66,7 +66,7 @@ TEST(RunCharts, OfARunWithoutErrorsAreNoneAndSaySo) {
   }
 }
 
-TEST(RunCharts, ShowAPointWithoutErrorsAndWhy) {
+TEST(RunCharts, ShowAPointWithoutErrorsAndItsReason) {
   StatedResults results = axis_with(9, 3);
   results.run.points[4].errors = {.valid = false, .reason = "probe <C> lost"};
   const std::string svg = five_errors_svg(results, Language::english);
@@ -75,7 +75,7 @@ TEST(RunCharts, ShowAPointWithoutErrorsAndWhy) {
   EXPECT_NE(svg.find("no error values for 1 of 9 points: probe &lt;C&gt; lost"), std::string::npos);
 }
 
-TEST(RunCharts, SayThatUIsUnknown) {
+TEST(RunCharts, StateThatUIsUnknown) {
   StatedResults results = axis_with(9, 3);
   for (ErrorsUncertainty& u : results.uncertainty.points) {
     u.U.fill(std::numeric_limits<double>::quiet_NaN());
@@ -89,7 +89,7 @@ TEST(RunCharts, SayThatUIsUnknown) {
   EXPECT_EQ(count_of(svg, "data-U="), 0u);
 }
 
-TEST(RunCharts, OfExtremeErrorsAreValid) {
+TEST(RunCharts, AreValidForExtremeErrors) {
   for (const double x : {0.0, 1e-300, 1e300, -1e300}) {
     StatedResults results = axis_with(9, 3);
     results.run.points[3].errors.local.fill(x);

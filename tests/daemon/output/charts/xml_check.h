@@ -1,4 +1,4 @@
-// Whether a text is well-formed XML, as far as SVG plots need it.
+// Checks whether a text is well-formed XML, as far as SVG plots need it.
 #pragma once
 
 #include <simdjson.h>
@@ -10,7 +10,7 @@
 
 namespace mdof {
 
-// What is wrong with text between tags or in an attribute; "" if nothing is.
+// Error in a text between tags or in an attribute; "": none.
 inline std::string text_fault(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
@@ -24,7 +24,7 @@ inline std::string text_fault(std::string_view text) {
   return "";
 }
 
-// ` name="value"` repeated, each name once.
+// Error in ` name="value"` pairs, each name once; "": none.
 inline std::string attributes_fault(std::string_view text) {
   std::set<std::string_view> names;
   while (!text.empty()) {
@@ -39,7 +39,7 @@ inline std::string attributes_fault(std::string_view text) {
   return "";
 }
 
-// One tag; keeps the list of what is open.
+// Checks one tag and updates the list of open tags.
 inline std::string tag_fault(std::string_view tag, std::vector<std::string>& open) {
   if (tag.starts_with('/')) {
     if (open.empty() || open.back() != tag.substr(1)) return "ends " + std::string(tag);
@@ -55,7 +55,7 @@ inline std::string tag_fault(std::string_view tag, std::vector<std::string>& ope
   return attributes_fault(tag.substr(name.size()));
 }
 
-// "" for a well-formed document of one <svg>, else what is wrong.
+// "" for a well-formed document with one <svg>, otherwise the error.
 inline std::string xml_fault(std::string_view text) {
   constexpr std::string_view kDeclaration = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
   if (!simdjson::validate_utf8(text.data(), text.size())) return "not UTF-8";

@@ -1,4 +1,4 @@
-// Clients that mean harm or are broken: the right code or a clean close, and nobody else is harmed.
+// Malicious or broken clients: each gets the correct code or is closed, without effect on others.
 #include <fcntl.h>
 
 #include <atomic>
@@ -21,7 +21,7 @@ double resident_mb() {
   return resident * double(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-// Another client at its ordinary work, all through a test.
+// Another client that works normally during a test.
 class Bystander {
  public:
   explicit Bystander(const std::string& path) : thread_([this, path] { work(path); }) {}
@@ -30,7 +30,7 @@ class Bystander {
     thread_.join();
     EXPECT_GT(trips_, 0);
     EXPECT_EQ(wrong_, 0);
-    EXPECT_LT(longest_ms_, 1000);  // with sanitizers and others on the machine
+    EXPECT_LT(longest_ms_, 1000);  // with sanitizers and other processes on the machine
     std::printf("  another client: %d round trips, mean %.3f ms, longest %.1f ms\n", trips_,
                 total_ms_ / trips_, longest_ms_);
   }
@@ -65,7 +65,7 @@ class Hostile : public ::testing::Test {
     return o;
   }
   Hostile() { server_.start(); }
-  // The connection goes on after this answer.
+  // The connection remains open after this answer.
   void expect_error(const std::string& line, const std::string& code, const std::string& data) {
     const Bystander bystander(server_.path);
     RawClient client(server_.path);
@@ -113,7 +113,7 @@ TEST_F(Hostile, NumbersBeyondTheirTypeAreAParseError) {
                R"("a number is malformed or too large")");
 }
 
-TEST_F(Hostile, ABatchOfTenThousandIsRefusedAsOne) {
+TEST_F(Hostile, ABatchOfTenThousandIsRejectedAsOne) {
   std::string batch = "[1";
   for (int i = 1; i < 10000; ++i) batch += ",1";
   expect_error(batch + "]", "-32600",
@@ -147,8 +147,8 @@ TEST_F(Hostile, TheLineLimitIsExact) {
   EXPECT_EQ(at(RawClient(server_.path).ask(line(65537)), "/error/code"), "-32600");
 }
 
-// It would fill memory: 300 MB of replies are asked for.
-TEST_F(Hostile, AClientThatNeverReadsIsHeldBackAndThenDropped) {
+// The replies requested are 300 MB, which would fill the memory.
+TEST_F(Hostile, AClientThatNeverReadsIsPausedAndThenDropped) {
   const Bystander bystander(server_.path);
   const double before = resident_mb();
   RawClient client(server_.path);
@@ -180,16 +180,17 @@ TEST_F(Hostile, AClientThatReadsSlowlyIsNotDropped) {
   client.send(requests);
   for (int i = 0; i < 60; ++i) {
     ASSERT_EQ(client.line().size(), 40036u);
-    std::this_thread::sleep_for(25ms);  // 1.5 s in all: over twice the stall limit
+    std::this_thread::sleep_for(25ms);  // 1.5 s in total: over twice the stall limit
   }
 }
 
-TEST_F(Hostile, AClientThatDripsIsClosedWhenTheRequestsTimeIsOver) {
+TEST_F(Hostile, AClientThatSendsTooSlowlyIsClosed) {
   const Bystander bystander(server_.path);
   RawClient client(server_.path);
   const auto begin = Clock::now();
   bool open = true;
-  for (std::size_t i = 0; open && i < 10 * kGood.size(); ++i) {  // each byte in time, not all
+  for (std::size_t i = 0; open && i < 10 * kGood.size();
+       ++i) {  // each byte is in time, the whole request is not
     open = client.send(kGood.substr(i % 10, 1));
     std::this_thread::sleep_for(20ms);
   }
@@ -201,14 +202,14 @@ TEST_F(Hostile, AClientThatDripsIsClosedWhenTheRequestsTimeIsOver) {
   EXPECT_TRUE(server_.connections_become(1));
 }
 
-TEST_F(Hostile, IdleClientsStay) {
+TEST_F(Hostile, IdleClientsRemainConnected) {
   RawClient client(server_.path);
-  std::this_thread::sleep_for(1s);  // beyond every other limit
+  std::this_thread::sleep_for(1s);  // longer than every other limit
   EXPECT_EQ(client.ask(kGood), kGoodReply);
 }
 
-// A readiness that is never used up would show as a loop that runs without end.
-TEST(HostileIdle, ClientsThatDoNothingCostNothing) {
+// An event that is never consumed would keep the loop running continuously.
+TEST(HostileIdle, IdleClientsUseNoCpu) {
   TestServer server;
   server.start();
   RawClient idle(server.path), half(server.path), stalled(server.path), partial(server.path);
@@ -227,7 +228,7 @@ TEST(HostileIdle, ClientsThatDoNothingCostNothing) {
   EXPECT_LT(double(std::clock() - begin) / CLOCKS_PER_SEC, 0.05);
 }
 
-TEST(HostileIdle, TheIdleLimitClosesWhenItIsSet) {
+TEST(HostileIdle, TheIdleLimitClosesConnectionsIfSet) {
   ServerOptions options;
   options.idle_timeout = 100ms;
   TestServer server(options);
@@ -241,7 +242,7 @@ TEST(HostileIdle, TheIdleLimitClosesWhenItIsSet) {
   EXPECT_TRUE(server.connections_become(0));
 }
 
-TEST_F(Hostile, OneConnectionTooManyIsToldSo) {
+TEST_F(Hostile, RejectsOneConnectionTooManyWithAReason) {
   const Bystander bystander(server_.path);
   ASSERT_TRUE(server_.connections_become(1));
   std::vector<std::unique_ptr<RawClient>> clients;
@@ -257,7 +258,7 @@ TEST_F(Hostile, OneConnectionTooManyIsToldSo) {
   EXPECT_EQ(RawClient(server_.path).ask(kGood), kGoodReply);
 }
 
-TEST_F(Hostile, AFloodOfRequestsLeavesTheOthersTheirTurns) {
+TEST_F(Hostile, AFloodOfRequestsDoesNotBlockTheOthers) {
   const Bystander bystander(server_.path);
   std::string flood;
   for (int i = 0; i < 1000; ++i) flood += kGood + "\n";
@@ -274,7 +275,7 @@ TEST_F(Hostile, AFloodOfRequestsLeavesTheOthersTheirTurns) {
   for (auto& thread : threads) thread.join();
 }
 
-TEST_F(Hostile, ClientsThatGoInTheMiddleOfEverythingLeaveNothing) {
+TEST_F(Hostile, ClientsThatDisconnectAnywhereLeaveNothing) {
   const Bystander bystander(server_.path);
   for (int i = 0; i < 200; ++i) {
     RawClient client(server_.path);
@@ -300,7 +301,8 @@ TEST_F(Hostile, GarbageOfEveryKindIsAnsweredOrClosed) {
     client.send(line + "\n" + R"({"jsonrpc":"2.0","method":"sum","id":)" + marker + "}\n");
     std::string reply = client.line();
     ASSERT_EQ(canonical(reply).find("not JSON"), std::string::npos) << line << "\n" << reply;
-    if (at(reply, "/id") != marker) reply = client.line();  // else it has become a notification
+    if (at(reply, "/id") != marker)
+      reply = client.line();  // otherwise the line became a notification
     ASSERT_EQ(at(reply, "/id"), marker) << line;
   }
 }

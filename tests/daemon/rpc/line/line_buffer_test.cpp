@@ -15,7 +15,7 @@ void put(LineBuffer& buffer, std::string_view bytes) {
   buffer.received(bytes.size());
 }
 
-TEST(LineBuffer, CutsLinesWhereverTheBytesAreCut) {
+TEST(LineBuffer, SplitsLinesForAnyDivisionOfTheBytes) {
   const std::string text = "a\n\nbc\r\ndef\n";
   for (std::size_t step = 1; step <= text.size(); ++step) {
     LineBuffer buffer(16, 64);
@@ -29,10 +29,10 @@ TEST(LineBuffer, CutsLinesWhereverTheBytesAreCut) {
   }
 }
 
-TEST(LineBuffer, KnowsALineThatHasBegun) {
+TEST(LineBuffer, DetectsAPartialLine) {
   LineBuffer buffer(16, 64);
   put(buffer, "a\nb");
-  EXPECT_FALSE(buffer.partial());  // a whole line is first
+  EXPECT_FALSE(buffer.partial());  // a whole line comes first
   buffer.next();
   EXPECT_TRUE(buffer.partial());
   EXPECT_FALSE(buffer.next());

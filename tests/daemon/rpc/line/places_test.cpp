@@ -1,4 +1,4 @@
-// Who gets one of the connections: nobody has them all, and the machine's control always has one.
+// Limits of connections: no client can use all, and one is reserved for the machine's control.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/stat.h>
@@ -23,7 +23,7 @@ std::vector<std::unique_ptr<RawClient>> clients_of(const TestServer& server, int
   return clients;
 }
 
-// What a client is told that does not get in; empty: it is in.
+// The message with which a client is rejected; empty: it is accepted.
 std::string refusal(const TestServer& server) {
   RawClient client(server.path);
   const std::string line = client.ask(kAsk);
@@ -37,7 +37,7 @@ ServerOptions limits(std::size_t of_user) {
   return options;
 }
 
-TEST(Places, OneUserHasNotThemAllAndIsToldSo) {
+TEST(Places, OneUserCannotUseAllConnections) {
   TestServer server(limits(3));
   server.start();
   auto clients = clients_of(server, 3);
@@ -60,7 +60,7 @@ RawClient tcp_client(std::uint16_t port) {
   return RawClient(std::move(fd));
 }
 
-TEST(Places, OneUserHasNotMoreOverTwoTransports) {
+TEST(Places, TwoTransportsShareTheLimitOfAUser) {
   TestServer server(limits(3));
   const auto port = server.server->listen_tcp("127.0.0.1", 0);
   ASSERT_TRUE(port.has_value());
@@ -74,7 +74,7 @@ TEST(Places, OneUserHasNotMoreOverTwoTransports) {
       << why;
 }
 
-// Another user's process, which tells by its exit code whether it got in.
+// A process of another user, whose exit code states whether it was accepted.
 int exit_code_of_nobody(const TestServer& server) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -86,7 +86,7 @@ int exit_code_of_nobody(const TestServer& server) {
   return WEXITSTATUS(status);
 }
 
-TEST(Places, OthersGetInBesideAUserWhoHasAllOfHis) {
+TEST(Places, OthersAreAcceptedBesideAUserAtHisLimit) {
   if (::getuid() != 0) GTEST_SKIP() << "only root can become another user";
   TestServer server(limits(3));
   ::chmod(server.path.c_str(), 0666);
@@ -95,7 +95,7 @@ TEST(Places, OthersGetInBesideAUserWhoHasAllOfHis) {
   EXPECT_EQ(exit_code_of_nobody(server), 0);
 }
 
-TEST(Places, OneIsKeptForTheGroupOfTheControl) {
+TEST(Places, OneIsReservedForTheControlGroup) {
   ServerOptions options = limits(64);
   options.kept_for_group = ::getgid();
   TestServer server(options);
@@ -104,7 +104,7 @@ TEST(Places, OneIsKeptForTheGroupOfTheControl) {
   EXPECT_NE(refusal(server).find("all 6 connections are in use"), std::string::npos);
 }
 
-TEST(Places, AUserWhoHasAllOfHisStillGetsTheOneKeptForHisGroup) {
+TEST(Places, AUserAtHisLimitGetsTheReservedConnection) {
   ServerOptions options = limits(2);
   options.kept_for_group = ::getgid();
   TestServer server(options);
@@ -113,16 +113,16 @@ TEST(Places, AUserWhoHasAllOfHisStillGetsTheOneKeptForHisGroup) {
   EXPECT_NE(refusal(server).find("has 2 connections"), std::string::npos);
 }
 
-TEST(Places, WhoIsNotOfTheGroupDoesNotGetIt) {
+TEST(Places, OthersDoNotGetTheReservedConnection) {
   ServerOptions options = limits(64);
-  options.kept_for_group = 4'000'000;  // nobody's
+  options.kept_for_group = 4'000'000;  // a group that does not exist
   TestServer server(options);
   server.start();
   const auto others = clients_of(server, 5);
   EXPECT_NE(refusal(server).find("reserved for the group in cnc_group"), std::string::npos);
 }
 
-TEST(Places, ASlowAnswerIsNoIdleTime) {
+TEST(Places, ASlowAnswerIsNotIdleTime) {
   ServerOptions options;
   options.idle_timeout = 200ms;
   TestServer server(options);
@@ -140,7 +140,7 @@ TEST(Places, ASlowAnswerIsNoIdleTime) {
   server.start();
   RawClient client(server.path);
   EXPECT_EQ(at(client.ask(R"({"jsonrpc":"2.0","method":"slow","id":1})"), "/result"), "1");
-  EXPECT_EQ(client.ask(kAsk), kAnswer);  // asked at once: it is still there
+  EXPECT_EQ(client.ask(kAsk), kAnswer);  // asked immediately: the connection is still open
   later.join();
 }
 

@@ -44,7 +44,7 @@ TEST(Server, RemovesItsSocketAtTheEnd) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST(Server, RefusesASocketThatAnotherDaemonAnswersOn) {
+TEST(Server, RejectsASocketThatAnotherDaemonServes) {
   TestServer first;
   first.start();
   EventLoop loop;
@@ -57,7 +57,7 @@ TEST(Server, RefusesASocketThatAnotherDaemonAnswersOn) {
   EXPECT_EQ(RawClient(first.path).ask(kGood).substr(0, 15), R"({"jsonrpc":"2.0)");
 }
 
-TEST(Server, ReplacesASocketThatNobodyAnswersOn) {
+TEST(Server, ReplacesASocketThatNobodyServes) {
   TestServer server;
   const std::string path = server.path + ".stale";
   std::filesystem::create_hard_link(server.path, path);
@@ -72,7 +72,7 @@ TEST(Server, ReplacesASocketThatNobodyAnswersOn) {
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
-TEST(Server, NeverRemovesWhatIsNoSocket) {
+TEST(Server, NeverRemovesAFileThatIsNotASocket) {
   TestServer server;
   const std::string path = server.path + ".txt";
   std::ofstream(path) << "precious";
@@ -81,7 +81,7 @@ TEST(Server, NeverRemovesWhatIsNoSocket) {
   std::filesystem::remove(path);
 }
 
-TEST(Server, NamesWhatIsWrongWithAPath) {
+TEST(Server, NamesTheErrorInAPath) {
   TestServer server;
   EXPECT_NE(error_of(server.server->listen_unix("/tmp/" + std::string(200, 'p')))
                 .find("has 205 bytes, but must have 1 to 107"),
@@ -90,7 +90,7 @@ TEST(Server, NamesWhatIsWrongWithAPath) {
             std::string::npos);
 }
 
-TEST(Server, TakesASocketThatListensAlready) {
+TEST(Server, AcceptsAListeningSocket) {
   TestServer server;
   auto listening = listen_on_unix(server.path + ".activated");
   ASSERT_TRUE(listening.has_value());
@@ -100,7 +100,7 @@ TEST(Server, TakesASocketThatListensAlready) {
   std::filesystem::remove(server.path + ".activated");
 }
 
-TEST(Server, RefusesADescriptorThatDoesNotListen) {
+TEST(Server, RejectsADescriptorThatDoesNotListen) {
   TestServer server;
   const Descriptor socket(::socket(AF_UNIX, SOCK_STREAM, 0));
   EXPECT_NE(error_of(server.server->listen_fd(socket.get())).find("not a listening"),
@@ -141,7 +141,7 @@ TEST_F(OverTcp, MethodsReadButDoNotWriteUnlessConfigured) {
   EXPECT_EQ(at(write_with(true, true), "/result"), "null");
 }
 
-TEST_F(OverTcp, OnlyTheUnixSocketKnowsWhoCalls) {
+TEST_F(OverTcp, OnlyTheUnixSocketIdentifiesTheCaller) {
   EXPECT_EQ(at(write_with(false, false), "/result"),
             "[" + std::to_string(::getuid()) + "," + std::to_string(::getpid()) + "]");
 }
@@ -152,14 +152,14 @@ TEST_F(OverTcp, OnlyLoopbackIsServed) {
     EXPECT_FALSE(server.server->listen_tcp(address, 0).has_value()) << address;
 }
 
-TEST(Client, SaysHowToStartADaemonThatDoesNotRun) {
+TEST(Client, StatesHowToStartADaemonThatDoesNotRun) {
   const auto client = Client::connect("/tmp/mdof-nothing-here.sock");
   ASSERT_FALSE(client.has_value());
   EXPECT_EQ(client.error().code, ErrorCode::io);
   EXPECT_NE(client.error().message.find("systemctl start mdofd"), std::string::npos);
 }
 
-TEST(Client, GivesResultsAsTheyAre) {
+TEST(Client, ReturnsResultsUnchanged) {
   TestServer server;
   server.start();
   auto client = Client::connect(server.path);
@@ -171,7 +171,7 @@ TEST(Client, GivesResultsAsTheyAre) {
   EXPECT_EQ(missed.error().message, "Method not found: did you mean \"get_data\"?");
 }
 
-TEST(Client, SaysWhyTheServerClosed) {
+TEST(Client, StatesWhyTheServerClosed) {
   TestServer server;
   server.start();
   auto client = Client::connect(server.path);
@@ -185,7 +185,7 @@ TEST(Client, SaysWhyTheServerClosed) {
   EXPECT_FALSE(client->call("get_data").has_value());
 }
 
-TEST(Client, DoesNotWaitForEver) {
+TEST(Client, DoesNotWaitIndefinitely) {
   const std::string path =
       std::filesystem::temp_directory_path() / ("mdof-rpc-deaf-" + std::to_string(::getpid()));
   const auto deaf = listen_on_unix(path);

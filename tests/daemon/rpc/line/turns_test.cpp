@@ -1,4 +1,4 @@
-// The one thread that all requests run on: nobody has it for longer than a turn while others wait.
+// All requests run on one thread: no client occupies it for longer than one turn while others wait.
 #include <arpa/inet.h>
 #include <netinet/in.h>
 
@@ -14,7 +14,7 @@ const std::string kSpin = R"({"jsonrpc":"2.0","method":"spin","id":2})";
 const std::string kSpinUntold = R"({"jsonrpc":"2.0","method":"spin"})";
 constexpr int kMany = 60;
 
-// `count` tells how often `spin` has been run, which takes 3 ms.
+// `count` returns how often `spin` was run, which takes 3 ms.
 class Turns : public ::testing::Test {
  protected:
   Turns() : server_(quick_to_look()) {
@@ -36,10 +36,10 @@ class Turns : public ::testing::Test {
   }
   static ServerOptions quick_to_look() {
     ServerOptions options;
-    options.drain_timeout = 40ms;  // one looks at the clients eight times as often
+    options.drain_timeout = 40ms;  // the clients are checked eight times in this time
     return options;
   }
-  // How many of `kMany` were run when another client, who asks after the first, has its answer.
+  // Number of calls of `many` that were run before another client, who asks later, has its answer.
   int run_before_another(const std::string& many) {
     RawClient greedy(server_.path), other(server_.path);
     other.ask(kCount);
@@ -52,7 +52,7 @@ class Turns : public ::testing::Test {
   TestServer server_;
 };
 
-TEST_F(Turns, RequestsInARowLetOthersIn) {
+TEST_F(Turns, ConsecutiveRequestsLetOthersIn) {
   server_.start();
   std::string many;
   for (int i = 0; i < kMany; ++i) many += kSpin + "\n";
@@ -66,7 +66,7 @@ TEST_F(Turns, ABatchLetsOthersInBetweenItsMembers) {
   EXPECT_LT(run_before_another(many + "]\n"), kMany / 2);
 }
 
-TEST_F(Turns, ABatchInPartsHasOneReplyAndWhatFollowsComesAfterIt) {
+TEST_F(Turns, ADividedBatchHasOneReplyBeforeTheNext) {
   server_.start();
   RawClient client(server_.path);
   std::string batch = "[" + kSpin;
@@ -80,8 +80,8 @@ TEST_F(Turns, ABatchInPartsHasOneReplyAndWhatFollowsComesAfterIt) {
   EXPECT_EQ(at(client.line(), "/result"), "5");
 }
 
-// With notifications, as nothing is sent that would show that nobody is there.
-TEST_F(Turns, WhatAClientLeftThatHasGoneIsNotRun) {
+// Uses notifications: the server sends nothing that would reveal the closed connection.
+TEST_F(Turns, DropsTheRequestsOfAClosedConnection) {
   server_.start();
   {
     RawClient client(server_.path);
@@ -94,7 +94,7 @@ TEST_F(Turns, WhatAClientLeftThatHasGoneIsNotRun) {
   EXPECT_LT(spins_, 5 * kMany);
 }
 
-TEST_F(Turns, WhatAClientSentJustBeforeItWentIsRun) {
+TEST_F(Turns, RunsRequestsSentJustBeforeTheConnectionClosed) {
   server_.start();
   for (int i = 1; i <= 20; ++i) {
     RawClient(server_.path).send(kSpinUntold + "\n");
@@ -141,7 +141,7 @@ TEST_F(Http, AHeaderRunsNothing) {
   expect_closed_unrun("X-Requested-With: mdof");
 }
 
-TEST_F(Http, OtherTextIsAParseErrorAndTheConnectionStays) {
+TEST_F(Http, OtherTextIsAParseErrorAndKeepsTheConnection) {
   RawClient client = tcp_client();
   for (const char* text :
        {"hello", "hello world", "1", "true ", "get", ": x", "\"POST / HTTP/1.1"}) {
@@ -152,7 +152,7 @@ TEST_F(Http, OtherTextIsAParseErrorAndTheConnectionStays) {
   EXPECT_EQ(at(client.ask(kCount), "/result"), "0");
 }
 
-TEST_F(Http, OnAUnixSocketNoPageCanSendItAndItIsAParseError) {
+TEST_F(Http, AnHttpLineOnAUnixSocketIsAParseError) {
   server_.start();
   RawClient client(server_.path);
   EXPECT_EQ(at(client.ask("POST / HTTP/1.1"), "/error/code"), "-32700");

@@ -26,19 +26,19 @@ TEST(EventLoop, RunsWorkPostedFromOtherThreadsInOrder) {
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(seen[static_cast<std::size_t>(i)], i);
 }
 
-TEST(EventLoop, CallsAtAPeriodAndLeavesMissedTicksOut) {
+TEST(EventLoop, CallsAtAPeriodAndSkipsMissedTicks) {
   EventLoop loop;
   int calls = 0;
   const auto begin = std::chrono::steady_clock::now();
   loop.call_every(20ms, [&] {
-    if (++calls == 1) std::this_thread::sleep_for(110ms);  // five ticks go by
+    if (++calls == 1) std::this_thread::sleep_for(110ms);  // five ticks are missed
     if (calls == 4) loop.stop();
   });
   loop.run();
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 170ms);
 }
 
-TEST(EventLoop, TellsEachTimeThatThereIsSomethingToRead) {
+TEST(EventLoop, ReportsEachTimeThatDataAreReadable) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe(ends.data()), 0);
   {
@@ -55,11 +55,11 @@ TEST(EventLoop, TellsEachTimeThatThereIsSomethingToRead) {
     loop.run();
     EXPECT_EQ(seen, "abb");
   }
-  EXPECT_EQ(::close(ends[0]), 0);  // still ours
+  EXPECT_EQ(::close(ends[0]), 0);  // the descriptors remain open and owned by the test
   EXPECT_EQ(::close(ends[1]), 0);
 }
 
-TEST(EventLoop, TurnsSignalsIntoCalls) {
+TEST(EventLoop, ConvertsSignalsToCalls) {
   EventLoop loop;
   int seen = 0;
   loop.on_signal({SIGUSR1}, [&](int number) {
@@ -71,7 +71,7 @@ TEST(EventLoop, TurnsSignalsIntoCalls) {
   EXPECT_EQ(seen, SIGUSR1);
 }
 
-TEST(EventLoop, DropsWorkThatComesAfterItsEnd) {
+TEST(EventLoop, DropsWorkPostedAfterItsEnd) {
   auto token = std::make_shared<int>(1);
   std::shared_ptr<EventLoop::Core> core;
   {

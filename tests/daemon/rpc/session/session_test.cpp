@@ -1,4 +1,4 @@
-// Sessions without any socket: what is sent goes into a list.
+// Sessions without a socket: sent messages are collected in a list.
 #include "daemon/rpc/session/session.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct MemoryTransport final : Transport {
   int wakes = 0;
 };
 
-// A loop whose turns the test takes.
+// An executor whose turns the test runs.
 struct Turns final : Executor {
   void dispatch(std::function<void()> work) override { waiting.push_back(std::move(work)); }
   void take() {
@@ -121,7 +121,7 @@ TEST_F(Sessions, ABatchHasOneReplyAtOnce) {
   EXPECT_TRUE(session->awaits_nothing());
 }
 
-TEST_F(Sessions, ABatchThatTakesLongIsDoneInParts) {
+TEST_F(Sessions, ALongBatchIsProcessedInParts) {
   const auto session = admit();
   std::string message = "[" + call("one", 1) + "," + call("later", 2) + "," + call("one", 3) + "]";
   const std::size_t bytes = message.size();
@@ -141,7 +141,7 @@ TEST_F(Sessions, ABatchThatTakesLongIsDoneInParts) {
   EXPECT_TRUE(session->awaits_nothing());
 }
 
-TEST_F(Sessions, ALateReplyGoesToTheTransportInALaterTurn) {
+TEST_F(Sessions, ALateReplyIsSentInALaterTurn) {
   const auto session = admit();
   EXPECT_EQ(ask(*session, call("later", 7)), "");
   EXPECT_FALSE(session->awaits_nothing());
@@ -165,7 +165,7 @@ TEST_F(Sessions, ABatchWaitsForItsLateMembers) {
                                         result("11", 1) + "]"});
 }
 
-TEST_F(Sessions, ALateNotificationSendsNothingButGivesItsRoomBack) {
+TEST_F(Sessions, ALateNotificationSendsNothingAndFreesItsRoom) {
   const auto session = admit();
   EXPECT_EQ(ask(*session, R"({"jsonrpc":"2.0","method":"later"})"), "");
   answer(0, "1");
@@ -174,7 +174,7 @@ TEST_F(Sessions, ALateNotificationSendsNothingButGivesItsRoomBack) {
   EXPECT_TRUE(session->awaits_nothing());
 }
 
-TEST_F(Sessions, EachOpenCallKeepsTheRoomOfTheLargestReply) {
+TEST_F(Sessions, EachOpenCallReservesTheLargestReply) {
   options.max_reply_bytes = 20'000;
   options.max_unsent_bytes = 60'000;
   const auto session = admit();
@@ -185,11 +185,11 @@ TEST_F(Sessions, EachOpenCallKeepsTheRoomOfTheLargestReply) {
   EXPECT_FALSE(session->has_room());
   answer(1, "2");
   EXPECT_TRUE(session->has_room());
-  transport.unsent_bytes = 1;  // the reply, as yet
+  transport.unsent_bytes = 1;  // the reply, not sent yet
   EXPECT_FALSE(session->has_room());
 }
 
-TEST_F(Sessions, OfValuesTheNewestIsSentAndTheOthersAreCounted) {
+TEST_F(Sessions, OnlyTheNewestValueIsSentAndOthersAreCounted) {
   service().add_topic({"live", false, 20ms});
   const auto session = admit();
   ASSERT_TRUE(session->subscribe("live", 100ms));
@@ -207,7 +207,7 @@ TEST_F(Sessions, OfValuesTheNewestIsSentAndTheOthersAreCounted) {
   EXPECT_EQ(transport.sent.back(), notification("live", 0, "4"));
 }
 
-TEST_F(Sessions, EventsAreSentEachInOrderAndTheOldestAreLostWhenTooManyWait) {
+TEST_F(Sessions, EventsAreSentInOrderAndTheOldestMayBeLost) {
   options.max_queued_events = 3;
   service().add_topic({"event", true, 0ms});
   const auto session = admit();
@@ -219,7 +219,7 @@ TEST_F(Sessions, EventsAreSentEachInOrderAndTheOldestAreLostWhenTooManyWait) {
                          notification("event", 0, "5")}));
 }
 
-TEST_F(Sessions, OneTurnSendsAboutAReplysBytes) {
+TEST_F(Sessions, OneTurnSendsAboutOneReply) {
   options.max_reply_bytes = 20'000;
   service().add_topic({"event", true, 0ms});
   const auto session = admit();
@@ -232,7 +232,7 @@ TEST_F(Sessions, OneTurnSendsAboutAReplysBytes) {
   EXPECT_EQ(transport.sent.size(), 4u);
 }
 
-TEST_F(Sessions, WhoIsNotKnownMayReadAlone) {
+TEST_F(Sessions, AnUnknownCallerMayOnlyRead) {
   const auto unknown = admit(kTcp);
   EXPECT_EQ(ask(*unknown, call("one", 1)), result("1", 1));
   EXPECT_EQ(code_in(ask(*unknown, call("write", 2))), "-32003");
@@ -240,12 +240,12 @@ TEST_F(Sessions, WhoIsNotKnownMayReadAlone) {
   EXPECT_EQ(ask(*admit(kUser), call("write", 3)), result("true", 3));
 }
 
-TEST_F(Sessions, WhoIsNotKnownMayWriteWhereThatIsConfigured) {
+TEST_F(Sessions, AnUnknownCallerMayWriteIfConfigured) {
   options.tcp_may_write = true;
   EXPECT_EQ(ask(*admit(kTcp), call("write", 1)), result("true", 1));
 }
 
-TEST_F(Sessions, ApprovingIsForMembersByTheFirstOrAFurtherGroup) {
+TEST_F(Sessions, ApprovalNeedsMembershipInAnyGroup) {
   options.approvers = ServerOptions::Group{200, "metrology"};
   EXPECT_EQ(ask(*admit({Credentials{1000, 200, 42}}), call("approve", 1)), result("true", 1));
   EXPECT_EQ(ask(*admit({Credentials{1000, 100, 42}, {5, 200}}), call("approve", 1)),
@@ -255,7 +255,7 @@ TEST_F(Sessions, ApprovingIsForMembersByTheFirstOrAFurtherGroup) {
   EXPECT_NE(refused.find("uid 1000 is not a member"), std::string::npos) << refused;
 }
 
-TEST_F(Sessions, ALateReplyAfterTheClientHasGoneGoesNowhere) {
+TEST_F(Sessions, ALateReplyToADisconnectedClientIsDropped) {
   auto session = admit();
   ask(*session, call("later", 1));
   session.reset();
@@ -265,7 +265,7 @@ TEST_F(Sessions, ALateReplyAfterTheClientHasGoneGoesNowhere) {
   EXPECT_EQ(transport.wakes, 0);
 }
 
-TEST_F(Sessions, OneThatHasEndedSendsNoLateReplyAndHasNoSubscription) {
+TEST_F(Sessions, AnEndedSessionSendsNothingMore) {
   service().add_topic({"live", false, 20ms});
   const auto session = admit();
   ASSERT_TRUE(session->subscribe("live", 100ms));
@@ -278,10 +278,10 @@ TEST_F(Sessions, OneThatHasEndedSendsNoLateReplyAndHasNoSubscription) {
   EXPECT_FALSE(service().wanted_every("live"));
   answer(0, "1");
   EXPECT_EQ(transport.sent.size(), 1u);
-  EXPECT_EQ(service().session_count(), 1u);  // until its client has taken that
+  EXPECT_EQ(service().session_count(), 1u);  // until its client has read the reply
 }
 
-TEST_F(Sessions, IdleIsWhoAwaitsNothingForLongerThanTheLimit) {
+TEST_F(Sessions, IsIdleIfNothingIsPendingBeyondTheLimit) {
   options.idle_timeout = 1s;
   service().add_topic({"live", false, 20ms});
   const auto session = admit();
@@ -302,7 +302,7 @@ TEST_F(Sessions, IdleIsWhoAwaitsNothingForLongerThanTheLimit) {
   EXPECT_EQ(code_in(transport.sent.back()), "-32000");
 }
 
-TEST_F(Sessions, WhateverCarriesThemTheyShareTopicsAndPlaces) {
+TEST_F(Sessions, SessionsOfAllTransportsShareTopicsAndLimits) {
   options.max_connections = 2;
   options.log = [](const std::string&) {};
   service().add_topic({"event", true, 0ms});
@@ -321,7 +321,7 @@ TEST_F(Sessions, WhateverCarriesThemTheyShareTopicsAndPlaces) {
   EXPECT_TRUE(service().admit(kUser, transport));
 }
 
-TEST_F(Sessions, TheKeptPlaceIsForItsGroupAlone) {
+TEST_F(Sessions, TheReservedConnectionIsForItsGroupOnly) {
   options.max_connections = 2;
   options.kept_for_group = 200;
   options.log = [](const std::string&) {};

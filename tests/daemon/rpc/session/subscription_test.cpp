@@ -19,7 +19,7 @@ std::string message(const std::string& topic, int missed, const std::string& tex
          std::to_string(missed) + R"(,"value":)" + text + "}}";
 }
 
-TEST(Subscription, TheNewestValueWins) {
+TEST(Subscription, TheNewestValueReplacesOlderOnes) {
   Subscription subscription(kValue, 100ms, 64);
   EXPECT_FALSE(subscription.due());
   const Subscription::Time now(10s);
@@ -33,7 +33,7 @@ TEST(Subscription, TheNewestValueWins) {
   EXPECT_EQ(*subscription.due(), now + 100ms);
 }
 
-TEST(Subscription, AnOldValueWaitsForANewerOneButNotForEver) {
+TEST(Subscription, AnOldValueWaitsALimitedTimeForANewerOne) {
   Subscription subscription(kValue, 100ms, 64);
   const Subscription::Time now(10s);
   std::string out;
@@ -42,11 +42,11 @@ TEST(Subscription, AnOldValueWaitsForANewerOneButNotForEver) {
   subscription.offer(value(2), now + 30ms);
   EXPECT_EQ(*subscription.due(), now + 200ms);
   subscription.offer(value(3), now + 130ms);
-  EXPECT_LE(*subscription.due(), now + 130ms);  // at once
+  EXPECT_LE(*subscription.due(), now + 130ms);  // immediately
 }
 
-// Both axes of one device come at the same time, for ever.
-TEST(Subscription, OfEachThingTheNewestValueIsSent) {
+// The values of both axes of one device always arrive at the same time.
+TEST(Subscription, TheNewestValueOfEachSourceIsSent) {
   Subscription subscription(kValue, 100ms, 64);
   std::string x, y;
   for (int turn = 0; turn < 10; ++turn) {
@@ -63,7 +63,7 @@ TEST(Subscription, OfEachThingTheNewestValueIsSent) {
   EXPECT_NE(y.find(message("live.frame", 0, "19")), std::string::npos) << y;
 }
 
-TEST(Subscription, EventsQueueAndTheOldestGoesWhenFullAndIsCounted) {
+TEST(Subscription, AFullQueueDropsAndCountsTheOldestEvents) {
   Subscription subscription(kEvent, 0ms, 3);
   for (int i = 1; i <= 5; ++i) subscription.offer(value(i), Subscription::Time(10s));
   std::string out;
@@ -125,7 +125,7 @@ class Subscriptions : public ::testing::Test {
   TestServer server_;
 };
 
-TEST_F(Subscriptions, WhatNoLineHoldsIsCounted) {
+TEST_F(Subscriptions, AnEventTooLargeForALineIsCounted) {
   RawClient client(server_.path);
   ASSERT_EQ(at(client.ask(subscribe("run.event", 0)), "/result"), "true");
   const auto refused = server_.on_loop(
@@ -135,7 +135,7 @@ TEST_F(Subscriptions, WhatNoLineHoldsIsCounted) {
   EXPECT_EQ(client.line(), message("run.event", 1, "2"));
 }
 
-TEST_F(Subscriptions, ValuesComeNoFasterThanAsked) {
+TEST_F(Subscriptions, ValuesAreNotSentFasterThanRequested) {
   RawClient client(server_.path);
   ASSERT_EQ(at(client.ask(subscribe("live.frame", 100)), "/result"), "true");
   std::atomic<bool> stop = false;
@@ -151,9 +151,9 @@ TEST_F(Subscriptions, ValuesComeNoFasterThanAsked) {
   publisher.join();
 }
 
-// One who waits for his next value has a fresh one if it is made when it is due; where the times
-// differ, only many values are fresh enough for all.
-TEST_F(Subscriptions, ValuesAreWantedAtTheIntervalOfAll) {
+// With one subscriber, a value is made when his next value is due. With different intervals, values
+// must be made often enough that each subscriber gets a recent one.
+TEST_F(Subscriptions, ValuesAreRequestedAtTheIntervalOfAll) {
   const auto every = [&] {
     return server_.on_loop([&] { return server_.service->wanted_every("live.frame"); });
   };
@@ -164,7 +164,7 @@ TEST_F(Subscriptions, ValuesAreWantedAtTheIntervalOfAll) {
   EXPECT_EQ(every(), std::nullopt);
   RawClient patient(server_.path);
   patient.ask(subscribe("live.frame", 500));
-  EXPECT_EQ(every(), kValue.min_interval);  // the first is wanted at once
+  EXPECT_EQ(every(), kValue.min_interval);  // the first value is requested immediately
   publish("live.frame", "1");
   patient.line();
   EXPECT_TRUE(becomes(500ms));
@@ -178,7 +178,7 @@ TEST_F(Subscriptions, ValuesAreWantedAtTheIntervalOfAll) {
   EXPECT_TRUE(becomes(500ms));
 }
 
-TEST_F(Subscriptions, TheLastValueComesThoughNoneFollows) {
+TEST_F(Subscriptions, TheLastValueIsSentIfNoneFollows) {
   RawClient client(server_.path);
   client.ask(subscribe("live.frame", 50));
   for (int i = 1; i <= 3; ++i) publish("live.frame", std::to_string(i));
@@ -189,14 +189,14 @@ TEST_F(Subscriptions, TheLastValueComesThoughNoneFollows) {
   }
 }
 
-TEST_F(Subscriptions, EventsComeInOrderAndAtOnce) {
+TEST_F(Subscriptions, EventsAreSentInOrderAndAtOnce) {
   RawClient client(server_.path);
   client.ask(subscribe("run.event", 0));
   for (int i = 0; i < 30; ++i) publish("run.event", std::to_string(i));
   for (int i = 0; i < 30; ++i) EXPECT_EQ(client.line(), message("run.event", 0, std::to_string(i)));
 }
 
-TEST_F(Subscriptions, AreRefusedWithAReason) {
+TEST_F(Subscriptions, AreRejectedWithAReason) {
   RawClient client(server_.path);
   auto reply = client.ask(subscribe("live.fram", 100));
   EXPECT_EQ(at(reply, "/error/code"), "-32004");
@@ -210,7 +210,7 @@ TEST_F(Subscriptions, AreRefusedWithAReason) {
   EXPECT_EQ(at(client.ask(subscribe("run.event", 100)), "/error/code"), "-32602");
 }
 
-TEST_F(Subscriptions, EndWithUnsubscribeAndWithTheConnection) {
+TEST_F(Subscriptions, EndWithUnsubscribeOrTheConnection) {
   {
     RawClient client(server_.path);
     client.ask(subscribe("live.frame", 100));
@@ -224,8 +224,8 @@ TEST_F(Subscriptions, EndWithUnsubscribeAndWithTheConnection) {
   publish("live.frame", "1");
 }
 
-// As of a shell's pipe into a socket tool.
-TEST_F(Subscriptions, StayWhereTheClientHasOnlyDoneSending) {
+// A shell pipe into a socket tool behaves like this.
+TEST_F(Subscriptions, RemainIfTheClientOnlyStopsSending) {
   auto client = std::make_unique<RawClient>(server_.path);
   client->send(subscribe("live.frame", 20) + "\n");
   ::shutdown(client->fd(), SHUT_WR);
@@ -236,7 +236,7 @@ TEST_F(Subscriptions, StayWhereTheClientHasOnlyDoneSending) {
   EXPECT_TRUE(becomes_unwanted("live.frame"));
 }
 
-TEST_F(Subscriptions, ASubscriberThatNeverReadsHoldsUpNobodyAndIsDropped) {
+TEST_F(Subscriptions, ASubscriberThatNeverReadsIsDropped) {
   RawClient slow(server_.path), other(server_.path);
   slow.ask(subscribe("live.frame", 20));
   slow.ask(subscribe("run.event", 0));
@@ -251,7 +251,7 @@ TEST_F(Subscriptions, ASubscriberThatNeverReadsHoldsUpNobodyAndIsDropped) {
   EXPECT_NE(server_.log().find("dropped: the client has accepted no data for"), std::string::npos);
 }
 
-TEST_F(Subscriptions, ASlowSubscriberIsToldWhatItMissed) {
+TEST_F(Subscriptions, ReportsMissedEventsToASlowSubscriber) {
   RawClient slow(server_.path);
   slow.ask(subscribe("run.event", 0));
   const std::string big = '"' + std::string(40000, 'x') + '"';
@@ -274,7 +274,7 @@ TEST_F(Subscriptions, AValueTooLargeForALineIsTheCallersError) {
   });
 }
 
-TEST_F(Subscriptions, TheClientKeepsNotificationsThatComeBetween) {
+TEST_F(Subscriptions, TheClientKeepsNotificationsBetweenReplies) {
   auto client = Client::connect(server_.path);
   ASSERT_TRUE(client.has_value());
   ASSERT_TRUE(client->call("live.subscribe", R"({"topic":"run.event"})").has_value());

@@ -1,5 +1,5 @@
-// Browsers that mean harm or are broken: a refusal or a clean close, bounded memory, and the
-// machine's control on the Unix socket goes on.
+// Malicious or broken browsers: each is rejected or closed with bounded memory, and the machine's
+// control on the Unix socket continues to work.
 #include <deque>
 #include <fstream>
 
@@ -8,7 +8,7 @@
 namespace mdof::rpc::test {
 namespace {
 
-// That a hostile browser may cost. ASan keeps what was freed, 256 MB of it.
+// Largest memory that a hostile browser may use. ASan keeps up to 256 MB of freed memory.
 #ifdef MDOF_SANITIZED
 constexpr double kMost_mb = 400;
 #else
@@ -36,7 +36,7 @@ class HostileBrowser : public WebPage {
     return o;
   }
   explicit HostileBrowser(const ServerOptions& options = short_times()) : WebPage(options) {}
-  // The machine's control, and another browser, are served as ever.
+  // The machine's control and another browser are served normally.
   void expect_others_served() {
     RawClient control(server_.path);
     EXPECT_EQ(at(control.ask(call("get_data")), "/result/1"), "5");
@@ -45,8 +45,8 @@ class HostileBrowser : public WebPage {
   }
 };
 
-// The second request is no request of its own where the first one hides it.
-TEST_F(HostileBrowser, SmugglesNoRequest) {
+// A second request inside the first must not be processed as a separate request.
+TEST_F(HostileBrowser, CannotSmuggleARequest) {
   const std::string hidden = post(call("write"), "Authorization: Bearer " + kTestToken + "\r\n");
   const std::string start =
       "POST /rpc HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n";
@@ -70,7 +70,7 @@ TEST_F(HostileBrowser, SmugglesNoRequest) {
   expect_others_served();
 }
 
-TEST_F(HostileBrowser, SendsTooMuch) {
+TEST_F(HostileBrowser, TooLargeRequestsAreRejected) {
   EXPECT_EQ(status_of(get("/", "X: " + std::string(10'000, 'x') + "\r\n")), 431);
   EXPECT_EQ(status_of(get("/" + std::string(100'000, 'x'))), 431);
   std::string many;
@@ -88,8 +88,8 @@ TEST_F(HostileBrowser, SendsTooMuch) {
   expect_others_served();
 }
 
-// A head, a body and nothing at all, a byte now and then.
-TEST_F(HostileBrowser, IsSlow) {
+// A head, a body or nothing, sent one byte at a time.
+TEST_F(HostileBrowser, SlowClientsAreClosed) {
   std::vector<HttpClient> slow;
   for (int i = 0; i < 30; ++i) slow.push_back(client());
   const std::string request = post(std::string(1000, ' '));
@@ -102,10 +102,10 @@ TEST_F(HostileBrowser, IsSlow) {
   for (HttpClient& each : slow) EXPECT_EQ(each.answer().status, 408);
   expect_others_served();
   HttpClient silent = client();
-  EXPECT_TRUE(silent.closes());  // after http_idle_timeout, without a word
+  EXPECT_TRUE(silent.closes());  // after http_idle_timeout, without an answer
 }
 
-// Ten thousand connections, of which none ends by itself.
+// Ten thousand connections that the browser never closes.
 TEST_F(HostileBrowser, OpensTenThousandConnections) {
   std::deque<HttpClient> open;
   const double before = resident_memory_mb();
@@ -122,8 +122,8 @@ TEST_F(HostileBrowser, OpensTenThousandConnections) {
   EXPECT_TRUE(open_become(0));
 }
 
-// Those that ask for something stay; who finds no place is told.
-TEST_F(HostileBrowser, TakesNoMorePlacesThanThereAre) {
+// Active clients remain connected; a client without a free connection gets an answer.
+TEST_F(HostileBrowser, CannotExceedTheConnectionLimit) {
   std::vector<HttpClient> streams;
   for (int i = 0; i < 8; ++i) {
     streams.push_back(client());
@@ -137,16 +137,17 @@ TEST_F(HostileBrowser, TakesNoMorePlacesThanThereAre) {
     busy.back().send("GET");
   }
   const Answer late = ask(get("/"));
-  EXPECT_TRUE(late.status == 503 || late.status == 200) << late.status;  // unless one is late
-  RawClient control(server_.path);                                       // has places of its own
+  EXPECT_TRUE(late.status == 503 || late.status == 200)
+      << late.status;               // 200 if one of the others is late
+  RawClient control(server_.path);  // has its own connections
   EXPECT_EQ(at(control.ask(call("get_data")), "/result/1"), "5");
   publish("event", "1");
   for (HttpClient& each : streams) EXPECT_NE(each.until("\"value\":1}"), "");
 }
 
-// A stream that is never read: the others get each event, and what waits for it is in no memory of
-// its own; once it has taken nothing for stall_timeout it is dropped.
-TEST_F(HostileBrowser, NeverReads) {
+// A stream that is never read: the other clients get each event, pending events use no memory of
+// their own, and the stream is dropped after stall_timeout.
+TEST_F(HostileBrowser, AStreamThatIsNeverReadIsDropped) {
   HttpClient deaf = client(), good = client();
   const int bytes = 4096;
   ::setsockopt(deaf.fd(), SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes);
@@ -170,8 +171,8 @@ TEST_F(HostileBrowser, NeverReads) {
   expect_others_served();
 }
 
-// Ends at every place of a request, and in the middle of a reply that comes late.
-TEST_F(HostileBrowser, GoesAwayInTheMiddle) {
+// Closes after every byte of a request, and in the middle of a late reply.
+TEST_F(HostileBrowser, MayDisconnectAtAnyByte) {
   const std::string request = post(call("later"));
   for (std::size_t n = 1; n <= request.size(); ++n) client().send(request.substr(0, n));
   for (int i = 0; i < 20; ++i) {

@@ -19,10 +19,10 @@ inline constexpr std::array<PageFile, 2> kTestPage{{
 inline const std::string kTestToken(64, 'a');
 
 struct Answer {
-  int status = 0;  // 0: the server closed without one, or took too long
+  int status = 0;  // 0: the server closed without an answer, or was too slow
   std::string head, body;
 
-  // "" where it is not there.
+  // "" if the field is missing.
   std::string field(const std::string& name) const {
     const auto at = head.find("\r\n" + name + ": ");
     if (at == std::string::npos) return {};
@@ -52,7 +52,7 @@ class HttpClient {
     return true;
   }
 
-  // Reads until `text` has come; what came up to its end. "" if the server closes or nothing comes.
+  // Reads until `text` arrives; returns all bytes to its end. "" if the server closes or is silent.
   std::string until(std::string_view text, std::chrono::milliseconds timeout = 20s) {
     for (;;) {
       if (const auto at = got_.find(text); at != std::string::npos) {
@@ -83,7 +83,7 @@ class HttpClient {
     return answer();
   }
 
-  // Whether nothing more comes but the end.
+  // Whether the connection ends without further bytes.
   bool closes() {
     while (receive(20s)) continue;
     return ended_;

@@ -1,5 +1,5 @@
 // Bytes of a browser: read as heads, whole and in two parts, then through a connection with its
-// routes. Whatever comes, what is read keeps to its rules, what is answered is HTTP, and nobody
+// routes. For any input, a head that was read obeys the rules, an answer is HTTP, and nobody
 // without a token writes.
 #include <sys/socket.h>
 #include <unistd.h>

@@ -7,7 +7,7 @@ namespace {
 
 constexpr HttpLimits kLimits{8192, 65536};
 
-// The head of `text` as a connection reads it, or the status that refuses it; 0: it has no end.
+// The head of `text` as a connection reads it, or the status that rejects it; 0: incomplete.
 int status_of_head(const std::string& text, HttpHead* head = nullptr) {
   std::size_t scanned = 0;
   const auto end = end_of_head(text, scanned, kLimits.head_bytes);
@@ -23,7 +23,7 @@ std::string with_fields(const std::string& fields) {
   return "POST /rpc HTTP/1.1\r\nHost: localhost:1\r\n" + fields + "\r\n";
 }
 
-TEST(HttpHead, IsReadWithWhatMdofdNeedsOfIt) {
+TEST(HttpHead, IsReadWithAllFieldsThatMdofdNeeds) {
   HttpHead head;
   ASSERT_EQ(status_of_head("GET /events?topics=a%2Cb&interval_ms=20 HTTP/1.1\r\n"
                            "host: localhost:8080\r\nOrigin: http://localhost:8080\r\n"
@@ -46,7 +46,7 @@ TEST(HttpHead, IsReadWithWhatMdofdNeedsOfIt) {
   EXPECT_EQ(head.body_bytes, 0U);
 }
 
-TEST(HttpHead, SaysWhetherTheConnectionStays) {
+TEST(HttpHead, StatesWhetherTheConnectionIsKept) {
   HttpHead head;
   ASSERT_EQ(status_of_head("GET / HTTP/1.0\r\nHost: localhost\r\n\r\n", &head), 200);
   EXPECT_FALSE(head.keep_alive);
@@ -60,8 +60,8 @@ TEST(HttpHead, SaysWhetherTheConnectionStays) {
   EXPECT_FALSE(head.takes_gzip);
 }
 
-// Where two readers of the same bytes could see different requests, there is none (RFC 9112, 11.2).
-TEST(HttpHead, LeavesNoTwoWaysToReadIt) {
+// Bytes that two readers could interpret differently are rejected (RFC 9112, 11.2).
+TEST(HttpHead, RejectsAmbiguousHeads) {
   EXPECT_EQ(status_of_head(with_fields("Content-Length: 5\r\n")), 200);
   EXPECT_EQ(status_of_head(with_fields("Content-Length: 5\r\nContent-Length: 6\r\n")), 400);
   EXPECT_EQ(status_of_head(with_fields("Content-Length: 5\r\nContent-Length: 5\r\n")), 400);
@@ -89,7 +89,7 @@ TEST(HttpHead, LeavesNoTwoWaysToReadIt) {
   EXPECT_EQ(status_of_head(with_fields("no colon\r\n")), 400);
 }
 
-TEST(HttpHead, HasAPathAHostAndAVersion) {
+TEST(HttpHead, NeedsAPathAHostAndAVersion) {
   for (const char* target : {"http://localhost/", "*", "index.html", "/a#b", "localhost:80"})
     EXPECT_EQ(status_of_head("GET " + std::string(target) + " HTTP/1.1\r\nHost: a\r\n\r\n"), 400)
         << target;
@@ -102,7 +102,7 @@ TEST(HttpHead, HasAPathAHostAndAVersion) {
   EXPECT_EQ(status_of_head("{\"jsonrpc\""), 400);
 }
 
-TEST(HttpHead, HasBounds) {
+TEST(HttpHead, HasLimits) {
   EXPECT_EQ(status_of_head(with_fields("X: " + std::string(9000, 'x') + "\r\n")), 431);
   EXPECT_EQ(status_of_head("GET /" + std::string(9000, 'x')), 431);
   std::string many;
@@ -113,7 +113,7 @@ TEST(HttpHead, HasBounds) {
   EXPECT_NE(status_of_head(with_fields("Content-Length: 18446744073709551621\r\n")), 200);
 }
 
-// However the bytes come, one by one or at once.
+// For any division of the bytes.
 TEST(HttpHead, EndsAtTheSamePlace) {
   const std::string text = with_fields("Content-Length: 2\r\n") + "{}";
   std::size_t scanned = 0;

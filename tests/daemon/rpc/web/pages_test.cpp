@@ -1,4 +1,4 @@
-// What browsers ask for, and get: the page, requests, streams of events.
+// Requests of browsers and their answers: the page, calls, streams of events.
 #include "tests/daemon/rpc/web/http_fixture.h"
 
 namespace mdof::rpc::test {
@@ -6,7 +6,7 @@ namespace {
 
 const std::string kOurs = "Authorization: Bearer " + kTestToken + "\r\n";
 
-TEST_F(WebPage, GivesItsFilesWithFieldsThatKeepOthersOut) {
+TEST_F(WebPage, ServesItsFilesWithSecurityFields) {
   const Answer page = ask(get("/"));
   EXPECT_EQ(page.status, 200);
   EXPECT_EQ(page.body, kTestPage[0].text);
@@ -24,7 +24,7 @@ TEST_F(WebPage, GivesItsFilesWithFieldsThatKeepOthersOut) {
   }
 }
 
-TEST_F(WebPage, GivesAFileOnceAndThenItsEtag) {
+TEST_F(WebPage, ServesAFileOnceAndThenItsEtag) {
   const std::string gzip = "Accept-Encoding: gzip\r\n";
   const Answer plain = ask(get("/app.js")), packed = ask(get("/app.js", gzip));
   EXPECT_EQ(plain.body, kTestPage[1].text);
@@ -45,10 +45,10 @@ TEST_F(WebPage, AnswersHeadWithoutABody) {
   const Answer head = client.answer(true);
   EXPECT_EQ(head.status, 200);
   EXPECT_EQ(head.field("Content-Length"), std::to_string(kTestPage[1].text.size()));
-  EXPECT_EQ(client.ask(get("/")).body, kTestPage[0].text);  // nothing was left in between
+  EXPECT_EQ(client.ask(get("/")).body, kTestPage[0].text);  // no bytes remain in between
 }
 
-TEST_F(WebPage, SaysWhatItDoesNotTake) {
+TEST_F(WebPage, NamesWhatItDoesNotAccept) {
   const auto asked = [this](const std::string& method, const std::string& path) {
     return ask(method + " " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
   };
@@ -94,8 +94,8 @@ TEST_F(WebPage, AnswersRequestsAsTheSocketDoes) {
   EXPECT_EQ(client.ask(post("")).body.find(R"({"jsonrpc":"2.0","error":{"code":-32700)"), 0U);
 }
 
-// As many as come, one after the other, and in parts as small as can be.
-TEST_F(WebPage, KeepsAConnectionForRequestsInARow) {
+// Many requests in one connection, also in the smallest possible parts.
+TEST_F(WebPage, KeepsAConnectionForConsecutiveRequests) {
   HttpClient client = this->client();
   std::string all;
   for (int i = 0; i < 50; ++i) all += post(call("bytes", "[" + std::to_string(i) + "]")) + get("/");
@@ -111,7 +111,7 @@ TEST_F(WebPage, KeepsAConnectionForRequestsInARow) {
   EXPECT_TRUE(client.closes());
 }
 
-TEST_F(WebPage, AsksForABodyThatAClientHoldsBack) {
+TEST_F(WebPage, RequestsABodyThatAClientHoldsBack) {
   HttpClient client = this->client();
   const std::string body = call("get_data");
   const std::string request = post(body, "Expect: 100-continue\r\n");
@@ -120,7 +120,7 @@ TEST_F(WebPage, AsksForABodyThatAClientHoldsBack) {
   EXPECT_EQ(client.ask(body).status, 200);
 }
 
-TEST_F(WebPage, LetsWriteWhoHasTheToken) {
+TEST_F(WebPage, OnlyTheTokenPermitsWriting) {
   const auto code = [this](const std::string& fields) {
     return at(ask(post(call("write"), fields)).body, "/error/code");
   };
@@ -131,7 +131,7 @@ TEST_F(WebPage, LetsWriteWhoHasTheToken) {
   EXPECT_EQ(status_of(post(call("write"), kOurs + kOurs)), 400);
   const std::string why = at(ask(post(call("write"))).body, "/error/message");
   EXPECT_NE(why.find("mdof token"), std::string::npos) << why;
-  // The right was that request's alone.
+  // The permission is valid for that request only.
   HttpClient client = this->client();
   EXPECT_EQ(at(client.ask(post(call("write"), kOurs)).body, "/result"), "true");
   EXPECT_EQ(at(client.ask(post(call("write"))).body, "/error/code"), "-32003");
@@ -139,7 +139,7 @@ TEST_F(WebPage, LetsWriteWhoHasTheToken) {
             "-32003");
 }
 
-TEST_F(WebPage, RefusesThePagesOfOthers) {
+TEST_F(WebPage, RejectsPagesOfOtherSites) {
   EXPECT_EQ(status_of("GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n"), 421);
   EXPECT_EQ(status_of("GET / HTTP/1.1\r\nHost: mill.local:8080\r\n\r\n"), 200);
   EXPECT_EQ(status_of(post(call("get_data"), kOurs + "Origin: http://evil.example\r\n")), 403);
@@ -153,7 +153,7 @@ TEST_F(WebPage, RefusesThePagesOfOthers) {
   EXPECT_NE(foreign.body.find("hosts"), std::string::npos) << foreign.body;
 }
 
-TEST_F(WebPage, HasNoSubscriptionsButStreams) {
+TEST_F(WebPage, HasStreamsInsteadOfSubscriptions) {
   const std::string reply = ask(post(call("subscribe"), kOurs)).body;
   EXPECT_EQ(at(reply, "/error/code"), "-32003");
   EXPECT_NE(reply.find("GET /events"), std::string::npos) << reply;
@@ -195,13 +195,13 @@ TEST_F(WebPage, ResumesAStreamByItsLastEvent) {
   EXPECT_NE(again.until("\n\n").find("\"value\":2}"), std::string::npos);
   publish("event", "3");
   EXPECT_NE(again.until("\n\n").find("\"value\":3}"), std::string::npos);
-  HttpClient other = client();  // of another life of mdofd
+  HttpClient other = client();  // with an id from a previous process of mdofd
   other.send(get("/events?topics=event", "Last-Event-ID: 5\r\n"));
   other.until("\n\n");
   EXPECT_NE(other.until("\n\n").find("event: lost\ndata: {\"count\":null}\n\n"), std::string::npos);
 }
 
-TEST_F(WebPage, RefusesStreamsOfWhatIsNot) {
+TEST_F(WebPage, RejectsStreamsOfUnknownTopics) {
   EXPECT_EQ(status_of(get("/events")), 400);
   EXPECT_EQ(status_of(get("/events?topics=none")), 404);
   EXPECT_EQ(status_of(get("/events?topics=value&interval_ms=1")), 400);
@@ -219,7 +219,7 @@ class FewKeptEvents : public WebPage {
         }()) {}
 };
 
-TEST_F(FewKeptEvents, SaysHowManyAClientHasLost) {
+TEST_F(FewKeptEvents, ReportsHowManyEventsAClientHasLost) {
   HttpClient first = client();
   first.send(get("/events?topics=event"));
   first.until("\r\n\r\n");

@@ -1,4 +1,4 @@
-// What needs no connection: hosts and origins, the token's file, events that are kept, queries.
+// Rules that need no connection: hosts and origins, the token's file, kept events, queries.
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -25,8 +25,8 @@ int judged(const std::string& host, const std::string& origin = "", const std::s
   return same ? 200 : same.error().status;
 }
 
-// A name of somebody else that points here (DNS rebinding) is the host of all that its page asks.
-TEST(SameSite, TakesItsOwnHostsAlone) {
+// A foreign name that points here (DNS rebinding) is the host of all requests of its page.
+TEST(SameSite, AcceptsOnlyItsOwnHosts) {
   for (const char* host : {"localhost:8080", "LOCALHOST", "127.0.0.1:1", "[::1]:8080", "[::1]",
                            "mill.local:8080", "MILL.local:8080"})
     EXPECT_EQ(judged(host), 200) << host;
@@ -37,7 +37,7 @@ TEST(SameSite, TakesItsOwnHostsAlone) {
     EXPECT_EQ(judged(host), 421) << host;
 }
 
-TEST(SameSite, TakesItsOwnPageAlone) {
+TEST(SameSite, AcceptsOnlyItsOwnPage) {
   EXPECT_EQ(judged("localhost:8080", "http://localhost:8080"), 200);
   EXPECT_EQ(judged("mill.local:8080", "https://mill.local:8080"), 200);  // behind a proxy
   for (const char* origin :
@@ -65,7 +65,7 @@ class TokenFile : public ::testing::Test {
   std::filesystem::path file_ = folder_ / "http.token";
 };
 
-TEST_F(TokenFile, IsMadeOnceAndReadByItsUserAlone) {
+TEST_F(TokenFile, IsCreatedOnceAndReadableByItsUserOnly) {
   const auto token = load_token(file_);
   ASSERT_TRUE(token.has_value()) << token.error().message;
   EXPECT_EQ(token->size(), 64U);
@@ -80,7 +80,7 @@ TEST_F(TokenFile, IsMadeOnceAndReadByItsUserAlone) {
   EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
-TEST_F(TokenFile, IsRefusedWhereItKeepsNoSecret) {
+TEST_F(TokenFile, IsRejectedIfMalformedOrReadableByOthers) {
   const std::string good(64, 'b');
   write(good + "\n", 0600);
   EXPECT_EQ(load_token(file_).value_or(""), good);
@@ -98,19 +98,19 @@ TEST_F(TokenFile, IsRefusedWhereItKeepsNoSecret) {
   EXPECT_FALSE(load_token(file_).has_value());
 }
 
-TEST(Token, IsBorneWholeOrNotAtAll) {
+TEST(Token, MustMatchCompletely) {
   EXPECT_TRUE(bears_token("Bearer " + kTestToken, kTestToken));
   for (const std::string& wrong :
        {std::string(), kTestToken, "bearer" + kTestToken, "Bearer " + kTestToken + "a",
         "Bearer " + kTestToken.substr(1), "Bearer b" + kTestToken.substr(1),
         "Bearer  " + kTestToken, std::string("Bearer "), "Basic " + kTestToken})
     EXPECT_FALSE(bears_token(wrong, kTestToken)) << wrong;
-  EXPECT_FALSE(bears_token("Bearer ", ""));  // no token is no right
+  EXPECT_FALSE(bears_token("Bearer ", ""));  // an empty token gives no permission
 }
 
 constexpr std::chrono::system_clock::time_point kStart{std::chrono::seconds(1'790'000'000)};
 
-TEST(KeptEvents, AreNumberedFromTheStartOn) {
+TEST(KeptEvents, AreNumberedFromTheStart) {
   KeptEvents kept(kStart, {10, 1000});
   EXPECT_EQ(kept.last_id(), 1'790'000'000'000'000U);
   kept.add("a", "1\n2");
@@ -122,7 +122,7 @@ TEST(KeptEvents, AreNumberedFromTheStartOn) {
   EXPECT_EQ(kept.next(kept.last_id()).event, nullptr);
 }
 
-TEST(KeptEvents, ResumeWhereAClientWasAndSayWhatItLost) {
+TEST(KeptEvents, ResumeAfterTheLastEventAndReportLostOnes) {
   KeptEvents kept(kStart, {3, 1000});
   const std::uint64_t base = kept.last_id();
   for (int i = 1; i <= 5; ++i) kept.add("a", std::to_string(i));
@@ -131,7 +131,7 @@ TEST(KeptEvents, ResumeWhereAClientWasAndSayWhatItLost) {
   const auto near = kept.resume(std::to_string(base + 3));
   EXPECT_FALSE(near.lost);
   EXPECT_EQ(kept.next(near.after).event->json, "4");
-  const auto far = kept.resume(std::to_string(base + 1));  // 2 is gone, 3 to 5 are kept
+  const auto far = kept.resume(std::to_string(base + 1));  // event 2 is lost, 3 to 5 are kept
   EXPECT_TRUE(far.lost);
   EXPECT_EQ(far.count, 1U);
   EXPECT_EQ(kept.next(far.after).event->json, "3");
@@ -144,11 +144,11 @@ TEST(KeptEvents, ResumeWhereAClientWasAndSayWhatItLost) {
   }
 }
 
-TEST(KeptEvents, TakeABoundedRoom) {
+TEST(KeptEvents, UseBoundedMemory) {
   KeptEvents kept(kStart, {1000, 100});
   for (int i = 0; i < 50; ++i) kept.add("topic", std::string(20, 'x'));
   EXPECT_EQ(kept.size(), 4U);
-  kept.add("topic", std::string(500, 'x'));  // one that is larger than all
+  kept.add("topic", std::string(500, 'x'));  // larger than the limit
   EXPECT_EQ(kept.size(), 1U);
 }
 
@@ -190,7 +190,7 @@ TEST(ServedFiles, HaveATypeAndAnEtagOfTheirContent) {
     EXPECT_EQ(files.find(path), nullptr) << path;
 }
 
-// The page that this build has.
+// The page of this build.
 TEST(ServedFiles, AreThoseOfTheBuild) {
   const ServedFiles files(page_files());
   ASSERT_NE(files.find("/"), nullptr);
@@ -203,7 +203,7 @@ TEST(ServedFiles, AreThoseOfTheBuild) {
     const ServedFile& served = *files.find('/' + std::string(file.name));
     sent += served.gzip.empty() ? served.text.size() : served.gzip.size();
   }
-  EXPECT_LT(sent, 200'000U);  // all files of the page, as a browser gets them
+  EXPECT_LT(sent, 200'000U);  // all files of the page, as a browser receives them
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A device that fails, comes back, and loses samples: what of that is told.
+// Reports about a device that fails, returns and loses samples.
 #include "daemon/station/device/acquisition.h"
 #include "drivers/long_step.h"
 
@@ -13,7 +13,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// What the fake device does at each call of open() and read(), in turn; then it stays silent.
+// Actions of the fake device for successive calls of open() and read(); then it is silent.
 struct Script {
   enum class Act {
     open,
@@ -97,7 +97,7 @@ class Scripted final : public drivers::Driver {
   drivers::DeviceClock clock_{1.0};  // its ticks are nanoseconds
 };
 
-// Collects what comes; takes only so many blocks where told so.
+// Collects blocks; accepts a limited number if requested.
 class Collector {
  public:
   explicit Collector(std::size_t room = 1000) : room_(room) {}
@@ -171,7 +171,7 @@ drivers::DriverSpec spec_of(std::deque<Script::Act> acts, bool live = true) {
 
 using enum Script::Act;
 
-TEST(Acquisition, ReopensAFailedDeviceAndTellsWhatWasLost) {
+TEST(Acquisition, ReopensAFailedDeviceAndReportsLostSamples) {
   Collector collector;
   Acquisition acquisition(spec_of({open, block, fail, refuse, refuse, open, silence, block}),
                           collector.sink());
@@ -185,7 +185,7 @@ TEST(Acquisition, ReopensAFailedDeviceAndTellsWhatWasLost) {
   EXPECT_EQ(status.reopened, 3u);
   EXPECT_EQ(status.lost, 1000u);
   EXPECT_EQ(status.scans, 20u);
-  EXPECT_EQ(status.error, "");  // it is well again, and what it was is no state
+  EXPECT_EQ(status.error, "");  // the device has recovered, so there is no current error
   EXPECT_EQ(status.last_error, "10.0.0.9: no route");
   EXPECT_FALSE(status.recovered_utc.empty());
   EXPECT_TRUE(status.standing.empty());
@@ -194,7 +194,7 @@ TEST(Acquisition, ReopensAFailedDeviceAndTellsWhatWasLost) {
   EXPECT_EQ(acquisition.status().state, "closed");
 }
 
-// Whether healthy() says so all through a read that takes 0.7 s.
+// Whether healthy() is true during a whole read that takes 0.7 s.
 bool healthy_all_through(Script::Act act) {
   Collector collector;
   Acquisition acquisition(spec_of({open, block, act, block}), collector.sink());
@@ -207,12 +207,12 @@ bool healthy_all_through(Script::Act act) {
   return healthy;
 }
 
-TEST(Acquisition, ALongStepThatWasAnnouncedIsNoHangUp) {
+TEST(Acquisition, AnAnnouncedLongStepIsNotAHangUp) {
   EXPECT_TRUE(healthy_all_through(slow_read));
   EXPECT_FALSE(healthy_all_through(hang));
 }
 
-TEST(Acquisition, TellsOnceThatADeviceIsLostAndThatItIsBack) {
+TEST(Acquisition, ReportsALossAndARecoveryOnceEach) {
   Collector collector;
   Acquisition acquisition(spec_of({open, block, fail, refuse, refuse, open, silence, block}),
                           collector.sink());
@@ -227,7 +227,7 @@ TEST(Acquisition, TellsOnceThatADeviceIsLostAndThatItIsBack) {
   EXPECT_TRUE(reported[1].ends_with("; scans lost in this time: 1000")) << reported[1];
 }
 
-TEST(Acquisition, TellsThatAnEncoderHasLostItsDatumAndHoldsToIt) {
+TEST(Acquisition, ReportsALostDatumAndKeepsItSuspect) {
   Collector collector;
   Acquisition acquisition(spec_of({open, block, fail, open_anew, block, fail, open, block}),
                           collector.sink());
@@ -243,7 +243,7 @@ TEST(Acquisition, TellsThatAnEncoderHasLostItsDatumAndHoldsToIt) {
   EXPECT_EQ(standing[0].kind, Trouble::Kind::suspect);
 }
 
-TEST(Acquisition, TellsThatADeviceCannotBeOpenedAndKeepsItForThoseWhoAskLater) {
+TEST(Acquisition, ReportsADeviceThatCannotBeOpenedAlsoLater) {
   Collector collector;
   Acquisition acquisition(spec_of(std::deque<Script::Act>(100, refuse)), collector.sink());
   acquisition.start();
@@ -256,8 +256,8 @@ TEST(Acquisition, TellsThatADeviceCannotBeOpenedAndKeepsItForThoseWhoAskLater) {
   EXPECT_EQ(status.error, "10.0.0.9: no route");
 }
 
-// At 1 kHz the window of 5 s would have 5000 scans; these are 10.
-TEST(Acquisition, TellsThatADeviceIsSlow) {
+// At 1 kHz the window of 5 s would have 5000 scans; here it has 10.
+TEST(Acquisition, ReportsASlowDevice) {
   Collector collector;
   Acquisition acquisition(spec_of({open, block}), collector.sink());
   acquisition.start();
@@ -271,7 +271,7 @@ TEST(Acquisition, TellsThatADeviceIsSlow) {
       << collector.troubles()[0];
 }
 
-TEST(Acquisition, ADeviceThatTakesLongToOpenIsNoHungThread) {
+TEST(Acquisition, ADeviceThatOpensSlowlyIsNotAHungThread) {
   Collector collector;
   Acquisition acquisition(spec_of({slow_open, block}), collector.sink());
   acquisition.start();
@@ -282,8 +282,8 @@ TEST(Acquisition, ADeviceThatTakesLongToOpenIsNoHungThread) {
   }
 }
 
-// By themselves the pauses of forty refusals take over a quarter of a minute.
-TEST(Acquisition, ADeviceThatIsPluggedInIsNotKeptWaiting) {
+// Without the plug-in event, the pauses of forty refusals take over a quarter of a minute.
+TEST(Acquisition, OpensAPluggedInDeviceWithoutDelay) {
   std::deque<Script::Act> acts(40, refuse);
   acts.insert(acts.end(), {open, block});
   Collector collector;
@@ -298,7 +298,7 @@ TEST(Acquisition, ADeviceThatIsPluggedInIsNotKeptWaiting) {
   EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds(10));
 }
 
-TEST(Acquisition, WhatTheQueueHadNoRoomForIsToldWithTheNextBlock) {
+TEST(Acquisition, ReportsSamplesLostByAFullQueueWithTheNextBlock) {
   Collector collector;
   collector.refuse_after_the_first(2);
   Acquisition acquisition(spec_of({open, block, block, block, block}), collector.sink());
@@ -309,7 +309,7 @@ TEST(Acquisition, WhatTheQueueHadNoRoomForIsToldWithTheNextBlock) {
   EXPECT_EQ(acquisition.status().lost, 20u);
 }
 
-TEST(Acquisition, AReplayEndsOnceAndForAll) {
+TEST(Acquisition, AReplayEndsPermanently) {
   Collector collector;
   Acquisition acquisition(spec_of({open, block, Script::Act::end}, false), collector.sink());
   acquisition.start();
@@ -319,7 +319,7 @@ TEST(Acquisition, AReplayEndsOnceAndForAll) {
   EXPECT_TRUE(acquisition.healthy(milliseconds(0)));
 }
 
-TEST(Acquisition, AReplayThatFailsSaysWhyAndIsNotAskedAgain) {
+TEST(Acquisition, AFailedReplayStatesWhyAndIsNotRetried) {
   Collector collector;
   Acquisition acquisition(spec_of({open, fail, open, block}, false), collector.sink());
   acquisition.start();
@@ -339,8 +339,8 @@ TEST(Acquisition, StopsWhileItWaits) {
   EXPECT_EQ(acquisition.status().scans, 0u);
 }
 
-// Packets that are late for a while: suspect, so that no place is given to them, and told.
-TEST(Acquisition, WhileItsClockIsInDoubtSamplesAreSuspect) {
+// Packets that are late for a while: suspect, so that they get no position, and reported.
+TEST(Acquisition, SamplesAreSuspectWhileTheirClockIsUncertain) {
   Collector collector;
   Acquisition acquisition(spec_of({open, block, late_block, late_block, block}), collector.sink());
   acquisition.start();

@@ -1,4 +1,4 @@
-// One device, two axes: each is given its channels, and each is told what befalls it.
+// One device, two axes: each axis gets its channels and the troubles of the device.
 #include "daemon/station/device/shared_device.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ class TwoCountersDriver final : public drivers::Driver {
   std::int64_t scan_ = 0;
 };
 
-// What came to one axis.
+// Data and reports that one axis received.
 class TakingAxis {
  public:
   DeviceSink sink() {
@@ -151,7 +151,7 @@ TEST_F(SharedDeviceTest, IsOpenedOnceAndGivesEachAxisItsChannels) {
   EXPECT_EQ(part_y_->status().state, "open");
 }
 
-TEST_F(SharedDeviceTest, WhenItIsLostBothAxesAreTold) {
+TEST_F(SharedDeviceTest, ALossIsReportedToBothAxes) {
   start();
   state_->gone = true;
   const std::vector<std::string> lost = {"lost"}, back = {"lost", "back"};
@@ -162,8 +162,8 @@ TEST_F(SharedDeviceTest, WhenItIsLostBothAxesAreTold) {
   EXPECT_TRUE(comes_true([&] { return x_.troubles() == back && y_.troubles() == back; }));
 }
 
-// The status is looked at once a second.
-TEST_F(SharedDeviceTest, ADatumIsOfOneAxis) {
+// The status is checked once a second.
+TEST_F(SharedDeviceTest, ADatumBelongsToOneAxis) {
   start();
   state_->y_lost = true;
   const std::vector<std::string> suspect = {"suspect"};
@@ -184,7 +184,7 @@ TEST_F(SharedDeviceTest, ADatumIsOfOneAxis) {
   EXPECT_EQ(standing(*part_x_), 1u);
 }
 
-TEST_F(SharedDeviceTest, WhatOneAxisHadNoRoomForIsItsLossAlone) {
+TEST_F(SharedDeviceTest, AFullQueueOfOneAxisAffectsThatAxisOnly) {
   start();
   x_.set_full(true);
   const std::size_t had = y_.blocks().size();
@@ -202,7 +202,7 @@ TEST_F(SharedDeviceTest, WhatOneAxisHadNoRoomForIsItsLossAlone) {
   for (const auto& block : y_.blocks()) EXPECT_EQ(block.lost, 0u);
 }
 
-TEST_F(SharedDeviceTest, GoesOnForTheOtherAxisAndIsClosedWithTheLast) {
+TEST_F(SharedDeviceTest, ContinuesForTheOtherAxisAndClosesWithTheLast) {
   start();
   part_x_.reset();
   const std::size_t had = y_.blocks().size(), x = x_.blocks().size();

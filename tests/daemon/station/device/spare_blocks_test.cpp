@@ -12,7 +12,7 @@ SampleBlock used(const std::string& device, std::size_t scans) {
   return block;
 }
 
-TEST(SpareBlocks, TheLastOneOfADeviceComesBackWithItsMemory) {
+TEST(SpareBlocks, TheLastBlockOfADeviceIsReusedWithItsMemory) {
   SpareBlocks spare;
   spare.put(used("capa", 100));
   SampleBlock last = used("capa", 200);
@@ -25,7 +25,7 @@ TEST(SpareBlocks, TheLastOneOfADeviceComesBackWithItsMemory) {
   EXPECT_EQ(spare.take("t7").scans(), 300u);
 }
 
-TEST(SpareBlocks, OfManyAFewAreKept) {
+TEST(SpareBlocks, OnlyAFewOfManyAreKept) {
   SpareBlocks spare;
   for (std::size_t i = 1; i <= 100; ++i) spare.put(used("capa", i));
   std::size_t kept = 0;

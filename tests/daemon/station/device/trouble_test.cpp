@@ -14,7 +14,7 @@ Trouble at(const char* time, Kind kind, const char* text, const char* device = "
   return {kind, device, text, std::string("2026-11-22T") + time + ".250Z"};
 }
 
-TEST(TroubleLog, ADeviceThatCameBackIsOneLineWithItsCause) {
+TEST(TroubleLog, ARecoveredDeviceIsOneLineWithItsCause) {
   TroubleLog log;
   log.add(at("14:02:11", Kind::lost, "no packet for 2 s"));
   log.add(at("14:02:14", Kind::back, "the device sends samples again after a break of 3.2 s"));
@@ -52,7 +52,7 @@ MeasuredPoint stop(std::vector<double> probe_m, std::vector<PointFlag> flags, bo
   return point;
 }
 
-TEST(Unsolved, NamesTheProbesAndTheirDeviceAndNotTheConsequence) {
+TEST(Unsolved, NamesProbesAndDeviceButNotTheConsequence) {
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
   const ChannelsByDevice two = {{"capa", {"A", "B"}}, {"t7", {"encoder", "C", "D", "E"}}};
   const double nan = std::nan("");
@@ -73,11 +73,11 @@ TEST(Unsolved, NamesTheProbesAndTheirDeviceAndNotTheConsequence) {
             "probe at the end of its range: C");
 }
 
-TEST(TroubleLog, NoTroubleIsNoLine) {
+TEST(TroubleLog, NoTroubleGivesNoLine) {
   EXPECT_TRUE(TroubleLog().summary().empty());
 }
 
-TEST(JournalLimit, TheFirstIsToldAtOnceAndAFloodIsCounted) {
+TEST(JournalLimit, TheFirstIsReportedAtOnceAndAFloodIsCounted) {
   JournalLimit journal;
   JournalLimit::Time now{};
   EXPECT_EQ(journal.admit("a", "a: lost", now), "a: lost");

@@ -1,6 +1,6 @@
-// The mathematics of LinuxCNC's realtime component, without LinuxCNC. What is known of it: a
-// polynomial of first degree in each of X, Y, Z is its own interpolation on any grid; what is
-// covered with a limited velocity and acceleration takes a time that is computed by hand.
+// The mathematics of LinuxCNC's realtime component, without LinuxCNC. Known results: a polynomial
+// of first degree in each of X, Y, Z is its own interpolation on any grid; the time for a distance
+// with limited velocity and acceleration is calculated by hand.
 #include "tools/linuxcnc/mdof_compensation.h"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ double trilinear(int k, double x, double y, double z) {
 
 const std::vector<std::vector<double>> kGrid{{-1, 0, 2.5, 7}, {0, 1, 4}, {-3, -2, 0, .5, 6}};
 
-TEST(InterpolationTest, ReproducesWhatIsLinearInEachAxis) {
+TEST(InterpolationTest, ReproducesFunctionsLinearInEachAxis) {
   const Table t(kGrid, trilinear);
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> x(-1, 7), y(0, 4), z(-3, 6);
@@ -57,7 +57,7 @@ TEST(InterpolationTest, ReproducesWhatIsLinearInEachAxis) {
   }
 }
 
-TEST(InterpolationTest, OutsideItIsThatOfTheEnd) {
+TEST(InterpolationTest, OutsideTheGridTheValueOfTheEndHolds) {
   const Table t(kGrid, trilinear);
   for (const auto& [at, end] : {std::pair{Vector{-9, 2, 1}, Vector{-1, 2, 1}},
                                 {{9, 2, 1}, {7, 2, 1}},
@@ -70,17 +70,17 @@ TEST(InterpolationTest, OutsideItIsThatOfTheEnd) {
   }
 }
 
-TEST(InterpolationTest, AnAxisWithOneCoordinateStands) {
+TEST(InterpolationTest, AnAxisWithOneCoordinateIsFixed) {
   const Table t({kGrid[0], kGrid[1], {2}}, trilinear);
   for (const double z : {2.0, 77.0}) {
     const double at[3] = {1, 1, z};
     double found[3];
-    EXPECT_EQ(mdof_table_at(&t.table, at, found), z == 2);  // of 77 the table says nothing
+    EXPECT_EQ(mdof_table_at(&t.table, at, found), z == 2);  // the table has no value at 77
     EXPECT_NEAR(found[1], trilinear(1, 1, 1, 2), 1e-13);
   }
 }
 
-// Runs periods until the offset is `end`; the largest changes of its velocity and itself.
+// Runs until the offset is `end`; returns the largest changes of its velocity and of itself.
 struct Ran {
   int periods = 0;
   double step = 0, change = 0, largest = 0;
@@ -99,16 +99,17 @@ Ran run_to(mdof_offset& offset, double end) {
   return ran;
 }
 
-TEST(FollowTest, AChangeOfTheTableFadesWithoutStepAndWithoutOvershoot) {
+TEST(FollowTest, AChangeOfTableFadesWithoutStepOrOvershoot) {
   mdof_offset offset{0, 0};
   const Ran ran = run_to(offset, 0.1);
-  EXPECT_NEAR(ran.periods, 0.1 / kLimits.fade_velocity / kPeriod, 3);  // 2 s: it is fast at once
-  EXPECT_LE(ran.step, kLimits.fade_velocity * kPeriod * (1 + 1e-9));   // 0.05 um a millisecond
+  EXPECT_NEAR(ran.periods, 0.1 / kLimits.fade_velocity / kPeriod,
+              3);  // 2 s: full velocity immediately
+  EXPECT_LE(ran.step, kLimits.fade_velocity * kPeriod * (1 + 1e-9));  // 0.05 um per millisecond
   EXPECT_LE(ran.change, kLimits.max_acceleration * kPeriod * (1 + 1e-9));
   EXPECT_LE(ran.largest, 0.1);
 }
 
-TEST(FollowTest, ItBrakesInTimeWhereAccelerationIsLittle) {
+TEST(FollowTest, BrakesInTimeWithLowAcceleration) {
   mdof_limits limits = kLimits;
   limits.max_acceleration = 0.1;
   mdof_offset offset{0, 0};
@@ -125,7 +126,7 @@ TEST(FollowTest, ItBrakesInTimeWhereAccelerationIsLittle) {
   EXPECT_LE(change, limits.max_acceleration * kPeriod * (1 + 1e-9));
 }
 
-TEST(FollowTest, WhatTheTableAsksIsFollowedWithoutLag) {
+TEST(FollowTest, FollowsTheTableWithoutLag) {
   mdof_offset offset{0, 0};
   double off = 0;
   for (int i = 0; i < 2000; ++i) {  // 100 mm/s over a table of 0.5 um/mm
@@ -136,7 +137,7 @@ TEST(FollowTest, WhatTheTableAsksIsFollowedWithoutLag) {
   EXPECT_LE(off, 1e-12);
 }
 
-TEST(FollowTest, AChangeUnderMotionFadesAgainstWhatIsAsked) {
+TEST(FollowTest, AChangeDuringMotionFadesToTheNewTable) {
   const auto table = [](double x) { return 0.05 * std::sin(x / 100); };
   mdof_offset offset{table(0), 0.05 / 100 * 100};
   double step = 0, beyond = 0, last_off = 2 * offset.value;
@@ -153,11 +154,11 @@ TEST(FollowTest, AChangeUnderMotionFadesAgainstWhatIsAsked) {
     last_off = off;
   }
   EXPECT_LE(std::abs(last_off), 1e-12);
-  EXPECT_LE(step, 0.1 * kPeriod * (1 + 1e-9));  // both ways
+  EXPECT_LE(step, 0.1 * kPeriod * (1 + 1e-9));  // in both directions
   EXPECT_LE(beyond, 1e-12);
 }
 
-TEST(FollowTest, WhateverIsAskedTheLimitsHold) {
+TEST(FollowTest, TheLimitsHoldForAnyInput) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int scene = 0; scene < 300; ++scene) {
@@ -180,7 +181,7 @@ TEST(FollowTest, WhateverIsAskedTheLimitsHold) {
   }
 }
 
-TEST(FollowTest, LimitsThatAreNoneKeepTheOffsetWhereItIs) {
+TEST(FollowTest, InvalidLimitsKeepTheOffsetUnchanged) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();
   for (double mdof_limits::*limit : {&mdof_limits::fade_velocity, &mdof_limits::max_velocity,
@@ -239,7 +240,7 @@ class ReceiverTest : public ::testing::Test {
   mdof_receiver receiver_{};
 };
 
-TEST_F(ReceiverTest, AWholeTable) {
+TEST_F(ReceiverTest, AcceptsACompleteTable) {
   send_grid();
   for (int i = 0; i < 6; ++i) EXPECT_EQ(send(MDOF_NODE, .01 * i, -.015 * i, 0), MDOF_GOES_ON);
   EXPECT_EQ(send(MDOF_END), MDOF_COMPLETE);
@@ -254,7 +255,7 @@ TEST_F(ReceiverTest, AWholeTable) {
   EXPECT_DOUBLE_EQ(found[1], -.06);
 }
 
-TEST_F(ReceiverTest, WhatIsNotWholeIsRefused) {
+TEST_F(ReceiverTest, RejectsAnIncompleteTable) {
   send_grid();
   EXPECT_EQ(send(MDOF_NODE), MDOF_GOES_ON);
   EXPECT_EQ(send(MDOF_END), MDOF_OUT_OF_ORDER);
@@ -262,11 +263,11 @@ TEST_F(ReceiverTest, WhatIsNotWholeIsRefused) {
   EXPECT_EQ(send(MDOF_END), MDOF_GOES_ON);
 }
 
-TEST_F(ReceiverTest, ANewLoaderBeginsAnewAndTheOldOneIsIgnored) {
+TEST_F(ReceiverTest, ANewLoaderRestartsAndTheOldOneIsIgnored) {
   send_grid();
   send(MDOF_NODE, .09);
   EXPECT_EQ(send(MDOF_BEGIN, 13, 0, 0, 6), MDOF_GOES_ON);
-  EXPECT_EQ(send(MDOF_NODE, .01), MDOF_GOES_ON);  // of session 5
+  EXPECT_EQ(send(MDOF_NODE, .01), MDOF_GOES_ON);  // from session 5
   EXPECT_EQ(send(MDOF_SIZE, 1, 1, 1, 6), MDOF_GOES_ON);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(send(MDOF_COORDINATE, i, 0, 0, 6), MDOF_GOES_ON);
   EXPECT_EQ(send(MDOF_NODE, .02, 0, 0, 6), MDOF_GOES_ON);
@@ -274,7 +275,7 @@ TEST_F(ReceiverTest, ANewLoaderBeginsAnewAndTheOldOneIsIgnored) {
   EXPECT_DOUBLE_EQ(table_.largest, .02);
 }
 
-TEST_F(ReceiverTest, WhatCannotBeATableIsRefused) {
+TEST_F(ReceiverTest, RejectsInvalidTables) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   send(MDOF_BEGIN);
   EXPECT_EQ(send(MDOF_NODE), MDOF_OUT_OF_ORDER);  // before its grid

@@ -1,9 +1,9 @@
-// Planted by tests/mutate into its copy of the sources: all changes stand in one build, and the
-// environment says which one is in force (MDOF_CHANGE). With MDOF_REACHED the program notes at its
-// end which changes it came by, so that each is tried on those tests alone.
+// Planted by tests/mutate into its copy of the sources. All changes are in one build, and the
+// environment variable MDOF_CHANGE selects the active one. With MDOF_REACHED the program records at
+// its end which changes it reached, so that each change is tried only with tests that reach it.
 #pragma once
 
-// What a change leaves unused or compares oddly is no error of the change.
+// Warnings about unused or odd expressions in a change are not errors of the change.
 #pragma GCC diagnostic ignored "-Wunused-variable"
 #pragma GCC diagnostic ignored "-Wunused-but-set-variable"
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -26,7 +26,7 @@ namespace mutate {
 
 constinit inline std::array<bool, 8192> reached{};
 
-// A look at it is made millions of times: no more than a load, a store and a comparison.
+// Read millions of times: only a load, a store and a comparison.
 inline const std::size_t in_force = [] {
   const char* const text = std::getenv("MDOF_CHANGE");
   return text ? std::strtoul(text, nullptr, 10) : 0;
@@ -47,7 +47,7 @@ inline bool on(std::size_t n) {
   return n == in_force;
 }
 
-// a OP b is planted as a OP mutate::..(n) OP b, which binds as before.
+// a OP b is planted as a OP mutate::..(n) OP b, which has the same precedence.
 template <class T, class Kind>
 struct Held {
   const T& a;

@@ -1,5 +1,4 @@
-// Where an axis stands by somebody's word: found, then in force; and what is told of it once it is
-// lost.
+// The position of an axis as a user sets it: found, then applied, and the notice after it is lost.
 #include "daemon/station/encoder_zero.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +33,7 @@ DatumSetting said(double position_m) {
   return {1, mdof::Axis::y, "t7", 0, position_m, position_m, "2026-11-01T06:00:00Z"};
 }
 
-TEST(EncoderZero, WhatIsFoundHoldsOnlyOnceItIsPut) {
+TEST(EncoderZero, AFoundOffsetIsAppliedOnlyOnceItIsPut) {
   EncoderZero zero({counting()});
   SampleBlock block = resting_at(3);
   zero.apply(block);
@@ -58,7 +57,7 @@ TEST(EncoderZero, WhatIsFoundHoldsOnlyOnceItIsPut) {
 TEST(EncoderZero, VoltsAreOffsetByTheirScale) {
   EncoderZero zero({counting()}, std::nullopt, -500);
   SampleBlock block = resting_at(2);
-  block.channels[0].unit = Unit::volt;  // -1 mm
+  block.channels[0].unit = Unit::volt;  // 2 V at -500 um/V: -1 mm
   zero.apply(block);
   const auto found = zero.find(mdof::Axis::x, 0.004, "now");
   ASSERT_TRUE(found) << found.error().message;
@@ -70,7 +69,7 @@ TEST(EncoderZero, VoltsAreOffsetByTheirScale) {
   EXPECT_NEAR(block.value[0][0] * -500, 4000, 1e-6);
 }
 
-TEST(EncoderZero, ASecondTimeCountsFromWhatHolds) {
+TEST(EncoderZero, ASecondSettingStartsFromTheCurrentOne) {
   EncoderZero zero({counting()});
   for (const double position_m : {0.0125, 0.1}) {
     SampleBlock block = resting_at(3);
@@ -80,7 +79,7 @@ TEST(EncoderZero, ASecondTimeCountsFromWhatHolds) {
   EXPECT_NEAR(zero.datum().offset_m, 0.097, 1e-12);
 }
 
-TEST(EncoderZero, WhatWasFoundBeforeThePowerWentIsNotPut) {
+TEST(EncoderZero, AnOffsetFoundBeforeALossIsRejected) {
   EncoderZero zero({counting()});
   SampleBlock block = resting_at(3);
   zero.apply(block);
@@ -93,9 +92,9 @@ TEST(EncoderZero, WhatWasFoundBeforeThePowerWentIsNotPut) {
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
 }
 
-TEST(EncoderZero, ItsCountGoesOnFromItsStartOrItsLastLoss) {
+TEST(EncoderZero, ItsCountContinuesFromItsStartOrLastLoss) {
   EncoderZero zero({counting()});
-  EXPECT_FALSE(zero.counts_on_since(6));  // of an earlier start
+  EXPECT_FALSE(zero.counts_on_since(6));  // from an earlier start
   zero.begins(7);
   EXPECT_TRUE(zero.counts_on_since(7));
   SampleBlock block = resting_at(3);
@@ -112,7 +111,7 @@ TEST(EncoderZero, ItsCountGoesOnFromItsStartOrItsLastLoss) {
   EXPECT_TRUE(EncoderZero({absolute}).counts_on_since(6));
 }
 
-// Of Y at 12.5 mm, whatever took it.
+// The notice for Y at 12.5 mm, for any cause.
 Notice lost_position(const char* utc, bool without_power, bool configured, bool counted) {
   return notice(NoticeCode::position_lost, "Y",
                 {{"position_mm", 12.5},
@@ -122,7 +121,7 @@ Notice lost_position(const char* utc, bool without_power, bool configured, bool 
                  {"counted", counted ? 1 : 0}});
 }
 
-TEST(EncoderZero, WhatARestartForgotIsTold) {
+TEST(EncoderZero, ReportsThePositionLostByARestart) {
   EXPECT_EQ(EncoderZero({counting()}).state().notice, notice(NoticeCode::datum_missing, "t7"));
   const auto lost = [](bool configured, bool counted) {
     return lost_position("2026-11-01T06:00:00Z", false, configured, counted);
@@ -141,7 +140,7 @@ TEST(EncoderZero, WhatARestartForgotIsTold) {
   EXPECT_EQ(EncoderZero({absolute}).state().note, "");
 }
 
-TEST(EncoderZero, WhatThePowerTookIsToldOtherwise) {
+TEST(EncoderZero, ReportsAPositionLostWithPowerDifferently) {
   EncoderZero zero({counting()}, said(0.5));
   SampleBlock block = resting_at(3);
   zero.apply(block);
@@ -157,7 +156,7 @@ drivers::DriverSpec with_mark() {
   return device;
 }
 
-TEST(EncoderZero, FromTheMarkOnPositionsAreTheMachines) {
+TEST(EncoderZero, AfterTheMarkPositionsAreThoseOfTheMachine) {
   EncoderZero zero({with_mark()});
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
   EXPECT_EQ(zero.state().notice, notice(NoticeCode::reference_mark_not_passed, "t7"));
@@ -175,13 +174,13 @@ TEST(EncoderZero, FromTheMarkOnPositionsAreTheMachines) {
   EXPECT_EQ(zero.state().note, "reference mark at 12.5 mm, passed on 2026-11-23T07:00:00Z");
 }
 
-TEST(EncoderZero, WhoDoesNotLookForAMarkHasPassedNone) {
+TEST(EncoderZero, WithoutAMarkNoMarkIsPassed) {
   EncoderZero zero({counting()});
   EXPECT_FALSE(zero.pass_mark("t7", "now"));
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::none);
 }
 
-TEST(EncoderZero, TheMarkGoesWithThePowerAndComesAgain) {
+TEST(EncoderZero, TheMarkIsLostWithPowerAndCanBePassedAgain) {
   EncoderZero zero({with_mark()}, said(0.5));
   ASSERT_TRUE(zero.pass_mark("t7", "now"));
   zero.lose("t7");
@@ -192,7 +191,7 @@ TEST(EncoderZero, TheMarkGoesWithThePowerAndComesAgain) {
   EXPECT_EQ(zero.state().note, "reference mark at 12.5 mm, passed on later");
 }
 
-TEST(EncoderZero, WhatWasFoundBeforeTheMarkIsNotPut) {
+TEST(EncoderZero, AnOffsetFoundBeforeTheMarkIsRejected) {
   EncoderZero zero({with_mark()});
   SampleBlock block = resting_at(3);
   zero.apply(block);
@@ -201,9 +200,9 @@ TEST(EncoderZero, WhatWasFoundBeforeTheMarkIsNotPut) {
   ASSERT_TRUE(zero.pass_mark("t7", "now"));
   EXPECT_FALSE(zero.put(*found, "me"));
   EXPECT_EQ(zero.datum().kind, EncoderDatum::Kind::index);
-  // Nor is what it showed at rest before.
+  // The readings at rest before the mark cannot be used either.
   EXPECT_FALSE(zero.find(mdof::Axis::y, 0.1, "now"));
-  // Said after the mark it holds, from what the mark gave.
+  // A position set after the mark is applied on top of the mark.
   block = resting_at(3);
   zero.apply(block);
   ASSERT_TRUE(zero.put(zero.find(mdof::Axis::y, 0.1, "now").value(), "me"));

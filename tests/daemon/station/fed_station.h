@@ -1,4 +1,5 @@
-// A station with a store of its own, whose device gives what a test feeds it, in the test's time.
+// A station with its own store, whose device delivers the samples that a test feeds, in the time of
+// the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@
 
 namespace mdof::daemon {
 
-// What a test holds of a device; its driver lives with the station. Thread-safe.
+// The test's handle of a device; the station owns the driver. Thread-safe.
 class Feed {
  public:
   void give(SampleBlock block) {
@@ -33,7 +34,7 @@ class Feed {
     ++given_;
     changed_.notify_all();
   }
-  // The encoder is counted from its reference mark in what is given from now on.
+  // From now on, the encoder counts from its reference mark.
   void pass_mark() {
     const std::lock_guard lock(mutex_);
     mark_before_.push_back(given_);
@@ -43,7 +44,7 @@ class Feed {
     return static_cast<int>(std::count_if(mark_before_.begin(), mark_before_.end(),
                                           [this](std::size_t block) { return block < read_; }));
   }
-  // It was away and counts from 0 again.
+  // The device was away and counts from 0 again.
   void lose_datum() {
     const std::lock_guard lock(mutex_);
     lost_ = mark_before_.size() + 1;
@@ -54,15 +55,15 @@ class Feed {
     const std::lock_guard lock(mutex_);
     return lost_ > mark_before_.size() ? "it counts from 0 again; drive it over its mark" : "";
   }
-  // The device answers no more, neither to a read nor when it is opened, until it is back.
+  // The device answers neither reading nor opening until come_back().
   void go() { set_gone(true); }
   void come_back() { set_gone(false); }
-  void end() {  // of a file
+  void end() {  // end of a file
     const std::lock_guard lock(mutex_);
     ended_ = true;
     changed_.notify_all();
   }
-  // All that was given has been read, and the reader has put it on: it asks for more.
+  // Waits until all samples were read and the reader, having processed them, asks for more.
   void wait_until_read() {
     std::unique_lock lock(mutex_);
     EXPECT_TRUE(changed_.wait_for(lock, std::chrono::seconds(20),
@@ -100,8 +101,8 @@ class Feed {
   std::condition_variable changed_;
   std::deque<SampleBlock> blocks_;
   bool gone_ = false, ended_ = false, gone_once_ = false;
-  bool in_hand_ = false;              // the reader has a block that it has not put on
-  std::size_t lost_ = 0;              // more than the marks: its datum is lost
+  bool in_hand_ = false;              // the reader has a block that is not processed yet
+  std::size_t lost_ = 0;              // greater than the number of marks: the datum is lost
   std::size_t given_ = 0, read_ = 0;  // blocks
   std::vector<std::size_t> mark_before_;
 };
@@ -143,7 +144,7 @@ inline drivers::DriverSpec fed_by(std::shared_ptr<Feed> feed, bool live = true) 
   return spec;
 }
 
-// Those of a station as they came. Thread-safe.
+// The events of a station, in order. Thread-safe.
 class Events {
  public:
   StationEvents sink() {
@@ -155,7 +156,7 @@ class Events {
     };
     return events;
   }
-  // The first run event with all these parts; waits for it. Empty: none came.
+  // Waits for the first run event with all these parts. Empty: none arrived.
   std::string wait_for(const std::vector<std::string>& parts) { return wait(run_events_, parts); }
   std::string wait_for_live(const std::vector<std::string>& parts) { return wait(live_, parts); }
   std::string wait_for_trouble(const std::vector<std::string>& parts) {
@@ -215,7 +216,7 @@ class FedStation : public ::testing::Test {
                   options, {[](std::int64_t, std::int64_t) {}, [](std::int64_t, const Error&) {}})
                   .value();
   }
-  // `index_mm`: the encoder has a reference mark there.
+  // `index_mm`: position of the encoder's reference mark.
   void make_station(bool live = true, std::optional<double> index_mm = std::nullopt) {
     feed_ = std::make_shared<Feed>();
     auto spec = fed_by(feed_, live);
@@ -224,7 +225,7 @@ class FedStation : public ::testing::Test {
                                          "# mdofd.toml of a test\n", folder_ / "recordings",
                                          *keeper_, events_.sink());
   }
-  // Begins a run, or goes on with one.
+  // Begins or resumes a run.
   Result<std::int64_t> start(const RunRequest& request = {}) {
     std::promise<Result<std::int64_t>> id;
     station_->start_run(request, [&](const auto& begun) { id.set_value(begun); });
@@ -236,7 +237,7 @@ class FedStation : public ::testing::Test {
     station_->stop_run(abort, action, [&](const auto& ended) { id.set_value(ended); });
     return id.get_future().get();
   }
-  // Gives scans begin ... end - 1, 100 a block.
+  // Feeds scans begin ... end - 1, 100 a block.
   void give(const TestAxis& axis, std::size_t begin = 0, std::size_t end = SIZE_MAX) {
     for (std::size_t i = begin; i < std::min(end, axis.scans()); i += 100)
       feed_->give(axis.block(i, std::min(i + 100, end)));

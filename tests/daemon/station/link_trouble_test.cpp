@@ -1,8 +1,8 @@
-// Links that go wrong while a run is measured, in virtual time: two capaNCDT-like devices with the
-// probes and a T7-like one with the encoder, each with a clock of its own, packets of 4 ms. In each
-// scenario one link is slow, grows slow, stalls and then gives all at once, loses or garbles
-// packets, or a device's time stands still. A point is wrong if its readings are not those of its
-// place; none may be wrong without a flag. MDOF_LINK_SCENARIOS=200 is the campaign.
+// Faulty links during a run, in virtual time: two capaNCDT-like devices with the probes and a
+// T7-like one with the encoder, each with its own clock and packets of 4 ms. In each scenario one
+// link is slow, becomes slow, stalls and then delivers everything at once, loses or garbles
+// packets, or the time of a device stops. A point is wrong if its readings do not belong to its
+// position; no wrong point may be without a flag. The full campaign is MDOF_LINK_SCENARIOS=200.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,12 +20,13 @@ namespace {
 constexpr double kTick_s = 1e-3, kWrong_m = 20e-9;
 constexpr std::int64_t kPacket = 4;                            // ticks
 constexpr double kDwell_s = 0.5, kMove_s = 0.1, kStep_mm = 1;  // 10 mm/s
-constexpr int kLinkTargets = 8, kPasses = 8;                   // four runs, both ways
+constexpr int kLinkTargets = 8, kPasses = 8;                   // four runs, both directions
 constexpr double kEnd_s = (kLinkTargets + 1) * kPasses * (kDwell_s + kMove_s);
-// What the probes A to E read, µm per mm of travel: one target further is a micrometre or more.
+// Slopes of the probes A to E, µm per mm of travel: between two targets a reading changes by 1 µm
+// or more.
 constexpr std::array<double, 5> kSlope = {1.0, -1.3, 1.7, 2.1, -1.1};
 
-// From -1 mm, where it turns, over the targets to beyond the last, and back.
+// From the reversal at -1 mm over the targets to beyond the last, and back.
 double travel_mm(double t_s) {
   const double step_s = kDwell_s + kMove_s;
   const auto place = [](std::int64_t stop) {
@@ -61,7 +62,7 @@ LinkFault trouble_of(std::uint32_t scenario) {
   return t;
 }
 
-// A device that samples by its own clock; its packets come by a link of its own.
+// A device that samples by its own clock; its packets use a separate link.
 class Device {
  public:
   Device(std::string name, std::vector<Channel> channels, double ppm, std::uint32_t seed)
@@ -71,7 +72,7 @@ class Device {
     return static_cast<double>(tick) * kTick_s / (1 + 1e-6 * ppm_) + stood_s_;
   }
 
-  // When the packet that comes next arrives. Packets do not overtake each other.
+  // Time at which the next packet arrives. Packets do not overtake each other.
   double received_s(const LinkFault* trouble) const {
     const Philox r = philox({static_cast<std::uint32_t>(next_), 0, 0, seed_}, 5);
     const double sent_s = true_s(next_ + kPacket - 1);
@@ -85,7 +86,7 @@ class Device {
     return std::max(last_received_s_, sent_s + delay_s);
   }
 
-  // Empty: the packet was lost on its way.
+  // Empty: the packet was lost.
   SampleBlock take(const LinkFault* trouble, bool marks) {
     const double received = last_received_s_ = received_s(trouble);
     if (trouble && trouble->kind == Kind::stood_still && !stood_ && trouble->at(true_s(next_))) {
@@ -121,7 +122,7 @@ class Device {
       for (std::size_t c = 0; c < channels_.size(); ++c)
         block.value[c].push_back(reading(channels_[c].id, at_mm));
     }
-    if (marks && clock_.state().doubtful)  // as daemon/acquisition does
+    if (marks && clock_.state().doubtful)  // as in daemon/acquisition
       block.quality.assign(channels_.size(), std::vector<Quality>(block.scans(), Quality::suspect));
     return block;
   }
@@ -149,7 +150,8 @@ struct Outcome {
 bool is_wrong(const Point& point) {
   for (std::size_t c = 0; c < kSlope.size(); ++c) {
     const double expected_m = kSlope[c] * 1e-3 * point.position_m;
-    if (std::abs(point.probe_m[c] - expected_m) > kWrong_m) return true;  // NaN: lost, and says so
+    if (std::abs(point.probe_m[c] - expected_m) > kWrong_m)
+      return true;  // NaN: lost, which has a flag
   }
   return false;
 }
@@ -176,7 +178,7 @@ Outcome measure(const LinkFault& trouble, bool marks) {
   }
   Outcome outcome;
   const auto run = pipeline.finish();
-  if (!run) return outcome;  // refused with a reason
+  if (!run) return outcome;  // rejected with a reason
   for (const MeasuredPoint& p : run->points) {
     const bool flagged = !p.point.flags.empty(), wrong = is_wrong(p.point);
     ++outcome.points;
@@ -209,17 +211,17 @@ TEST(LinkTrouble, NoPointIsWrongWithoutAFlag) {
     sum.unflagged += one.unflagged;
     sum.wrong += one.wrong;
   }
-  // It is no use to flag all.
+  // Flagging every point would be useless.
   EXPECT_GT(sum.unflagged, scenarios() * 25);
   RecordProperty("points", sum.points);
   RecordProperty("unflagged", sum.unflagged);
   RecordProperty("wrong_flagged", sum.wrong);
 }
 
-// That the test can fail: without the clock's doubt some are wrong and nobody is told.
-TEST(LinkTrouble, WithoutTheDoubtOfTheClockSomeWouldBe) {
+// Control: without the quality of the clock some points are wrong and have no flag.
+TEST(LinkTrouble, WithoutTheClockQualitySomePointsAreWrong) {
   int wrong = 0;
-  for (int i = kKinds - 1; i < 30; i += kKinds)  // a device whose time stood still
+  for (int i = kKinds - 1; i < 30; i += kKinds)  // a device whose time stopped
     wrong += measure(trouble_of(static_cast<std::uint32_t>(i)), false).wrong_unflagged;
   EXPECT_GT(wrong, 0);
 }

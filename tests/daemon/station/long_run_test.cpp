@@ -1,5 +1,6 @@
-// A run of 10,000 points: what a point costs does not grow with those before it, its end costs less
-// than its measuring, and the result is that of a pipeline that was asked only at the end.
+// A run of 10,000 points: the cost of a point does not increase with the number of points before
+// it, its end costs less than its measurement, and the result equals that of a pipeline that is
+// read only at the end.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,8 +14,8 @@ namespace {
 
 constexpr int kTargets = 6, kPoints = 10'000, kStopScans = 40, kMoveScans = 8;  // scans, at 100 Hz
 
-// An axis over 20 targets and back, turning 1 mm beyond both ends: the scans of one stop after the
-// other, with the way to it.
+// An axis over 20 targets and back, reversing 1 mm beyond both ends. Returns the scans of one stop
+// after the other, with the travel to it.
 class LongAxis {
  public:
   SampleBlock next_stop() {
@@ -60,7 +61,7 @@ double cpu_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-TEST(LongRun, APointCostsTheSameAtItsEndAsAtItsStart) {
+TEST(LongRun, APointCostsTheSameAtTheEndAsAtTheStart) {
   const Rig rig = load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_X.toml").value();
   Pipeline asked = Pipeline::create(rig, {}).value(), silent = Pipeline::create(rig, {}).value();
   double early_s = 0, late_s = 0;
@@ -78,14 +79,14 @@ TEST(LongRun, APointCostsTheSameAtItsEndAsAtItsStart) {
     early_s += points >= 1'000 && points < 2'000 ? took_s : 0;
     late_s += points >= 5'000 ? took_s : 0;
   }
-  // A cost that grows with the points before would be five times as much for each of five times as
-  // many.
+  // If the cost increased with the number of points before, five times as many points would cost
+  // five times as much each.
   RecordProperty("early_us_a_point", std::to_string(1e3 * early_s));
   RecordProperty("late_us_a_point", std::to_string(1e6 * late_s / 5'000));
   EXPECT_LT(late_s / 5, 2.5 * early_s);
   const double measured_s = cpu_s();
   const auto a = asked.finish();
-  // With six targets there are 833 runs, of which the last lacks visits.
+  // With six targets there are 833 runs; the last one lacks visits.
   EXPECT_LT(cpu_s() - measured_s, 0.5 * (measured_s - begin_s));
   const auto b = silent.finish();
   ASSERT_TRUE(a && b);

@@ -1,4 +1,4 @@
-// An encoder with a reference mark: before the axis has passed it, after it, in the midst of a run.
+// An encoder with a reference mark: before the axis passes it, after it, and during a run.
 #include "daemon/measure/replay/request_json.h"
 #include "daemon/station/resume.h"
 #include "daemon/words/error_text.h"
@@ -18,7 +18,7 @@ class StationMark : public FedStation {
     FedStation::SetUp();
     make_station(true, kMark_mm);
   }
-  // The first scan after the mark, and the station knows.
+  // Feeds the first scan after the mark and waits until the station has the datum.
   void pass_mark(std::size_t scan = 0) {
     feed_->pass_mark();
     give(axis_, scan, scan + 100);
@@ -56,7 +56,7 @@ class StationMark : public FedStation {
   TestAxis axis_;
 };
 
-TEST_F(StationMark, ARunBeforeTheMarkSaysSoAndOneAfterItIsInItsPlace) {
+TEST_F(StationMark, OnlyARunAfterTheMarkHasMachinePositions) {
   mdof::Run run = measured();
   EXPECT_EQ(datum_of(run).kind, EncoderDatum::Kind::none);
   EXPECT_EQ(datum_notices_of(run), Notices{notice(NoticeCode::datum_missing, "daq")});
@@ -75,15 +75,15 @@ TEST_F(StationMark, ARunBeforeTheMarkSaysSoAndOneAfterItIsInItsPlace) {
   EXPECT_NEAR(run.points[1].point.position_m, 0.0175, 1e-6);
 }
 
-// The new program has not seen it.
-TEST_F(StationMark, AfterARestartItIsToBePassedAgain) {
+// The new process has not seen the mark.
+TEST_F(StationMark, AfterARestartItMustBePassedAgain) {
   pass_mark();
   make_station(true, kMark_mm);
   EXPECT_EQ(kind(), EncoderDatum::Kind::none);
   EXPECT_SAYS(station_->encoder().note, "move the axis over its reference mark");
 }
 
-TEST_F(StationMark, ARunInWhichItIsPassedEndsThere) {
+TEST_F(StationMark, ARunEndsWhereTheMarkIsPassed) {
   const auto id = start();
   ASSERT_TRUE(id);
   give(axis_, 0, 1500);
@@ -96,12 +96,12 @@ TEST_F(StationMark, ARunInWhichItIsPassedEndsThere) {
   EXPECT_EQ(datum_of(run).kind, EncoderDatum::Kind::none);
   for (const auto& p : run.points) EXPECT_LT(p.point.position_m, 0.0101);
   EXPECT_LE(run.header.scans, 1500u);
-  // Two places do not make one run.
+  // Two datums cannot be combined in one run.
   EXPECT_SAYS(why_not_resumed(*id), "start a new run");
   EXPECT_EQ(measured().header.state, RunState::complete);
 }
 
-TEST_F(StationMark, PassedBetweenTheQuestionAndTheFirstScanTheRunEndsToo) {
+TEST_F(StationMark, AMarkPassedBeforeTheFirstScanEndsTheRunToo) {
   std::promise<void> go_on;
   ASSERT_TRUE(keeper_->post([&](store::Store&) { go_on.get_future().wait(); }));
   std::promise<Result<std::int64_t>> begun;
@@ -116,7 +116,7 @@ TEST_F(StationMark, PassedBetweenTheQuestionAndTheFirstScanTheRunEndsToo) {
   EXPECT_EQ(run.header.state, RunState::aborted);
 }
 
-TEST_F(StationMark, ARunFromTheMarkGoesOnOnlyFromTheMark) {
+TEST_F(StationMark, ARunFromTheMarkResumesOnlyFromTheMark) {
   pass_mark();
   const auto id = start();
   give(axis_, 0, 2500);
@@ -127,7 +127,7 @@ TEST_F(StationMark, ARunFromTheMarkGoesOnOnlyFromTheMark) {
   EXPECT_EQ(why_not_resumed(*id), "goes on");
 }
 
-TEST_F(StationMark, AfterPowerWasLostTheSameMarkIsTheSameDatum) {
+TEST_F(StationMark, AfterAPowerLossTheSameMarkIsTheSameDatum) {
   pass_mark();
   const auto id = start();
   give(axis_, 0, 500);
@@ -138,7 +138,7 @@ TEST_F(StationMark, AfterPowerWasLostTheSameMarkIsTheSameDatum) {
   EXPECT_EQ(station_->encoder().datum.offset_m, 1e-3 * kMark_mm);
   wait_for([this] { return station_->devices()[0].standing.empty(); });
   EXPECT_EQ(station_->run(), *id);
-  // And it is told once more when it is lost once more.
+  // A second loss is reported again.
   feed_->lose_datum();
   wait_for([this] { return kind() == EncoderDatum::Kind::none; });
   const auto ended = stop(true);

@@ -10,7 +10,7 @@
 namespace mdof::daemon {
 namespace {
 
-// One probe, an instant each millisecond from `begin_ms`.
+// Readings of one probe, one each millisecond from `begin_ms`.
 FrameBlock frames(std::int64_t begin_ms, const std::vector<double>& readings_m) {
   FrameBlock block;
   for (std::size_t i = 0; i < readings_m.size(); ++i)
@@ -20,7 +20,7 @@ FrameBlock frames(std::int64_t begin_ms, const std::vector<double>& readings_m) 
   return block;
 }
 
-TEST(RecentRange, IsThatOfTheLastSecond) {
+TEST(RecentRange, IsTheRangeOfTheLastSecond) {
   RecentRange recent;
   EXPECT_TRUE(std::isnan(recent.of(0).low_m));
   recent.add(frames(0, {1.0, -7.0, 9.0, 1.0}));
@@ -30,7 +30,7 @@ TEST(RecentRange, IsThatOfTheLastSecond) {
   recent.add(frames(1000, {1.5}));
   EXPECT_EQ(recent.of(0).low_m, 1.0);
   EXPECT_EQ(recent.of(0).high_m, 2.0);
-  recent.add(frames(60'000, {5.0}));  // after a silence nothing of before is left
+  recent.add(frames(60'000, {5.0}));  // after a pause no earlier reading remains
   EXPECT_EQ(recent.of(0).low_m, 5.0);
   EXPECT_EQ(recent.of(0).high_m, 5.0);
 }
@@ -44,7 +44,7 @@ TEST(RecentRange, AMissingReadingDoesNotCount) {
   EXPECT_TRUE(std::isnan(recent.of(0).high_m));
 }
 
-TEST(RecentRange, OneBlockOverSeveralSecondsCountsItsLast) {
+TEST(RecentRange, OfALongBlockOnlyTheLastSecondCounts) {
   RecentRange recent;
   std::vector<double> readings(3000, 1.0);
   readings[5] = 50;
@@ -54,7 +54,7 @@ TEST(RecentRange, OneBlockOverSeveralSecondsCountsItsLast) {
   EXPECT_EQ(recent.of(0).low_m, 1.0);
 }
 
-TEST(RecentRange, AnotherPassOfAFileBeginsAnew) {
+TEST(RecentRange, AnotherPassOfAFileStartsAgain) {
   RecentRange recent;
   recent.add(frames(5000, {8.0}));
   recent.add(frames(0, {1.0}));
@@ -78,7 +78,7 @@ double number_of(const std::string& json, const std::string& member) {
                                  : std::strtod(json.c_str() + at + member.size() + 3, nullptr);
 }
 
-// One scan of a probe is far off, and later ones are not: an update shows the newest of them only.
+// One scan of a probe is an outlier, later ones are not; an update shows only the newest scan.
 TEST_F(FedStation, ASpikeBetweenTwoUpdatesIsInTheNextOne) {
   station_->watch(std::chrono::milliseconds(20));
   TestAxis axis(0);

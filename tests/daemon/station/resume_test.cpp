@@ -17,25 +17,25 @@ SampleBlock block(const std::string& device, std::int64_t first_ns) {
   return b;
 }
 
-TEST(Continuation, AClockThatBeganAnewGoesOnAfterTheRecording) {
+TEST(Continuation, AClockThatRestartedContinuesAfterTheRecording) {
   Continuation continuation(kEnd_ns);
   SampleBlock first = block("t7", 1'000'000), late = block("capa", 1'000'000 - 2'000'000'000),
               next = block("t7", 1'500'000);
   for (SampleBlock* b : {&first, &late, &next}) continuation.shift(*b);
-  EXPECT_GT(late.time_ns.front(), kEnd_ns);  // a device that lies behind as well
+  EXPECT_GT(late.time_ns.front(), kEnd_ns);  // also for a device that is behind
   EXPECT_EQ(first.time_ns.front() - late.time_ns.front(), 2'000'000'000);
   EXPECT_EQ(next.time_ns.front() - first.time_ns.front(), 500'000);
   EXPECT_EQ(first.time_ns[1] - first.time_ns[0], 250'000);
 }
 
-TEST(Continuation, AClockThatWentOnIsLeftAlone) {
+TEST(Continuation, AClockThatContinuedIsNotShifted) {
   Continuation continuation(kEnd_ns);
   SampleBlock b = block("t7", kEnd_ns + 60'000'000'000);
   continuation.shift(b);
   EXPECT_EQ(b.time_ns.front(), kEnd_ns + 60'000'000'000);
 }
 
-TEST(Continuation, EachDeviceSaysOnceThatScansWereLost) {
+TEST(Continuation, EachDeviceReportsLostScansOnce) {
   Continuation continuation(kEnd_ns);
   std::vector<std::uint64_t> lost;
   for (const char* device : {"t7", "capa", "t7", "capa"}) {
@@ -55,33 +55,33 @@ std::string why_not(const EncoderDatum& of_run, const EncoderDatum& now, bool co
   return same ? "goes on" : words::text(same.error());
 }
 
-// Places 10 mm apart under one number are not mixed.
-TEST(SameDatum, ALostOneIsSetAgainFirst) {
+// Positions 10 mm apart must not be combined under one target number.
+TEST(SameDatum, ALostDatumMustBeSetAgainFirst) {
   using Kind = EncoderDatum::Kind;
   for (const Kind known : {Kind::set, Kind::configured}) {
     const std::string why = why_not(datum(known, 0.03), datum(Kind::none, 0), false);
     EXPECT_NE(why.find("run 7 cannot be continued"), std::string::npos) << why;
     EXPECT_NE(why.find("mdof encoder set"), std::string::npos) << why;
     EXPECT_NE(why.find("30 mm"), std::string::npos) << why;
-    // Set anew its count may begin elsewhere: the positions are the machine's again.
+    // After a new setting its count may differ: the positions are machine positions again.
     EXPECT_EQ(why_not(datum(known, 0.03), datum(Kind::set, 0.04), false), "goes on");
   }
   EXPECT_EQ(why_not(datum(Kind::set, 0.03), datum(Kind::set, 0.03), true), "goes on");
 }
 
-TEST(SameDatum, WithoutOneItGoesOnOnlyInTheSameCount) {
+TEST(SameDatum, WithoutADatumARunResumesOnlyInTheSameCount) {
   using Kind = EncoderDatum::Kind;
   const EncoderDatum none = datum(Kind::none, 0);
   EXPECT_EQ(why_not(none, none, true), "goes on");
   EXPECT_NE(why_not(none, none, false).find("start a new run"), std::string::npos);
   EXPECT_NE(why_not(none, datum(Kind::set, 0.01), true).find("start a new run"), std::string::npos);
-  // offset_mm holds for the count that it was meant for.
+  // offset_mm is valid only for the count that it was intended for.
   const EncoderDatum configured = datum(Kind::configured, 0.01);
   EXPECT_EQ(why_not(configured, configured, true), "goes on");
   EXPECT_NE(why_not(configured, configured, false).find("mdof encoder set"), std::string::npos);
 }
 
-TEST(SameDatum, WhatKnowsItsPositionsGoesOnUnlessSomebodyMovedThem) {
+TEST(SameDatum, AnAbsoluteEncoderResumesUnlessItsDatumWasSet) {
   const EncoderDatum absolute;
   EXPECT_EQ(why_not(absolute, absolute, true), "goes on");
   EXPECT_NE(why_not(absolute, datum(EncoderDatum::Kind::set, 0.01), true).find("start a new run"),

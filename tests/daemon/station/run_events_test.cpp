@@ -8,8 +8,8 @@
 namespace mdof::daemon {
 namespace {
 
-// As of a long run that goes on: no reply line holds them all, and none may be lost by that.
-TEST(RunEvents, ManyPointsComeInMessagesThatALineHolds) {
+// As for a long run that is resumed: one line cannot hold all points, and none may be lost.
+TEST(RunEvents, ManyPointsAreDividedIntoMessages) {
   std::vector<MeasuredPoint> points(500);
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i].target = static_cast<int>(i) + 1;
@@ -17,7 +17,7 @@ TEST(RunEvents, ManyPointsComeInMessagesThatALineHolds) {
     for (double& x : points[i].errors.local) x = 1.23456789012345e-6;
     for (double& x : points[i].errors.covariance) x = 1.23456789012345e-14;
   }
-  points.insert(points.begin(), 40, points.front());  // told already
+  points.insert(points.begin(), 40, points.front());  // already sent
   const auto messages = points_messages(7, test::rig_x(), Model::exact, points, 40);
   EXPECT_GT(messages.size(), 1u);
   std::uint64_t next = 40;
@@ -34,7 +34,7 @@ TEST(RunEvents, ManyPointsComeInMessagesThatALineHolds) {
   EXPECT_EQ(next, 540u);
 }
 
-TEST(RunEvents, NoPointsAreNoMessage) {
+TEST(RunEvents, NoPointsGiveNoMessage) {
   const Rig rig = test::rig_x();
   EXPECT_TRUE(points_messages(7, rig, Model::exact, {}, 0).empty());
   EXPECT_TRUE(points_messages(7, rig, Model::exact, {MeasuredPoint{}}, 1).empty());

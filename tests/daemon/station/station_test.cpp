@@ -1,4 +1,4 @@
-// A run as its user has it: begun, measured, ended, and what ends it otherwise.
+// A run as its user sees it: started, measured and ended, also by other causes.
 #include "daemon/station/station.h"
 
 #include "daemon/measure/replay/replay.h"
@@ -45,7 +45,7 @@ TEST_F(StationTest, ARunIsOnTheDiskBeforeItsStartIsAnswered) {
   EXPECT_SAYS(events_.wait_for({"\"started\""}), "\"run\":" + std::to_string(*id));
 }
 
-TEST_F(StationTest, ARunHasThePointsOfItsSamplesAndAReplayOfItsRecordingTheSameBits) {
+TEST_F(StationTest, ARunAndAReplayOfItsRecordingHaveTheSameBits) {
   const auto id = start();
   give(axis_);
   const auto read = stop();
@@ -79,9 +79,9 @@ TEST_F(StationTest, ARunEndsByItselfWhenItIsFull) {
   EXPECT_SAYS(notices(run), "stops_over_limit stops=3 ");
 }
 
-TEST_F(StationTest, APointIsToldOnceItIsOnTheDiskAndTheEndAfterAll) {
+TEST_F(StationTest, PointsAreReportedOnceStoredAndTheEndLast) {
   const auto id = start(both_ways_once());
-  give(axis_, 0, 1400);  // three stops, the third under way
+  give(axis_, 0, 1400);  // three stops, the third still in progress
   EXPECT_SAYS(events_.wait_for({"\"points\":["}), "\"offset\":0");
   EXPECT_GE(stored(*id).points.size(), 1u);
   const std::string progress = events_.wait_for({"\"progress\"", "\"done\":2"});
@@ -92,8 +92,8 @@ TEST_F(StationTest, APointIsToldOnceItIsOnTheDiskAndTheEndAfterAll) {
   EXPECT_SAYS(events_.wait_for({"\"ended\""}), "\"state\":\"complete\"");
 }
 
-// Once, while the run goes on; without targets each stop is one.
-TEST_F(StationTest, AStopNearNoTargetIsToldAtOnce) {
+// Reported once, while the run continues; without targets each stop is a point.
+TEST_F(StationTest, AStopNearNoTargetIsReportedAtOnce) {
   RunRequest request = both_ways_once();
   const double left_out_m = request.targets_m[1];
   request.targets_m.erase(request.targets_m.begin() + 1);
@@ -107,7 +107,7 @@ TEST_F(StationTest, AStopNearNoTargetIsToldAtOnce) {
   EXPECT_EQ(events_.count("\"left_out\""), 1u);
 }
 
-TEST_F(StationTest, ItEndsByItselfOnceAllThatWasAskedForIsMeasured) {
+TEST_F(StationTest, ARunEndsByItselfWhenAllTargetsAreMeasured) {
   const auto id = start(both_ways_once());
   give(axis_);
   TestAxis more(-1);
@@ -136,14 +136,14 @@ TEST_F(StationTest, OneRunAtATime) {
   EXPECT_EQ(start().value_or(0), *id + 1);
 }
 
-TEST_F(StationTest, WithoutARunThereIsNothingToStop) {
+TEST_F(StationTest, WithoutARunStopIsNotFound) {
   const auto stopped = stop();
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::not_found);
   EXPECT_SAYS(stopped.error().message, "no run of axis X");
 }
 
-TEST_F(StationTest, AnAbortedRunKeepsItsPointsAndSaysThatItWasAborted) {
+TEST_F(StationTest, AnAbortedRunKeepsItsPointsAndItsNotice) {
   const auto id = start(both_ways_once());
   give(axis_, 0, 1400);
   ASSERT_TRUE(stop(true));
@@ -166,9 +166,9 @@ TEST_F(StationTest, ARunThatMeasuredNothingFailsWithTheReason) {
   EXPECT_SAYS(notices(run), "the encoder stays at 3 mm");
 }
 
-TEST_F(StationTest, AStopEarlyIsPartialAndItGoesOnFromThere) {
+TEST_F(StationTest, AnEarlyStopGivesAPartialRunThatCanBeResumed) {
   const auto id = start(both_ways_once());
-  give(axis_, 0, 1700);  // three stops and the turn
+  give(axis_, 0, 1700);  // three stops and the reversal
   ASSERT_TRUE(stop());
   const mdof::Run first = stored(*id);
   EXPECT_EQ(first.header.state, RunState::partial);
@@ -202,7 +202,7 @@ TEST_F(StationTest, AStopEarlyIsPartialAndItGoesOnFromThere) {
   }
 }
 
-TEST_F(StationTest, ARunUnderWayOrOfAnotherRigDoesNotGoOn) {
+TEST_F(StationTest, ARunInProgressOrOfAnotherRigIsNotResumed) {
   const auto id = start(both_ways_once());
   auto store = store::Store::open(folder_ / "mdof.db", store::Access::read_only);
   EXPECT_SAYS(request_to_resume(*store, *id, station_->config()).error().message,
@@ -216,7 +216,7 @@ TEST_F(StationTest, ARunUnderWayOrOfAnotherRigDoesNotGoOn) {
   EXPECT_TRUE(request_to_resume(*store, *id, station_->config()));
 }
 
-TEST_F(StationTest, ARunWhoseRecordingIsGoneDoesNotGoOnAndLeavesTheAxisFree) {
+TEST_F(StationTest, ARunWithoutItsRecordingIsNotResumed) {
   const auto id = start(both_ways_once());
   give(axis_, 0, 1400);
   ASSERT_TRUE(stop());
@@ -230,7 +230,7 @@ TEST_F(StationTest, ARunWhoseRecordingIsGoneDoesNotGoOnAndLeavesTheAxisFree) {
   EXPECT_TRUE(start());
 }
 
-TEST_F(StationTest, TheDiskThatGivesUpOnARunEndsItWithTheReason) {
+TEST_F(StationTest, AStorageFailureEndsTheRunWithTheReason) {
   const auto id = start(both_ways_once());
   give(axis_, 0, 1400);
   station_->storage_failed(*id + 1, Error{ErrorCode::io, "of another run"});

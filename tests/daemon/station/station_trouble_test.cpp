@@ -1,4 +1,4 @@
-// What comes between: a device that goes and comes back, the end of the program, a log instead of a
+// Interruptions: a device that is lost and returns, the end of the program, a log instead of a
 // device.
 #include "daemon/station/resume.h"
 #include "drivers/clock/monotonic.h"
@@ -12,11 +12,11 @@ namespace {
 class StationTrouble : public FedStation {
  protected:
   StationTrouble() { axis_.pass_both_ways({0, 5, 10}); }
-  static constexpr std::size_t kAtThird = 1400;  // scans: the third stop is under way
+  static constexpr std::size_t kAtThird = 1400;  // scans: the third stop is in progress
   TestAxis axis_;
 };
 
-TEST_F(StationTrouble, ADeviceThatGoesAndComesBackCostsWhatItDidNotSee) {
+TEST_F(StationTrouble, ADeviceLossCostsOnlyTheUnseenPoints) {
   const auto id = start();
   give(axis_, 0, kAtThird);
   feed_->go();
@@ -24,9 +24,9 @@ TEST_F(StationTrouble, ADeviceThatGoesAndComesBackCostsWhatItDidNotSee) {
   EXPECT_EQ(station_->devices().front().state, "failed: reopening");
   EXPECT_EQ(station_->run(), *id) << "the run goes on";
   feed_->come_back();
-  give(axis_, kAtThird + 300);  // 0.3 s that nobody saw
+  give(axis_, kAtThird + 300);  // 0.3 s without samples
   ASSERT_FALSE(events_.wait_for_trouble({"back"}).empty());
-  const auto read = stop();  // that of the last approach is known only then
+  const auto read = stop();  // the approach of the last stop is known only then
   ASSERT_TRUE(read) << read.error().message;
   const mdof::Run run = stored(*read);
   EXPECT_EQ(run.header.state, RunState::complete) << notices(run);
@@ -37,7 +37,7 @@ TEST_F(StationTrouble, ADeviceThatGoesAndComesBackCostsWhatItDidNotSee) {
   EXPECT_TOLD(notices(run), "10.0.0.9: connection lost");
 }
 
-TEST_F(StationTrouble, WhileItsDeviceIsGoneARunCanBeStoppedAndHasWhatCameBefore) {
+TEST_F(StationTrouble, ARunWithoutItsDeviceCanBeStopped) {
   const auto id = start();
   give(axis_, 0, kAtThird);
   feed_->go();
@@ -66,21 +66,21 @@ TEST_F(StationTrouble, TheEndOfTheProgramEndsAnOpenRunAsAborted) {
   EXPECT_EQ(run.header.provenance.recording_sha256.size(), 64u) << "its recording is sealed";
 }
 
-TEST_F(StationTrouble, TheEndOfTheProgramComesInEveryStateWithoutALongWait) {
+TEST_F(StationTrouble, TheProgramEndsInEveryStateWithoutALongWait) {
   const auto begin = std::chrono::steady_clock::now();
   station_.reset();  // without a run
   make_station();
-  feed_->go();  // with a device that is gone
+  feed_->go();  // with a lost device
   ASSERT_FALSE(events_.wait_for_trouble({"lost"}).empty());
-  ASSERT_TRUE(start());  // and with a run of it
+  ASSERT_TRUE(start());  // and with a run on it
   station_.reset();
   make_station();
   ASSERT_TRUE(start());
   station_->stop_run(false, action_now("run.stop", this_process()), {});
-  station_.reset();  // with a run that is about to end
+  station_.reset();  // with a run that is ending
   make_station();
   station_->start_run({}, [](const auto&) {});
-  station_.reset();  // with one that is about to begin
+  station_.reset();  // with a run that is starting
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
   keeper_.reset();
   auto store = store::Store::open(folder_ / "mdof.db", store::Access::read_only);
@@ -89,7 +89,7 @@ TEST_F(StationTrouble, TheEndOfTheProgramComesInEveryStateWithoutALongWait) {
   for (const auto& header : headers) EXPECT_NE(header.state, RunState::open) << header.id;
 }
 
-TEST_F(StationTrouble, TheEndOfTheProgramWhileARunIsMadeReadyToGoOnLeavesTheFirstToGoOnWith) {
+TEST_F(StationTrouble, TheProgramEndsWhileARunIsBeingResumed) {
   const auto id = start();
   for (int pass = 0; pass < 5; ++pass) axis_.pass_both_ways({0, 5, 10});
   give(axis_, 0, axis_.scans());
@@ -100,7 +100,7 @@ TEST_F(StationTrouble, TheEndOfTheProgramWhileARunIsMadeReadyToGoOnLeavesTheFirs
   std::promise<Result<std::int64_t>> resumed;
   station_->start_run(*request, [&](const auto& run) { resumed.set_value(run); });
   station_.reset();
-  const auto next = resumed.get_future().get();  // told in any case
+  const auto next = resumed.get_future().get();  // answered in any case
   keeper_.reset();
   EXPECT_EQ(stored(*id).header.state, RunState::aborted);
   if (next)
@@ -121,7 +121,7 @@ TEST_F(StationTrouble, ALogIsReadOnceForEachRunAndEndsIt) {
     const std::string run = "\"run\":" + std::to_string(*id);
     EXPECT_TOLD(events_.wait_for({"\"ended\"", run}), pass == 0 ? "complete" : "failed");
     const mdof::Run read = stored(*id);
-    EXPECT_EQ(read.points.size(), pass == 0 ? 6u : 0u);  // the feed has nothing the second time
+    EXPECT_EQ(read.points.size(), pass == 0 ? 6u : 0u);  // the feed is empty the second time
     EXPECT_EQ(read.header.provenance.recording_kind, "replay");
     EXPECT_EQ(read.header.provenance.recording_path, "/logs/of_a_test.csv");
   }
@@ -139,10 +139,10 @@ TEST_F(StationTrouble, TheLiveViewShowsTheAxisWithAndWithoutARun) {
   EXPECT_FALSE(events_.wait_for_live({"\"stale\":true"}).empty()) << "nothing comes any more";
 }
 
-// Of an encoder that counts from where it was switched on.
+// For an encoder that counts from where it was switched on.
 class StationDatum : public FedStation {
  protected:
-  // Two seconds up to now, standing: where the axis is can then be said.
+  // Two seconds at rest, up to now: the position of the axis can then be set.
   void stand_until_now(double mm) {
     TestAxis parked(mm);
     parked.stand(2);
@@ -161,14 +161,14 @@ class StationDatum : public FedStation {
   }
 };
 
-TEST_F(StationDatum, IsWhatTheUserSaysOfWhereTheAxisStands) {
+TEST_F(StationDatum, IsThePositionThatTheUserSets) {
   EXPECT_EQ(station_->encoder().datum.kind, EncoderDatum::Kind::none);
   const auto nothing = set(12.5);
   ASSERT_FALSE(nothing);
   EXPECT_TOLD(nothing.error().message, "the encoder has sent no sample");
   EXPECT_EQ(station_->run(), 0);
   Result<EncoderDatum> datum = nothing;
-  for (int i = 0; i < 20 && !datum; ++i) {  // a busy machine may be too late with it
+  for (int i = 0; i < 20 && !datum; ++i) {  // a busy machine may be too slow
     stand_until_now(2);
     datum = set(12.5);
   }
@@ -179,7 +179,7 @@ TEST_F(StationDatum, IsWhatTheUserSaysOfWhereTheAxisStands) {
   EXPECT_EQ(station_->run(), 0) << "the axis is free for a run";
 }
 
-TEST_F(StationDatum, DoesNotShiftUnderARun) {
+TEST_F(StationDatum, CannotBeSetDuringARun) {
   stand_until_now(2);
   ASSERT_TRUE(start());
   const auto datum = set(12.5);
@@ -189,7 +189,7 @@ TEST_F(StationDatum, DoesNotShiftUnderARun) {
   EXPECT_EQ(station_->encoder().datum.kind, EncoderDatum::Kind::none);
 }
 
-TEST_F(StationDatum, OfALogIsAsItIs) {
+TEST_F(StationDatum, CannotBeSetForALog) {
   station_.reset();
   make_station(false);
   const auto datum = set(12.5);

@@ -1,5 +1,5 @@
-// Probe and encoder on two devices: clocks 100 ppm apart, packets 3 ms of jitter, an axis moving at
-// 20 mm/s over a slope of 50 µm/m. What misalignment adds to a reading stays below 5 nm.
+// Probe and encoder on two devices: clocks 100 ppm apart, packets with 3 ms of jitter, an axis
+// moving at 20 mm/s over a slope of 50 µm/m. The misalignment changes a reading by less than 5 nm.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ constexpr double kSpeed_m_s = 0.020, kSlope = 50e-6, kBound_m = 5e-9;
 constexpr double kJitter_ns = 3e6;
 constexpr std::int64_t kPacket = 8;
 
-// A device that samples `rate_hz` by its own clock, and whose packets come late.
+// A device that samples `rate_hz` by its own clock; its packets are delayed.
 class Device {
  public:
   enum class Times { fitted, nominal };
@@ -34,7 +34,7 @@ class Device {
     const Philox r = philox({static_cast<std::uint32_t>(next_), 0, 0, seed_}, 5);
     return true_s(next_ + kPacket - 1) + 1e-9 * kJitter_ns * uniform(r[0], r[1]);
   }
-  // The next packet: `value` of each sample's true time, at the time the clock makes of it.
+  // The next packet: `value` at the true time of each sample, with the time stamp of the clock.
   template <class Value>
   SampleBlock packet(Value value) {
     clock_.add(next_ + kPacket - 1, std::llround(received_s() * 1e9));
@@ -60,7 +60,7 @@ class Device {
   std::int64_t next_ = 0;
 };
 
-// The largest error of a reading in 100 s, in m.
+// The largest error of a reading in 100 s, m.
 double worst_m(Device::Times times) {
   const auto travel_m = [](double t_s) { return kSpeed_m_s * t_s; };
   Device encoder(kEncoderChannel, 4000, -50, 1, times), probe("A", 3900, 50, 2, times);
@@ -85,15 +85,15 @@ double worst_m(Device::Times times) {
   return worst;
 }
 
-TEST(TwoClocks, AProbeIsBroughtToTheEncodersTimeWithin5nm) {
+TEST(TwoClocks, AProbeIsAlignedToTheEncodersTimeWithin5nm) {
   const double worst = worst_m(Device::Times::fitted);
   EXPECT_LT(worst, kBound_m);
   EXPECT_GT(worst, 0.0);
   RecordProperty("worst_nm", std::to_string(worst * 1e9));
 }
 
-// That the test can fail: each device's nominal rate taken for true.
-TEST(TwoClocks, NominalRatesWouldNotDo) {
+// Control: the nominal rate of each device is assumed to be its true rate.
+TEST(TwoClocks, NominalRatesAreNotSufficient) {
   EXPECT_GT(worst_m(Device::Times::nominal), kBound_m);
 }
 

@@ -21,7 +21,7 @@ SampleBlock block(const std::string& device, std::int64_t first_ns, std::size_t 
   return block;
 }
 
-TEST(Unrecorded, TheBlocksOfADeviceBecomeOne) {
+TEST(Unrecorded, TheBlocksOfADeviceAreJoined) {
   Unrecorded unrecorded;
   unrecorded.add(block("capa", 0, 200));
   unrecorded.add(block("t7", 5, 3));
@@ -40,8 +40,8 @@ TEST(Unrecorded, TheBlocksOfADeviceBecomeOne) {
   EXPECT_TRUE(unrecorded.take().empty());
 }
 
-// What is lost is told with the block that it comes before.
-TEST(Unrecorded, AnotherBlockBeginsAfterALoss) {
+// A loss is reported in the block that follows it.
+TEST(Unrecorded, ANewBlockBeginsAfterALoss) {
   Unrecorded unrecorded;
   unrecorded.add(block("capa", 0, 2));
   SampleBlock after = block("capa", 10, 2);
@@ -56,7 +56,7 @@ TEST(Unrecorded, AnotherBlockBeginsAfterALoss) {
   EXPECT_EQ(taken[1].time_ns, block("capa", 10, 4).time_ns);
 }
 
-TEST(Unrecorded, AnotherBlockBeginsWithOtherChannels) {
+TEST(Unrecorded, ANewBlockBeginsWithOtherChannels) {
   Unrecorded unrecorded;
   unrecorded.add(block("capa", 0, 2));
   SampleBlock other = block("capa", 2, 2);
@@ -67,8 +67,8 @@ TEST(Unrecorded, AnotherBlockBeginsWithOtherChannels) {
   EXPECT_EQ(taken[1].channels, other.channels);
 }
 
-// A device that says nothing of quality means good.
-TEST(Unrecorded, NoQualityIsGood) {
+// Missing qualities of a device mean good.
+TEST(Unrecorded, MissingQualityMeansGood) {
   Unrecorded unrecorded;
   SampleBlock silent = block("capa", 0, 2);
   silent.quality.clear();

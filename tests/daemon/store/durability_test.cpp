@@ -1,4 +1,4 @@
-// Full disks, killed writers, readers at the same time.
+// Full disks, killed writers, concurrent readers.
 #include <fcntl.h>
 #include <sys/resource.h>
 
@@ -14,7 +14,7 @@
 namespace mdof::store {
 namespace {
 
-// Adds runs until the disk is full, frees it, goes on.
+// Adds runs until the disk is full, frees space, and continues.
 bool survives_full_disk(const fs::path& folder) {
   const fs::path ballast = folder / "ballast", file = folder / "mdof.db";
   {
@@ -32,7 +32,7 @@ bool survives_full_disk(const fs::path& folder) {
     return false;
   if (store->count_runs().value() != stored || !store->verify()->empty()) return false;
   fs::remove(ballast);
-  const auto again = store->add_run(make_run(200));  // the same object, no restart
+  const auto again = store->add_run(make_run(200));  // the same object, without a restart
   return again && *again == stored + 1 && store->verify()->empty();
 }
 
@@ -63,22 +63,22 @@ bool recording_survives_full_disk(const fs::path& folder) {
   std::fprintf(stderr, "%s\n", acknowledged.error().message.c_str());
   if (last != appended - 1) return false;
   fs::remove(ballast);
-  // What had been taken before the disk was full is not lost.
+  // Data accepted before the disk was full are not lost.
   return writer->commit().value_or(0) == appended && writer->finish("later");
 }
 
-TEST_F(StoreTest, AFullDiskIsSaidAndRecoveredFrom) {
+TEST_F(StoreTest, AFullDiskIsReportedAndRecoveredFrom) {
   with_private_mounts([&] { return mount_small_disk(folder_, "size=3M"); },
                       [&] { return survives_full_disk(folder_); });
 }
 
-TEST_F(StoreTest, ARecordingOutlivesAFullDisk) {
+TEST_F(StoreTest, ARecordingSurvivesAFullDisk) {
   with_private_mounts([&] { return mount_small_disk(folder_, "size=3M"); },
                       [&] { return recording_survives_full_disk(folder_); });
 }
 
 // The same without root: a limit on the size of files.
-TEST_F(StoreTest, AFileThatMayNotGrowStoresNothingByHalves) {
+TEST_F(StoreTest, AFileThatCannotGrowStoresNothingPartly) {
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
@@ -101,7 +101,7 @@ TEST_F(StoreTest, AFileThatMayNotGrowStoresNothingByHalves) {
   EXPECT_TRUE(reader()->verify()->empty());
 }
 
-// Appends to a live run and tells each acknowledged row through the pipe, until it is killed.
+// Appends to a live run and reports each acknowledged row through the pipe, until it is killed.
 [[noreturn]] void append_for_ever(const fs::path& file, int pipe_fd) {
   auto store = Store::open(file, Access::read_write);
   if (!store) _exit(1);
@@ -137,7 +137,7 @@ TEST_F(StoreTest, NothingAcknowledgedIsLostBySigkill) {
   }
 }
 
-// Each reader sees whole runs only, as many as were there when it looked or more.
+// Each reader sees only complete runs, and at least those that existed when it began.
 TEST_F(StoreTest, TwoReadersSeeWholeRunsWhileOneWrites) {
   auto store = writer();
   ASSERT_TRUE(store->add_run(make_run(40)));

@@ -1,5 +1,4 @@
-// Where an axis stood when somebody said so: stored with who said it, and under the ledger's
-// hashes.
+// Positions of an axis that a user set: stored with the user and under the hashes of the ledger.
 #include <gtest/gtest.h>
 
 #include "daemon/store/file/migrate.h"
@@ -20,7 +19,7 @@ HistoryEntry said_by_anna() {
 
 class EncoderData : public StoreTest {};
 
-TEST_F(EncoderData, TheLastOfAnAxisComesBackAsItWasSaid) {
+TEST_F(EncoderData, TheLastSettingOfAnAxisIsReadBackUnchanged) {
   auto store = writer();
   EXPECT_FALSE(store->last_datum(Axis::x)->has_value());
   ASSERT_EQ(store->add_datum(setting(Axis::x, 0.0125), said_by_anna()).value(), 1);
@@ -34,7 +33,7 @@ TEST_F(EncoderData, TheLastOfAnAxisComesBackAsItWasSaid) {
   EXPECT_TRUE(store->verify()->empty());
 }
 
-TEST_F(EncoderData, ItsDeedTellsWhereTheAxisStood) {
+TEST_F(EncoderData, ItsActionStatesThePositionOfTheAxis) {
   auto store = writer();
   ASSERT_TRUE(store->add_datum(setting(Axis::y, 0.0125), said_by_anna()));
   const auto actions = store->list_actions(0, 9).value();
@@ -48,7 +47,7 @@ TEST_F(EncoderData, ItsDeedTellsWhereTheAxisStood) {
   EXPECT_EQ(store->list_actions(0, 1).value()[0].detail, "");
 }
 
-TEST_F(EncoderData, AnyChangeOfItIsFound) {
+TEST_F(EncoderData, AnyChangeIsDetected) {
   for (const char* change :
        {"UPDATE encoder_datum SET position_m = 0 WHERE id = 1", "DELETE FROM encoder_datum",
         "UPDATE encoder_datum SET offset_m = -offset_m", "UPDATE encoder_datum SET before_m = 1",
@@ -68,7 +67,7 @@ TEST_F(EncoderData, AnyChangeOfItIsFound) {
   EXPECT_TRUE(contains(reported.error().message, "encoder datum 9: was not stored by mdof"));
 }
 
-TEST_F(EncoderData, ItIsAppendOnly) {
+TEST_F(EncoderData, IsAppendOnly) {
   { ASSERT_TRUE(writer()->add_datum(setting(Axis::x, 0.0125), said_by_anna())); }
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
   for (const char* sql : {"UPDATE encoder_datum SET offset_m = 0", "DELETE FROM encoder_datum",
@@ -76,8 +75,8 @@ TEST_F(EncoderData, ItIsAppendOnly) {
     EXPECT_TRUE(contains(db->execute(sql).error().message, "append only")) << sql;
 }
 
-// Of schema version 9, in which an action of an encoder was none.
-TEST_F(EncoderData, DeedsFromBeforeKeepTheirHashes) {
+// With schema version 9, which had no actions of encoders.
+TEST_F(EncoderData, ActionsOfOlderVersionsKeepTheirHashes) {
   constexpr std::size_t kBefore = 9;
   {
     auto db = sqlite::Connection::open(file_, sqlite::OpenMode::create);

@@ -1,4 +1,4 @@
-// A folder of its own for each test, runs to store, and what a test may do to a file system.
+// A separate folder for each test, runs to store, and changes that a test makes to a file system.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ class StoreTest : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
   Result<Store> writer() { return Store::open(file_, Access::read_write, {Durability::full, 50}); }
   Result<Store> reader() { return Store::open(file_, Access::read_only, {Durability::full, 50}); }
-  // SQL from outside, as a careless hand or a failing disk would.
+  // Executes SQL from outside, as an accidental change or a disk fault.
   void tamper(const std::string& sql) {
     auto connection = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
     ASSERT_TRUE(connection);
@@ -108,10 +108,10 @@ inline CompensationTable make_table(std::vector<std::int64_t> runs, Axis axis = 
   return table;
 }
 
-inline constexpr int kCannot = 77;  // exit code of a child that this machine does not let work
+inline constexpr int kCannot = 77;  // exit code of a child if the machine does not permit the test
 
-// Runs `body` in a child with mounts of its own, after `prepare` has made them.
-// Skips the test where this machine does not let us.
+// Runs `body` in a child with its own mounts, which `prepare` makes. Skips the test if the machine
+// does not permit this.
 template <class Prepare, class Body>
 void with_private_mounts(Prepare prepare, Body body) {
   const pid_t child = fork();

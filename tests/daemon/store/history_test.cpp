@@ -1,4 +1,4 @@
-// Who did it: stored with the change itself, and under the ledger's hashes.
+// Who made a change: stored together with the change and under the hashes of the ledger.
 #include "daemon/store/store.h"
 #include "tests/daemon/store/fixtures.h"
 
@@ -11,7 +11,7 @@ HistoryEntry by_anna(const std::string& name) {
 
 class Deeds : public StoreTest {
  protected:
-  // A run that anna started and stopped, and that turned out otherwise; gives the one to read.
+  // A run that anna started and stopped and whose points were renumbered; returns the run to read.
   static std::int64_t measured(Store& store) {
     mdof::Run run = make_run(3);
     const auto id = store.begin_run(run.header, by_anna("run.start")).value();
@@ -29,8 +29,8 @@ class Deeds : public StoreTest {
   }
 };
 
-// What it measured is in the run that supersedes it; one that was cut off and resumed stays listed.
-TEST_F(Deeds, ARunThatWasNumberedAgainIsNoResult) {
+// The run that supersedes it has the result. A run that was interrupted and resumed remains listed.
+TEST_F(Deeds, ARenumberedRunIsNotListedAsAResult) {
   using Listed = store::Store::Listed;
   auto store = writer();
   const auto result = measured(*store);
@@ -48,11 +48,12 @@ TEST_F(Deeds, ARunThatWasNumberedAgainIsNoResult) {
   EXPECT_EQ(store->count_runs(Axis::x, Listed::results).value(), 3);
 }
 
-TEST_F(Deeds, EachChangeHasItsDeed) {
+TEST_F(Deeds, EachChangeHasItsAction) {
   auto store = writer();
   const auto run = measured(*store);
   const auto actions = store->actions_of_run(run).value();
-  EXPECT_EQ(names(actions), "run.start run 1; run.stop run 1; ");  // of the one that it supersedes
+  EXPECT_EQ(names(actions),
+            "run.start run 1; run.stop run 1; ");  // the actions of the run that it supersedes
   EXPECT_EQ(actions[1].by.uid, 1000);
   EXPECT_EQ(actions[1].by.gid, 100);
   EXPECT_EQ(actions[1].by.pid, 4711);
@@ -69,7 +70,7 @@ TEST_F(Deeds, EachChangeHasItsDeed) {
   EXPECT_TRUE(store->verify()->empty());
 }
 
-TEST_F(Deeds, AReasonComesBackAndAnotherIsFound) {
+TEST_F(Deeds, AReasonIsReadBackAndAChangeIsDetected) {
   {
     auto store = writer();
     const auto table =
@@ -89,13 +90,13 @@ TEST_F(Deeds, AReasonComesBackAndAnotherIsFound) {
   EXPECT_TRUE(contains(reported.error().message, "reason of action")) << reported.error().message;
 }
 
-TEST_F(Deeds, WhoStoresNothingDidNothing) {
+TEST_F(Deeds, AFailedChangeStoresNoAction) {
   auto store = writer();
   EXPECT_FALSE(store->add_table(make_table({99}), by_anna("compensation.build")));
   EXPECT_EQ(store->count_actions().value(), 0);
 }
 
-TEST_F(Deeds, ADeedOfAnotherIsFound) {
+TEST_F(Deeds, AChangedActionIsDetected) {
   for (const char* change :
        {"UPDATE deed SET uid = 0 WHERE id = 1", "DELETE FROM deed WHERE id = 1",
         "UPDATE deed SET row = 2 WHERE id = 2", "UPDATE deed SET user = 'bert' WHERE id = 1"}) {

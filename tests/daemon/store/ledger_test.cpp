@@ -1,5 +1,6 @@
-// No bit of what a table in force rests on may change unseen: each is flipped in the file, and what
-// is then served must be what was stored or a refusal, and verify() must find it.
+// No bit of the data that an active table depends on may change undetected. Each bit is flipped in
+// the file; then the store must serve the stored values or refuse, and verify() must report the
+// change.
 #include <fstream>
 #include <regex>
 
@@ -20,7 +21,7 @@ std::string contents(const fs::path& file) {
 
 class LedgerTest : public StoreTest {
  protected:
-  // Two tables for X, of which the second is in force, and one for Y, taken out of force.
+  // Two tables for X, the second of them active, and one for Y, deactivated.
   void store_all() {
     auto store = writer();
     ASSERT_TRUE(store) << store.error().message;
@@ -37,7 +38,7 @@ class LedgerTest : public StoreTest {
     ASSERT_TRUE(store->add_squareness(squareness));
   }
 
-  // What a client is served: refusals are empty.
+  // The values that a client is served; empty if refused.
   static std::string served(Result<Store>& store) {
     std::string all;
     for (const Axis axis : {Axis::x, Axis::y}) {
@@ -59,7 +60,7 @@ class LedgerTest : public StoreTest {
     return !findings || !findings->empty();
   }
 
-  // One plain file, as it lies on the disk.
+  // Makes one plain file, as it is on the disk.
   void close_journal() {
     auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
     ASSERT_TRUE(db->execute("PRAGMA wal_checkpoint(TRUNCATE); PRAGMA journal_mode = DELETE"));
@@ -82,7 +83,8 @@ TEST_F(LedgerTest, EveryBitOfTheActivationsIsUnderAHash) {
     ASSERT_TRUE(before.starts_with("2X") && before.ends_with("none|")) << before;
     ASSERT_FALSE(found_by_verify(store));
   }
-  // The rows as SQLite keeps them: length, generation, five (four) types, axis, table (none for 1).
+  // The rows as SQLite stores them: length, generation, five (four) types, axis, table (none for
+  // 1).
   const std::regex row(std::string("([^]{12}[XYZ][\\x02-\\x7f]|[^]{12}X|[^]{11}Y)") + kActor +
                        "2026-11-21T05:00:0[0-9]");
   std::fstream file(file_, std::ios::binary | std::ios::in | std::ios::out);
@@ -107,8 +109,8 @@ TEST_F(LedgerTest, EveryBitOfTheActivationsIsUnderAHash) {
   EXPECT_LE(unread, rows);  // one bit of the type of each key, which SQLite takes from elsewhere
 }
 
-// By a careless hand: the triggers are dropped first.
-TEST_F(LedgerTest, EveryFactIsCheckedWhenItIsServedAndByVerify) {
+// Accidental changes: the triggers are dropped first.
+TEST_F(LedgerTest, EveryFactIsCheckedWhenServedAndByVerify) {
   store_all();
   close_journal();
   const std::string whole = contents(file_);
@@ -158,8 +160,9 @@ TEST_F(LedgerTest, EveryFactIsCheckedWhenItIsServedAndByVerify) {
   }
 }
 
-// A chain that fits again, of other facts: nothing in the database tells it from the true one.
-TEST_F(LedgerTest, AChainCalculatedAnewHasNotTheHeadThatWasTold) {
+// A consistent chain over other facts, which the database alone cannot distinguish from the true
+// one.
+TEST_F(LedgerTest, ARecalculatedChainDiffersFromTheAnnouncedHead) {
   store_all();
   ChainHead reported;
   std::int64_t generation = 0;
@@ -173,7 +176,7 @@ TEST_F(LedgerTest, AChainCalculatedAnewHasNotTheHeadThatWasTold) {
   ASSERT_TRUE(write_announced_head(file_, {reported, generation}));
   EXPECT_TRUE(reader()->active(Axis::x));
   EXPECT_TRUE(reader()->verify()->empty());
-  {  // an ordinary change goes on from it
+  {  // an ordinary change continues the chain
     ASSERT_TRUE(writer()->add_run(make_run(4)));
     auto store = reader();
     EXPECT_NE(store->chain_head()->link, reported.link);
@@ -203,7 +206,7 @@ TEST_F(LedgerTest, AChainCalculatedAnewHasNotTheHeadThatWasTold) {
   EXPECT_EQ(reader()->active(Axis::x)->table.id, 1);
 }
 
-TEST_F(LedgerTest, RowsThatWereChangedAreServedOnNoPage) {
+TEST_F(LedgerTest, ChangedRowsAreServedOnNoPage) {
   std::int64_t run = 0;
   { run = writer()->add_run(make_run(22)).value(); }
   auto store = reader();
@@ -211,12 +214,12 @@ TEST_F(LedgerTest, RowsThatWereChangedAreServedOnNoPage) {
   ASSERT_EQ(page.size(), 5u);
   EXPECT_EQ(page[0].target, make_run(22).points[10].target);
   tamper("DROP TRIGGER point_no_update; UPDATE point SET ez_rad = ez_rad + 1e-9 WHERE row = 12");
-  EXPECT_TRUE(store->points(run, 0, 10));  // those are as they were
+  EXPECT_TRUE(store->points(run, 0, 10));  // these rows are unchanged
   EXPECT_FALSE(store->points(run, 10, 5));
   EXPECT_FALSE(reader()->points(run, 0, 10)) << "of a run that is not what was stored";
 }
 
-TEST_F(LedgerTest, ADamagedRunIsListedAsFailedAndSaysWhy) {
+TEST_F(LedgerTest, ADamagedRunIsListedAsFailedWithTheReason) {
   store_all();
   tamper("DROP TRIGGER run_no_update; UPDATE run SET note = 'another' WHERE id = 2");
   const auto list = reader()->list_runs(0, 10).value();

@@ -1,4 +1,4 @@
-// What a store does with files that are not, not yet, or no longer its own.
+// Opening files that are not the store's own, not complete, or of another version.
 #include <fstream>
 
 #include "daemon/store/file/migrate.h"
@@ -19,7 +19,7 @@ std::size_t files_in(const fs::path& folder) {
       std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
-TEST_F(StoreTest, MakesTheFolderAndTheFile) {
+TEST_F(StoreTest, CreatesTheFolderAndTheFile) {
   file_ = folder_ / "state" / "mdof" / "mdof.db";
   auto store = writer();
   ASSERT_TRUE(store) << store.error().message;
@@ -28,14 +28,14 @@ TEST_F(StoreTest, MakesTheFolderAndTheFile) {
   EXPECT_EQ(db->integer("PRAGMA user_version").value(), sql::migrations().back().version);
 }
 
-TEST_F(StoreTest, ReadingAnAbsentFileIsNotFoundAndMakesNothing) {
+TEST_F(StoreTest, ReadingAMissingFileIsNotFoundAndCreatesNothing) {
   const auto store = reader();
   ASSERT_FALSE(store);
   EXPECT_EQ(store.error().code, ErrorCode::not_found);
   EXPECT_EQ(files_in(folder_), 0u);
 }
 
-TEST_F(StoreTest, ANewerSchemaIsRefusedWithBothVersions) {
+TEST_F(StoreTest, RejectsANewerSchemaWithBothVersions) {
   { ASSERT_TRUE(writer()); }
   tamper("PRAGMA user_version = 42");
   for (const auto& store : {writer(), reader()}) {
@@ -47,7 +47,7 @@ TEST_F(StoreTest, ANewerSchemaIsRefusedWithBothVersions) {
   }
 }
 
-TEST_F(StoreTest, ANonDatabaseIsRefusedAndLeftAsItIs) {
+TEST_F(StoreTest, RejectsANonDatabaseAndLeavesItUnchanged) {
   const std::string text(3000, 'x');
   std::ofstream(file_) << text;
   for (const auto& store : {writer(), reader()}) {
@@ -59,7 +59,7 @@ TEST_F(StoreTest, ANonDatabaseIsRefusedAndLeftAsItIs) {
   EXPECT_EQ(files_in(folder_), 1u);
 }
 
-TEST_F(StoreTest, AnotherApplicationsDatabaseIsRefusedAndLeftAsItIs) {
+TEST_F(StoreTest, RejectsAnotherApplicationsDatabase) {
   ASSERT_TRUE(sqlite::Connection::open(file_, sqlite::OpenMode::create)
                   ->execute("CREATE TABLE bookmarks (url)"));
   const std::string before = contents(file_);
@@ -72,13 +72,13 @@ TEST_F(StoreTest, AnotherApplicationsDatabaseIsRefusedAndLeftAsItIs) {
   EXPECT_EQ(files_in(folder_), 1u);
 }
 
-TEST_F(StoreTest, AFolderIsNoDatabase) {
+TEST_F(StoreTest, AFolderIsNotADatabase) {
   file_ = folder_;
   EXPECT_FALSE(writer());
   EXPECT_FALSE(reader());
 }
 
-TEST_F(StoreTest, ASecondWriterIsRefused) {
+TEST_F(StoreTest, RejectsASecondWriter) {
   auto first = writer();
   const auto second = writer();
   ASSERT_FALSE(second);
@@ -88,8 +88,8 @@ TEST_F(StoreTest, ASecondWriterIsRefused) {
   EXPECT_TRUE(writer());
 }
 
-// A second program by another name would write beside the first and mark its run as aborted.
-TEST_F(StoreTest, ASecondWriterIsRefusedByAnyName) {
+// A second program with another name would write beside the first and mark its run as aborted.
+TEST_F(StoreTest, RejectsASecondWriterByAnyName) {
   const auto first = writer();
   ASSERT_TRUE(first);
   const fs::path database = file_;
@@ -105,8 +105,8 @@ TEST_F(StoreTest, ASecondWriterIsRefusedByAnyName) {
   }
 }
 
-// Two names have two journals, and who opens one of them does not know of the other.
-TEST_F(StoreTest, AHardLinkIsRefusedUntilTheOtherNameIsGone) {
+// Two names have two journals, and a program that opens one name does not see the other journal.
+TEST_F(StoreTest, RejectsAHardLinkUntilTheOtherNameIsRemoved) {
   { ASSERT_TRUE(writer()); }
   const fs::path other = folder_ / "other.db";
   fs::create_hard_link(file_, other);
@@ -119,8 +119,8 @@ TEST_F(StoreTest, AHardLinkIsRefusedUntilTheOtherNameIsGone) {
   EXPECT_TRUE(reader());
 }
 
-// What asks for the lock must not, by closing the file, drop the locks of SQLite in this process.
-TEST_F(StoreTest, AskingForTheLockLeavesTheLocksOfAReaderAlone) {
+// Closing the file after the query must not drop the locks of SQLite in this process.
+TEST_F(StoreTest, QueryingTheLockKeepsTheLocksOfAReader) {
   { ASSERT_TRUE(writer()); }
   auto held = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
   ASSERT_TRUE(held->execute("PRAGMA journal_mode = DELETE; BEGIN IMMEDIATE"));
@@ -136,7 +136,7 @@ TEST_F(StoreTest, AskingForTheLockLeavesTheLocksOfAReaderAlone) {
   EXPECT_EQ(status, 0) << "another process could begin to write";
 }
 
-// A program that is killed in the midst of a transaction that has begun to change the file itself.
+// A program that is killed in the middle of a transaction that has begun to change the file itself.
 void leave_half_written(const fs::path& file) {
   const pid_t child = fork();
   if (child == 0) {
@@ -148,7 +148,7 @@ void leave_half_written(const fs::path& file) {
                                 "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 "
                                 "FROM n WHERE i < 500) INSERT INTO half SELECT "
                                 "zeroblob(2000) FROM n");
-    _exit(done ? 0 : 1);  // without a word to SQLite
+    _exit(done ? 0 : 1);  // without closing SQLite
   }
   int status = -1;
   waitpid(child, &status, 0);
@@ -156,7 +156,7 @@ void leave_half_written(const fs::path& file) {
   ASSERT_GT(fs::file_size(file.string() + "-journal"), 0u);
 }
 
-TEST_F(StoreTest, WhatAKilledProgramLeftHalfWrittenIsRolledBackFirst) {
+TEST_F(StoreTest, AnUnfinishedTransactionIsRolledBackFirst) {
   { ASSERT_TRUE(writer()->add_run(make_run())); }
   for (const bool by_reader : {true, false}) {
     leave_half_written(file_);
@@ -168,7 +168,7 @@ TEST_F(StoreTest, WhatAKilledProgramLeftHalfWrittenIsRolledBackFirst) {
   ASSERT_TRUE(writer());
 }
 
-TEST_F(StoreTest, AFileThatWasBeingMadeWhenItsProgramWasKilledIsMadeAnew) {
+TEST_F(StoreTest, AnUnfinishedNewFileIsCreatedAgain) {
   ASSERT_TRUE(sqlite::Connection::open(file_, sqlite::OpenMode::create));
   std::ofstream(file_).flush();
   leave_half_written(file_);
@@ -188,11 +188,11 @@ constexpr char kOne[] = "CREATE TABLE a (x INTEGER) STRICT; INSERT INTO a VALUES
 constexpr char kTwo[] = "ALTER TABLE a RENAME TO b; CREATE TABLE c (y INTEGER) STRICT;";
 constexpr char kBroken[] = "ALTER TABLE b RENAME TO d; CREATE TABLE nonsense (z NOTHING) STRICT;";
 
-TEST_F(StoreTest, AMigrationKeepsABackupFirst) {
+TEST_F(StoreTest, AMigrationMakesABackupFirst) {
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::create);
   const sql::Migration steps[] = {{1, "001", kOne}, {2, "002", kTwo}};
   ASSERT_TRUE(migrate(*db, std::span(steps, 1)));
-  EXPECT_EQ(files_in(folder_), 1u);  // nothing was there to back up
+  EXPECT_EQ(files_in(folder_), 1u);  // there was nothing to back up
   ASSERT_TRUE(migrate(*db, steps));
   EXPECT_EQ(db->integer("SELECT x FROM b").value(), 1);
   EXPECT_EQ(db->integer("PRAGMA user_version").value(), 2);
@@ -204,8 +204,8 @@ TEST_F(StoreTest, AMigrationKeepsABackupFirst) {
   EXPECT_EQ(old->integer("PRAGMA application_id").value(), kApplication);
 }
 
-// Made by the mdof of schema version 2: two runs, one that was interrupted, a table in force.
-TEST_F(StoreTest, AnOldDatabaseKeepsWhatItHasAndTakesPartialRuns) {
+// Made by mdof with schema version 2: two runs, one of them interrupted, and an active table.
+TEST_F(StoreTest, AnOldDatabaseKeepsItsDataAndAcceptsPartialRuns) {
   const auto columns = [&](sqlite::Connection& db) {
     auto row = db.prepare("SELECT group_concat(name) FROM pragma_table_info('run_end')");
     EXPECT_TRUE(row->step().value());
@@ -246,7 +246,8 @@ TEST_F(StoreTest, AFailingMigrationChangesNothing) {
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::create);
   const sql::Migration steps[] = {{1, "001", kOne}, {2, "002", kTwo}, {3, "003_broken", kBroken}};
   ASSERT_TRUE(migrate(*db, std::span(steps, 1)));
-  for (int turn = 0; turn < 2; ++turn) {  // a backup from the first turn is not in the way
+  for (int turn = 0; turn < 2;
+       ++turn) {  // a backup from the first turn does not disturb the second
     const Status done = migrate(*db, steps);
     ASSERT_FALSE(done);
     EXPECT_TRUE(contains(done.error().message, "003_broken")) << done.error().message;

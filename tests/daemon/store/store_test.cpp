@@ -47,7 +47,7 @@ void expect_same(const RunHeader& a, const RunHeader& b) {
             std::tie(q.software_version, q.options_json, q.configuration));
 }
 
-TEST_F(StoreTest, GivesARunBackToTheLastBit) {
+TEST_F(StoreTest, ReturnsARunBitForBit) {
   mdof::Run run = make_run();
   run.points[0].errors.local = {-0.0, 5e-324, 3.0, -1e300, 0.1};
   run.points[1].target_m = -0.0;
@@ -70,8 +70,8 @@ TEST_F(StoreTest, GivesARunBackToTheLastBit) {
   EXPECT_EQ(result_sha256(run), store->result_sha256(*id).value());
 }
 
-// Runs of before the notice was stored say so, too; later ones say it once.
-TEST_F(StoreTest, ARunWithoutADatumSaysSoOnce) {
+// Runs stored before the notice existed have it too; later runs have it once.
+TEST_F(StoreTest, ARunWithoutADatumHasItsNoticeOnce) {
   auto store = writer();
   mdof::Run run = make_run();
   run.header.provenance.options_json = R"({"encoder_datum":{"kind":"none","device":"t7"}})";
@@ -122,7 +122,7 @@ TEST_F(StoreTest, KeepsThePlausibilityOfARun) {
   EXPECT_EQ(back->n_ij[1].forward, (std::vector<int>{1, 2}));
   EXPECT_EQ(back->left_out[0].reason, p.left_out[0].reason);
   EXPECT_TRUE(std::isnan(back->probes[1].sd_m));
-  EXPECT_EQ(result_sha256(run), result_sha256(make_run()));  // no part of the result
+  EXPECT_EQ(result_sha256(run), result_sha256(make_run()));  // not part of the result
   EXPECT_FALSE(store->run(store->add_run(make_run()).value()).value().plausibility);
   tamper("DROP TRIGGER run_plausibility_no_update; UPDATE run_plausibility SET json = '{'");
   EXPECT_TRUE(
@@ -140,7 +140,7 @@ TEST_F(StoreTest, AnUnknownScalarStaysUnknown) {
   EXPECT_EQ(result_sha256(back), result_sha256(run));
 }
 
-TEST_F(StoreTest, TheResultHashSeesOneBitAnywhere) {
+TEST_F(StoreTest, TheResultHashDetectsAChangeOfOneBit) {
   const mdof::Run run = make_run();
   const std::string hash = result_sha256(run);
   const auto changed = [&](auto change) {
@@ -161,7 +161,7 @@ TEST_F(StoreTest, TheResultHashSeesOneBitAnywhere) {
   EXPECT_FALSE(changed([](mdof::Run& r) { r.header.note = "another"; }));
 }
 
-TEST_F(StoreTest, ALiveRunIsFilledInPieces) {
+TEST_F(StoreTest, ALiveRunIsStoredInParts) {
   const mdof::Run run = make_run(30);
   auto store = writer();
   RunHeader header = run.header;
@@ -169,7 +169,7 @@ TEST_F(StoreTest, ALiveRunIsFilledInPieces) {
   header.provenance.recording_sha256.clear();
   const std::int64_t id = store->begin_run(header).value();
   EXPECT_EQ(store->run_header(id)->state, RunState::open);
-  EXPECT_EQ(reader()->run_header(id)->state, RunState::open);  // from another process, too
+  EXPECT_EQ(reader()->run_header(id)->state, RunState::open);  // also from another process
   for (std::size_t i = 0; i < 30; i += 10) {
     const auto at = run.points.begin() + static_cast<std::ptrdiff_t>(i);
     ASSERT_TRUE(store->append_points(id, {at, at + 10}));
@@ -196,14 +196,14 @@ TEST_F(StoreTest, ALiveRunIsFilledInPieces) {
   EXPECT_TRUE(store->verify()->empty());
 }
 
-TEST_F(StoreTest, ARunWithoutItsEndIsAbortedAndSaysSo) {
+TEST_F(StoreTest, ARunWithoutItsEndIsAbortedWithANotice) {
   const mdof::Run run = make_run();
   {
     auto store = writer();
     ASSERT_TRUE(store->append_points(store->begin_run(run.header).value(), run.points));
   }
   {
-    const auto beginning = WriterLock::acquire(file_, 0);  // a writer that has not yet come so far
+    const auto beginning = WriterLock::acquire(file_, 0);  // a writer that has not started writing
     ASSERT_TRUE(beginning);
     const RunHeader seen = reader()->run_header(1).value();
     EXPECT_EQ(seen.state, RunState::aborted);
@@ -217,7 +217,7 @@ TEST_F(StoreTest, ARunWithoutItsEndIsAbortedAndSaysSo) {
   EXPECT_TRUE(store->verify()->empty());
 }
 
-TEST_F(StoreTest, APartialRunComesBackAsOne) {
+TEST_F(StoreTest, APartialRunIsReadBackAsPartial) {
   mdof::Run run = make_run();
   run.header.state = RunState::partial;
   run.header.notices = {notice(NoticeCode::cycle_unknown)};
@@ -264,7 +264,7 @@ TEST_F(StoreTest, SharesRigsAndRecordings) {
   EXPECT_EQ(db->integer("SELECT count(*) FROM document").value(), 3);  // rig, options, ""
 }
 
-TEST_F(StoreTest, ACorrectionSupersedesAndMustNameAnExistingRun) {
+TEST_F(StoreTest, ACorrectionMustSupersedeAnExistingRun) {
   auto store = writer();
   mdof::Run run = make_run(1);
   ASSERT_TRUE(store->add_run(run));
@@ -274,10 +274,10 @@ TEST_F(StoreTest, ACorrectionSupersedesAndMustNameAnExistingRun) {
   const auto refused = store->add_run(run);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::not_found);
-  EXPECT_EQ(store->count_runs().value(), 2);  // nothing half-stored
+  EXPECT_EQ(store->count_runs().value(), 2);  // nothing is partly stored
 }
 
-TEST_F(StoreTest, WhatIsNotThereIsNotFoundByName) {
+TEST_F(StoreTest, ReportsMissingRowsByName) {
   auto store = writer();
   for (const Error& error :
        {store->run(5).error(), store->points(5, 0, 1).error(), store->result_sha256(5).error(),
@@ -288,7 +288,7 @@ TEST_F(StoreTest, WhatIsNotThereIsNotFoundByName) {
   EXPECT_EQ(store->active(Axis::x).error().code, ErrorCode::not_found);
 }
 
-TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
+TEST_F(StoreTest, NoRowCanBeChangedOrDeleted) {
   {
     auto store = writer();
     mdof::Run whole = make_run();
@@ -307,7 +307,7 @@ TEST_F(StoreTest, NoRowCanBeChangedOrTakenOut) {
         store->change_volumetric(store->add_volumetric(make_volume({1})).value(), "me", "now"));
   }
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
-  int tables = 0;  // all but that of checkpoints, which are no results
+  int tables = 0;  // all except checkpoints, which are not results
   auto names = db->prepare(
       "SELECT m.name, c.name FROM sqlite_schema AS m JOIN pragma_table_info(m.name) AS c "
       "WHERE m.type = 'table' AND m.name <> 'study_checkpoint' AND c.cid = 0");

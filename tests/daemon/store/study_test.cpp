@@ -15,7 +15,7 @@ StudyOutcome make_outcome(StudyState state, std::uint64_t trials) {
           "0.1.0", "{\"trials\":" + std::to_string(trials) + "}"};
 }
 
-TEST_F(StoreTest, AStudyComesBackAsItWasAsked) {
+TEST_F(StoreTest, AStudyIsReadBackUnchanged) {
   auto store = writer();
   const std::int64_t id = store->begin_study(make_study()).value();
   StudyRecord adaptive = make_study();
@@ -41,7 +41,7 @@ TEST_F(StoreTest, AStudyComesBackAsItWasAsked) {
   EXPECT_TRUE(store->verify()->empty());
 }
 
-TEST_F(StoreTest, ACheckpointIsReplacedAndGoesWhenTheStudyIsComplete) {
+TEST_F(StoreTest, ACheckpointIsReplacedAndDeletedAtCompletion) {
   std::int64_t id = 0;
   const std::string bytes("\0\1\2 checkpoint", 14);
   {
@@ -53,7 +53,7 @@ TEST_F(StoreTest, ACheckpointIsReplacedAndGoesWhenTheStudyIsComplete) {
                                  StudyCheckpoint{3000, bytes}));
     EXPECT_TRUE(store->verify()->empty());
   }
-  auto store = writer();  // any store may go on
+  auto store = writer();  // any store may continue
   const auto kept = store->study_checkpoint(id).value();
   ASSERT_TRUE(kept);
   EXPECT_EQ(kept->trials, 3000u);
@@ -67,10 +67,11 @@ TEST_F(StoreTest, ACheckpointIsReplacedAndGoesWhenTheStudyIsComplete) {
   EXPECT_EQ(last->figures_json, "{\"trials\":9000}");
   EXPECT_FALSE(store->study_checkpoint(id).value());
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_only);
-  EXPECT_EQ(db->integer("SELECT count(*) FROM study_result").value(), 2);  // none was overwritten
+  EXPECT_EQ(db->integer("SELECT count(*) FROM study_result").value(),
+            2);  // no result was overwritten
 }
 
-TEST_F(StoreTest, AStudyThatIsNotThereIsNamed) {
+TEST_F(StoreTest, NamesAMissingStudy) {
   auto store = writer();
   for (const Status& done : {store->save_checkpoint(5, {1, "x"}),
                              store->end_study(5, make_outcome(StudyState::complete, 1), {})}) {
@@ -96,7 +97,7 @@ TEST_F(StoreTest, StudiesAreAppendOnly) {
   }
 }
 
-TEST_F(StoreTest, AChangedFigureOrCheckpointIsFound) {
+TEST_F(StoreTest, AChangedFigureOrCheckpointIsDetected) {
   {
     auto store = writer();
     const std::int64_t id = store->begin_study(make_study()).value();

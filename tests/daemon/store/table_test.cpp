@@ -1,4 +1,4 @@
-// Squareness, compensation tables and which of them are in force.
+// Squareness, compensation tables and the activations of tables.
 #include "schema/sample.h"
 #include "tests/daemon/store/fixtures.h"
 
@@ -27,7 +27,7 @@ TEST_F(StoreTest, KeepsSquareness) {
   s.run_b = 3;  // the axes are those of the runs
   ASSERT_TRUE(store->add_squareness(s));
   EXPECT_EQ(store->squareness_of(1, 3).value().front().axes, (AxisPair{Axis::x, Axis::z}));
-  s.artefact.u_rad = 0;  // declared, which nothing is not
+  s.artefact.u_rad = 0;  // declared as 0, which differs from undeclared
   ASSERT_TRUE(store->add_squareness(s));
   EXPECT_EQ(store->list_squareness(0, 1).value().front().artefact.u_rad, 0);
   s.artefact.u_rad = std::nullopt;
@@ -38,7 +38,7 @@ TEST_F(StoreTest, KeepsSquareness) {
       ErrorCode::not_found);
 }
 
-TEST_F(StoreTest, GivesACompensationTableBackToTheLastBit) {
+TEST_F(StoreTest, ReturnsACompensationTableBitForBit) {
   auto store = writer();
   for (int i = 0; i < 2; ++i) ASSERT_TRUE(store->add_run(make_run(1)));
   CompensationTable table = make_table({2, 1});
@@ -85,7 +85,7 @@ TEST_F(StoreTest, GivesACompensationTableBackToTheLastBit) {
   EXPECT_EQ(store->add_table(table).error().code, ErrorCode::usage);
 }
 
-TEST_F(StoreTest, WhatIsInForceOrNotIsNotMadeSoAgain) {
+TEST_F(StoreTest, ARepeatedActivationOrDeactivationChangesNothing) {
   auto store = writer();
   ASSERT_TRUE(store->add_run(make_run(1)));
   for (const Axis axis : {Axis::x, Axis::x, Axis::y})
@@ -104,13 +104,13 @@ TEST_F(StoreTest, WhatIsInForceOrNotIsNotMadeSoAgain) {
   EXPECT_EQ(store->active(Axis::y)->table.id, 3);
   EXPECT_EQ(store->generation().value(), out->generation);
   EXPECT_FALSE(store->deactivate(Axis::x, "ben", "t5")->changed);
-  const auto back = store->activate(1, "ben", "t6");  // in force again
+  const auto back = store->activate(1, "ben", "t6");  // active again
   EXPECT_GT(back->generation, out->generation);
   EXPECT_EQ(store->active(Axis::x)->generation, back->generation);
 }
 
-// Each change of any table makes a decision that was based on the ones before void.
-TEST_F(StoreTest, AChangeThatExpectsAnotherGenerationIsRefusedAndChangesNothing) {
+// A change of any table invalidates decisions that were based on the previous state.
+TEST_F(StoreTest, RejectsAChangeThatExpectsAnotherGeneration) {
   auto store = writer();
   ASSERT_TRUE(store->add_run(make_run(1)));
   for (const Axis axis : {Axis::x, Axis::x, Axis::y})
@@ -143,8 +143,8 @@ TEST_F(StoreTest, AChangeThatExpectsAnotherGenerationIsRefusedAndChangesNothing)
   EXPECT_TRUE(store->deactivate(Axis::x, "anna", "t5", {}, volume->generation)->changed);
 }
 
-// A client keeps what it read under a number: no number comes again, not even in a new database.
-TEST_F(StoreTest, GenerationsGoOnWhereTheDatabaseWasMadeAnew) {
+// Clients cache by generation, so no generation is used twice, even in a new database.
+TEST_F(StoreTest, GenerationsContinueInANewDatabase) {
   std::int64_t last = 0;
   for (int database = 0; database < 2; ++database) {
     auto store = writer();
@@ -159,7 +159,7 @@ TEST_F(StoreTest, GenerationsGoOnWhereTheDatabaseWasMadeAnew) {
   }
 }
 
-TEST_F(StoreTest, GenerationsRiseOverAllAxes) {
+TEST_F(StoreTest, GenerationsIncreaseOverAllAxes) {
   auto store = writer();
   ASSERT_TRUE(store->add_run(make_run(1)));
   for (const Axis axis : {Axis::x, Axis::x, Axis::y})

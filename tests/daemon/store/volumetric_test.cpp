@@ -1,11 +1,11 @@
-// Volumetric tables: kept to the last bit, numbered with those of axes, active one at a time.
+// Volumetric tables: stored bit for bit, numbered with the tables of axes, one active at a time.
 #include "schema/sample.h"
 #include "tests/daemon/store/fixtures.h"
 
 namespace mdof::store {
 namespace {
 
-TEST_F(StoreTest, GivesAVolumetricTableBackToTheLastBit) {
+TEST_F(StoreTest, ReturnsAVolumetricTableBitForBit) {
   auto store = writer();
   for (int i = 0; i < 2; ++i) ASSERT_TRUE(store->add_run(make_run(1)));
   const VolumetricTable table = make_volume({2, 1});
@@ -59,8 +59,8 @@ TEST_F(StoreTest, GivesAVolumetricTableBackToTheLastBit) {
   EXPECT_EQ(store->add_volumetric(make_volume({9})).error().code, ErrorCode::not_found);
 }
 
-// Columns that came later are in the hash of the table alone.
-TEST_F(StoreTest, AVolumetricTableThatWasChangedIsRefused) {
+// Columns that were added later are covered by the hash of the table only.
+TEST_F(StoreTest, RejectsAVolumetricTableWithChangedColumns) {
   for (const char* change :
        {"noise = zeroblob(length(noise))", "reversal_m = NULL",
         "u_independent_m = zeroblob(length(u_independent_m))", "doubtful = NULL"}) {
@@ -80,7 +80,7 @@ TEST_F(StoreTest, AVolumetricTableThatWasChangedIsRefused) {
   }
 }
 
-TEST_F(StoreTest, NumbersAndGenerationsAreOfOneCountWithTheTablesOfAxes) {
+TEST_F(StoreTest, VolumetricAndAxisTablesShareNumbersAndGenerations) {
   auto store = writer();
   ASSERT_TRUE(store->add_run(make_run(1)));
   EXPECT_EQ(store->add_table(make_table({1})).value(), 1);
@@ -113,7 +113,7 @@ TEST_F(StoreTest, NumbersAndGenerationsAreOfOneCountWithTheTablesOfAxes) {
   EXPECT_TRUE(store->verify().value().empty());
 }
 
-TEST_F(StoreTest, AVolumetricTableThatWasChangedIsNotServed) {
+TEST_F(StoreTest, AChangedVolumetricTableIsNotServed) {
   {
     auto store = writer();
     ASSERT_TRUE(store->add_run(make_run(1)));
@@ -135,7 +135,7 @@ TEST_F(StoreTest, AVolumetricTableThatWasChangedIsNotServed) {
   EXPECT_FALSE(store->verify().value().empty());
 }
 
-TEST_F(StoreTest, AVolumetricActivationThatIsGoneIsSeen) {
+TEST_F(StoreTest, ADeletedVolumetricActivationIsDetected) {
   {
     auto store = writer();
     for (int i = 0; i < 2; ++i) ASSERT_TRUE(store->add_volumetric(make_volume()));

@@ -1,6 +1,6 @@
 // A run that is recorded, measured and ended, with a crash between any two writes, and with a disk
-// that is full from any one of them on: nothing that was acknowledged is lost, nothing is half
-// there, and it goes on.
+// that is full from any write on: acknowledged data are not lost, nothing is partly stored, and the
+// program continues.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -44,13 +44,13 @@ SampleBlock some_scans(std::int64_t k) {
   return block;
 }
 
-// What a client has been told so far. On the store's thread.
+// Acknowledgements to a client so far. On the store's thread.
 struct Told {
-  std::int64_t run = 0;    // begun
-  std::size_t points = 0;  // kept
+  std::int64_t run = 0;    // id of the begun run
+  std::size_t points = 0;  // stored points
   std::int64_t chunks = 0;
-  std::int64_t ended = 0;  // the run to read
-  bool refused = false;    // something was, or the run has failed
+  std::int64_t ended = 0;  // id of the run to read
+  bool refused = false;    // a write was refused or the run has failed
 };
 
 class EveryWrite : public ::testing::Test {
@@ -63,7 +63,7 @@ class EveryWrite : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // The database of a mdofd that has run before.
+  // Copies the database of a mdofd that has run before.
   fs::path begin_life(const std::string& name) {
     const fs::path life = folder_ / name;
     fs::create_directories(life);
@@ -103,8 +103,8 @@ class EveryWrite : public ::testing::Test {
     });
     done.get_future().get();
   }
-  // A run of three points in two portions; `otherwise`: at its end they turn out otherwise, and
-  // what supersedes it has four.
+  // A run of three points in two portions. `otherwise`: its points are renumbered at the end, and
+  // the run that supersedes it has four.
   static void measure(Storekeeper& keeper, const fs::path& recording, bool otherwise,
                       Told& reported) {
     if (!begin(keeper, recording, reported)) return;
@@ -123,7 +123,7 @@ class EveryWrite : public ::testing::Test {
     done.get_future().get();
   }
 
-  // What anybody finds who opens it afterwards.
+  // Checks the state that the next program finds.
   static void expect_sound(store::Store& store, const fs::path& recording, const Told& reported,
                            std::size_t points_at_end) {
     const auto findings = store.verify();
@@ -163,7 +163,7 @@ class EveryWrite : public ::testing::Test {
   fs::path folder_;
 };
 
-// All files of a folder but SQLite's shared memory, as they are now.
+// All files of a folder except SQLite's shared memory, as they are now.
 class Snapshot {
  public:
   Snapshot(const fs::path& folder, const Told& reported) : told_(reported) {
@@ -186,7 +186,7 @@ class Snapshot {
   Told told_;
 };
 
-TEST_F(EveryWrite, ACrashBetweenAnyTwoLosesNothingThatWasAcknowledged) {
+TEST_F(EveryWrite, ACrashBetweenAnyTwoLosesNothingAcknowledged) {
   for (const bool otherwise : {false, true}) {
     std::vector<Snapshot> crashes;
     {
@@ -224,7 +224,7 @@ TEST_F(EveryWrite, ACrashBetweenAnyTwoLosesNothingThatWasAcknowledged) {
   }
 }
 
-TEST_F(EveryWrite, ADiskThatIsFullFromAnyOneOnLosesNothingAndIsToldAndGoesOn) {
+TEST_F(EveryWrite, AFullDiskFromAnyWriteLosesNothingAndRecovers) {
   int refused_lives = 0, whole_lives = 0;
   for (int first_refused = 0;; ++first_refused) {
     SCOPED_TRACE("full from write " + std::to_string(first_refused));
@@ -245,7 +245,7 @@ TEST_F(EveryWrite, ADiskThatIsFullFromAnyOneOnLosesNothingAndIsToldAndGoesOn) {
       EXPECT_TRUE(reported.run != 0 || !fs::exists(life / "run.mdofrec")) << "of no run";
       const Told before = reported;
       measure(*keeper, life / "next.mdofrec", otherwise, next);
-      reported.chunks = before.chunks;  // those of the next were counted there as well
+      reported.chunks = before.chunks;  // those of the next run were counted there as well
       reported.refused = before.refused;
       keeper.reset();
     }

@@ -69,7 +69,7 @@ class StorekeeperTest : public ::testing::Test {
     keeper_->append_points(run, points, [&](const Status& status) { kept.set_value(status); });
     return kept.get_future().get();
   }
-  // SQL from outside: the file refuses from then on what it says.
+  // Executes SQL from outside that makes the file refuse certain changes.
   static void spoil(const std::filesystem::path& file, const std::string& sql) {
     auto db = sqlite::Connection::open(file, sqlite::OpenMode::read_write);
     ASSERT_TRUE(db && db->execute(sql));
@@ -92,7 +92,7 @@ class StorekeeperTest : public ::testing::Test {
   std::atomic<std::int64_t> failed_{0};
 };
 
-TEST_F(StorekeeperTest, ARunThatTurnsOutAsStoredKeepsItsId) {
+TEST_F(StorekeeperTest, ARunWithUnchangedPointsKeepsItsId) {
   const std::int64_t id = begin();
   keeper_->append_points(id, {point(1, 1), point(2, 1)},
                          [](const Status& kept) { EXPECT_TRUE(kept); });
@@ -103,13 +103,13 @@ TEST_F(StorekeeperTest, ARunThatTurnsOutAsStoredKeepsItsId) {
   EXPECT_EQ(run.header.scans, 7u);
 }
 
-TEST_F(StorekeeperTest, ARunThatTurnsOutOtherwiseIsSupersededByACompleteOne) {
+TEST_F(StorekeeperTest, ARenumberedRunIsSupersededByACompleteOne) {
   const std::int64_t id = begin();
   keeper_->append_points(id, {point(1, 1), point(1, 1)},
                          [](const Status& kept) { EXPECT_TRUE(kept); });
   const std::int64_t other = end(id, {point(1, 1), point(2, 1)}, true);
   ASSERT_NE(other, id);
-  EXPECT_EQ(stored(id).header.state, RunState::failed);  // nobody is to build on it
+  EXPECT_EQ(stored(id).header.state, RunState::failed);  // must not be used
   const mdof::Run run = stored(other);
   EXPECT_EQ(run.header.state, RunState::complete);
   EXPECT_EQ(run.header.supersedes, id);
@@ -117,22 +117,23 @@ TEST_F(StorekeeperTest, ARunThatTurnsOutOtherwiseIsSupersededByACompleteOne) {
   EXPECT_EQ(run.points[1].target, 2);
 }
 
-// The end of the one and the beginning of the other are one fact: a power cut has both or neither.
-TEST_F(StorekeeperTest, WhatSupersedesARunIsStoredInOneTransactionWithItsEnd) {
+// The end of a run and the begin of its successor are stored together: a power cut keeps both or
+// neither.
+TEST_F(StorekeeperTest, TheSuccessorIsStoredInOneTransactionWithTheEnd) {
   const std::int64_t id = begin();
   ASSERT_TRUE(append(id, {point(1, 1), point(1, 1)}));
   spoil(folder_ / "mdof.db",
         "CREATE TRIGGER full BEFORE INSERT ON run BEGIN SELECT raise(ABORT, 'full'); END");
   const auto ended = try_to_end(id, {point(1, 1), point(2, 1)}, true);
   ASSERT_FALSE(ended);
-  keeper_.reset();  // what waits is written out
+  keeper_.reset();  // writes all pending data
   const mdof::Run run = stored(id);
   EXPECT_EQ(run.header.state, RunState::failed);
   EXPECT_EQ(test::shown(run.header.notices), "renumbering_refused\n");
 }
 
-// Samples that the disk does not take must not have points that it has.
-TEST_F(StorekeeperTest, APointWhoseSamplesAreNotKeptIsNotAcknowledged) {
+// A point must not be stored if its samples are not.
+TEST_F(StorekeeperTest, APointWithoutStoredSamplesIsNotAcknowledged) {
   const auto recording = folder_ / "run.mdofrec";
   const std::int64_t id = begin(recording);
   ASSERT_TRUE(keeper_->record(id, {scans(1)}, true));
@@ -146,7 +147,7 @@ TEST_F(StorekeeperTest, APointWhoseSamplesAreNotKeptIsNotAcknowledged) {
   EXPECT_EQ(stored(id).points.size(), 1u);
 }
 
-TEST_F(StorekeeperTest, ADatabaseThatWasDeletedOrReplacedIsNoticed) {
+TEST_F(StorekeeperTest, DetectsADeletedOrReplacedDatabase) {
   const auto database = folder_ / "mdof.db", aside = folder_ / "aside.db";
   const auto fault_after = [&](bool expected) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
@@ -161,13 +162,13 @@ TEST_F(StorekeeperTest, ADatabaseThatWasDeletedOrReplacedIsNoticed) {
   std::promise<Result<std::int64_t>> begun;
   keeper_->begin_run(NewRun{}, [&](const auto& id) { begun.set_value(id); });
   EXPECT_FALSE(begun.get_future().get());
-  std::filesystem::rename(aside, database);  // the very file
+  std::filesystem::rename(aside, database);  // the original file
   EXPECT_EQ(fault_after(false), "");
   std::filesystem::resize_file(database, 100);
   EXPECT_NE(fault_after(true).find("was cut short"), std::string::npos);
 }
 
-// Another program's transaction that does not end.
+// A transaction of another program that does not end.
 class ForeignLock {
  public:
   explicit ForeignLock(const std::filesystem::path& file)
@@ -198,7 +199,7 @@ class HeldDatabase : public StorekeeperTest {
   }
 };
 
-TEST_F(HeldDatabase, IsWaitedForAndThenHasEveryPointAndTheEnd) {
+TEST_F(HeldDatabase, IsWaitedForAndReceivesAllPointsAndTheEnd) {
   const std::int64_t id = begin(folder_ / "run.mdofrec");
   ForeignLock foreign(folder_ / "mdof.db");
   std::promise<Status> kept;
@@ -227,9 +228,9 @@ TEST_F(HeldDatabase, IsWaitedForAndThenHasEveryPointAndTheEnd) {
   EXPECT_EQ(keeper_->storage().state, "ok");
 }
 
-// Points that nobody can store take no memory without bound. What was told to clients stays in
-// order, and the end of the run has them all.
-TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredWithTheEndOfTheirRun) {
+// Points that cannot be stored use bounded memory. Acknowledgements stay in order, and the end of
+// the run contains all points.
+TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredAtTheEnd) {
   const std::int64_t id = begin(), other = begin();
   ForeignLock foreign(folder_ / "mdof.db");
   std::vector<MeasuredPoint> all;
@@ -244,7 +245,7 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredWithTheEndOfTheirRun) {
     all.push_back(point(target, 1));
     append(id, all.back());
   }
-  EXPECT_FALSE(kept[3].get());  // at once, while it is still held
+  EXPECT_FALSE(kept[3].get());  // immediately, while the lock is still held
   EXPECT_FALSE(kept[4].get());
   EXPECT_EQ(keeper_->dropped_points(), 2u);
   EXPECT_EQ(keeper_->storage().state, "held");
@@ -254,9 +255,9 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredWithTheEndOfTheirRun) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(kept[i].get()) << i;
   EXPECT_EQ(stored(id).points.size(), 3u);
   all.push_back(point(6, 1));
-  append(id, all.back());  // no hole before it
+  append(id, all.back());  // no gap before a stored point
   EXPECT_FALSE(kept.back().get());
-  append(other, point(1, 1));  // that of another run is in its place
+  append(other, point(1, 1));  // points of another run are stored normally
   EXPECT_TRUE(kept.back().get());
   EXPECT_EQ(keeper_->dropped_points(), 3u);
   const std::int64_t read = end(id, all, false);
@@ -264,7 +265,7 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredWithTheEndOfTheirRun) {
   EXPECT_EQ(stored(read).points.size(), 6u);
   EXPECT_TRUE(stored(read).header.notices.empty());
   EXPECT_EQ(test::shown(stored(id).header.notices.front()), "points_not_stored points=3");
-  // Once it was let go there is room again.
+  // After the lock is released there is room again.
   ForeignLock again(folder_ / "mdof.db");
   for (int target = 2; target <= 4; ++target) append(other, point(target, 1));
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
@@ -274,8 +275,8 @@ TEST_F(HeldDatabase, PointsBeyondTheBoundAreStoredWithTheEndOfTheirRun) {
   EXPECT_EQ(end(other, {point(1, 1), point(2, 1), point(3, 1), point(4, 1)}, false), other);
 }
 
-// Each look at whether it is still held takes the whole time-out.
-TEST_F(HeldDatabase, KeepsNoOtherWorkWaiting) {
+// Each check whether the lock is still held takes the whole timeout.
+TEST_F(HeldDatabase, DoesNotDelayOtherWork) {
   restart(std::chrono::milliseconds(300));
   const std::int64_t id = begin();
   const ForeignLock foreign(folder_ / "mdof.db");
@@ -292,7 +293,7 @@ TEST_F(HeldDatabase, KeepsNoOtherWorkWaiting) {
   keeper_.reset();
 }
 
-TEST_F(HeldDatabase, AnEndOfTheDaemonMeanwhileIsTold) {
+TEST_F(HeldDatabase, ReportsThatTheDaemonEndsMeanwhile) {
   const std::int64_t id = begin();
   ForeignLock foreign(folder_ / "mdof.db");
   std::promise<Result<std::int64_t>> ended;
@@ -309,7 +310,7 @@ TEST_F(HeldDatabase, ARunThatDoesNotBeginLeavesNoRecording) {
   const ForeignLock foreign(folder_ / "mdof.db");
   NewRun run;
   run.recording = folder_ / "orphan.mdofrec";
-  run.begun.emplace(keeper_->create_recording(run).value());  // as one that goes on has
+  run.begun.emplace(keeper_->create_recording(run).value());  // as for a resumed run
   std::promise<Result<std::int64_t>> begun;
   ASSERT_TRUE(keeper_->begin_run(std::move(run), [&](const auto& id) { begun.set_value(id); }));
   EXPECT_FALSE(begun.get_future().get());
@@ -317,7 +318,7 @@ TEST_F(HeldDatabase, ARunThatDoesNotBeginLeavesNoRecording) {
     EXPECT_FALSE(entry.path().string().find("orphan") != std::string::npos) << entry.path();
 }
 
-TEST_F(StorekeeperTest, ARecordingThatIsDeletedFailsItsRun) {
+TEST_F(StorekeeperTest, ADeletedRecordingFailsItsRun) {
   const auto recording = folder_ / "run.mdofrec";
   const std::int64_t id = begin(recording);
   std::filesystem::remove(recording);

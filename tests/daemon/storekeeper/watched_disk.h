@@ -1,5 +1,5 @@
-// SQLite's files while a test looks on: each change of one is told before it is made, and may be
-// refused.
+// A file layer for SQLite that a test observes: each change is reported before it is made, and may
+// be refused.
 #pragma once
 
 #include <sqlite3.h>
@@ -10,11 +10,12 @@
 
 namespace mdof::daemon {
 
-// One at a time, and what is opened under it has to be closed before it ends. A flush is taken for
-// done at once: nothing here is about power cuts.
+// Only one object may exist at a time, and files opened with it must be closed before it is
+// destroyed. A flush succeeds immediately, because these tests do not concern power cuts.
 class WatchedDisk {
  public:
-  // SQLITE_OK: the change is made; else SQLite is told this. On the thread that writes.
+  // SQLITE_OK: the change is made; otherwise SQLite gets this error. Called on the thread that
+  // writes.
   using Before = std::function<int()>;
 
   explicit WatchedDisk(Before before) : real_(sqlite3_vfs_find(nullptr)), vfs_(*real_) {
@@ -45,7 +46,7 @@ class WatchedDisk {
     static Current one;
     return one;
   }
-  // The real file lies behind it; SQLite's memory is aligned for both.
+  // The real file follows in memory; SQLite's memory is aligned for both.
   struct File {
     sqlite3_file base;
     sqlite3_file* real() { return reinterpret_cast<sqlite3_file*>(this + 1); }

@@ -51,7 +51,7 @@ class Notify : public testing::Test {
   int manager_ = -1;
 };
 
-TEST_F(Notify, TellsReadinessStatusWatchdogAndStopping) {
+TEST_F(Notify, SendsReadinessStatusWatchdogAndStopping) {
   notify_ready("serving");
   EXPECT_EQ(received(), "READY=1\nSTATUS=serving");
   notify_status("run 12, 4000 scans/s");
@@ -62,12 +62,12 @@ TEST_F(Notify, TellsReadinessStatusWatchdogAndStopping) {
   EXPECT_EQ(received(), "STOPPING=1\nSTATUS=closing the store");
 }
 
-TEST_F(Notify, AStatusTextCannotCarryAnotherMessage) {
+TEST_F(Notify, AStatusTextCannotContainAnotherMessage) {
   notify_status("device \"a\nREADY=1\nb\"");
   EXPECT_EQ(received(), "STATUS=device \"a READY=1 b\"");
 }
 
-TEST_F(Notify, WithoutAServiceManagerNothingHappens) {
+TEST_F(Notify, DoesNothingWithoutAServiceManager) {
   ::unsetenv("NOTIFY_SOCKET");
   notify_ready("serving");
   feed_watchdog();
@@ -77,20 +77,20 @@ TEST_F(Notify, WithoutAServiceManagerNothingHappens) {
   EXPECT_EQ(received(), "nothing");
 }
 
-TEST_F(Notify, TheWatchdogIsFedTwiceInItsTime) {
+TEST_F(Notify, TheWatchdogIsFedTwicePerTimeout) {
   EXPECT_FALSE(watchdog_interval());
   ::setenv("WATCHDOG_USEC", "10000000", 1);
   ::setenv("WATCHDOG_PID", std::to_string(::getpid()).c_str(), 1);
   EXPECT_EQ(watchdog_interval(), std::chrono::seconds(5));
-  ::setenv("WATCHDOG_PID", "1", 1);  // meant for another process
+  ::setenv("WATCHDOG_PID", "1", 1);  // intended for another process
   EXPECT_FALSE(watchdog_interval());
   ::setenv("WATCHDOG_PID", std::to_string(::getpid()).c_str(), 1);
   ::setenv("WATCHDOG_USEC", "soon", 1);
   EXPECT_FALSE(watchdog_interval());
 }
 
-// Runs in a child whose descriptors from 3 on are `sockets`, as systemd would start it; prints
-// what take_listen_sockets() says, twice.
+// Runs a child whose descriptors from 3 on are `sockets`, as systemd starts it; returns the results
+// of calling take_listen_sockets() twice.
 std::string taken_with(const std::vector<int>& sockets, const char* listen_fds) {
   int pipe_fds[2];
   EXPECT_EQ(::pipe(pipe_fds), 0);
@@ -142,19 +142,19 @@ TEST_F(ListenSockets, AreTakenInOrderAndOnce) {
   EXPECT_EQ(taken_with({socket_, socket_}, "2"), "3 4 ; ; ");
 }
 
-TEST_F(ListenSockets, AreNoneWithoutSystemd) {
+TEST_F(ListenSockets, AreEmptyWithoutSystemd) {
   ::unsetenv("LISTEN_FDS");
   const auto taken = take_listen_sockets();
   ASSERT_TRUE(taken);
   EXPECT_TRUE(taken->empty());
 }
 
-TEST_F(ListenSockets, ThatDoNotListenAreRefused) {
+TEST_F(ListenSockets, RejectsSocketsThatDoNotListen) {
   EXPECT_NE(taken_with({socket_}, "1").find("descriptor 3 is not a listening stream socket"),
             std::string::npos);
 }
 
-TEST_F(ListenSockets, MoreThanThereAreIsAnErrorNotACrash) {
+TEST_F(ListenSockets, TooLargeCountsAreAnErrorNotACrash) {
   ASSERT_EQ(::listen(socket_, 1), 0);
   EXPECT_NE(taken_with({socket_}, "900").find("sockets from systemd"), std::string::npos);
   EXPECT_NE(taken_with({socket_}, "lots").find("sockets from systemd"), std::string::npos);

@@ -17,7 +17,7 @@ std::vector<Remedy> all_remedies() {
   };
 }
 
-TEST(ErrorText, EachRemedyHasWordsOfItsOwnInBothLanguages) {
+TEST(ErrorText, EachRemedyHasItsTextInBothLanguages) {
   std::set<std::string> english, german;
   for (const Remedy each : all_remedies()) {
     const std::string in_english = words::remedy(each, "@");
@@ -32,7 +32,7 @@ TEST(ErrorText, EachRemedyHasWordsOfItsOwnInBothLanguages) {
   }
 }
 
-TEST(ErrorText, AnErrorEndsInItsRemedy) {
+TEST(ErrorText, AnErrorEndsWithItsRemedy) {
   const auto error = bad_input("run 7 has 200000 points", Remedy::show_run, "7").value();
   EXPECT_EQ(words::text(error), "run 7 has 200000 points; to read the run, use: mdof show 7");
   EXPECT_EQ(words::text(error, words::Language::german),
@@ -40,7 +40,7 @@ TEST(ErrorText, AnErrorEndsInItsRemedy) {
   EXPECT_EQ(words::text(bad_input("a.csv: is empty").value()), "a.csv: is empty");
 }
 
-// Its place is put before the message; the remedy stays at the end.
+// The place is put before the message; the remedy remains at the end.
 TEST(ErrorText, AnErrorInAContextKeepsItsRemedy) {
   const auto error = in_context("rig.toml", bad_input("no rig", Remedy::give_rig).value()).value();
   EXPECT_EQ(words::text(error), "rig.toml: no rig; give the rig file with --rig RIG.toml");

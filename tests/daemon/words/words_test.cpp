@@ -32,8 +32,8 @@ std::vector<NoticeCode> all_codes() {
 
 constexpr words::Language kLanguages[] = {words::Language::english, words::Language::german};
 
-// A sentence shows only what its notice carries, and leaves no number of it out.
-TEST(Catalogue, EachCodeHasItsWordsWithItsKeys) {
+// A sentence shows only values of its notice, and shows all of its numbers.
+TEST(Catalogue, EachCodeHasATextWithItsKeys) {
   for (const NoticeCode code : all_codes()) {
     for (const auto language : kLanguages) {
       const std::string pattern = words::pattern(code, language);
@@ -48,8 +48,8 @@ TEST(Catalogue, EachCodeHasItsWordsWithItsKeys) {
   }
 }
 
-// Both name what it is about or neither does; only words that the notice carries are the same.
-TEST(Catalogue, GermanSaysTheSameInOtherWords) {
+// Both languages name the subject or neither does; only words from the notice are equal.
+TEST(Catalogue, GermanHasTheSameContentInOtherWords) {
   const auto names_subject = [](const std::string& pattern) {
     return pattern.find("{subject") != std::string::npos;
   };
@@ -63,7 +63,7 @@ TEST(Catalogue, GermanSaysTheSameInOtherWords) {
   }
 }
 
-TEST(Catalogue, WhatUCoversIsInBothLanguages) {
+TEST(Catalogue, CoveredContributionsHaveBothLanguages) {
   const Covers all = {
 #define COVERED(code, english, german) Covered::code,
 #include "schema/uncertainty/covers.inc"
@@ -72,13 +72,13 @@ TEST(Catalogue, WhatUCoversIsInBothLanguages) {
   std::set<std::string> sentences;
   for (const Covered each : all)
     for (const auto language : kLanguages) sentences.insert(words::text({each}, language));
-  EXPECT_EQ(sentences.size(), 2 * all.size());  // none is empty, none says what another says
+  EXPECT_EQ(sentences.size(), 2 * all.size());  // no text is empty or used twice
   EXPECT_EQ(sentences.count(""), 0u);
   EXPECT_EQ(words::text({Covered::noise_only, Covered::nothing_declared}, words::Language::german),
             "nur Rauschen (es sind keine Unsicherheiten angegeben)");
 }
 
-TEST(Catalogue, ContributorsAreInBothLanguages) {
+TEST(Catalogue, ContributorsHaveBothLanguages) {
   const ContributorKind all[] = {
 #define CONTRIBUTOR(code, english, german) ContributorKind::code,
 #include "schema/uncertainty/contributor_names.inc"
@@ -88,7 +88,7 @@ TEST(Catalogue, ContributorsAreInBothLanguages) {
     std::set<std::string> names;
     for (const ContributorKind kind : all)
       names.insert(words::text(ContributorName{kind, "D"}, language));
-    EXPECT_EQ(names.size(), std::size(all));  // none says what another says
+    EXPECT_EQ(names.size(), std::size(all));  // no text is used twice
     EXPECT_EQ(names.count(""), 0u);
   }
   for (const ContributorKind kind : all) {
@@ -154,7 +154,7 @@ TEST(Catalogue, ALineNamesSourceAndSeverity) {
             "information: run 3: " + words::text(notice(NoticeCode::run_can_go_on)));
 }
 
-// What a number of a real run looks like in its sentence.
+// Typical numbers of a real run in their sentence.
 TEST(Catalogue, NumbersAreReadable) {
   EXPECT_EQ(
       words::text(notice(

@@ -1,2 +1,2 @@
--- The part of u_m of a volumetric table by noise: 3 doubles a node; NULL or empty where it is not known apart.
+-- Part of u_m of a volumetric table from noise: 3 doubles for each node; NULL or empty if it is unknown.
 ALTER TABLE volumetric_table ADD COLUMN u_independent_m BLOB;

@@ -1,4 +1,4 @@
--- Why somebody did it, in his own words: of an activation, or of the end of one.
+-- Reason of an activation or a deactivation, as the user gave it.
 CREATE TABLE deed_reason (
   deed INTEGER PRIMARY KEY REFERENCES deed (id),
   text TEXT NOT NULL

@@ -1,3 +1,3 @@
--- The noise of each axis of a volumetric table by its commands (schema/volumetric/volumetric_table.h, noise_numbers());
--- NULL or empty where it is not known apart.
+-- Noise of each axis of a volumetric table by its commands (schema/volumetric/volumetric_table.h, noise_numbers());
+-- NULL or empty if it is unknown.
 ALTER TABLE volumetric_table ADD COLUMN noise BLOB;

@@ -1,3 +1,3 @@
--- What the approaches leave of the corrections (schema/volumetric/volumetric_table.h, reversal_m): 3 doubles; NULL of an
--- older table.
+-- Part of the corrections that remains because of the approaches (schema/volumetric/volumetric_table.h, reversal_m): 3
+-- doubles; NULL for an older table.
 ALTER TABLE volumetric_table ADD COLUMN reversal_m BLOB;

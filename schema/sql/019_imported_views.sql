@@ -1,5 +1,5 @@
--- Which body moved, which way and how many scans were lost is not known of an imported run; its travel is that of the
--- import. It has no errors at the fixture, so v_errors has no rows of it.
+-- The moving body, its direction and the number of lost scans are unknown for an imported run; its travel is that of
+-- the import. It has no errors at the fixture, so v_errors has no rows for it.
 DROP VIEW v_runs;
 CREATE VIEW v_runs AS
 SELECT run.id AS run, run.axis, coalesce(e.state, 'open') AS state, run.simulated,

@@ -1,5 +1,5 @@
--- Sensitivity studies: what was asked, what came out, and where an unfinished one stands. What was
--- asked and what came out is append only; an interrupted result is superseded by a later row.
+-- Sensitivity studies: request, results, and state of an unfinished study. Requests and results are
+-- append only; an interrupted result is superseded by a later row.
 
 CREATE TABLE study (
   id INTEGER PRIMARY KEY,
@@ -14,7 +14,7 @@ CREATE TABLE study (
   software_version TEXT NOT NULL
 ) STRICT;
 
--- What there was each time the study ended; the row with the highest id counts.
+-- Results each time the study ended; the row with the highest id is valid.
 CREATE TABLE study_result (
   id INTEGER PRIMARY KEY,
   study INTEGER NOT NULL REFERENCES study (id),
@@ -28,8 +28,8 @@ CREATE TABLE study_result (
 ) STRICT;
 CREATE INDEX study_result_by_study ON study_result (study, id);
 
--- The state of the work, from which it can be continued. No result: replaced as the study goes on
--- and deleted when it is complete.
+-- State of the work, from which it can be continued. It is not a result: it is replaced while the
+-- study runs and deleted when the study is complete.
 CREATE TABLE study_checkpoint (
   study INTEGER PRIMARY KEY REFERENCES study (id),
   trials INTEGER NOT NULL,

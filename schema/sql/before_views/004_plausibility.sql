@@ -1,5 +1,5 @@
--- What a run looks like as a whole: what was visited how often, what was left out, what encoder and
--- probes did. For people; no part of the result and of its hash. One JSON object a run, as
+-- Overall figures of a run: number of visits, omitted stops, readings of encoder and probes. For
+-- people; not part of the result and of its hash. One JSON object for each run, as
 -- schema/plausibility/plausibility_json.h writes it; runs stored before this step have none.
 CREATE TABLE run_plausibility (
   run INTEGER PRIMARY KEY REFERENCES run (id),

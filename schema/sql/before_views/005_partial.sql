@@ -1,5 +1,5 @@
--- A run that ended before all was measured that was asked for is `partial`. SQLite changes the CHECK
--- of a column only by making the table anew; nothing refers to this one.
+-- A run that ended before all requested targets were measured is `partial`. SQLite can change the
+-- CHECK of a column only by creating the table again; no other table refers to this one.
 
 CREATE TABLE run_end_new (
   run INTEGER PRIMARY KEY REFERENCES run (id),

@@ -1,6 +1,5 @@
--- A table may be taken out of force again. Activations and deactivations share one count of
--- generations: what holds on an axis is said by the row of its highest generation in either table.
--- Append only.
+-- A table can be deactivated. Activations and deactivations share one sequence of generations: the
+-- row with the highest generation of an axis in either table is valid. Append only.
 CREATE TABLE deactivation (
   generation INTEGER PRIMARY KEY,
   axis TEXT NOT NULL CHECK (axis IN ('X', 'Y', 'Z')),

@@ -1,4 +1,4 @@
--- Of runs whose log had a column temperature_C: what it read from the first scan to the last.
+-- For runs whose log had a column temperature_C: its values from the first scan to the last.
 CREATE TABLE run_temperature (
   run INTEGER PRIMARY KEY REFERENCES run (id),
   mean_C ANY NOT NULL,

@@ -1,6 +1,7 @@
--- Every fact that a result, a table or its activation rests on has a link in one chain of hashes, made
--- in the transaction that stored the fact (daemon/store/ledger.h has the bytes). No bit of a fact can
--- change, vanish or move unseen. Facts from before this step are linked by it as they are then.
+-- Every fact that a result, a table or its activation depends on has a link in one chain of hashes,
+-- made in the transaction that stored the fact (daemon/store/ledger.h defines the bytes). Every
+-- change, removal or reordering of a fact is detected. Facts from before this step are linked in their
+-- state at this step.
 CREATE TABLE ledger (
   id INTEGER PRIMARY KEY,   -- 1, 2, ... without a gap
   fact TEXT NOT NULL,       -- run, run_end, squareness, compensation_table, activation, deactivation

@@ -1,6 +1,6 @@
--- Who did what: a row for each change of state that somebody asked for, stored in the transaction of the
--- change itself and linked in the ledger. uid, gid and pid are those of the asking process as the kernel
--- tells them; user is the name that the uid had then. Changes from before this step have no row.
+-- Recorded actions: a row for each requested change of state, stored in the transaction of the change itself and linked
+-- in the ledger. uid, gid and pid are those of the requesting process, as the kernel reports them; user is the name of
+-- the uid at that time. Changes from before this step have no row.
 CREATE TABLE deed (
   id INTEGER PRIMARY KEY,
   name TEXT NOT NULL,     -- run.start, run.resume, run.stop, run.abort, run.replay, squareness.fit,

@@ -1,7 +1,7 @@
--- What encoder.set said of an axis: where it stood, and what is added since to what its encoder shows. It holds
--- while the daemon runs and the encoder's device has power; the last row of an axis tells after a restart what
--- was lost by it. Linked in the ledger, and with a deed of its own, for which SQLite makes that table anew:
--- the CHECK of a column changes in no other way, and nothing refers to it.
+-- Settings of encoder.set: position of the axis, and the offset added to its encoder since then. A setting is valid
+-- while the daemon runs and the encoder's device has power; after a restart the last row of an axis shows the lost
+-- setting. Linked in the ledger, with its own action. For this SQLite creates the table of actions again: the CHECK of
+-- a column cannot be changed in another way, and no table refers to it.
 CREATE TABLE encoder_datum (
   id INTEGER PRIMARY KEY,
   axis TEXT NOT NULL CHECK (axis IN ('X', 'Y', 'Z')),

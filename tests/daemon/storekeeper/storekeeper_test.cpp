@@ -117,7 +117,7 @@ TEST_F(StorekeeperTest, ARenumberedRunIsSupersededByACompleteOne) {
   EXPECT_EQ(run.points[1].target, 2);
 }
 
-// The end of a run and the begin of its successor are stored together: a power cut keeps both or
+// The end of a run and the start of its successor are stored together: a power cut keeps both or
 // neither.
 TEST_F(StorekeeperTest, TheSuccessorIsStoredInOneTransactionWithTheEnd) {
   const std::int64_t id = begin();

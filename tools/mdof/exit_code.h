@@ -1,4 +1,4 @@
-// What the caller's script sees (man mdof).
+// Exit status of mdof (man mdof).
 #pragma once
 
 #include "schema/base/result.h"

@@ -1,4 +1,4 @@
-// A program by its name.
+// Finds a program by its name.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace mdof::tools {
 
-// The first of this name on PATH that may be run.
+// The first executable file with this name on PATH.
 std::optional<std::filesystem::path> find_program(const std::string& name);
 
 }  // namespace mdof::tools

@@ -1,10 +1,10 @@
-// A long piece of work that ends early when it is asked to, with what it has.
+// Lets long work end early on a signal, with the results so far.
 #pragma once
 
 namespace mdof::tools {
 
-// While one lives, the first SIGINT, SIGTERM or SIGHUP (unless ignored) only makes requested()
-// true; a second one ends the program as usual. One at a time.
+// While an object exists, the first SIGINT, SIGTERM or SIGHUP (unless ignored) only makes
+// requested() true; a second signal ends the program as usual. Only one object may exist at a time.
 class Interrupt {
  public:
   Interrupt();
@@ -12,7 +12,7 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  static bool requested();  // any thread
+  static bool requested();  // Any thread.
 };
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// Which part of a list a command shows.
+// The part of a list that a command shows.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct ListPage {
 
 void add_page_options(CLI::App& command, ListPage& page);  // --offset, --count
 
-// "50 of 120 runs; --offset, --count", with its line end; empty where all are shown.
+// "50 of 120 runs are shown; see --offset and --count", with a line end; empty if all are shown.
 std::string left_out(std::size_t shown, std::int64_t total, const char* of_what);
 
 }  // namespace mdof::tools

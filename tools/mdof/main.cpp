@@ -39,8 +39,8 @@ void declare(CLI::App& app, Action& chosen) {
   app.set_version_flag("--version", daemon::kVersion, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
   declare_commands(app, chosen);
-  app.require_subcommand(0, 1);  // a word behind a command is no other command: "mdof help replay"
-  app.footer(kExamples);         // last: a command has examples of its own
+  app.require_subcommand(0, 1);  // a second word is no command: "mdof help replay"
+  app.footer(kExamples);         // last, because the commands have their own examples
 }
 
 int run(int argc, char** argv) {
@@ -79,7 +79,7 @@ int main(int argc, char** argv) {
     say("mdof: " + error.path1().string() + ": " + error.code().message() +
         "; check that the folder exists and that you have permission to use it");
     return kDeviceOrIo;
-  } catch (const std::exception& error) {  // memory is used up, or a bug
+  } catch (const std::exception& error) {  // out of memory, or a bug
     say(std::string("mdof: ") + error.what());
     return kDeviceOrIo;
   }

@@ -14,7 +14,7 @@
 namespace mdof::tools {
 namespace {
 
-// `right`: of a finite number; `must`: the message for others.
+// `right` decides on a finite number; `must` is the message for other numbers.
 CLI::Validator number_that(const std::function<bool(double)>& right, const std::string& must,
                            const std::string& in_help) {
   return {[=](const std::string& word) {

@@ -1,4 +1,4 @@
-// Draws how far a long piece of work is, for somebody who watches.
+// Shows the progress of long work on a terminal.
 #pragma once
 
 #include <chrono>
@@ -8,19 +8,19 @@
 
 namespace mdof::tools {
 
-// A bar with rate and time left on the standard error, from one second on and only on a terminal;
-// the destructor wipes it away. Thread-bound.
+// Shows a bar with the rate and the remaining time on the standard error. The bar appears after one
+// second and only on a terminal; the destructor erases it. Thread-bound.
 class ProgressBar {
  public:
-  // `done_before` of the work is there already, and does not count in the rate.
+  // `done_before`: the part of the work that was done earlier; it does not count for the rate.
   explicit ProgressBar(std::string what, double done_before = 0);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // Without a total nothing is drawn. Cheap: draws at most ten times a second.
+  // Draws nothing without a total. Cheap, because it draws at most ten times a second.
   void show(const Progress& progress);
-  // The seconds since the beginning, of work that does not say how far it is.
+  // Shows the elapsed seconds, for work without known progress.
   void show_elapsed();
 
  private:

@@ -12,9 +12,9 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kFewestColumns = 40, kMostColumns = 10'000;  // below, nothing can be laid out
+constexpr std::size_t kFewestColumns = 40, kMostColumns = 10'000;  // the tables need the minimum
 
-// 0: not said.
+// 0: COLUMNS is not set or invalid.
 std::size_t stated_columns() {
   const char* text = std::getenv("COLUMNS");
   const std::string_view digits = text ? text : "";

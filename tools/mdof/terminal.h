@@ -1,4 +1,4 @@
-// How wide what people read may be.
+// Width of text for people.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +7,11 @@ namespace mdof::tools {
 
 inline constexpr std::size_t kUsualColumns = 80;
 
-// Of the terminal that the standard output is: COLUMNS, else what the terminal says, else 80. A
-// pipe or a file has 80, or more where COLUMNS says so.
+// Width of the terminal of the standard output: COLUMNS, otherwise the width of the terminal,
+// otherwise 80. A pipe or file has 80 columns, or more if COLUMNS says so.
 std::size_t terminal_columns();
 
-// Of the terminal that the standard error is; messages that go elsewhere are not wrapped.
+// Width of the terminal of the standard error. Messages to other destinations are not wrapped.
 std::size_t message_columns();
 
 }  // namespace mdof::tools

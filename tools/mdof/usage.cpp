@@ -8,7 +8,7 @@
 namespace mdof::tools {
 namespace {
 
-// The innermost command that was recognised.
+// The innermost subcommand on the command line.
 CLI::App* innermost(CLI::App* app) {
   while (!app->get_subcommands().empty()) app = app->get_subcommands().back();
   return app;

@@ -1,4 +1,4 @@
-// What to say to a command line that is wrong.
+// The message for a wrong command line.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ class ParseError;
 
 namespace mdof::tools {
 
-// One sentence: what was not understood, the nearest known word, and where the help is.
+// One sentence: the word that is not known, the nearest known word, and where the help is.
 std::string usage_message(CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace mdof::tools

@@ -17,7 +17,7 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds kReadTimeout{100}, kShown{100};
 
-// Mean and spread as they come (Welford).
+// Mean and spread, updated with each value (Welford).
 struct Running {
   Quality worst = Quality::good;
   double squares = 0;
@@ -37,7 +37,7 @@ struct Running {
   }
 };
 
-// Time, as the device's samples have it, from the first to the last of them.
+// Times of the first and the last sample, from the device's clock.
 struct Span {
   std::int64_t first_ns = 0, last_ns = 0;
 };

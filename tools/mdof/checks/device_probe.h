@@ -1,4 +1,4 @@
-// Opens a device and finds out what it says.
+// Opens a device, reads from it and reports what its channels deliver.
 #pragma once
 
 #include <functional>
@@ -12,14 +12,14 @@ namespace mdof::tools {
 
 struct ChannelFinding {
   std::string id, unit;
-  double mean = 0, sd = 0, low = 0, high = 0;  // of the usable values, in the unit
-  std::uint64_t values = 0, unusable = 0;      // over-range, missing, suspect ...
-  std::string worst;                           // quality seen
+  double mean = 0, sd = 0, low = 0, high = 0;  // usable values only, in `unit`
+  std::uint64_t values = 0, unusable = 0;  // Unusable values are over range, missing or suspect.
+  std::string worst;                       // The worst quality that was seen.
 };
 
 struct DeviceFinding {
   std::string name, driver, description, error;
-  // Scans a second, as it says (NaN: it does not) and as they came.
+  // Scan rate that the device states (NaN: it states none), and the measured scan rate.
   double stated_rate_hz = kNaN, rate_hz = 0;
   std::uint64_t scans = 0, lost = 0;
   std::vector<ChannelFinding> channels;
@@ -28,12 +28,13 @@ struct DeviceFinding {
 
 using StopAsked = std::function<bool()>;
 
-// Reads for `for_s` seconds, or until asked to stop. A failure is in `error`.
+// Reads for `for_s` seconds, or until stop() returns true. A failure is in `error`.
 DeviceFinding probe_device(const drivers::DriverSpec& device, double for_s, const StopAsked& stop);
 std::string finding_text(const DeviceFinding& finding);
 std::string finding_json(const DeviceFinding& finding);
 
-// The newest scan ten times a second on the standard output, until asked to stop or an error.
+// Prints the newest scan to the standard output ten times a second, until stop() returns true or an
+// error occurs.
 Status monitor_device(const drivers::DriverSpec& device, const StopAsked& stop);
 
 }  // namespace mdof::tools

@@ -28,7 +28,7 @@ std::string first_line(const fs::path& file) {
   return line;
 }
 
-// 0: there is no such file.
+// 0: the file does not exist.
 unsigned hex_in(const fs::path& file) {
   const std::string text = first_line(file);
   unsigned number = 0;
@@ -42,7 +42,7 @@ bool is_it(const drivers::UsbDevice& usb, const fs::path& device) {
          (*usb.manufacturer == '\0' || first_line(device / "manufacturer") == usb.manufacturer);
 }
 
-// "/dev/bus/usb/001/007" of a device's folder in /sys.
+// "/dev/bus/usb/001/007" for a device's folder in /sys.
 fs::path usb_node(const Machine& machine, const fs::path& device) {
   const auto three = [](const std::string& number) {
     return std::string(3 - std::min<std::size_t>(number.size(), 3), '0') + number;
@@ -51,7 +51,8 @@ fs::path usb_node(const Machine& machine, const fs::path& device) {
          three(first_line(device / "devnum"));
 }
 
-// "/dev/hidraw0", "/dev/ttyUSB0": what Linux has made of a device, the first by name; "": nothing.
+// "/dev/hidraw0", "/dev/ttyUSB0": the first device node that Linux has made for a device; empty:
+// none.
 fs::path node_below(const Machine& machine, const fs::path& device, const drivers::UsbDevice& usb) {
   const bool hidraw = usb.node == drivers::UsbNode::hidraw;
   const std::string interface = ":1." + std::to_string(usb.interface) + "/";
@@ -106,7 +107,7 @@ Diagnosis check_class_device(const Machine& machine, const std::string& device,
   return {Level::bad, what + "no permission for " + node, of.remedy};
 }
 
-// What the shell patterns of a row stand for in the folder of a device.
+// The files in the device's folder that match the shell patterns of `of`.
 std::vector<fs::path> files_of(const drivers::SysfsFile& of, const fs::path& device) {
   std::vector<fs::path> files;
   std::istringstream patterns(of.files);
@@ -119,7 +120,7 @@ std::vector<fs::path> files_of(const drivers::SysfsFile& of, const fs::path& dev
   return files;
 }
 
-// Nothing: another device, or one that has no such files.
+// nullopt: another device, or a device without such files.
 std::optional<Diagnosis> check_sysfs_device(const fs::path& device, const drivers::SysfsFile& of,
                                             std::optional<gid_t> service) {
   const std::string name = first_line(device / "name"), names = std::string("|") + of.devices + "|";

@@ -1,4 +1,4 @@
-// What may be wrong with this machine as a measuring PC, and what to do about it.
+// Checks this computer as a measuring PC. Each finding has a remedy.
 #pragma once
 
 #include <sys/types.h>
@@ -14,38 +14,39 @@ namespace mdof::tools {
 
 struct Diagnosis {
   enum class Level { good, doubtful, bad } level = Level::good;
-  std::string what;    // one line
-  std::string remedy;  // what to do; empty: nothing
+  std::string what;    // One line.
+  std::string remedy;  // Empty: nothing has to be done.
 };
 
-// The files of the machine, under `root` (/ but for tests).
+// File system of the checked computer below `root`. Tests use another root.
 struct Machine {
   std::filesystem::path root = "/";
   std::filesystem::path at(const char* path) const { return root / path; }
 };
 
-// Times of samples: a clock that is slow to read or coarse.
+// Checks the clock that gives samples their times: it must be neither slow to read nor coarse.
 Diagnosis check_clock(const Machine& machine);
-// The rules that give the group mdof its devices; wanted where one of them is on USB.
+// Checks the udev rules that give the group mdof access to devices. `wanted`: a configured device
+// is on USB.
 Diagnosis check_udev_rules(const Machine& machine, bool wanted);
-// Room and right to write where the database and the recordings go.
+// Checks the free space and the write permission where the database and the recordings are stored.
 Diagnosis check_storage(const daemon::Config& config);
-// USB devices of the drivers' rows that are plugged in, and whether this user may open the node
-// that the driver opens.
+// Finds the connected USB devices that drivers support. Checks whether this user may open the
+// device node that the driver opens.
 std::vector<Diagnosis> check_usb(const Machine& machine);
-// Devices of classes of the kernel in the drivers' rows (boards of Linux Comedi), and whether this
-// user may open them.
+// Finds devices in a class of the kernel (boards of Linux Comedi) that drivers support. Checks
+// whether this user may open them.
 std::vector<Diagnosis> check_class_devices(const Machine& machine);
 
-// Files of devices in sysfs in the drivers' rows (the rate of a capacitance converter, what a
-// counter loads), which mdofd writes where its configuration asks for it: whether the group of its
-// service (none: this user) may write them.
+// Checks the sysfs files to which mdofd writes settings of a device (the rate of a capacitance
+// converter, the load value of a counter): may the group `service` write them? Without a group, the
+// function checks the permission of this user.
 std::vector<Diagnosis> check_sysfs_files(const Machine& machine, std::optional<gid_t> service);
-// The group that the packaged service is in; none: it is not installed.
+// Group of the packaged service; none: the service is not installed.
 std::optional<gid_t> service_group();
 
-// What the readings of a rig's probes cannot reveal, and the check by hand that can; of rigs with
-// more than five probes what their residuals reveal.
+// Describes the faults of a setup that the readings of the rig's probes cannot reveal, and the
+// manual check that reveals them. With more than five probes, the residuals reveal some faults.
 Diagnosis check_set_up(const Rig& rig);
 
 const char* to_string(Diagnosis::Level level);  // "ok", "doubtful", "WRONG"

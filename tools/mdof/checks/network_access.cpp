@@ -17,10 +17,10 @@ namespace {
 namespace fs = std::filesystem;
 using Level = Diagnosis::Level;
 
-struct Block {  // of addresses
+struct Block {  // a block of IP addresses
   int family = AF_INET;
   std::array<unsigned char, 16> bytes{};
-  int bits = 0;  // that are given
+  int bits = 0;  // length of the network prefix
 };
 
 std::optional<Block> parsed(const std::string& text) {
@@ -57,7 +57,7 @@ bool service_installed(const Machine& machine) {
   });
 }
 
-// What IPAddressAllow= of a drop-in lists.
+// The addresses in the IPAddressAllow= lines of a drop-in.
 std::vector<std::string> allowed_in(const fs::path& file) {
   constexpr std::string_view kKey = "IPAddressAllow=";
   std::vector<std::string> all;
@@ -71,7 +71,7 @@ std::vector<std::string> allowed_in(const fs::path& file) {
 }
 
 std::vector<std::string> allowed(const Machine& machine) {
-  std::vector<std::string> all = {"127.0.0.0/8", "::1"};  // of the unit itself
+  std::vector<std::string> all = {"127.0.0.0/8", "::1"};  // from the unit itself
   for (const char* folder : kUnitFolders) {
     std::error_code ec;
     for (const auto& file : fs::directory_iterator(machine.at(folder) / "mdofd.service.d", ec))
@@ -87,7 +87,7 @@ bool may_reach(const std::vector<std::string>& allowed, const Block& one) {
   });
 }
 
-// Of a device on a network: "192.168.0.7" of "tcp 192.168.0.7:502 unit 1".
+// "192.168.0.7" for the device "tcp 192.168.0.7:502 unit 1"; empty: not on a network.
 std::string address_of(const drivers::DriverSpec& device) {
   constexpr std::string_view kTcp = "tcp ";
   const std::string identity = device.identity ? device.identity() : "";

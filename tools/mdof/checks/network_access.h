@@ -1,5 +1,5 @@
-// The packaged service may speak with its own machine only (IPAddressDeny=any of mdofd.service);
-// drop-ins of systemd open it to devices on a network.
+// IPAddressDeny=any in mdofd.service limits the packaged service to connections within the
+// computer. Drop-ins of systemd permit connections to devices on a network.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,17 @@
 
 namespace mdof::tools {
 
-// "192.168.0.7", "192.168.0.0/24", or of IPv6, as it was given. Error (usage): none of these, or
-// every address there is.
+// Returns `text` unchanged if it is an IPv4 or IPv6 address or network, such as "192.168.0.7" or
+// "192.168.0.0/24". Errors (usage): it is no address, or it contains every address.
 Result<std::string> network_address(const std::string& text);
 
-// Writes the drop-in for `address` below `units` (/etc/systemd/system) and gives its path. Errors:
-// no right to write there, with the command that has it.
+// Writes the drop-in for `address` below `units` (/etc/systemd/system) and returns its path. Error:
+// no write permission; the message names the command to run.
 Result<std::filesystem::path> allow_address(const std::filesystem::path& units,
                                             const std::string& address);
 
-// Of the devices that are reached through a network; none where the service is not installed, or
-// may reach them all.
+// One diagnosis for each network device that the service may not reach. Empty if the service is not
+// installed.
 std::vector<Diagnosis> check_network(const Machine& machine, const daemon::Config& config);
 
 }  // namespace mdof::tools

@@ -32,7 +32,7 @@ probe = [
 constexpr int kTrials = 10000;
 constexpr double kExact = 1e-9, kAngle_urad = 1.01, kStraightness_um = 0.11;
 
-// Uniform, the same from every standard library.
+// Uniform numbers that are the same with every standard library.
 class Random {
  public:
   double between(double low, double high) {
@@ -50,7 +50,7 @@ Errors5 random_errors(Random& random) {
   return e;
 }
 
-// Readings of the rig's probes for these errors, by the outputs that belong to the model.
+// Readings of the rig's probes for these errors, calculated with the output equations of the model.
 std::vector<double> readings(const algo::Solver& solver, double travel_m, const Errors5& errors) {
   std::vector<double> out(solver.fixture().probes.size());
   if (const auto& fixture = solver.small_angle()) {
@@ -159,7 +159,7 @@ Result<Run> measure_synthetic_log(const Rig& rig) {
   return run;
 }
 
-// The carriage's constant errors as they are at the fixture, to first order.
+// The constant errors of the carriage, transformed to the fixture to first order.
 Errors5 constant_at_fixture(double travel_m) {
   Errors5 e = kConstant;
   e[kDy] -= travel_m * e[kEz];
@@ -204,7 +204,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// Findings after writing, closing, reading back and verifying.
+// Number of findings after writing, closing, reading back and verifying.
 Result<double> store_and_read_back(const Run& run) {
   const TemporaryFolder folder;
   if (folder.path().empty())

@@ -1,4 +1,4 @@
-// Checks of the whole chain against data made on the spot, with known answers.
+// Checks the whole chain against generated data with known results.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@ namespace mdof::tools {
 
 struct SelfCheck {
   std::string what;
-  double figure = 0, bound = 0;  // passed where figure <= bound
+  double figure = 0, bound = 0;  // The check passes if figure <= bound.
   std::string unit;
-  std::string problem;  // why there is no figure; empty: there is one
+  std::string problem;  // Why there is no figure; empty if there is one.
   bool passed() const { return problem.empty() && figure <= bound; }
 };
 
-// The models there and back, a synthetic log through detection, a store in a temporary folder.
-// The same figures every time.
+// Checks the models in both directions, the point detection with a synthetic log, and a store in a
+// temporary folder. The figures are the same in each call.
 std::vector<SelfCheck> run_self_checks();
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// CSV documents that are written whole: a header with units, a row a point.
+// CSV documents in memory: a header with units, then one row for each point.
 #pragma once
 
 #include <initializer_list>
@@ -8,8 +8,8 @@
 
 namespace mdof::tools {
 
-// Numbers have 17 significant digits, so that they read back to the same bits; what is not known is
-// an empty cell, and a text with a comma, a quote or a line end is quoted (RFC 4180).
+// Numbers have 17 significant digits, so that they read back to the same bits. An unknown value is
+// an empty cell. A text with a comma, a quote or a line end is quoted (RFC 4180).
 class CsvText {
  public:
   CsvText& cell(double x);
@@ -22,10 +22,10 @@ class CsvText {
  private:
   void separate();
   std::string text_;
-  bool begun_ = false;  // the row has a cell
+  bool begun_ = false;  // The current row has a cell.
 };
 
-// Lines before the header: "# SIMULATED: ..."
+// The lines before the header, such as "# SIMULATED: ..."
 std::string csv_marks(const std::vector<std::string>& marks);
 
 }  // namespace mdof::tools

@@ -9,7 +9,7 @@
 namespace mdof::tools {
 namespace {
 
-// A probe log has its axis position in mm, and no column in metres.
+// In a probe log the axis position is in mm, and no column is in metres.
 Unit unit_in_log(const Channel& channel) {
   const bool length = channel.unit == Unit::um || channel.unit == Unit::metre;
   if (channel.id == kEncoderChannel && length) return Unit::mm;

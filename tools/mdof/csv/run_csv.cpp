@@ -10,7 +10,7 @@
 namespace mdof::tools {
 namespace {
 
-// Noise that no reading shows is not known: the cell stays empty.
+// Noise of 0 means that no reading determined it: the cell stays empty.
 double known_noise(double u) {
   return u > 0 ? to_key_unit(u) : kNaN;
 }
@@ -47,7 +47,7 @@ std::string points_csv(const Run& run, const RunUncertainty& uncertainty) {
 
 namespace {
 
-// u and U of the figure, if it is of the mean of both approaches and has a budget.
+// Writes u and U of the figure if it belongs to the mean of both approaches and has a budget.
 void add_uncertainty(CsvText& csv, const StatedFigures& figures, const std::string& approach,
                      const std::string& figure) {
   const Budget* budget = approach == "mean" ? find_budget(figures.budgets, figure) : nullptr;

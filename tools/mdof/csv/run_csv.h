@@ -1,4 +1,4 @@
-// A run as CSV: for spreadsheets and scripts.
+// A run as CSV, for spreadsheets and scripts.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace mdof::tools {
 
-// A row a point: its place in the sequence, five errors in the units of their names, their combined
-// standard uncertainties, of these the noise, the expanded uncertainties (95 %), samples, flags,
-// why it is not solved, and what the uncertainties cover.
+// One row for each point: its place in the sequence, the five errors in the units of their keys,
+// their combined standard uncertainties, the noise part of these, the expanded uncertainties (95
+// %), samples, flags, the reason why the point is not solved, and what the uncertainties cover.
 std::string points_csv(const Run& run, const RunUncertainty& uncertainty);
-// A row an error and approach; an angle has no straightness and a straightness no range. The mean
-// of both approaches has the uncertainties of `figures`.
+// One row for each error and approach. Angles have no straightness, and straightness errors have no
+// range. The mean of both approaches has the uncertainties in `figures`.
 std::string figures_csv(const Run& run, const StatedFigures& figures);
 
 }  // namespace mdof::tools

@@ -7,8 +7,8 @@
 
 namespace mdof::tools {
 
-// A row a position: errors (actual - nominal) and their standard uncertainties, forward and
-// reverse.
+// One row for each position: errors (actual - nominal) and their standard uncertainties, forward
+// and reverse.
 std::string table_csv(const CompensationTable& table);
 
 }  // namespace mdof::tools

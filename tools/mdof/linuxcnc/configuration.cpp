@@ -21,10 +21,11 @@ std::vector<std::string> joined_lines(const std::string& text) {
     at = end + 1;
     const bool continues = line.ends_with('\\');
     joined += continues ? std::string(line.substr(0, line.size() - 1)) + " " : std::string(line);
-    lines.emplace_back();  // empty where it goes on: the numbers of lines stay
+    lines.emplace_back();  // empty for a continued line, so that line numbers do not change
     if (!continues) std::swap(lines.back(), joined);
   }
-  if (!joined.empty()) lines.back() = std::move(joined);  // the file ends with a line that goes on
+  if (!joined.empty())
+    lines.back() = std::move(joined);  // the last line of the file ends with a backslash
   return lines;
 }
 
@@ -96,7 +97,7 @@ class HalReader {
       wiring_.signal_of[std::string(pin)] = std::string(signal);
   }
 
-  // Its place: 1 is the thread's first, -1 (the default) its last.
+  // words[3] is the position: 1 is the first in the thread, -1 (the default) the last.
   Status add_function(const std::vector<std::string_view>& words) {
     const std::string thread(words[2]);
     std::vector<std::size_t> of_thread;

@@ -1,5 +1,5 @@
-// A user's configuration of LinuxCNC: its ini file, and what its HAL files net and add to threads.
-// The grammar is that of LinuxCNC's own manual (INI Configuration; HAL TWOPASS, Basic HAL).
+// A user's configuration of LinuxCNC: the ini file, and the nets and thread functions in its HAL
+// files. The grammar follows the manual of LinuxCNC (INI Configuration; HAL TWOPASS, Basic HAL).
 #pragma once
 
 #include <filesystem>
@@ -20,15 +20,17 @@ struct LinuxCncIni {
   std::filesystem::path file;
   std::vector<IniEntry> entries;
 
-  const IniEntry* find(const std::string& section, const std::string& key) const;  // the first
+  const IniEntry* find(const std::string& section,
+                       const std::string& key) const;  // The first entry; nullptr: none.
   std::vector<const IniEntry*> all(const std::string& section, const std::string& key) const;
-  std::string value(const std::string& section, const std::string& key) const;  // empty: none
+  std::string value(const std::string& section,
+                    const std::string& key) const;  // Empty if there is no entry.
 };
 
-// Errors: those of reading; a line that is neither section, key nor comment; #INCLUDE.
+// Errors: the file cannot be read; a line is neither section, key nor comment; #INCLUDE.
 Result<LinuxCncIni> read_linuxcnc_ini(const std::filesystem::path& file);
 
-// [TRAJ]LINEAR_UNITS. Error: neither mm nor inch; it does not name the file.
+// Evaluates [TRAJ]LINEAR_UNITS. Error: neither mm nor inch; the message does not name the file.
 Result<bool> is_inch_machine(const LinuxCncIni& ini);
 
 struct HalFunction {
@@ -36,15 +38,15 @@ struct HalFunction {
 };
 
 struct HalWiring {
-  std::map<std::string, std::string> signal_of;  // pin: the signal that it is netted to
-  std::vector<HalFunction> functions;            // in the order in which their thread calls them
-  std::vector<std::string> not_read;             // Tcl files, LIB: files
+  std::map<std::string, std::string> signal_of;  // pin -> signal to which it is netted
+  std::vector<HalFunction> functions;            // In the order in which the thread calls them.
+  std::vector<std::string> not_read;             // Files that are not read: Tcl files, LIB: files.
 
   std::string signal(const std::string& pin, const std::string& otherwise) const;
 };
 
-// HALFILE and POSTGUI_HALFILE but the one named `leave_out`. Errors: those of reading; an addf
-// whose place cannot be known.
+// Reads HALFILE and POSTGUI_HALFILE, except the file named `leave_out`. Errors: a file cannot be
+// read; an addf has an invalid position in its thread.
 Result<HalWiring> read_hal_files(const LinuxCncIni& ini, const std::string& leave_out);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// MAX_ACCELERATION of the joints that a COMP_FILE corrects, as the user's ini file has it.
+// Reads MAX_ACCELERATION of the joints that a COMP_FILE corrects from the user's ini file.
 #pragma once
 
 #include <string>
@@ -9,9 +9,10 @@
 
 namespace mdof::tools {
 
-// Of each joint of `joints` (empty: 0, 1, 2 are X, Y, Z) that the ini file has. SERVO_PERIOD is
-// LinuxCNC's default of 1 ms where the file has none. Errors (bad_input), with file and key: those
-// of reading; LINEAR_UNITS other than `inch` says; a value that is missing or not above 0.
+// One ramp for each joint in `joints` (empty: joints 0, 1, 2 are X, Y, Z) that the ini file has.
+// SERVO_PERIOD is LinuxCNC's default of 1 ms if the file does not set it. Errors (bad_input, with
+// file and key): the file cannot be read; LINEAR_UNITS contradicts `inch`; a value is missing or
+// not above 0.
 Result<std::vector<controllers::ExportOptions::Ramp>> read_joint_ramps(
     const std::string& file, const std::vector<controllers::ExportOptions::Joint>& joints,
     bool inch);

@@ -14,7 +14,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr double kSecondPerNs = 1e-9;
-// The drive lags: 10 periods, of which the following error may take a tenth of MIN_FERROR.
+// The drive lags by up to 10 periods; this may use a tenth of MIN_FERROR as following error.
 constexpr double kLaggingPeriods = 10, kShareOfFollowingError = 0.1;
 constexpr double kShareOfAxis = 0.05;  // of MAX_VELOCITY and MAX_ACCELERATION
 constexpr double kMostVelocity_mm_s = 1, kMostAcceleration_mm_s2 = 50, kFade_mm_s = 0.04;
@@ -67,7 +67,7 @@ class Judge {
     unit_ = live_.inch ? 1 / to_mm(kInch_m) : 1;
   }
 
-  // trivkins alone says which joint is which axis.
+  // Only trivkins assigns each joint to one axis.
   void read_joints() {
     const std::string text = ini_.value("KINS", "KINEMATICS");
     const auto words = words_of(text);
@@ -99,9 +99,8 @@ class Judge {
     if (live_.joints.empty()) refuse("[KINS]KINEMATICS: the machine has no axis X, Y or Z");
   }
 
-  // Both joints have the same offset at the same position, in machine units. A motor that is
-  // mounted the other way round has the same SCALE with the other sign, which comes behind the
-  // component.
+  // Both joints get the same offset at the same position, in machine units. A motor that is mounted
+  // the other way round has the opposite sign in SCALE, which acts after the component.
   void check_pair(const std::string& first, const std::string& second, char axis) {
     const auto differ = [&](const char* key, double of_first, double of_second) {
       if (of_first == of_second) return;
@@ -116,7 +115,7 @@ class Judge {
       differ(key, std::abs(first_number(first, key)), std::abs(first_number(second, key)));
   }
 
-  // Of "SCALE = 1000 0", whose second number is an offset.
+  // The first number of a value such as "SCALE = 1000 0"; the second number is an offset.
   double first_number(const std::string& section, const std::string& key) {
     const std::string text = ini_.value(section, key);
     const auto words = words_of(text);
@@ -182,7 +181,7 @@ class Judge {
     for (const LiveJoint& joint : live_.joints) check_headroom(section_of(joint));
   }
 
-  // A step generator that cannot follow is a following error while cutting.
+  // A step generator without headroom causes a following error while cutting.
   void check_headroom(const std::string& section) {
     for (const auto& [drive, axis, more] :
          {std::tuple{"STEPGEN_MAXVEL", "MAX_VELOCITY", live_.max_velocity},
@@ -194,7 +193,7 @@ class Judge {
     }
   }
 
-  // A pin can be in one signal only: where the user has netted it, that one is used.
+  // A pin can be in one signal only. If the user has netted the pin, its signal is used.
   void net(const std::string& name, const std::string& pin, const std::string& to) {
     const std::string signal = wiring_.signal(pin, name);
     live_.hal +=

@@ -1,5 +1,5 @@
-// What a configuration of LinuxCNC needs for live compensation: limits that are safe on it, and the
-// lines of HAL that put the component between motion and drives.
+// Live compensation for a given configuration of LinuxCNC: safe limits, and the HAL lines that
+// connect the component between motion and drives.
 #pragma once
 
 #include <string>
@@ -15,26 +15,26 @@ inline constexpr const char* kCompensationHal = "mdof_compensation.hal";
 struct LiveJoint {
   char axis = 'X';
   int joint = 0;
-  bool second = false;  // of an axis with two joints, as of a gantry
+  bool second = false;  // The second joint of an axis with two joints, as in a gantry.
 };
 
-// In machine units, s.
+// In machine units and s.
 struct LiveCompensation {
   bool inch = false;
   std::vector<LiveJoint> joints;
   double max_offset = 0, max_velocity = 0, max_acceleration = 0, fade_velocity = 0;
-  std::string offset_reason, velocity_reason;  // what they follow from
-  std::string hal;                             // of kCompensationHal
+  std::string offset_reason, velocity_reason;  // How each limit was derived.
+  std::string hal;                             // Content of the file kCompensationHal.
 };
 
 struct LiveRequest {
-  double margin_mm = 0.1;  // between soft limits and stops
+  double margin_mm = 0.1;  // Distance between soft limits and hard stops.
   std::string socket;
   bool simulated = false, despite_warnings = false;
-  bool one_approach = false;  // a table of one approach holds in both
+  bool one_approach = false;  // The tables have one approach, which is applied in both directions.
 };
 
-// Errors: bad_input with all that cannot be safe, each by its section and key.
+// Error (bad_input): lists every unsafe setting by its section and key.
 Result<LiveCompensation> live_compensation(const LinuxCncIni& ini, const HalWiring& wiring,
                                            const LiveRequest& request);
 

@@ -27,7 +27,8 @@ namespace {
 
 constexpr std::chrono::seconds kLongestPrint{120};
 
-// The program's exit status; its words go nowhere: what went wrong shows in the missing file.
+// Returns the exit status. The output of the program is discarded: a missing file shows the
+// failure.
 Result<int> run_program(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -61,7 +62,7 @@ Result<int> run_program(const std::vector<std::string>& words) {
   }
 }
 
-// Percent-encoded, so that no name of a file is taken for something else.
+// Percent-encodes the path, so that special characters in a file name have no effect.
 std::string file_url(const fs::path& file) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   constexpr std::string_view kPlain =
@@ -85,7 +86,7 @@ Result<std::vector<std::string>> command_for(const fs::path& html, const fs::pat
                                       "--no-pdf-header-footer",
                                       "--print-to-pdf=" + fs::absolute(pdf).string(),
                                       file_url(html)};
-    // It refuses its sandbox to root; the page has no script and loads nothing.
+    // chromium refuses its sandbox to root. The page has no script and loads nothing.
     if (::geteuid() == 0) words.insert(words.begin() + 1, "--no-sandbox");
     return words;
   }
@@ -122,7 +123,7 @@ Status attach_to_pdf(const fs::path& pdf, const std::string& name, const std::st
     return {};
   }
   std::error_code ec;
-  // Beside the PDF, so that a rename replaces it whole or not at all.
+  // In the folder of the PDF, so that a rename replaces the PDF completely or not at all.
   std::string folder = (fs::absolute(pdf).parent_path() / "mdof-pdf-XXXXXX").string();
   if (::mkdtemp(folder.data()) == nullptr)
     return io_error(folder + ": cannot be created: " + std::strerror(errno));

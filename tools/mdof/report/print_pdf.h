@@ -1,4 +1,4 @@
-// A page of HTML printed to PDF by a program of Debian that is installed: chromium or weasyprint.
+// Prints an HTML page to PDF with an installed program: chromium or weasyprint.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +8,12 @@
 
 namespace mdof::tools {
 
-// `html` is not changed; a file of the name of `pdf` is replaced. Errors: io, where neither program
-// is on PATH (with what to install), where it fails, or where it takes longer than two minutes.
+// Does not change `html`; replaces an existing file `pdf`. Errors (io): neither program is on PATH
+// (the message says what to install), the program fails, or it takes longer than two minutes.
 Status print_pdf(const std::filesystem::path& html, const std::filesystem::path& pdf);
 
-// Puts a file of these bytes into the PDF as an attachment, by qpdf. Where qpdf is not installed,
-// says so and leaves the PDF as it is. Errors: io, where qpdf fails; the PDF is as it was.
+// Attaches a file with these bytes to the PDF, with qpdf. If qpdf is not installed, the function
+// warns and leaves the PDF unchanged. Error (io): qpdf fails; the PDF is unchanged.
 Status attach_to_pdf(const std::filesystem::path& pdf, const std::string& name,
                      const std::string& media_type, const std::string& bytes);
 

@@ -1,4 +1,4 @@
-// What reports and documents of stored runs are made from.
+// Collects the contents of reports and documents of stored runs.
 #include "tools/mdof/report/report_of_runs.h"
 
 #include <CLI/CLI.hpp>
@@ -24,7 +24,7 @@
 namespace mdof::tools {
 namespace {
 
-// "KEY=VALUE" at its first "=".
+// Splits "KEY=VALUE" at its first "=".
 Result<std::pair<std::string, std::string>> key_and_value(const std::string& text,
                                                           const std::string& option) {
   const std::size_t at = text.find('=');
@@ -33,7 +33,8 @@ Result<std::pair<std::string, std::string>> key_and_value(const std::string& tex
   return std::pair(text.substr(0, at), text.substr(at + 1));
 }
 
-// Of the rigs; what --set gives comes first, so that it also settles what rigs state differently.
+// The facts in the rigs. Values from --set come first, so that they also replace contradictory
+// facts.
 Result<ReportFacts> facts_of(const std::vector<report::ReportRun>& runs,
                              const std::vector<std::string>& set) {
   ReportFacts given, facts;
@@ -52,7 +53,7 @@ Result<ReportFacts> facts_of(const std::vector<report::ReportRun>& runs,
   return joined(given, facts);
 }
 
-// Tolerances by figure, in its unit.
+// Tolerances by figure, in the unit of the figure.
 Result<std::vector<std::pair<std::string, double>>> tolerances_of(
     const std::vector<std::string>& texts) {
   std::vector<std::pair<std::string, double>> found;
@@ -81,7 +82,7 @@ Result<report::ReportRun> report_run(store::Store& store, std::int64_t number,
   return run;
 }
 
-// Of each axis two runs, the one before first.
+// Compares the two runs of each axis, the earlier run first.
 Result<std::vector<daemon::Comparison>> compare_pairs(store::Store& store,
                                                       const std::vector<report::ReportRun>& runs,
                                                       Reference reference) {
@@ -102,7 +103,7 @@ Result<std::vector<daemon::Comparison>> compare_pairs(store::Store& store,
   return found;
 }
 
-// Why nothing can be decided of any of the two runs; empty: it can be.
+// The reason why no decision is possible for one of the two runs; empty: a decision is possible.
 std::string against_both(const report::Report& all, const Squareness& of) {
   for (const report::ReportRun& run : all.runs) {
     const std::int64_t id = run.results.run.header.id;
@@ -112,7 +113,7 @@ std::string against_both(const report::Report& all, const Squareness& of) {
   return "";
 }
 
-// False: no pair of runs has it. Why a pair has none is in `why`.
+// False: no pair of runs has this figure. If a pair has no result, `why` gets the reason.
 bool decide_squareness(report::Report& all, const std::string& figure, double tolerance,
                        std::string& why) {
   for (const charts::SquarenessOfPair& pair : all.squareness) {
@@ -128,8 +129,7 @@ bool decide_squareness(report::Report& all, const std::string& figure, double to
   return false;
 }
 
-// Each tolerance has to be that of a figure of some run, or of a squareness: one that decides
-// nothing is a mistake.
+// Each tolerance must belong to a figure of a run or to a squareness. Otherwise it is an error.
 Status decide(report::Report& all, const std::vector<std::pair<std::string, double>>& tolerances) {
   for (const auto& [figure, tolerance] : tolerances) {
     std::string why =
@@ -175,7 +175,7 @@ void add_report_options(CLI::App& command, ReportRequest& request) {
 Result<report::Report> report_of_runs(const ReportRequest& request) {
   report::Report all;
   Reference reference{};
-  reference_from(request.reference, reference);  // the options take no others
+  reference_from(request.reference, reference);  // the option accepts only valid names
   MDOF_TRY(const auto tolerances, tolerances_of(request.tolerances));
   all.software_version = daemon::kVersion;
   MDOF_TRY(store::Store store, open_to_read(request.database));

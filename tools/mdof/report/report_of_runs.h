@@ -1,4 +1,4 @@
-// What reports and documents of stored runs are made from, as their commands ask for it.
+// Collects the contents of reports and documents of stored runs.
 #pragma once
 
 #include <string>
@@ -23,13 +23,14 @@ struct ReportRequest {
 // --set, --tolerance, --axis, --reference, --db.
 void add_report_options(CLI::App& command, ReportRequest& request);
 
-// Results and rigs of the runs, what changed between two of an axis, their squareness, what is
-// decided of them, and the facts of [report] of their rigs, of which --set replaces each. Errors:
-// those of runs and rigs; usage: a key or figure that is not there, not two runs of each axis for
-// before and after.
+// Contains results and rigs of the runs, the changes between two runs of an axis, the squareness of
+// axes, the decisions on tolerances, and the facts of [report] in the rigs. --set replaces single
+// facts. Errors: a run or rig cannot be read; usage: an unknown key or figure, or not exactly two
+// runs of each axis for before_after.
 Result<report::Report> report_of_runs(const ReportRequest& request);
 
-// SIMULATED, DOUBTFUL of each run, on the standard error.
+// Prints the marks of each run (SIMULATED, DOUBTFUL) and the notices of comparisons to the standard
+// error.
 void warn_of(const report::Report& report);
 
 }  // namespace mdof::tools

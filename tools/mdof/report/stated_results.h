@@ -1,4 +1,4 @@
-// Stored results as charts and reports take them: what the other commands state, made the same way.
+// Stored results for charts and reports, calculated in the same way as by the other commands.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,18 @@
 
 namespace mdof::tools {
 
-// Of an imported run: its figures, and no uncertainty of points. Error: no such run.
+// An imported run has figures, but no uncertainty of points. Error: the run does not exist.
 Result<charts::StatedResults> stated_results(store::Store& store, std::int64_t run,
                                              Reference reference);
 
-// Numbers of what RUN… named, each once.
+// The run numbers that the arguments RUN... name, each once.
 Result<std::vector<std::int64_t>> run_numbers(store::Store& store,
                                               const std::vector<std::string>& words,
                                               const std::string& axis);
 
-// Of each pair of axes, XY, XZ, YZ, with one run along each of both among these, as
-// `mdof squareness` fits it; nothing is stored.
+// One entry for each pair of axes (XY, XZ, YZ) that has runs along both axes: the squareness,
+// calculated as by `mdof squareness`, or the reason why there is none, such as several runs along
+// one axis. Nothing is stored.
 std::vector<charts::SquarenessOfPair> squareness_of_runs(
     store::Store& store, const std::vector<const charts::StatedResults*>& runs);
 

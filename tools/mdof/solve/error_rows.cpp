@@ -17,7 +17,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::size_t kMostOfAKey = 16;                  // ,"EYX_um":
-constexpr std::size_t kColumnsOfARow = kErrorCount + 1;  // the position last
+constexpr std::size_t kColumnsOfARow = kErrorCount + 1;  // the position is last
 constexpr std::size_t kMostOfARow = kColumnsOfARow * (kDouble17Size + kMostOfAKey) + 8;
 constexpr std::size_t kAtOnce = 8;
 constexpr std::size_t kBlocks = 4;
@@ -29,10 +29,10 @@ char* append(char* out, std::string_view text) {
 }
 
 double in_key_unit(const ErrorName& name, const SolvedRows& rows, std::size_t row) {
-  return to_key_unit(name.sign * rows.local[name.local][row]) + 0.0;  // -0 is 0
+  return to_key_unit(name.sign * rows.local[name.local][row]) + 0.0;  // turns -0 into 0
 }
 
-// As it was read, not as it is once it has been in metres: the picometre beside it, if that is all.
+// Restores the number in the file: removes the rounding error of the conversion to metres.
 double in_written_mm(double encoder_m) {
   const double mm = to_mm(encoder_m), written = std::round(mm * 1e9) / 1e9;
   return (std::abs(written - mm) < 4e-16 * std::abs(mm) ? written : mm) + 0.0;
@@ -54,7 +54,7 @@ ErrorRows::ErrorRows(RowForm form, const MovingAxis& moving, Model model)
     head_ = "{\"axis\":\"" + std::string(1, letter(moving.axis)) + "\",\"model\":\"" +
             to_string(model) + "\",\"reference\":\"carriage\",\"rows\":[";
   }
-  ::fcntl(STDOUT_FILENO, F_SETPIPE_SZ, kPipeBytes);  // where it is a pipe: fewer changes of turn
+  ::fcntl(STDOUT_FILENO, F_SETPIPE_SZ, kPipeBytes);  // a larger pipe needs fewer context switches
   thread_ = std::thread([this] { work(); });
 }
 
@@ -102,7 +102,7 @@ Status ErrorRows::write_all() {
   return form_ == RowForm::json ? write_commands("]}\n") : Status();
 }
 
-// The texts of up to kAtOnce rows, column by column; errors are empty where the row is not solved.
+// The texts of up to kAtOnce rows, column by column. Errors are empty if the row is not solved.
 struct ErrorRows::Texts {
   std::array<std::array<DoubleText, kAtOnce>, kColumnsOfARow> of;
 
@@ -117,7 +117,8 @@ struct ErrorRows::Texts {
       for (std::size_t j = 0; j < n; ++j) of[k][j].size = std::isfinite(x[j]) ? of[k][j].size : 0;
     }
   }
-  // All of the text's room is copied: that has one length, and what is too much is written over.
+  // Copies the whole buffer, because a constant length is faster; the next text overwrites the
+  // excess.
   char* append(char* out, std::size_t k, std::size_t j) const {
     std::memcpy(out, of[k][j].text, kDouble17Size);
     return out + of[k][j].size;

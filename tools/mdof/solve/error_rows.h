@@ -1,5 +1,5 @@
-// Solved rows -> text on the standard output, on a thread of its own: writing 17 digits takes as
-// long as reading them, and has a core to itself.
+// Writes solved rows as text to the standard output in a separate thread, because writing 17 digits
+// takes as long as reading them.
 #pragma once
 
 #include <atomic>
@@ -15,22 +15,22 @@
 namespace mdof::tools {
 
 enum class RowForm {
-  csv,   // a header: the error keys and encoder_mm; a line a row, empty errors where it is not
-         // solved
-  json,  // {"axis", "model", "reference", "rows": [{"EYX_um": ..., "encoder_mm": ...}, ...]}; null
-         // where it is not solved
+  csv,   // Header: error keys and encoder_mm. One line for each row; errors are empty if it is not
+         // solved.
+  json,  // {"axis", "model", "reference", "rows": [{"EYX_um": ..., "encoder_mm": ...}, ...]};
+         // errors are null if the row is not solved.
 };
 
-// Thread-bound, but for its own thread "write rows". Memory: a few blocks.
+// Thread-bound, apart from its own thread "write rows". Uses the memory of a few blocks.
 class ErrorRows {
  public:
   ErrorRows(RowForm form, const MovingAxis& moving, Model model);
-  ~ErrorRows();  // ends without the rest
+  ~ErrorRows();  // Ends without writing the pending blocks.
 
-  // The next block to fill; nullptr: nothing can be written any more, finish() knows why.
+  // Returns the next block to fill; nullptr: writing has failed, and finish() returns the error.
   SolvedRows* next();
-  void put();  // to be written
-  // Writes what is left; error: the standard output refused.
+  void put();  // Queues the filled block for writing.
+  // Writes the pending blocks. Error: the standard output failed.
   Status finish();
 
  private:
@@ -42,15 +42,15 @@ class ErrorRows {
   char* append_json(const SolvedRows& rows, char* out);
 
   const RowForm form_;
-  std::array<ErrorName, 5> names_;        // with the sign of the moving body
+  std::array<ErrorName, 5> names_;        // With the error sign for the moving body.
   std::array<std::string, 6> json_keys_;  // {"EYX_um": ,"encoder_mm":
   std::string head_;
   bool first_row_ = true;
   std::vector<char> text_;
   SolvedRows filling_;
-  BoundedQueue<SolvedRows> filled_, free_;  // a block that is written is free again
-  Status status_;                           // of the thread, once it has ended
-  std::thread thread_;                      // last: starts when all else is there
+  BoundedQueue<SolvedRows> filled_, free_;  // Written blocks return to free_.
+  Status status_;       // Result of the thread, valid after the thread has ended.
+  std::thread thread_;  // Last member, because the thread uses all others.
 };
 
 }  // namespace mdof::tools

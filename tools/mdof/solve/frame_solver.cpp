@@ -37,7 +37,7 @@ FrameSolver::FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channe
 }
 
 Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {
-  raw.channels = channels_;  // an earlier block's were turned into metres
+  raw.channels = channels_;  // the channels of the previous block were converted to metres
   raw.quality.clear();
   MDOF_CHECK(calibrator_.apply(raw));
   count_over_range(raw);
@@ -49,7 +49,7 @@ Status FrameSolver::solve(SampleBlock& raw, SolvedRows& out) {
   return {};
 }
 
-// d of the models; a column of its own only where it is not the encoder's.
+// d of the models. Uses a separate column only if d differs from the encoder.
 const double* FrameSolver::travel(const std::vector<double>& encoder_m) {
   if (rig_.sides.target_travel_m(1.0) > 0) return encoder_m.data();
   travel_m_.resize(encoder_m.size());
@@ -70,7 +70,8 @@ void FrameSolver::solve_columns(const SampleBlock& block, SolvedRows& out) {
   for (std::size_t i = 0; i < block.scans(); ++i) {
     if (!has_missing(block, i)) continue;
     ++without_reading_;
-    for (auto& column : out.local) column[i] = kNaN;  // also those that need the others alone
+    for (auto& column : out.local)
+      column[i] = kNaN;  // also errors that do not depend on the missing reading
   }
 }
 
@@ -103,7 +104,7 @@ void FrameSolver::leave_unsolved(std::size_t row, const std::string& why) {
   if (unsolved_++ == 0) why_unsolved_ = "row " + std::to_string(rows_ + row + 1) + ": " + why;
 }
 
-// What the rig declares of the run, else the row's own.
+// The value that the rig declares for the run, otherwise the value in the row.
 std::optional<Air> FrameSolver::air_of(const SampleBlock& block, std::size_t row) const {
   Air air{};
   for (std::size_t q = 0; q < kAirQuantities; ++q) {
@@ -155,7 +156,7 @@ void FrameSolver::note_travel(double travel_m) {
   most = std::max(most, travel_m);
 }
 
-// Only the rigid model takes maps, and it solves rows one by one.
+// Only the rigid model uses maps, and it solves the rows one by one.
 Notices FrameSolver::map_notices(const Rig& rig) const {
   if (!travels_m_) return {};
   return algo::map_notices(rig, solver_.fixture(), (*travels_m_)[0], (*travels_m_)[1]);

@@ -1,4 +1,4 @@
-// Rows of a frames file -> five errors each, a block of columns at a time.
+// Solves the five errors of each row of a frames file, one block of columns at a time.
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace mdof::tools {
 
-// One value a row in each column; m and rad in the axis' local frame, of the target, at the
-// carriage (Eq. 2-12); all NaN where not solved.
+// One value for each row in each column; m and rad in the axis' local frame, motion of the target,
+// at the carriage (Eq. 2-12). All errors are NaN if the row is not solved.
 struct SolvedRows {
   std::vector<double> encoder_m;
   std::array<std::vector<double>, kErrorCount> local;
@@ -29,31 +29,36 @@ struct SolvedRows {
 // Thread-bound.
 class FrameSolver {
  public:
-  // `channels` as the file's header has them. Errors: the rig cannot see the five errors, or does
-  // not fit the model or the channels.
+  // `channels`: the channels in the file's header. Errors: the rig cannot determine the five
+  // errors, or does not match the model or the channels.
   static Result<FrameSolver> create(const Rig& rig, Model model, std::vector<Channel> channels);
 
-  // `raw` is used up, `out` replaced (its memory is reused). Rows keep their order.
+  // Consumes `raw` and replaces `out` (reusing its memory). Rows keep their order.
   Status solve(SampleBlock& raw, SolvedRows& out);
 
   std::uint64_t rows() const { return rows_; }
-  std::uint64_t over_range() const { return over_range_; }  // rows with a probe at its range's end
+  std::uint64_t over_range() const {
+    return over_range_;
+  }  // Rows in which a probe is at the end of its range.
   // Rows without errors because a probe's value is missing; not counted as unsolved.
   std::uint64_t without_reading() const { return without_reading_; }
   std::uint64_t unsolved() const { return unsolved_; }
-  const std::string& why_unsolved() const { return why_unsolved_; }  // of the first such row
-  // What was corrected (schema/rig/effects/physics.h), and by how much at most; one sentence each.
+  const std::string& why_unsolved() const {
+    return why_unsolved_;
+  }  // The reason for the first unsolved row.
+  // The applied corrections (schema/rig/effects/physics.h) and their largest amount, one sentence
+  // each.
   Notices correction_notices() const;
-  // Height maps of the rig that end before the rows do.
+  // Reports height maps of the rig that do not cover the travel of the rows.
   Notices map_notices(const Rig& rig) const;
-  // Probes that read where their record has not calibrated them.
+  // Reports probes whose readings leave the calibrated range of their record.
   Notices stretch_notices() const { return algo::stretch_notices(rig_, spans_); }
 
  private:
   FrameSolver(const Rig& rig, algo::Solver solver, std::vector<Channel> channels);
   bool corrects() const { return rig_.physics && rig_.physics->corrects(); }
   std::optional<Air> air_of(const SampleBlock& block, std::size_t row) const;
-  // False: why it cannot be is noted.
+  // False: the reading cannot be corrected; the reason is noted.
   bool correct(const algo::ReadingCorrection& correction, const SampleBlock& block, std::size_t row,
                std::vector<double>& readings_m);
   void leave_unsolved(std::size_t row, const std::string& why);
@@ -68,7 +73,7 @@ class FrameSolver {
   Rig rig_;
   algo::Solver solver_;
   drivers::Calibrator calibrator_;
-  std::vector<double> travel_m_;  // where it is not the encoder
+  std::vector<double> travel_m_;  // Used only if the travel differs from the encoder.
   std::vector<Channel> channels_;
   std::size_t encoder_ = 0;
   std::vector<std::size_t> probes_;                             // [probe of the rig] -> channel
@@ -76,8 +81,9 @@ class FrameSolver {
   daemon::LargestChange tilt_, dielectric_;
   std::uint64_t rows_ = 0, over_range_ = 0, without_reading_ = 0, unsolved_ = 0;
   std::string why_unsolved_;
-  std::optional<std::array<double, 2>> travels_m_;       // least and most d solved one by one
-  std::vector<std::optional<algo::ReadingSpan>> spans_;  // of probes with a calibrated stretch
+  std::optional<std::array<double, 2>>
+      travels_m_;  // Least and largest d of the rows solved one by one.
+  std::vector<std::optional<algo::ReadingSpan>> spans_;  // Probes with a calibrated stretch.
 };
 
 }  // namespace mdof::tools

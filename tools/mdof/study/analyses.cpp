@@ -18,18 +18,18 @@
 namespace mdof::tools {
 namespace {
 
-// Short where trials are slow: an interrupt waits for the blocks under way.
+// Short blocks for slow trials, because an interrupt waits for the blocks in progress.
 std::uint64_t block_trials(const Study& study, std::uint64_t trials) {
   const std::uint64_t each = algo::sum_block_trials(trials);
   return study.slow() ? std::min(each, algo::kSlowSumBlock) : each;
 }
 
-// At least two: their scatter is the standard error.
+// At least two, because their scatter gives the standard error.
 std::uint64_t blocks_of(std::uint64_t trials, std::uint64_t each) {
   return std::max<std::uint64_t>(2, (trials + each - 1) / each);
 }
 
-// Blocks 0 ... n - 1 on all threads, each with sums of its own; none if interrupted.
+// Sums blocks 0 ... n - 1 on all threads, each with its own sums; nullopt if interrupted.
 template <class Sums, class Make, class Add>
 std::optional<Sums> sum_blocks(const char* what, unsigned threads, std::uint64_t blocks, Make make,
                                Add add) {
@@ -77,7 +77,7 @@ StudyState find_indices(const Study& study, unsigned threads, StudyResult& resul
 }
 
 Result<StudyState> allocate(const Study& study, unsigned threads, StudyResult& result) {
-  // Once interrupted the tasks are left out; what comes of it then is thrown away.
+  // After an interrupt the remaining tasks are skipped, and the result is discarded.
   const algo::ForEach for_each = [threads](std::size_t count, const auto& task) {
     if (Interrupt::requested()) return;
     in_parallel(

@@ -1,4 +1,5 @@
-// What a plan asks beyond the statistics of its trials: indices, tolerances, another fixture.
+// Analyses that a plan requests in addition to the statistics: indices, tolerances, another
+// fixture.
 #pragma once
 
 #include "schema/base/result.h"
@@ -8,11 +9,11 @@
 
 namespace mdof::tools {
 
-// Most trials of a comparison: its ratio is then known to 0.2 % or better.
+// Largest number of trials of a comparison; the ratio is then known to 0.2 % or better.
 inline constexpr std::uint64_t kMostComparedTrials = std::uint64_t{1} << 18;
 
-// Fills indices, allocations and comparison; warns of trials too few for good standard errors. The
-// figures do not depend on the threads.
+// Fills indices, allocations and comparison, and warns if the trials are too few for good standard
+// errors. The figures do not depend on the number of threads.
 Result<StudyState> analyse(const Study& study, unsigned threads, StudyResult& result);
 
 }  // namespace mdof::tools

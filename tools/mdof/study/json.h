@@ -1,4 +1,4 @@
-// The result of a study as JSON, as it is printed and stored, and back.
+// Writes the result of a study as JSON, for printing and storing, and reads it.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 
 namespace mdof::tools {
 
-// What does not depend on threads, processes, interruptions and the time: an object with trials,
-// seed, errors by key, bins, convergence, indices, allocations, comparison and warnings.
+// The figures that do not depend on threads, processes, interruptions and time: an object with
+// trials, seed, errors by key, bins, convergence, indices, allocations, comparison and warnings.
 std::string study_figures_json(const StudyResult& result);
 
-// The document of --json: the figures with what is known of the run besides.
+// The document of --json: the figures and the other facts of the calculation.
 std::string study_json(const StudyResult& result, const std::string& figures_json,
                        std::optional<std::int64_t> study);
 
-// Reads the figures; the members of StudyResult that they do not hold stay as they are. `source` is
-// what the message calls them.
+// Reads the figures. Other members of `result` do not change. `source` names the figures in error
+// messages.
 Status read_study_figures(std::string_view json, const std::string& source, StudyResult& result);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// The result of a study for people and for spreadsheets.
+// The result of a study as text and CSV.
 #pragma once
 
 #include <cstdint>
@@ -10,18 +10,18 @@
 
 namespace mdof::tools {
 
-// Tables with units; says how far the figures can be trusted.
+// Tables with units, and how well the figures are known.
 std::string study_text(const StudyResult& result);
 
-// One row an output, first over all trials and then for each bin; 17 digits.
+// One row for each output, first over all trials, then for each bin; 17 digits.
 std::string study_csv(const StudyResult& result);
 
 enum class StudyForm { text, json, csv };
-// On the standard output. `study`: its number in the database.
+// Prints to the standard output. `study`: its number in the database.
 Status print_study(const StudyResult& result, const std::string& figures_json,
                    std::optional<std::int64_t> study, StudyForm form);
 
-// "EBX_urad" as a head of a table: "EBX/µrad".
+// "EBX_urad" as the head of a column: "EBX/µrad".
 std::string with_unit(const std::string& key);
 
 }  // namespace mdof::tools

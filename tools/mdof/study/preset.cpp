@@ -28,7 +28,7 @@ constexpr std::array kNumbers = {
     PresetNumber{"sigma_z_um", &Options::sigma_z_um, "Displacement of the side unit along Z"},
 };
 
-// Shortest text that reads back to the same bits.
+// The shortest text that reads back to the same bits.
 std::string shortest(double x) {
   JsonWriter number;
   number.value(x);

@@ -1,4 +1,4 @@
-// The presets of mdof sensitivity: their options by name, as TOML and back.
+// Presets of mdof sensitivity: their options by name, written as TOML and read.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace mdof::tools {
 
-// An option of both simulations that is one number; `key` ends in its unit. The travel and its bins
-// ("travel_mm", "bins") and the seed come besides.
+// An option of both simulations with one number; `key` ends in its unit. The travel and its bins
+// ("travel_mm", "bins") and the seed are separate.
 struct PresetNumber {
   const char* key;
   double algo::SimulationOptions::*member;
@@ -19,10 +19,11 @@ struct PresetNumber {
 };
 std::span<const PresetNumber> preset_numbers();
 
-// "simulation-1" or "simulation-2" with the paper's defaults; usage: unknown, with the nearest.
+// "simulation-1" or "simulation-2" with the defaults of the paper. Error (usage): unknown name; the
+// message names the nearest.
 Result<algo::SimulationOptions> preset_defaults(const std::string& name);
 
-// All options but the seed, in full: what a stored study keeps in place of a plan.
+// All options except the seed. A stored study keeps this text instead of a plan.
 std::string preset_toml(const std::string& name, const algo::SimulationOptions& options);
 struct Preset {
   std::string name;

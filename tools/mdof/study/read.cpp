@@ -1,4 +1,4 @@
-// The figures of a stored study, back from their JSON.
+// Reads the figures of a stored study from their JSON.
 #include <simdjson.h>
 
 #include <limits>
@@ -12,7 +12,7 @@ using simdjson::dom::array;
 using simdjson::dom::element;
 using simdjson::dom::object;
 
-// Members that are absent are empty, a null is a NaN: what wrote the figures was this program.
+// This program wrote the figures, so a missing member is empty and a null is a NaN.
 double real(const element& of, const char* key) {
   double x = 0;
   return of.at_key(key).get(x) ? std::numeric_limits<double>::quiet_NaN() : x;

@@ -16,7 +16,7 @@ void warn_of_unsolved(StudyResult& result) {
   }
 }
 
-// The sums cannot hold what spreads very much more, or less, than the pilot's trials.
+// The sums overflow or underflow if the values spread very much more, or less, than in the pilot.
 void warn_of_lost_moments(StudyResult& result) {
   for (const OutputSummary& s : result.outputs) {
     if (s.n < 2 || std::isfinite(s.mean + s.sd + s.sd_se)) continue;
@@ -27,8 +27,8 @@ void warn_of_lost_moments(StudyResult& result) {
   }
 }
 
-// The convergence ends with the figures themselves; a continued study has it where it would have
-// been without the interruption.
+// Appends the final figures to the convergence. A continued study has the same points as a study
+// without interruption.
 void end_convergence(StudyResult& result) {
   for (std::size_t k = 0; k < result.convergence.size(); ++k) {
     auto& points = result.convergence[k].points;

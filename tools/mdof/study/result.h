@@ -1,4 +1,4 @@
-// From the state of a study's work to its result.
+// Calculates the result of a study from the state of its work.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace mdof::tools {
 
-// Figures of the trials so far, with the last point of the convergence; warnings say how many
+// Figures of the trials so far, with the last point of the convergence. Warnings state how many
 // trials were not solved.
 StudyResult result_of(const Study& study, const StudyWork& state, const std::string& started_utc);
 

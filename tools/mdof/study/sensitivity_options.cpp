@@ -18,10 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 63) - 1;  // SQLite and TOML end there
+constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 63) - 1;  // limit of SQLite and TOML
 constexpr double kMostTrials = 1e15;
-constexpr double kLongest_m = 10;     // beyond any machine that such a fixture measures
-constexpr double kWidest_mrad = 250;  // as the models: their angles are small
+constexpr double kLongest_m = 10;     // longer than any machine that such a fixture measures
+constexpr double kWidest_mrad = 250;  // limit of the models, whose angles are small
 
 std::string option_name(std::string key) {
   std::replace(key.begin(), key.end(), '_', '-');
@@ -96,7 +96,7 @@ void declare_results(CLI::App& command, SensitivityCommand& o) {
   command.add_flag("--csv", o.csv, "Print CSV with one row for each output and bin of the travel");
 }
 
-// The unit is what the option's name ends with.
+// The name of an option ends with its unit.
 struct Limit {
   const char *ending, *unit;
   double most;

@@ -18,32 +18,33 @@ class App;
 namespace mdof::tools {
 
 struct SensitivityCommand {
-  std::string preset, plan;                              // one of them, or
-  std::optional<std::int64_t> continued;                 // a stored study
-  std::map<std::string, std::optional<double>> numbers;  // of a preset, by key
-  std::vector<double> travel_mm;                         // from, to; empty: as the preset
+  std::string preset, plan;               // Exactly one of preset, plan and continued is given.
+  std::optional<std::int64_t> continued;  // Number of a stored study.
+  std::map<std::string, std::optional<double>> numbers;  // Options of a preset, by key.
+  std::vector<double> travel_mm;                         // From, to; empty: the preset decides.
   std::optional<std::uint64_t> bins;
-  std::optional<double> trials;  // may be given as 1e9
+  std::optional<double> trials;  // Accepts 1e9.
   std::optional<std::uint64_t> seed;
   std::optional<double> coverage;
   bool adaptive = false;
   std::optional<int> digits;
   std::vector<std::string> tolerances;  // OUTPUT=VALUE
-  std::optional<std::uint64_t> trial;   // this one alone
+  std::optional<std::uint64_t> trial;   // Number of the only trial to run.
   unsigned threads = 1;
-  std::string database;  // "": the study is not stored
-  std::string plots;     // folder; "": none
+  std::string database;  // Empty: the study is not stored.
+  std::string plots;     // Folder; empty: no plots.
   bool json = false, csv = false;
   StudyForm form = StudyForm::text;
 };
 
 void declare_options(CLI::App& command, SensitivityCommand& o);
 
-// Errors: options that exclude one another, or a number out of its range. Sets command.form.
+// Sets command.form. Errors: options exclude each other, or a number is out of its range.
 Status check_usage(SensitivityCommand& command);
-// The study they describe; reads the plan's file.
+// The study that the options describe. Reads the file of the plan.
 Result<StudyRequest> request_of(const SensitivityCommand& command);
-// Before hours of work: that the folder is there, or can be made, and can be written.
+// Checks that the folder exists or can be created, and is writable. Called before a long
+// calculation.
 Status check_plot_folder(const std::string& folder);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// One trial of a study alone, by its number.
+// Prints one trial of a study by its number.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace mdof::tools {
 
-// What was drawn and what came out: the same bits as within the study.
+// Prints the drawn inputs and the outputs, which have the same bits as within the study.
 Status print_trial(const Study& study, std::uint64_t trial, bool json);
 
 }  // namespace mdof::tools

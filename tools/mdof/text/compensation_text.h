@@ -1,4 +1,4 @@
-// Compensation tables as text for people; their documents are in daemon/measure/gate.
+// Compensation tables as text. daemon/measure/gate writes their documents.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace mdof::tools {
 
-// `generation`: 0 where the table is not active.
+// `generation`: 0 if the table is not active.
 std::string table_text(const CompensationTable& table, std::int64_t generation);
 std::string list_text(const daemon::ListedTables& list);
 

@@ -1,4 +1,4 @@
-// The devices of mdofd as people read them.
+// The devices of mdofd as text.
 #pragma once
 
 #include <string>
@@ -6,8 +6,8 @@
 
 namespace mdof::tools {
 
-// Of the answer to device.list, in lines of at most `columns` characters: a table of the states and
-// counts, then what is wrong with whom, then what was and is over.
+// Formats the answer to device.list in lines of at most `columns` characters: a table of states and
+// counts, then the present faults of each device, or the last fault that has recovered.
 std::string device_table(std::string_view device_list, std::size_t columns);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// Who did what with a run, for people.
+// The recorded actions on a run as text.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace mdof::tools {
 
-// A line each, with a title; nothing where nothing is known.
+// A title and one line for each action; empty without actions.
 inline std::string history_text(const std::vector<HistoryEntry>& actions, std::size_t width) {
   std::string text = actions.empty() ? "" : "\nhistory\n";
   for (const HistoryEntry& action : actions)

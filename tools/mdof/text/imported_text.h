@@ -1,4 +1,4 @@
-// An imported run as people and scripts see it: its readings, not five errors.
+// An imported run as text and CSV: its readings, without five errors.
 #pragma once
 
 #include <cstddef>

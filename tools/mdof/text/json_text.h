@@ -1,5 +1,5 @@
-// Any JSON as text for people: what a newer daemon says is shown even if this mdof does not know
-// it.
+// Formats any JSON as text, so that the reply of a newer daemon is shown even if this mdof does not
+// know its members.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace mdof::tools {
 
-// Members line by line, an array of objects as a table. Text that is no JSON comes back as it is.
+// One line for each member; an array of objects is a table. Text that is not JSON is returned
+// unchanged.
 std::string readable(std::string_view json);
 
 }  // namespace mdof::tools

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kKept = 3;
 
-// What has words of its own is like no other.
+// Notices with their own text are never summarised.
 bool has_own_words(const Notice& notice) {
   return notice.code == NoticeCode::legacy || notice.code == NoticeCode::failure;
 }

@@ -1,4 +1,4 @@
-// Notices as a terminal shows them: a hundred of one kind are three and a count.
+// Formats notices for a terminal: of many notices of one kind, three and a count are shown.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace mdof::tools {
 
-// Of a code and subject with more than a few the first ones are kept, and how many more there are.
-// `all`: nothing is left out.
+// If several notices have the same code and subject, keeps the first ones and adds the number of
+// the others. `all`: keeps every notice.
 Notices summarised(const Notices& notices, bool all = false);
 
-// The same, a line each on the standard error, marked by its severity.
+// Prints the summarised notices to the standard error, one line each, marked with their severity.
 void show_notices(const Notices& notices, bool all = false);
 
 }  // namespace mdof::tools

@@ -12,9 +12,9 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::size_t kColumns = 80;
-constexpr std::size_t kMostRows = 20;      // of targets that are not as the others
-constexpr std::size_t kMostStops = 10;     // left out
-constexpr std::size_t kRunsAsDigits = 20;  // of which the counts are written side by side
+constexpr std::size_t kMostRows = 20;      // targets with unusual counts
+constexpr std::size_t kMostStops = 10;     // rejected stops
+constexpr std::size_t kRunsAsDigits = 20;  // up to this number, the counts are written side by side
 
 std::string number(const char* format, double x) {
   if (!std::isfinite(x)) return "-";
@@ -33,7 +33,7 @@ int sum(const std::vector<int>& counts) {
   return total;
 }
 
-// "1 1 0" a run each, or the sum where there are many.
+// One count for each run, such as "1 1 0", or the sum if there are many runs.
 std::string by_run(const std::vector<int>& counts) {
   if (counts.size() > kRunsAsDigits) return std::to_string(sum(counts));
   std::string out;
@@ -43,7 +43,7 @@ std::string by_run(const std::vector<int>& counts) {
 
 using Counts = std::pair<std::vector<int>, std::vector<int>>;
 
-// What most targets have.
+// The most frequent counts of a target.
 Counts usual(const std::vector<TargetVisits>& n_ij) {
   std::vector<Counts> all;
   for (const auto& row : n_ij) all.emplace_back(row.forward, row.reverse);

@@ -1,4 +1,4 @@
-// A run's plausibility as a block for people.
+// The plausibility of a run as text.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace mdof::tools {
 
-// Lines of 80 columns at the most: cycle, encoder, targets with the visits of each, stops left out,
+// Lines of at most 80 columns: cycle, encoder, targets with the number of visits, rejected stops,
 // probes.
 std::string plausibility_text(const Plausibility& plausibility);
 

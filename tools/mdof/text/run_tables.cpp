@@ -40,7 +40,7 @@ std::string temperature_text(const Temperature& read) {
 
 using Options = Result<daemon::PipelineOptions>;
 
-// What its positions are counted from; "": the device knows, or a notice says that nobody does.
+// The zero of the positions; empty: the device defines it, or a notice reports that it is unknown.
 std::string datum_of(const Options& options) {
   return options ? datum_text(options->datum) : "";
 }
@@ -55,7 +55,7 @@ std::string flags_of(const MeasuredPoint& p) {
   return flags + (flags.empty() ? "" : " ") + "unsolved: " + p.errors.reason;
 }
 
-// `u`: NaN where it is not known.
+// `u`: NaN if it is unknown.
 std::string value_with_u(double value, double u, bool angle, double column = 0) {
   if (u >= 0) return angle ? urad_with_u(value, u, column) : um_with_u(value, u, column);
   return angle ? in_urad(value) : in_um(value);
@@ -160,7 +160,7 @@ Errors5 columns_u(const Run& run, const RunUncertainty& uncertainty) {
 
 namespace {
 
-constexpr std::size_t kMostFlagged = 12;  // rows; --all lists the others
+constexpr std::size_t kMostFlagged = 12;  // further rows need --all
 
 bool is_flagged(const MeasuredPoint& point) {
   return !point.errors.valid || !point.point.flags.empty();
@@ -191,7 +191,7 @@ std::string rows_text(const Run& run, const RunUncertainty& uncertainty,
   return table.text(width);
 }
 
-// The points that a reader of means must know of, and how many there are.
+// The flagged or unsolved points, and their number.
 std::string flagged_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width) {
   std::vector<std::size_t> rows;
   std::size_t flagged = 0;

@@ -1,4 +1,4 @@
-// A run as tables for people, at most `width` characters wide.
+// A run as tables, at most `width` characters wide.
 #pragma once
 
 #include <string>
@@ -13,20 +13,20 @@
 
 namespace mdof::tools {
 
-// "Simulated data: ..." with a line end, or nothing.
+// "SIMULATED DATA: ..." with a line end, or empty.
 std::string simulated_notice(bool simulated);
 
-// The first line of what shows an uncertainty that has nothing but noise in it, or nothing.
+// First line of an output whose uncertainty contains noise only; otherwise empty.
 std::string noise_only_notice(NoiseOnly noise_only);
 std::string noise_only_notice(bool noise_only);
-// The same of a CSV or TOML file.
+// The same line as a comment in a CSV or TOML file.
 std::string noise_only_comment(NoiseOnly noise_only);
 std::string noise_only_comment(bool noise_only);
 
-std::string stated_text(const StatedAt& at);  // a line: where straightness is stated
+std::string stated_text(const StatedAt& at);  // One line: where straightness is stated.
 
-// All points, or the means by target and the points that have flags or no errors; then what was
-// found plausible. All points, too, where they give no means.
+// All points, or the means by target and the points with flags or without errors; then the
+// plausibility. Without means, all points in any case.
 std::string points_or_means_text(const Run& run, const RunUncertainty& uncertainty,
                                  std::size_t width, bool means);
 
@@ -35,7 +35,7 @@ std::string head_text(const RunHeader& header, const std::string& result_sha256,
                       bool all_warnings = false);
 // Five errors ± u, samples, flags.
 std::string points_text(const Run& run, const RunUncertainty& uncertainty, std::size_t width);
-// Slopes of the mean ± u, where their budget is among these.
+// Slopes of the mean ± u, if `budgets` contains them.
 std::string straightness_text(const std::vector<StraightnessFigure>& figures,
                               const std::vector<Budget>& budgets, std::size_t width);
 std::string minimum_zone_text(const std::vector<StraightnessLines>& lines, std::size_t width);

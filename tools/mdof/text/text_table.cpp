@@ -14,8 +14,8 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::string_view kGap = "  ";
-constexpr std::size_t kNarrowest = 24;  // a column of words is not broken into shorter lines
-constexpr double kLongest = 1e9;        // from here on a number is written with an exponent
+constexpr std::size_t kNarrowest = 24;  // text columns are not narrowed below this width
+constexpr double kLongest = 1e9;        // from here on, numbers have an exponent
 
 bool is_number(const std::string& cell) {
   return cell.empty() || (cell.find_first_of("0123456789-+") == 0 &&
@@ -38,12 +38,12 @@ std::size_t longest_word(std::string_view text) {
   return longest;
 }
 
-// With a space in each word that is wider than `width`, after that many characters.
+// Inserts a space after every `width` characters of a word that is longer.
 std::string with_breaks(std::string_view text, std::size_t width) {
   std::string out;
   std::size_t used = 0;
   for (const char c : text) {
-    const bool begins = (c & 0xC0) != 0x80;  // a character of UTF-8
+    const bool begins = (c & 0xC0) != 0x80;  // first byte of a UTF-8 character
     if (c == ' ') {
       used = 0;
     } else if (begins && ++used > width) {
@@ -55,7 +55,7 @@ std::string with_breaks(std::string_view text, std::size_t width) {
   return out;
 }
 
-// A path stays whole, so that it can be copied.
+// A path is not broken, so that it can be copied.
 std::vector<std::string> lines_of(const std::string& cell, std::size_t width) {
   const bool path = cell.find('/') != std::string::npos;
   std::vector<std::string> lines(1);
@@ -120,7 +120,7 @@ std::vector<TextTable::Block> TextTable::blocks(std::size_t width) const {
     const std::size_t taken = total(block) + kGap.size();
     return width > taken ? width - taken : 0;
   };
-  const std::size_t most = room_of(keys);  // of a block with no other column
+  const std::size_t most = room_of(keys);  // width of a block's only column beside the keys
   std::vector<Block> blocks{keys};
   for (std::size_t c = keys_; c < all.size(); ++c) {
     Column column = all[c];
@@ -136,7 +136,7 @@ std::vector<TextTable::Block> TextTable::blocks(std::size_t width) const {
   return blocks;
 }
 
-// A cell of words that is too wide goes on below.
+// A text cell that is too wide continues on the next lines.
 void TextTable::append_row(std::string& out, const Block& block, std::size_t row) const {
   std::vector<std::vector<std::string>> cells;
   std::size_t height = 1;
@@ -207,7 +207,7 @@ std::string in_urad(double x_rad) {
 std::string to_place(double x, double u, int otherwise) {
   constexpr int kMostDecimals = 9;
   if (!(u > 0) || !std::isfinite(u) || !std::isfinite(x)) return fixed(x, otherwise);
-  char digits[32];  // of u as it is rounded: 0.0996 is 0.10
+  char digits[32];  // u after rounding: 0.0996 is 0.10
   std::snprintf(digits, sizeof digits, "%.1e", u);
   const int decimals = 1 - std::atoi(std::strchr(digits, 'e') + 1);
   if (decimals >= 0) return fixed(x, std::min(decimals, kMostDecimals));

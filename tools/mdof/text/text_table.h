@@ -1,4 +1,4 @@
-// Aligned columns for people, and numbers as they are written in them.
+// Tables with aligned columns, and the format of numbers in them.
 #pragma once
 
 #include <string>
@@ -9,16 +9,17 @@
 
 namespace mdof::tools {
 
-// Columns of numbers are set to the right, others to the left; a rule stands below the head.
+// Columns of numbers are aligned to the right, others to the left. A rule follows the head.
 class TextTable {
  public:
-  // The first `keys` columns say which row it is.
+  // The first `keys` columns identify the row.
   explicit TextTable(std::vector<std::string> head, std::size_t keys = 1);
-  void add(std::vector<std::string> row);  // as many cells as the head has
-  std::string text() const;                // lines, each with its end, as wide as they are
-  // Where that is wider than `width`: the widest column of words is broken into lines; where that
-  // does not suffice, blocks of columns one below the other, each beginning with the keys. Columns
-  // without a word are then left out. A word wider than all of its block is broken, but no path.
+  void add(std::vector<std::string> row);  // As many cells as the head has.
+  std::string text() const;                // Lines with line ends, not wrapped.
+  // If the table is wider than `width`, breaks the widest text column into lines. If this does not
+  // suffice, splits the columns into blocks one below the other; each block begins with the keys,
+  // and columns without text are left out. A word wider than its block is broken, but a path is
+  // not.
   std::string text(std::size_t width) const;
 
  private:
@@ -29,34 +30,36 @@ class TextTable {
   using Block = std::vector<Column>;
 
   Block columns() const;
-  bool narrowed(Block& all, std::size_t width) const;  // to one block
+  bool narrowed(Block& all,
+                std::size_t width) const;  // Narrows all columns to one block, if possible.
   std::vector<Block> blocks(std::size_t width) const;
   std::string text_of(const Block& block) const;
   void append_row(std::string& out, const Block& block, std::size_t row) const;
 
-  std::vector<std::vector<std::string>> rows_;  // the head first
+  std::vector<std::vector<std::string>> rows_;  // The head is the first row.
   std::size_t keys_;
 };
 
-// Line ends and tabs of free text as spaces: a note cannot look like another row.
+// Replaces line ends and tabs of free text by spaces, so that a note cannot look like another row.
 std::string one_line(std::string text);
 
-// Never "-0.00"; a number too long for a column has an exponent; not finite: "-".
+// Never writes "-0.00". A number too long for a column has an exponent; a number that is not finite
+// is "-".
 std::string fixed(double x, int decimals);
 std::string in_mm(double x_m);      // 4 decimals
 std::string in_um(double x_m);      // 4 decimals
 std::string in_urad(double x_rad);  // 3 decimals
-// GUM 7.2.6: to the place of the second significant digit of its uncertainty, u or U, which may be
-// the number itself; as above, or with these decimals, where that is 0 or not known.
+// Rounds x to the place of the second significant digit of its uncertainty (GUM 7.2.6): u or U, or
+// x itself. If u is 0 or unknown, x has the decimals of the functions above, or `otherwise`.
 std::string to_place(double x, double u, int otherwise);
 std::string um_to_place(double x_m, double u_m);
 std::string urad_to_place(double x_rad, double u_rad);
-// Both to the place of u, or of the column that they are in.
+// Rounds both numbers to the place of u, or of the u of their column.
 std::string um_with_u(double x_m, double u_m, double column_u_m = 0);
 std::string urad_with_u(double x_rad, double u_rad, double column_u_rad = 0);
 std::string with_u(double x, double u, int otherwise);
-// The largest of a column, so that all its numbers have as many decimals; 0: one is below a fifth
-// of it, and each has a place of its own.
+// The largest u of a column, so that all its numbers have the same decimals. 0 if the smallest u is
+// less than a fifth of the largest; each number is then rounded to its own u.
 double column_u(const std::vector<double>& u);
 std::string with_u(const std::string& value, const std::string& u);  // "0.0584 ± 0.0021"
 std::string joined(const std::vector<std::string>& words, const char* separator = ", ");

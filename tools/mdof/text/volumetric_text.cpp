@@ -104,7 +104,7 @@ std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
 std::string volumetric_csv(const VolumetricTable& t) {
   CsvText csv;
   csv.cells({"X_mm", "Y_mm", "Z_mm"});
-  std::vector<std::string> rotary;  // of all nodes the same
+  std::vector<std::string> rotary;  // the same for all nodes
   for (std::size_t k = 0; k < 3; ++k) {
     if (!t.machine.find(kRotary[k])) continue;
     csv.cell(std::string(1, kRotary[k]) + "_deg");
@@ -118,7 +118,7 @@ std::string volumetric_csv(const VolumetricTable& t) {
   for (std::size_t node = 0; node < t.nodes(); ++node) {
     for (const double x : t.command_at(node)) csv.cell(to_mm(x));
     for (const std::string& at : rotary) csv.cell(at);
-    for (const double x : t.correction_m[node]) csv.cell(to_um(x) + 0.0);  // -0 is 0
+    for (const double x : t.correction_m[node]) csv.cell(to_um(x) + 0.0);  // turns -0 into 0
     for (const Vec3& u : {t.u_m[node], t.u_common_at(node), t.u_independent_at(node)})
       for (const double x : u) csv.cell(to_um(x));
     csv.cell(covers).end_row();

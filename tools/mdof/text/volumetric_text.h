@@ -1,4 +1,4 @@
-// Volumetric tables as CSV and text for people.
+// Volumetric tables as text and CSV.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 namespace mdof::tools {
 
-// `generation`: 0 where the table is not active.
+// `generation`: 0 if the table is not active.
 std::string volumetric_text(const VolumetricTable& table, std::int64_t generation);
-// A row a node: X_mm, Y_mm, Z_mm, corrections and their u.
+// One row for each node: X_mm, Y_mm, Z_mm, corrections and their u.
 std::string volumetric_csv(const VolumetricTable& table);
 
 }  // namespace mdof::tools

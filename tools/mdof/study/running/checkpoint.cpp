@@ -43,7 +43,7 @@ void get(ByteReader& in, RuleBlock& block) {
   }
 }
 
-// All but the statistics.
+// The checkpoint without the statistics.
 struct Head {
   std::uint64_t trials = 0;
   double elapsed_s = 0;

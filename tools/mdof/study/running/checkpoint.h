@@ -1,4 +1,4 @@
-// Where a study stands, as an object and as bytes: what is stored to be continued.
+// The state of a study, as an object and as bytes that are stored to continue the study.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,26 @@
 
 namespace mdof::tools {
 
-// What has come of the trials 0 ... trials - 1, none left out.
+// Results of the trials 0 ... trials - 1, without gaps.
 struct StudyWork {
   std::uint64_t trials = 0;
   double elapsed_s = 0;
-  algo::StudyScale scale;  // of the statistics
+  algo::StudyScale scale;  // Scale of the statistics.
   algo::StudyStatistics statistics;
   std::vector<Convergence> convergence;
-  // The blocks that the adaptive rule was fed, in their order; of each the figures by output.
+  // The blocks that were given to the adaptive rule, in this order; the figures of each block by
+  // output.
   std::vector<std::vector<algo::BlockFigures>> rule;
 };
-// That of a study before its first trial.
+// The state of a study before its first trial.
 StudyWork empty_work(const algo::Experiment& experiment, const algo::StudyScale& scale);
 
-// Adds the figures as they stand after state.trials to state.convergence.
+// Appends the figures after state.trials trials to state.convergence.
 void add_convergence(StudyWork& state, double coverage);
 
-// The same bytes for the same trials, elapsed_s aside.
+// The same trials give the same bytes, apart from elapsed_s.
 std::string checkpoint_bytes(const StudyWork& state);
-// Error: not bytes of this experiment's checkpoint.
+// Error: the bytes are not a checkpoint of this experiment.
 Result<StudyWork> parse_checkpoint(std::string_view bytes, const algo::Experiment& experiment);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// An experiment whose trials are slow, each call on several threads.
+// An experiment with slow trials, which divides each call among threads.
 #pragma once
 
 #include <atomic>
@@ -12,19 +12,22 @@
 
 namespace mdof::tools {
 
-// The same trials, each call to run() divided among threads: for trials so slow that a cell of
-// them takes seconds, as whole runs are. One call at a time.
+// Runs the same trials as `experiment`, but divides each call to run() among threads, because a
+// cell of slow trials, such as whole runs, takes seconds. Only one call at a time.
 class DividedTrials final : public algo::Experiment {
  public:
-  // go_on(): asked several times a second; once false, run() leaves out the trials not begun.
+  // go_on() is called several times a second. When it returns false, run() leaves out the trials
+  // that have not begun.
   DividedTrials(const algo::Experiment& experiment, unsigned threads, std::function<bool()> go_on)
       : experiment_(experiment), threads_(threads), go_on_(std::move(go_on)) {}
   const std::vector<std::string>& outputs() const override { return experiment_.outputs(); }
   const algo::BinnedQuantity& binned() const override { return experiment_.binned(); }
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override;
-  std::uint64_t trials_run() const { return trials_run_; }  // any thread
-  bool cut_short() const { return cut_short_; }  // trials were left out: what came of it is void
+  std::uint64_t trials_run() const { return trials_run_; }  // Any thread.
+  bool cut_short() const {
+    return cut_short_;
+  }  // Trials were left out, so that their results are invalid.
 
  private:
   const algo::Experiment& experiment_;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kModule = "mdof_mpi.so";
 
-// Open MPI, MPICH and Slurm by PMI, and whatever speaks PMIx.
+// Variables of Open MPI, of MPICH and Slurm (PMI), and of other launchers (PMIx).
 bool started_by_mpi() {
   constexpr std::array names = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"};
   for (const char* name : names)
@@ -29,7 +29,7 @@ using Start = const MdofMpi* (*)();
 Result<Start> load_module() {
   std::error_code ec;
   const auto file = std::filesystem::read_symlink("/proc/self/exe", ec).parent_path() / kModule;
-  // Global: Open MPI's own plug-ins look for its symbols.
+  // RTLD_GLOBAL, because the plug-ins of Open MPI look for its symbols.
   void* const module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
   void* const start = module ? ::dlsym(module, "mdof_mpi_start") : nullptr;
   if (start) return reinterpret_cast<Start>(start);
@@ -41,7 +41,7 @@ Result<Start> load_module() {
 
 }  // namespace
 
-// Destroyed without leave(), after an error of this process: the others wait for it in vain.
+// Called after an error in this process without leave(): the other processes would wait forever.
 void Processes::AbortAll::operator()(const MdofMpi* mpi) const {
   mpi->abort(kDeviceOrIo);
 }

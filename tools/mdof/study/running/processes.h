@@ -1,4 +1,4 @@
-// The processes that share a study: one, or those that mpirun or srun started together.
+// The processes that share a study: one process, or those that mpirun or srun started together.
 #pragma once
 
 #include <cstdint>
@@ -12,36 +12,38 @@ struct MdofMpi;
 
 namespace mdof::tools {
 
-// Thread-bound. Alone, every call is trivial. Under MPI all processes make the same calls in the
-// same order; if one ends without having left, all are ended.
+// Thread-bound. With one process, every call is trivial. Under MPI, all processes make the same
+// calls in the same order; if one process ends without leave(), MPI ends all of them.
 class Processes {
  public:
-  // Loads the module mdof_mpi.so from beside the program where the environment says that MPI
-  // started this process. Error: it is not there; each process would do the whole work.
+  // If the environment shows that MPI started this process, loads the module mdof_mpi.so from the
+  // folder of the program. Error: the module cannot be loaded; each process would calculate the
+  // whole study.
   static Result<Processes> join();
 
   int rank() const;
   int size() const;
   bool first() const { return rank() == 0; }
 
-  std::string broadcast(std::string bytes);         // that of rank 0, on all
-  std::uint64_t broadcast_number(std::uint64_t x);  // likewise
-  bool any(bool mine);                              // whether it is true on any; on all
+  std::string broadcast(std::string bytes);  // Returns the bytes of rank 0 to all processes.
+  std::uint64_t broadcast_number(
+      std::uint64_t x);  // Returns the number of rank 0 to all processes.
+  bool any(bool mine);   // Returns to all processes whether `mine` is true in any of them.
   void send(int to, std::string_view bytes);
   std::string receive(int from);
 
-  // Whether all can go on. Where one cannot, its error is that of rank 0; what the others get only
-  // asks them to end.
+  // Ok if `mine` is ok in all processes. Otherwise rank 0 gets the error of the process that
+  // failed; the others get an error that only ends them.
   Status agree(const Status& mine);
-  // At the end, and after an error that all have agreed on.
+  // Called at the end, and after an error on which all processes have agreed.
   void leave();
 
  private:
-  // What becomes of MPI where leave() was never called.
+  // Aborts MPI if leave() was never called.
   struct AbortAll {
     void operator()(const MdofMpi* mpi) const;
   };
-  std::unique_ptr<const MdofMpi, AbortAll> mpi_;  // null: alone
+  std::unique_ptr<const MdofMpi, AbortAll> mpi_;  // null: a single process
 };
 
 }  // namespace mdof::tools

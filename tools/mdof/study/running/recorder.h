@@ -1,5 +1,5 @@
-// A study in the database while it goes on. The database is opened for each write only: a study may
-// take hours, and mdofd may want to write meanwhile.
+// Stores a study in the database while it runs. Each write opens the database separately, because a
+// study may take hours and mdofd must be able to write meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -14,37 +14,37 @@
 
 namespace mdof::tools {
 
-// A stored study that can go on.
+// A stored study that can be continued.
 struct StoredStudy {
   store::StudyRecord record;
   store::StudyCheckpoint checkpoint;
   StudyRequest request;
 };
-// not_found, or a conflict where it is complete or nothing of it was kept.
+// Errors: not_found; conflict, if the study is complete or has no checkpoint.
 Result<StoredStudy> study_to_continue(const std::string& database, std::int64_t id);
 
-// The study as far as it goes, with the state of its work. bad_input where the experiment is not
-// what it was: a file that the plan names, or mdof itself, has changed.
+// The state of the work of the stored study. Error (bad_input): the experiment has changed, because
+// a file that the plan names or mdof itself has changed.
 Result<StudyWork> continued_work(const StoredStudy& stored, const Study& study);
 
 class StudyRecorder {
  public:
-  StudyRecorder() = default;  // keeps nothing
+  StudyRecorder() = default;  // Stores nothing.
   StudyRecorder(std::string database, std::int64_t id) : database_(std::move(database)), id_(id) {}
   static Result<StudyRecorder> begin(std::string database, const Study& study,
                                      const std::string& started_utc);
 
   std::optional<std::int64_t> id() const { return id_; }
-  // A warning where it cannot be written: the study goes on.
+  // Prints a warning if the checkpoint cannot be written; the study continues.
   void checkpoint(const StudyWork& state) const;
-  // `state` is kept where the result is not complete.
+  // Stores `state` if the result is not complete.
   Status end(const StudyResult& result, const std::string& figures_json,
              const StudyWork& state) const;
   // "mdof sensitivity --continue 3 --db FILE"
   std::string how_to_continue() const;
 
  private:
-  std::string database_;  // as for --db
+  std::string database_;  // The argument of --db.
   std::optional<std::int64_t> id_;
 };
 

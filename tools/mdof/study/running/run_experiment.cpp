@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kNotSolved = std::numeric_limits<double>::quiet_NaN();
 
-// Time of a simulated device that never waits: a trial must not know when it ran.
+// A clock that never waits: the result of a trial must not depend on the time.
 drivers::Clock standing_clock() {
   return {[] { return std::int64_t{0}; }, [](std::int64_t) {}};
 }
@@ -28,7 +28,7 @@ bool is_noise(Effect effect) {
   return effect == Effect::probe_noise || effect == Effect::encoder_noise;
 }
 
-// One trial: what is mounted, how the axis errs, and the noise of each scan.
+// One trial: the perturbed rig, the errors of the axis, and the noise of each scan.
 class RunTrial {
  public:
   RunTrial(const algo::PlanAxis& axis, const StudyPlan& plan, const algo::DrawRequest& request)
@@ -52,7 +52,7 @@ class RunTrial {
                                                   : targets_mm.back() - targets_mm.front());
   }
 
-  // The run that the pipeline makes of it; an error where the trial cannot be measured.
+  // The run that the pipeline produces. Error: the trial cannot be measured.
   Result<Run> measure() {
     if (!mounted_) return bad_input("an angle exceeds 0.25 rad, the limit of the models");
     MDOF_TRY(auto simulator,
@@ -73,7 +73,7 @@ class RunTrial {
     return pipeline.finish();
   }
 
-  // At the fixture, in the order of error_names(); m and rad.
+  // True errors at the fixture, in the order of error_names(); m and rad.
   Errors5 named_truth(double travel_m) const {
     AxisErrors truth;
     truth.valid = true;
@@ -115,7 +115,7 @@ class RunTrial {
     };
   }
 
-  // The last column is the true travel in mm; the encoder shows it with its errors.
+  // Input: the last column is the true travel in mm. Output: the encoder position with its errors.
   void read_encoder(SampleBlock& block) {
     for (double& shown_mm : block.value.back()) {
       encoder_scan_ += 1;
@@ -139,7 +139,7 @@ class RunTrial {
   std::uint32_t encoder_scan_ = 0;
 };
 
-// Largest |error| of the points of a run; not solved where a point is not.
+// Largest |error| of the points of a run; not solved if any point is not solved.
 double worst_of(const StudyPlan& plan, const Run& run, const RunTrial& trial, std::size_t error) {
   double worst = run.points.empty() ? kNotSolved : 0;
   for (const MeasuredPoint& point : run.points) {
@@ -152,7 +152,7 @@ double worst_of(const StudyPlan& plan, const Run& run, const RunTrial& trial, st
   return worst;
 }
 
-// Error of the straightness figure, mean of both approaches, that the run reports.
+// Error of the reported straightness figure, mean of both approaches.
 double straightness_of(const StudyPlan& plan, const Run& run, const RunTrial& trial,
                        std::size_t error, bool end_point) {
   const std::string key = error_names(plan.rig.axis)[error].key;

@@ -1,5 +1,5 @@
-// Whole simulated runs as trials: samples of the perturbed rig, through the real pipeline with the
-// nominal one. For plans with output_of = "run".
+// Whole simulated runs as trials, for plans with output_of = "run": the real pipeline evaluates
+// samples of the perturbed rig with the nominal rig.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace mdof::tools {
 
-// Refuses what make_plan_experiment() refuses. Thread-safe as every Experiment.
+// Refuses what make_plan_experiment() refuses. Thread-safe, as every Experiment.
 Result<std::unique_ptr<algo::ScalableExperiment>> make_run_experiment(const StudyPlan& plan);
 
-// Why a trial of such a plan gives no run. Ok where it gives one, though perhaps no figures.
+// Why a trial of such a plan gives no run. Ok if it gives a run, even a run without figures.
 Status check_run_trial(const StudyPlan& plan, std::uint64_t trial);
 
 }  // namespace mdof::tools

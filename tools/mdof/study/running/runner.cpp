@@ -14,7 +14,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::chrono::seconds kCheckpoint{30};
-constexpr double kRound_s = 2;  // how long an interrupt of several processes may take
+constexpr double kRound_s = 2;  // longest delay of an interrupt with several processes
 
 std::uint64_t rounded_up(std::uint64_t a, std::uint64_t b) {
   return a / b + (a % b == 0 ? 0 : 1);
@@ -44,7 +44,7 @@ StudyRunner::StudyRunner(const algo::Experiment& experiment, RunnerOptions optio
       processes_(&processes),
       batch_trials_(batch_trials) {
   if (options_.slow) {
-    const bool alone = processes.size() == 1;  // several processes end a round together
+    const bool alone = processes.size() == 1;  // several processes must end a round together
     divided_ = std::make_unique<DividedTrials>(
         experiment, options_.threads, [alone] { return !alone || !Interrupt::requested(); });
     experiment_ = divided_.get();
@@ -84,8 +84,8 @@ void StudyRunner::resume(const StudyWork& state) {
     bar_ = std::make_unique<ProgressBar>("study", static_cast<double>(state.trials));
 }
 
-// What comes next is the decision of rank 0. The rounds end at 1, 2, 4, 8 ... batches, where the
-// convergence is noted, and where else time asks for it.
+// Rank 0 decides. The rounds end at 1, 2, 4, 8 ... batches, where the convergence is recorded, and
+// earlier if they would take too long.
 StudyRunner::Round StudyRunner::next_round() {
   Round round{done_, done_, false};
   if (!stop_ && done_ != total_ && !rule_ended()) {
@@ -99,7 +99,7 @@ StudyRunner::Round StudyRunner::next_round() {
   return round;
 }
 
-// Also where it can never settle: more trials would not help.
+// True also if the rule can never settle, because more trials would not help.
 bool StudyRunner::rule_ended() const {
   return rule_ && (rule_->settled() || rule_->output_that_never_settles());
 }
@@ -114,8 +114,8 @@ std::string StudyRunner::not_settled() const {
          "; to calculate the other outputs, give --trials N without --adaptive";
 }
 
-// Of slow trials a batch for each process, as one that is cut short is lost. The adaptive rule may
-// settle within a round, and the trials after that are lost.
+// Slow trials: one batch for each process, because an interrupted batch is lost. With the adaptive
+// rule the round is limited, because the rule may settle within it and the later trials are lost.
 std::uint64_t StudyRunner::longest_round() const {
   const auto size = static_cast<std::uint64_t>(processes_->size());
   if (divided_) return size;
@@ -131,7 +131,7 @@ void StudyRunner::work(Round& round, StudyWork& state) {
   if (rule_) {
     figures.resize(round.end - round.begin);
     const std::uint64_t settled_at = feed_rule(round, std::move(figures), state);
-    if (settled_at < round.end) {  // without those that came too late
+    if (settled_at < round.end) {  // without the batches after the rule settled
       round.end = settled_at;
       parts = Parts(options_.threads);
       work_share(round, parts, nullptr, state);
@@ -144,9 +144,9 @@ void StudyRunner::work(Round& round, StudyWork& state) {
   done_ = round.end;
 }
 
-// Batches of this process go into the parts, and each one's figures to its place. Gives the end of
-// what was done by all processes: that of the round, or before it where a process that is alone was
-// stopped.
+// Adds the batches of this process to `parts`, and stores the figures of each batch. Returns the
+// first batch that was not done: the end of the round, or an earlier batch if a single process was
+// interrupted.
 std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures* figures,
                                       StudyWork& state) {
   const std::uint64_t at_once = figures ? 1 : batches_at_once(round);
@@ -184,7 +184,7 @@ std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures*
   return size > 1 ? round.end : std::min(round.end, round.begin + done * at_once);
 }
 
-// Long enough to keep the histograms in the cache, short enough for each thread to get several.
+// Long enough to keep the histograms in the cache, short enough for several pieces in each thread.
 std::uint64_t StudyRunner::batches_at_once(const Round& round) const {
   const auto workers = options_.threads * static_cast<std::uint64_t>(processes_->size());
   const std::uint64_t most = algo::kBlocksAtOnce * algo::block_trials(*experiment_) / batch_trials_;
@@ -192,8 +192,8 @@ std::uint64_t StudyRunner::batches_at_once(const Round& round) const {
                     std::max(std::uint64_t{1}, most));
 }
 
-// Feeds the rule on rank 0 with the batches of all processes in their order, until it settles.
-// Gives the batch before which it did, or the end of the round.
+// On rank 0, gives the batches of all processes to the rule in order, until it settles. Returns the
+// batch before which the rule settled, or the end of the round.
 std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyWork& state) {
   gather(figures);
   if (!processes_->first()) return processes_->broadcast_number(0);
@@ -203,14 +203,15 @@ std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyW
     rule_->add(of_batch);
     state.rule.push_back(std::move(of_batch));
   }
-  double ratio = 0;  // what s has to fall by; it falls with the root of the number of blocks
+  double ratio =
+      0;  // the factor by which s must decrease; s decreases with the root of the number of blocks
   for (const auto& output : rule_->progress())
     ratio = std::max(ratio, output.worst / output.tolerance);
   expected_batches_ = std::isfinite(ratio) ? static_cast<double>(batch) * ratio * ratio : 0;
   return processes_->broadcast_number(batch);
 }
 
-// Batches go round the processes, as in work_share().
+// Batches are assigned to the processes in turn, as in work_share().
 void StudyRunner::gather(Figures& figures) const {
   const auto size = static_cast<std::size_t>(processes_->size());
   const auto each = [&](int rank, const auto& visit) {
@@ -247,7 +248,7 @@ void StudyRunner::collect(StudyWork& state) {
     if (rank + step >= size) continue;
     const auto theirs =
         algo::StudyStatistics::parse(processes_->receive(rank + step), *experiment_);
-    assert(theirs);  // the same program wrote it
+    assert(theirs);  // written by the same program
     state.statistics.merge(*theirs);
   }
   state.trials = trials_before(done_);
@@ -266,7 +267,7 @@ void StudyRunner::checkpoint(StudyWork& state) {
   next_checkpoint_ = Clock::now() + kCheckpoint;
 }
 
-// The last batch of a fixed number of trials is shorter; those of the rule are all alike.
+// With a fixed number of trials, the last batch is shorter. All batches of the rule have one size.
 std::uint64_t StudyRunner::trials_before(std::uint64_t batch) const {
   const std::uint64_t trials = batch * batch_trials_;
   return options_.trials && !options_.adaptive ? std::min(trials, *options_.trials) : trials;
@@ -276,7 +277,7 @@ void StudyRunner::show_progress(double batches) {
   if (!bar_ || expected_batches_ <= 0) return;
   const double batch_trials = static_cast<double>(batch_trials_);
   const double done_batches =
-      std::min(batches, 0.999 * expected_batches_);  // the rule may want more
+      std::min(batches, 0.999 * expected_batches_);  // the rule may need more
   bar_->show({done_batches * batch_trials, expected_batches_ * batch_trials, "trials"});
 }
 

@@ -1,9 +1,9 @@
-// Runs the trials of a study: on threads, on the processes of MPI, until all are done, the adaptive
-// rule has settled, or somebody interrupts. The figures do not depend on any of that.
+// Runs the trials of a study on threads and on the processes of MPI, until all trials are done, the
+// adaptive rule has settled, or a user interrupts. None of these changes the figures.
 //
-//   rank 0 says which batches the next round has ─▶ every process works off its share, each
-//   thread with statistics of its own ─▶ merged in it ─▶ now and then merged in rank 0, which keeps
-//   the convergence, the checkpoints and the adaptive rule
+// rank 0 chooses the batches of the next round ─▶ every process works off its share, with
+// separate statistics for each thread ─▶ each process merges its statistics ─▶ at intervals,
+// rank 0 merges all processes; it keeps the convergence, the checkpoints and the adaptive rule
 #pragma once
 
 #include <chrono>
@@ -24,29 +24,30 @@
 namespace mdof::tools {
 
 struct RunnerOptions {
-  std::optional<std::uint64_t> trials;  // none: as the adaptive rule says
+  std::optional<std::uint64_t> trials;  // None: the adaptive rule decides.
   std::optional<algo::AdaptiveTolerance> adaptive;
   double coverage = 0.95;
   unsigned threads = 1;
-  bool slow = false;  // a trial takes milliseconds: threads share each block
-  // Called about every 30 s with all trials so far. Rank 0 only.
+  bool slow = false;  // A trial takes milliseconds, so that the threads share each block.
+  // Called about every 30 s with all trials so far, in rank 0 only.
   std::function<void(const StudyWork&)> checkpoint;
 };
 
 class StudyRunner {
  public:
-  // Error: tolerances or a coverage that the adaptive rule refuses.
+  // Error: the adaptive rule refuses the tolerances or the coverage.
   static Result<StudyRunner> create(const algo::Experiment& experiment, RunnerOptions options,
                                     Processes& processes);
-  // Goes on from `state`, which on rank 0 then holds all trials; on the others it is used up.
+  // Continues from `state`. At the end, rank 0 has all trials in `state`; the other ranks have used
+  // it up.
   StudyState run(StudyWork& state);
-  // What kept the adaptive rule from settling, in words; "": nothing, or there is no rule.
+  // Why the adaptive rule has not settled; empty: it has settled, or there is no rule.
   std::string not_settled() const;
 
  private:
   using Clock = std::chrono::steady_clock;
-  using Parts = std::vector<std::optional<algo::StudyStatistics>>;  // one a thread
-  using Figures = std::vector<std::vector<algo::BlockFigures>>;     // one a batch
+  using Parts = std::vector<std::optional<algo::StudyStatistics>>;  // One for each thread.
+  using Figures = std::vector<std::vector<algo::BlockFigures>>;     // One for each batch.
   struct Round {
     std::uint64_t begin = 0, end = 0;  // batches
     bool collect = false;
@@ -70,17 +71,17 @@ class StudyRunner {
   void show_progress(double batches);
   double batches_run() const;
 
-  std::unique_ptr<DividedTrials> divided_;  // of slow trials
+  std::unique_ptr<DividedTrials> divided_;  // For slow trials only.
   const algo::Experiment* experiment_;
   RunnerOptions options_;
   Processes* processes_;
   std::optional<algo::AdaptiveRule> rule_;
-  // Work is counted in batches of so many trials: a block of the statistics, or one of the rule.
+  // Work is counted in batches of batch_trials_ trials: a block of the statistics or of the rule.
   std::uint64_t batch_trials_;
   std::optional<std::uint64_t> total_;  // batches; none: no limit
   std::uint64_t done_ = 0;              // batches
-  double expected_batches_ = 0;         // for the progress; 0: nobody knows
-  double batches_per_s_ = 0;            // of the last round, all processes
+  double expected_batches_ = 0;         // For the progress bar; 0: unknown.
+  double batches_per_s_ = 0;            // In the last round, all processes.
   bool stop_ = false;
   double elapsed_before_s_ = 0;
   Clock::time_point begin_, next_checkpoint_;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kTick{100};
 
-// What the threads of one call share.
+// Data that the threads of one call share.
 struct Shared {
   Shared(std::size_t pieces, const std::function<void(unsigned, std::size_t)>& what,
          unsigned threads)
@@ -69,7 +69,7 @@ std::size_t in_parallel(unsigned threads, std::size_t count,
       lock.lock();
     }
   }
-  pool.clear();  // joined
+  pool.clear();  // joins the threads
   if (shared.failure) std::rethrow_exception(shared.failure);
   return std::min<std::size_t>(shared.next, count);
 }

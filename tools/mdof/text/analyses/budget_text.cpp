@@ -11,7 +11,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr double kLeastShare = 0.001;  // lines below are summed into one
+constexpr double kLeastShare = 0.001;  // smaller contributions are summed into one line
 
 bool in_micrometres(const Budget& budget) {
   return budget.figure.ends_with("_um");
@@ -21,7 +21,7 @@ std::string unit_of(const Budget& budget) {
   return in_micrometres(budget) ? "µm" : "µrad";
 }
 
-// To the place of U, or of `u` (GUM 7.2.6).
+// Rounds to the place of `u` (GUM 7.2.6).
 std::string shown_to(const Budget& budget, double si, double u) {
   return in_micrometres(budget) ? um_to_place(si, u) : urad_to_place(si, u);
 }
@@ -38,7 +38,7 @@ std::string significant(double x) {
   return fixed(x, std::clamp(digits, 0, 9));
 }
 
-// Effective ones are no whole number, and k is of them as they are.
+// Effective degrees of freedom are not rounded to a whole number, because k uses the exact value.
 std::string freedom_text(double freedom) {
   const bool whole = freedom == std::round(freedom);
   return freedom < 1000 ? fixed(freedom, whole || freedom >= 100 ? 0 : 2) : "many";
@@ -58,7 +58,7 @@ std::string head_of(const Budget& b, std::size_t width) {
          "\n";
 }
 
-// The largest one without which u would be smaller, and by how much. Not U: k would be another.
+// The largest contributor, and u without it. U is not given, because k would change.
 std::string improve_text(const Budget& b, std::size_t width) {
   if (b.lines.empty() || !(b.u > 0)) return "";
   const BudgetLine& first = b.lines.front();
@@ -94,7 +94,7 @@ std::string trials_text(const Budget& b) {
 
 namespace {
 
-// Of two rigs ("X u_um_per_h", "Y u_um_per_h") what both leave out is named once.
+// A key that both rigs leave out ("X u_um_per_h", "Y u_um_per_h") is named once, without the axis.
 std::vector<std::string> named_once(const std::vector<std::string>& keys) {
   const auto has = [&](const std::string& key) {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
@@ -112,7 +112,7 @@ std::vector<std::string> named_once(const std::vector<std::string>& keys) {
 }  // namespace
 
 std::string not_declared_text(const std::vector<Budget>& budgets) {
-  const Budget& first = budgets.front();  // all are of the same rigs
+  const Budget& first = budgets.front();  // all budgets have the same rigs
   if (first.not_declared.empty()) return "";
   const bool only = are_noise_only(budgets);
   return std::string(!only ? "the rig does not declare all uncertainties"
@@ -126,7 +126,7 @@ std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width) 
   TextTable table(
       {"figure", "value", "unit", "U", "k", "u random", "largest contributor", "share"});
   for (const Budget& b : budgets) {
-    const BudgetLine* first = b.lines.empty() ? nullptr : &b.lines.front();  // u is not known
+    const BudgetLine* first = b.lines.empty() ? nullptr : &b.lines.front();  // null: u is unknown
     table.add({b.figure.substr(0, b.figure.rfind('_')),
                with_u(shown_to(b, b.value, b.u), shown_u(b, b.u)), unit_of(b), shown(b, b.U),
                fixed(b.coverage_factor, 2), shown_u(b, b.u_random),

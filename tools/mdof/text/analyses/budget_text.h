@@ -1,4 +1,4 @@
-// Uncertainty budgets as tables for people and as CSV.
+// Uncertainty budgets as tables and as CSV.
 #pragma once
 
 #include <optional>
@@ -10,17 +10,17 @@
 
 namespace mdof::tools {
 
-// One row a figure: value, U, k, what is random, and the largest contributor.
+// One row for each figure: value, U, k, random part of u, and the largest contributor.
 std::string budgets_text(const std::vector<Budget>& budgets, std::size_t width);
-// The figures of a run, or why they have no uncertainty.
+// The figures of a run, or the reason why they have no uncertainty.
 std::string stated_figures_text(const StatedFigures& stated, std::size_t width);
-// One figure whole, with a sentence that says what to improve first.
+// All details of one figure, with a sentence about what to improve first.
 std::string budget_text(const Budget& budget, const std::optional<Decision>& decision,
                         std::size_t width);
-// One row a figure and contributor.
+// One row for each figure and contributor.
 std::string budgets_csv(const std::vector<Budget>& budgets);
 
-// What these budgets leave out, as the rig does not declare it; "": nothing.
+// States which undeclared uncertainties these budgets do not contain; empty: none is missing.
 std::string not_declared_text(const std::vector<Budget>& budgets);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// The drift of a stored run as text for people.
+// The drift of a stored run as text.
 #pragma once
 
 #include <string>
@@ -12,9 +12,10 @@ namespace mdof::tools {
 using daemon::drift_of;
 using daemon::DriftOfStored;
 
-// Sentences on a significant drift, lines; "": none.
+// Sentences about a significant drift, one line each; empty: no significant drift.
 std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_t width);
-// What `mdof show --figures` prints of it: closures, each error's drift, what it does to straightness.
+// The output of `mdof show --figures` about drift: closures, drift of each error, effect on
+// straightness.
 std::string drift_text(const Run& run, const DriftOfStored& drift, std::size_t width);
 
 }  // namespace mdof::tools

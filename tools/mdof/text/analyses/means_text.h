@@ -1,4 +1,4 @@
-// The errors of a run in short: one row a target.
+// Short table of the errors of a run, with one row for each target.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace mdof::tools {
 
-// Means of all passes and both approaches ± u, as a table of this run alone has them (straightness
-// as measured, angles relative to the first target). Empty where the run gives no table, such as
-// one without targets.
+// Means of all passes and both approaches ± u, as in a compensation table of this run alone
+// (straightness as measured, angles relative to the first target). Empty if the run gives no table,
+// for example because it has no targets.
 std::string means_text(const Run& run, std::size_t width);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// A calibration of the mounting for people and as JSON.
+// A calibration of the mounting as text and as JSON.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace mdof::tools {
 
 std::string mounting_text(const MountingCalibration& found, const Rig& rig, std::size_t width);
-// `file` empty: no record was written.
+// `file` is empty if no record was written.
 std::string mounting_json(const MountingCalibration& found, const CalibrationRecord& record,
                           const std::string& file, bool rig_declares);
 

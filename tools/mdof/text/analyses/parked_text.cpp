@@ -18,7 +18,7 @@ bool is_angle(const daemon::ParkedLog& log, std::size_t series) {
   return series >= log.probes && error_names(log.axis)[series - log.probes].angle;
 }
 
-// nm/h of a length, urad/h of an angle.
+// nm/h for a length, urad/h for an angle.
 double shown(const daemon::ParkedLog& log, std::size_t series, double per_s) {
   return is_angle(log, series) ? to_urad(per_s) * kHour_s : per_s * kPerHour;
 }
@@ -72,7 +72,8 @@ std::string temperature_text(const daemon::ParkedLog& log, const algo::WarmUp& f
   return table.text(width);
 }
 
-// The series of the last window that is not below its limit, the furthest above it first.
+// Names the series that exceeds its limit most in the last window, or a series that cannot be
+// judged.
 std::string limiting_cause(const daemon::ParkedLog& log, const algo::WarmUp& found) {
   std::string worst;
   double most = 0;

@@ -1,4 +1,4 @@
-// What `mdof drift` says of a log of a parked axis.
+// The output of `mdof drift` for a log of a parked axis.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace mdof::tools {
 
-// Rates of each window, what goes with the temperature, and the verdict.
+// Drift rates of each window, the correlation with temperature, and the verdict.
 std::string parked_text(const daemon::ParkedLog& log, const algo::WarmUp& found, std::size_t width);
 std::string parked_json(const daemon::ParkedLog& log, const algo::WarmUp& found);
-// Whether it is ready, or what keeps it: a sentence without a full stop.
+// States that the system is ready, or why it is not: a sentence without a full stop.
 std::string parked_verdict(const daemon::ParkedLog& log, const algo::WarmUp& found);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// Parameters of ISO 230-2 as tables for people.
+// Parameters of ISO 230-2 as tables.
 #pragma once
 
 #include <optional>
@@ -10,15 +10,15 @@
 namespace mdof::tools {
 
 struct PositioningColumn {
-  std::string name;  // "EYX"; of a file "deviation"
+  std::string name;  // "EYX"; "deviation" for a file.
   bool angle = false;
   Positioning figures;
-  std::optional<RunPositioningUncertainty> U = std::nullopt;  // of a run
+  std::optional<RunPositioningUncertainty> U = std::nullopt;  // For a run only.
 };
 
-// A row a parameter, a column a series, with that of U where it is known.
+// One row for each parameter, one column for each series, and a column for U where it is known.
 std::string parameters_text(const std::vector<PositioningColumn>& columns, std::size_t width);
-// A row a target.
+// One row for each target.
 std::string targets_text(const PositioningColumn& column, std::size_t width);
 
 }  // namespace mdof::tools

@@ -14,7 +14,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr int kDigits = 9;  // of a map: below the picometre
+constexpr int kDigits = 9;  // digits of a map: finer than a picometre
 
 std::string along(const SeparationRecord& record) {
   return std::string("+") + letter(record.normal);
@@ -51,7 +51,7 @@ std::string series_text(const std::string& title, const std::string& place,
          "\n" + table.text(width);
 }
 
-// "U (k = 4.3) is the expanded uncertainty. "; nothing where U is not known.
+// "U (k = 4.3) is the expanded uncertainty. "; empty if U is unknown.
 std::string expanded_text(const Separation& fit) {
   std::vector<double> k = fit.machine.k;
   k.insert(k.end(), fit.target.k.begin(), fit.target.k.end());
@@ -86,14 +86,14 @@ std::string heights(const std::vector<double>& height_m) {
   return text + "]";
 }
 
-// Root mean square over the places; NaN: not known.
+// Root mean square over the places; NaN: unknown.
 double mean_u(const SeenSeries& series) {
   double sum = 0;
   for (const double u : series.u_m) sum += u * u;
   return std::sqrt(sum / static_cast<double>(series.u_m.size()));
 }
 
-// The words by which mdof knows a file of simulated data again stay as they are.
+// mdof recognises files with simulated data by these words, so they must not change.
 std::string marks_text(const SeparationRecord& record) {
   std::string text = record.simulated ? "# simulated data: no machine was measured\n" : "";
   for (const std::string& mark : record.marks) text += "# " + mark + "\n";

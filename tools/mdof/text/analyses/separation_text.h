@@ -1,4 +1,4 @@
-// A separation for people, as CSV, and as the [[plane]] of a rig.
+// A separation as text, as CSV, and as the [[plane]] of a rig.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +10,12 @@ namespace mdof::tools {
 
 std::string separation_text(const SeparationRecord& record, std::size_t width);
 
-// series ("machine" or "target"), place_mm, seen_um, u_um, U_um, whole (1: no more than offset and
-// slope is unseen).
+// Columns: series ("machine" or "target"), place_mm, seen_um, u_um, U_um, whole (1: only offset and
+// slope are not determined).
 std::string separation_csv(const SeparationRecord& record);
 
-// The target's height as [[plane]] flatness_... of a rig, with comments that say when and from what
-// it was made and what is not in it.
+// The height of the target as [[plane]] flatness_... of a rig. Comments state the date, the
+// sources, and what is not included.
 std::string separation_plane_toml(const SeparationRecord& record);
 
 // "offset, slope and 2 of period 10 mm"

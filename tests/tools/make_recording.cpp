@@ -1,4 +1,5 @@
-// A probe log as a recording, for tests: make_recording LOG.csv RIG.toml OUT.mdofrec [STARTED_UTC]
+// Converts a probe log to a recording, for tests: make_recording LOG.csv RIG.toml OUT.mdofrec
+// [STARTED_UTC]
 #include <cstdio>
 
 #include "daemon/store/recording_writer.h"

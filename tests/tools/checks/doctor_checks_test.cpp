@@ -11,14 +11,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(CheckClassDevices, EachBoardThatTheKernelHasIsTried) {
+TEST(CheckClassDevices, ChecksEachBoardOfTheKernel) {
   const Machine machine{fs::temp_directory_path() /
                         ("mdof_doctor_checks_test." + std::to_string(::getpid()))};
   EXPECT_TRUE(check_class_devices(machine).empty());
   for (const char* part : {"comedi0", "comedi0_subd0", "comedi1"})
     fs::create_directories(machine.at("sys/class/comedi") / part);
   fs::create_directories(machine.at("dev"));
-  std::ofstream(machine.at("dev/comedi1")) << "";  // comedi0 has no node that can be opened
+  std::ofstream(machine.at("dev/comedi1")) << "";  // comedi0 has no device node
   const auto found = check_class_devices(machine);
   fs::remove_all(machine.root);
   ASSERT_EQ(found.size(), 2U);
@@ -29,7 +29,8 @@ TEST(CheckClassDevices, EachBoardThatTheKernelHasIsTried) {
   EXPECT_NE(found[1].remedy.find("iocard"), std::string::npos);
 }
 
-// A machine of files: each device in /sys, with nodes in /dev that this user may open, or none.
+// A simulated computer made of files: devices in /sys, and nodes in /dev that this user may open,
+// or none.
 class CheckUsb : public testing::Test {
  protected:
   ~CheckUsb() override { fs::remove_all(machine.root); }
@@ -51,7 +52,7 @@ class CheckUsb : public testing::Test {
                         ("mdof_check_usb_test." + std::to_string(::getpid()))};
 };
 
-TEST_F(CheckUsb, TheNodeThatTheDriverOpensIsTried) {
+TEST_F(CheckUsb, ChecksTheNodeThatTheDriverOpens) {
   plug("1-1", "0cd5", "0006", "LabJack");
   plug("1-2", "1dc3", "1001", "PoLabs");
   plug("1-3", "0403", "6001", "US Digital");
@@ -72,20 +73,20 @@ TEST_F(CheckUsb, TheNodeThatTheDriverOpensIsTried) {
   EXPECT_EQ(found[2].level, Diagnosis::Level::good);
 }
 
-TEST_F(CheckUsb, DevicesOfOthersAreNotNamed) {
-  plug("1-1", "0403", "6001", "FTDI");  // the chip of a QSB in another's cable
+TEST_F(CheckUsb, IgnoresDevicesOfOtherMakers) {
+  plug("1-1", "0403", "6001", "FTDI");  // the chip of a QSB in a cable of another maker
   plug("1-2", "09db", "0001", "MCC");
   EXPECT_TRUE(check_usb(machine).empty());
 }
 
-TEST_F(CheckUsb, ADeviceThatTheKernelDidNotTakeSaysSo) {
+TEST_F(CheckUsb, ReportsADeviceWithoutANode) {
   plug("1-2", "1dc3", "1001", "PoLabs");
   const auto found = check_usb(machine);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].what, "USB: PoKeys, serial 77: Linux has no /dev/hidraw for the device");
 }
 
-// As the udev rules leave the file, and as it is without them.
+// With the file permissions that the udev rules set, and without them.
 TEST(CheckSysfsFiles, TheServiceMustBeAbleToWriteTheRate) {
   const Machine machine{fs::temp_directory_path() /
                         ("mdof_doctor_iio_test." + std::to_string(::getpid()))};
@@ -118,8 +119,9 @@ TEST(CheckSysfsFiles, TheServiceMustBeAbleToWriteTheRate) {
   EXPECT_EQ(others[0].level, Diagnosis::Level::doubtful);
 }
 
-// Its row names several files of each of several counts; the first that is closed is told.
-TEST(CheckSysfsFiles, EachCountOfACounterMustBeOpen) {
+// The row of a counter names several files for each count; the first file without permission is
+// reported.
+TEST(CheckSysfsFiles, EachCountOfACounterMustBeWritable) {
   const Machine machine{fs::temp_directory_path() /
                         ("mdof_doctor_counter_test." + std::to_string(::getpid()))};
   const fs::path counter = machine.at("sys/bus/counter/devices/counter0");

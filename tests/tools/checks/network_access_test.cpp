@@ -1,4 +1,5 @@
-// That the packaged service may reach a device on a network: the drop-in, and who tells of it.
+// Access of the packaged service to devices on a network: the drop-in, and the messages that name
+// the command for it.
 #include "tools/mdof/checks/network_access.h"
 #include "daemon/words/error_text.h"
 
@@ -27,7 +28,7 @@ class NetworkAccess : public testing::Test {
 
   fs::path units() const { return machine.root / "etc/systemd/system"; }
   void install() { std::ofstream(units() / "mdofd.service") << "[Service]\n"; }
-  // Of a configuration with a device at each of these.
+  // Checks a configuration with one device at each address.
   std::string found(const std::vector<std::string>& addresses) const {
     daemon::Config config;
     auto& axis = config.axes.emplace_back();
@@ -36,7 +37,7 @@ class NetworkAccess : public testing::Test {
       device.name = "at " + address;
       device.identity = [address] { return "tcp " + address + ":502 unit 1"; };
     }
-    axis.devices.emplace_back();  // on the USB
+    axis.devices.emplace_back();  // on USB
     std::string all;
     for (const auto& d : check_network(machine, config))
       all += std::string(to_string(d.level)) + " " + d.what + " | " + d.remedy + "\n";
@@ -46,17 +47,17 @@ class NetworkAccess : public testing::Test {
   Machine machine;
 };
 
-TEST_F(NetworkAccess, TheDropInIsWhatSystemdWants) {
+TEST_F(NetworkAccess, WritesADropInForSystemd) {
   const auto file = allow_address(units(), network_address("192.168.0.0/24").value());
   ASSERT_TRUE(file) << file.error().message;
   EXPECT_EQ(*file, units() / "mdofd.service.d/network-192.168.0.0-24.conf");
   std::stringstream text;
   text << std::ifstream(*file).rdbuf();
   EXPECT_NE(text.str().find("\n[Service]\nIPAddressAllow=192.168.0.0/24\n"), std::string::npos);
-  EXPECT_TRUE(allow_address(units(), "192.168.0.0/24"));  // again
+  EXPECT_TRUE(allow_address(units(), "192.168.0.0/24"));  // a second time
 }
 
-TEST_F(NetworkAccess, WhatIsNoAddressIsRefused) {
+TEST_F(NetworkAccess, RefusesInvalidAddresses) {
   for (const char* good : {"10.0.0.7", "fe80::1", "fd00::/8", "192.168.0.0/24"})
     EXPECT_TRUE(network_address(good)) << good;
   for (const char* bad :
@@ -71,7 +72,7 @@ TEST_F(NetworkAccess, WhatIsNoAddressIsRefused) {
   EXPECT_FALSE(network_address("::/0"));
 }
 
-TEST_F(NetworkAccess, WithoutTheRightItSaysWhoHasIt) {
+TEST_F(NetworkAccess, WithoutPermissionTheErrorNamesTheCommand) {
   const fs::path file = machine.root / "file";
   std::ofstream(file) << "no folder";
   const auto refused = allow_address(file, "10.0.0.7");
@@ -81,8 +82,8 @@ TEST_F(NetworkAccess, WithoutTheRightItSaysWhoHasIt) {
       << refused.error().message;
 }
 
-TEST_F(NetworkAccess, TheDoctorNamesWhatTheServiceMayNotReach) {
-  EXPECT_EQ(found({"192.168.0.7"}), "");  // no service here
+TEST_F(NetworkAccess, DoctorNamesUnreachableDevices) {
+  EXPECT_EQ(found({"192.168.0.7"}), "");  // the service is not installed
   install();
   EXPECT_EQ(found({"127.0.0.1", "[::1]"}), "");
   const std::string reported = found({"192.168.0.7", "192.168.1.9"});
@@ -102,7 +103,7 @@ TEST_F(NetworkAccess, TheDoctorNamesWhatTheServiceMayNotReach) {
   EXPECT_EQ(found({"192.168.0.7", "192.168.1.9"}), "");
 }
 
-TEST_F(NetworkAccess, ADriverThatCannotConnectNamesIt) {
+TEST_F(NetworkAccess, ConnectErrorsNameTheSetupCommand) {
   const drivers::Endpoint to{"192.168.0.7", 502};
   const auto names_it = [&](int error, bool service) {
     const std::string text = words::text(drivers::connect_error(to, error, service));
@@ -110,7 +111,7 @@ TEST_F(NetworkAccess, ADriverThatCannotConnectNamesIt) {
   };
   EXPECT_TRUE(names_it(EPERM, true));
   EXPECT_TRUE(names_it(EPERM, false));
-  EXPECT_TRUE(names_it(ETIMEDOUT, true));  // packets that the kernel drops
+  EXPECT_TRUE(names_it(ETIMEDOUT, true));  // the kernel drops the packets
   EXPECT_FALSE(names_it(ETIMEDOUT, false));
   EXPECT_FALSE(names_it(ECONNREFUSED, true));
 }

@@ -13,14 +13,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "device probe": device_probe; "iso230-2" would be iso230_2
+// "device probe" -> device_probe; "iso230-2" -> iso230_2
 std::string file_name_of(std::string command) {
   for (char& c : command)
     if (c == ' ' || c == '-') c = '_';
   return command;
 }
 
-// The commands that the files in the folders define: {device_probe: device_probe.cpp}.
+// The commands that the source files define: {device_probe: device_probe.cpp}.
 std::map<std::string, std::string> defined_commands() {
   const fs::path root = fs::path(MDOF_TEST_DATA).parent_path().parent_path();
   const std::regex definition("Command (\\w+)_command\\(\\)");
@@ -36,14 +36,14 @@ std::map<std::string, std::string> defined_commands() {
   return files;
 }
 
-TEST(Commands, EachFileHasItsRowAndEachRowTheFileOfItsName) {
+TEST(Commands, FilesAndRowsMatch) {
   std::map<std::string, std::string> rows;
   for (const Command& row : all_commands())
     rows[file_name_of(row.name)] = file_name_of(row.name) + ".cpp";
   EXPECT_EQ(rows, defined_commands());
 }
 
-TEST(Commands, EachIsCalledByItsName) {
+TEST(Commands, EachCommandIsCalledByItsName) {
   for (const Command& row : all_commands()) {
     CLI::App app("", "mdof");
     Action chosen;
@@ -53,7 +53,7 @@ TEST(Commands, EachIsCalledByItsName) {
   }
 }
 
-// What the option's value `value` is told; empty: it is taken.
+// The error for this value of the option; empty: the value is accepted.
 std::string reported(const Command& row, const CLI::Option& option, const std::string& value) {
   CLI::App app("", "mdof");
   Action chosen;
@@ -63,7 +63,7 @@ std::string reported(const Command& row, const CLI::Option& option, const std::s
   try {
     app.parse(words);
   } catch (const CLI::RequiredError&) {
-    return "";  // of something else
+    return "";  // about another option
   } catch (const CLI::ParseError& error) {
     return error.what();
   }
@@ -74,7 +74,7 @@ TEST(Commands, EachNumberIsFiniteAndItsLimitsAreReadable) {
   const std::regex many_digits("\\d{30}");
   int numbers = 0;
   for (const Command& row : all_commands()) {
-    if (std::string(row.name) == "sensitivity") continue;  // it looks at its numbers itself
+    if (std::string(row.name) == "sensitivity") continue;  // it checks its numbers itself
     CLI::App app("", "mdof");
     row.declare(app);
     for (const CLI::Option* option : app.get_options()) {
@@ -94,7 +94,7 @@ TEST(Commands, EachNumberIsFiniteAndItsLimitsAreReadable) {
   EXPECT_GT(numbers, 30);
 }
 
-TEST(Commands, EachShowsHowItIsCalled) {
+TEST(Commands, EachCommandHasAnExampleAndASummary) {
   for (const Command& row : all_commands()) {
     EXPECT_NE(std::string(row.footer).find(std::string("mdof ") + row.name), std::string::npos)
         << row.name;
@@ -103,7 +103,7 @@ TEST(Commands, EachShowsHowItIsCalled) {
   }
 }
 
-TEST(Commands, OneThatIsCalledIsChosen) {
+TEST(Commands, TheCalledCommandIsChosen) {
   CLI::App app("", "mdof");
   Action chosen;
   declare_commands(app, chosen);
@@ -114,7 +114,7 @@ TEST(Commands, OneThatIsCalledIsChosen) {
   EXPECT_NE(done.error().message.find("not-an-address"), std::string::npos);
 }
 
-TEST(Commands, AGroupAsksForOneOfItsCommands) {
+TEST(Commands, AGroupRequiresASubcommand) {
   CLI::App app("", "mdof");
   Action chosen;
   declare_commands(app, chosen);

@@ -25,7 +25,7 @@ std::uint32_t word_at(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-// As the kernel's vhci_hcd writes it.
+// A submit command in the form that the kernel's vhci_hcd writes.
 std::string submit(std::uint32_t number, int endpoint, std::uint32_t length,
                    const std::string& setup = "", const std::string& out = "", bool in = true) {
   std::string text = word(1) + word(number) + word(0x10002) + word(in ? 1 : 0) +
@@ -45,7 +45,7 @@ struct Got {
   std::uint32_t actual;
   std::string bytes;
 };
-// `in`: what comes are transfers to the host, which carry bytes.
+// `in`: the transfers go to the host and carry bytes.
 std::vector<Got> parse(std::string text, bool in = true) {
   std::vector<Got> all;
   while (text.size() >= 48) {
@@ -73,7 +73,7 @@ class UsbIpTest : public ::testing::Test {
   UsbIp usbip{device};
 };
 
-TEST_F(UsbIpTest, DescriptorsAreGivenAsFarAsAskedFor) {
+TEST_F(UsbIpTest, DescriptorsAreCutToTheRequestedLength) {
   auto got = ask(submit(7, 0, 18, bytes("80 06 00 01 00 00 12 00")));
   ASSERT_EQ(got.size(), 1u);
   EXPECT_EQ(got[0].command, 3u);
@@ -91,14 +91,14 @@ TEST_F(UsbIpTest, DescriptorsAreGivenAsFarAsAskedFor) {
   EXPECT_EQ(got[0].bytes, device.identity().hid_reports[1]);
 }
 
-TEST_F(UsbIpTest, WhatTheDeviceHasNotIsAStall) {
+TEST_F(UsbIpTest, UnknownRequestsStall) {
   const auto got = ask(submit(1, 0, 10, bytes("80 06 00 06 00 00 0A 00")));
   ASSERT_EQ(got.size(), 1u);
   EXPECT_EQ(got[0].status, -32);
   EXPECT_EQ(got[0].actual, 0u);
 }
 
-TEST_F(UsbIpTest, ARequestIsAnsweredOnceItsReplyIsDue) {
+TEST_F(UsbIpTest, AReplyIsSentWhenItIsDue) {
   EXPECT_TRUE(ask(submit(1, 2, 64)).empty()) << "nothing is there yet";
   family::Frame asked = family::request(family::kEncoderValues);
   asked.id = 9;
@@ -117,7 +117,7 @@ TEST_F(UsbIpTest, ARequestIsAnsweredOnceItsReplyIsDue) {
   EXPECT_TRUE(ask("", 2'000'000).empty());
 }
 
-TEST_F(UsbIpTest, EndpointsWaitForThemselvesOnly) {
+TEST_F(UsbIpTest, EndpointsDoNotBlockEachOther) {
   EXPECT_TRUE(ask(submit(1, 1, 8) + submit(2, 2, 64) + submit(3, 2, 64) + submit(4, 3, 3)).empty());
   family::Frame asked = family::request(family::kTick);
   const std::string report = family::wrap(family::Way::request, asked);
@@ -128,7 +128,7 @@ TEST_F(UsbIpTest, EndpointsWaitForThemselvesOnly) {
   EXPECT_EQ(got[1].number, 3u);
 }
 
-TEST_F(UsbIpTest, ATransferIsCancelledOnceOrIsDone) {
+TEST_F(UsbIpTest, ATransferIsCancelledOnlyOnce) {
   EXPECT_TRUE(ask(submit(1, 2, 64)).empty());
   auto got = ask(unlink(2, 1));
   ASSERT_EQ(got.size(), 1u);
@@ -139,7 +139,7 @@ TEST_F(UsbIpTest, ATransferIsCancelledOnceOrIsDone) {
   EXPECT_EQ(got[0].status, 0);
 }
 
-TEST_F(UsbIpTest, BytesMayComeInAnyPieces) {
+TEST_F(UsbIpTest, AcceptsBytesInAnyPieces) {
   const std::string report =
       family::wrap(family::Way::request, family::request(family::kDeviceData));
   const std::string all = submit(1, 2, 64) + submit(2, 2, 64, "", report, false);
@@ -152,7 +152,7 @@ TEST_F(UsbIpTest, BytesMayComeInAnyPieces) {
   EXPECT_FALSE(usbip.broken());
 }
 
-TEST_F(UsbIpTest, WhatIsNoUsbIpBreaksIt) {
+TEST_F(UsbIpTest, OtherProtocolsBreakTheConnection) {
   EXPECT_EQ(usbip.exchange(std::string(48, 'x'), 0), "");
   EXPECT_TRUE(usbip.broken());
   UsbIp huge(device);

@@ -1,6 +1,6 @@
-// Checkpoints of studies: the input is a checkpoint, or, after a first byte of 1, says which bytes
-// of a good one are changed (three bytes each: place, place, value). What is accepted can be gone
-// on with.
+// Checkpoints of studies. The input is a checkpoint; or, after a first byte of 1, it lists changes
+// to a valid checkpoint (three bytes each: place, place, value). An accepted checkpoint can be
+// continued.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -35,26 +35,27 @@ std::vector<std::vector<double>> run(const std::string& text, std::size_t n,
   return values;
 }
 
-TEST(StudyRun, ARunWithoutErrorsOfItsOwnFindsTheTruth) {
+TEST(StudyRun, ARunWithoutPerturbationFindsTheTruth) {
   const auto x = run(plan_text("", "EYX_um = [2]\nEBX_urad = [50]\n"), 3);
   for (const auto& output : x)
     for (const double v : output) EXPECT_NEAR(v, 0, 1e-4);
 }
 
-// One per cent of the side probes' readings: of a wave of ±2 µm at most 20 nm, and less where the
-// targets do not meet its top.
-TEST(StudyRun, AMisjudgedSensitivityIsSeenInTheRun) {
+// 1 % of the readings of the side probes: at most 20 nm of a wave of ±2 µm, and less if no target
+// is at its crest.
+TEST(StudyRun, ASensitivityErrorAppearsInTheRun) {
   const auto x = run(plan_text(constant("probe.D.sensitivity_percent", 1) +
                                    constant("probe.E.sensitivity_percent", 1),
                                "EYX_um = [2]\n"),
                      10);
   for (const double worst : x[0]) {
     EXPECT_GT(worst, 0.002);
-    EXPECT_LT(worst, 0.0401);  // the zero at d = 0 is without motion errors
+    EXPECT_LT(worst, 0.0401);  // the zero at d = 0 contains no motion errors
   }
 }
 
-// The mean of about 100 samples and more of 50 nm noise: pitch (A, B, C) of a few µrad in none.
+// Means of at least about 100 samples with 50 nm noise: a pitch (A, B, C) of a few µrad without
+// motion.
 TEST(StudyRun, NoiseIsAveragedByTheDwell) {
   const std::string noise =
       "[[quantity]]\nname = \"probe.*.noise_nm\"\ndistribution = \"normal\"\nsd = 50\n";
@@ -66,7 +67,7 @@ TEST(StudyRun, NoiseIsAveragedByTheDwell) {
   EXPECT_LT(mean, 1.6);
 }
 
-TEST(StudyRun, ATrialAloneIsTheTrialAmongOthers) {
+TEST(StudyRun, ATrialAloneGivesTheSameResult) {
   const std::string text = plan_text(
       "[[quantity]]\nname = \"encoder.noise_nm\"\ndistribution = \"normal\"\nsd = 20\n"
       "[[quantity]]\nname = \"probe.*.drift_nm\"\ndistribution = \"normal\"\nsd = 20\n",

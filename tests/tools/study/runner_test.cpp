@@ -1,4 +1,4 @@
-// The runner of studies: any division and interruption of the work gives the same bytes.
+// The runner of studies gives the same bytes for any division and interruption of the work.
 #include "tools/mdof/study/running/runner.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@
 namespace mdof::tools {
 namespace {
 
-// A normal and a skewed output; some trials have no solution. Asks to be interrupted when it comes
-// to a certain trial for the first time.
+// A normal and a skewed output; some trials have no solution. Requests an interrupt when it first
+// reaches a given trial.
 class Noise final : public algo::Experiment {
  public:
   explicit Noise(std::uint64_t interrupt_at = ~std::uint64_t{0}) : interrupt_at_(interrupt_at) {}
@@ -67,7 +67,7 @@ StudyWork work_of(const algo::Experiment& experiment, const RunnerOptions& optio
   return empty_work(experiment, algo::pilot_scale(experiment, trials));
 }
 
-// Without the time that it took.
+// The checkpoint without the elapsed time.
 std::string bytes_of(StudyWork& work) {
   work.elapsed_s = 0;
   return checkpoint_bytes(work);
@@ -81,7 +81,7 @@ std::string run_through(const algo::Experiment& experiment, const RunnerOptions&
   return bytes_of(work);
 }
 
-// Interrupted once, stored, read back, continued with another number of threads.
+// Interrupts the study once, stores and reads it, and continues it with another number of threads.
 std::string run_interrupted(Noise& experiment, RunnerOptions options,
                             std::optional<std::uint64_t> after = std::nullopt) {
   Processes processes = Processes::join().value();
@@ -111,10 +111,9 @@ TEST(StudyRunner, GivesTheSameBytesForAnyNumberOfThreads) {
   EXPECT_EQ(one, run_through(noise, fixed(kTrials, 5)));
 }
 
-// Slow trials are done in shorter blocks, and the one that is under way at an interrupt is left
-// out.
+// Slow trials use shorter blocks. An interrupt discards the block in progress.
 TEST(StudyRunner, SlowTrialsAreInterruptedWithinABlock) {
-  constexpr std::uint64_t kBlock = 4 * 512;  // of four bins
+  constexpr std::uint64_t kBlock = 4 * 512;  // four bins
   Noise noise(3 * kBlock + 10);
   RunnerOptions slow = fixed(20000, 3);
   slow.slow = true;
@@ -132,15 +131,15 @@ TEST(StudyRunner, AStudyInterruptedBeforeItsFirstBlockIsContinued) {
   EXPECT_EQ(run_interrupted(noise, slow, 0), whole);
 }
 
-TEST(StudyRunner, AnInterruptedStudyIsContinuedToTheSameBytes) {
+TEST(StudyRunner, AContinuedStudyGivesTheSameBytes) {
   Noise noise(400000);
   EXPECT_EQ(run_interrupted(noise, fixed(kTrials, 2)), run_through(noise, fixed(kTrials, 1)));
 }
 
-TEST(StudyRunner, TheAdaptiveRuleIsContinuedToTheSameBytes) {
+TEST(StudyRunner, AContinuedAdaptiveStudyGivesTheSameBytes) {
   Noise noise(60000);
   const std::string whole = run_through(noise, adaptive(1));
-  EXPECT_EQ(whole, run_through(noise, adaptive(4)));  // surplus blocks leave no trace
+  EXPECT_EQ(whole, run_through(noise, adaptive(4)));  // surplus blocks have no effect
   EXPECT_EQ(whole, run_interrupted(noise, adaptive(2)));
 }
 
@@ -158,7 +157,7 @@ TEST(StudyRunner, TheAdaptiveRuleEndsAtItsLimit) {
   EXPECT_LT(work.trials, 100000u + algo::block_trials(noise));
 }
 
-// Its second output has no solution.
+// An experiment whose second output has no solution.
 class HalfSolved final : public algo::Experiment {
  public:
   const std::vector<std::string>& outputs() const override { return noise_.outputs(); }
@@ -173,7 +172,7 @@ class HalfSolved final : public algo::Experiment {
   Noise noise_;
 };
 
-TEST(StudyRunner, TheAdaptiveRuleEndsWhereAnOutputIsNeverSolved) {
+TEST(StudyRunner, TheAdaptiveRuleEndsIfAnOutputIsNeverSolved) {
   const HalfSolved half;
   Processes processes = Processes::join().value();
   StudyRunner runner = StudyRunner::create(half, adaptive(2), processes).value();
@@ -184,7 +183,7 @@ TEST(StudyRunner, TheAdaptiveRuleEndsWhereAnOutputIsNeverSolved) {
   EXPECT_EQ(work.trials, algo::adaptive_block_trials(half, 0.95).value());
 }
 
-TEST(StudyRunner, ADamagedCheckpointIsAnErrorAndNoMore) {
+TEST(StudyRunner, ADamagedCheckpointIsAnError) {
   const Noise noise;
   const std::string bytes = run_through(noise, fixed(30000, 1));
   ASSERT_TRUE(parse_checkpoint(bytes, noise));
@@ -193,12 +192,12 @@ TEST(StudyRunner, ADamagedCheckpointIsAnErrorAndNoMore) {
   for (std::size_t at = 0; at < std::min<std::size_t>(bytes.size(), 600); ++at) {
     std::string damaged = bytes;
     damaged[at] = static_cast<char>(~damaged[at]);
-    (void)parse_checkpoint(damaged, noise);  // any answer; the sanitizers watch
+    (void)parse_checkpoint(damaged, noise);  // any result is accepted; the sanitizers detect errors
   }
-  EXPECT_TRUE(parse_checkpoint(bytes, Noise(7)));  // the same shape
+  EXPECT_TRUE(parse_checkpoint(bytes, Noise(7)));  // an experiment of the same shape
 }
 
-TEST(StudyWorkers, DoTheFirstPiecesAndNoOthers) {
+TEST(StudyWorkers, DoExactlyTheFirstPieces) {
   std::atomic<bool> go_on = true;
   std::atomic<int> done = 0;
   const std::size_t reported = in_parallel(
@@ -214,14 +213,14 @@ TEST(StudyWorkers, DoTheFirstPiecesAndNoOthers) {
             0u);
 }
 
-TEST(StudyWorkers, HandOnAnException) {
+TEST(StudyWorkers, PassOnAnException) {
   const auto work = [](unsigned, std::size_t i) {
     if (i == 5) throw std::runtime_error("out of memory");
   };
   EXPECT_THROW(in_parallel(2, 100, work, [] { return true; }), std::runtime_error);
 }
 
-TEST(StudyJson, ComesBackToTheSameText) {
+TEST(StudyJson, ReadsBackToTheSameText) {
   StudyResult result;
   result.name = "a \"study\"";
   result.trials = 12;

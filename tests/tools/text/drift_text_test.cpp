@@ -5,7 +5,7 @@
 namespace mdof::tools {
 namespace {
 
-// 3 min: δy +0.25 µm as a drift, δz +0.5 µm that may be steps.
+// A run of 3 min: δy +0.25 µm as a drift, δz +0.5 µm that may be steps.
 algo::RunDrift drift_and_steps() {
   algo::RunDrift drift;
   drift.length_s = 180;

@@ -27,7 +27,7 @@ std::size_t widest(const std::string& text) {
   return widest;
 }
 
-TEST(TextTable, InFewColumnsIsBlocksThatBeginWithTheKeys) {
+TEST(TextTable, SplitsIntoBlocksThatBeginWithTheKeys) {
   TextTable table({"run", "dir", "a/µm", "b/µm", "flags"}, 2);
   table.add({"1", "+", "1.0000", "2.0000", ""});
   table.add({"2", "-", "3.0000", "4.0000", ""});
@@ -44,7 +44,7 @@ TEST(TextTable, InFewColumnsIsBlocksThatBeginWithTheKeys) {
             "  2    -  4.0000\n");
 }
 
-TEST(TextTable, BreaksWordsIntoLinesWithinTheirColumn) {
+TEST(TextTable, BreaksTextWithinItsColumn) {
   TextTable table({"run", "flags"});
   table.add({"1", "saturated:A lost:B unsolved: five probes are needed and three are left"});
   table.add({"2", "short"});
@@ -57,7 +57,7 @@ TEST(TextTable, BreaksWordsIntoLinesWithinTheirColumn) {
             "  2  short\n");
 }
 
-TEST(TextTable, NarrowsTheWidestColumnOfWordsBeforeItMakesBlocks) {
+TEST(TextTable, NarrowsTheWidestTextColumnFirst) {
   TextTable table({"check", "value", "result"});
   table.add({"the errors of a known movement are calculated", "0.1", "ok"});
   EXPECT_EQ(table.text(46),
@@ -67,7 +67,7 @@ TEST(TextTable, NarrowsTheWidestColumnOfWordsBeforeItMakesBlocks) {
             "are calculated\n");
 }
 
-TEST(TextTable, BreaksAWordThatIsWiderThanAllOfItsBlockButNoPath) {
+TEST(TextTable, BreaksLongWordsButNoPaths) {
   const std::string word(100, 'w'), path = "/" + word;
   for (const std::string& note : {word, path}) {
     TextTable table({"run", "note"});
@@ -76,8 +76,8 @@ TEST(TextTable, BreaksAWordThatIsWiderThanAllOfItsBlockButNoPath) {
   }
 }
 
-// GUM 7.2.6, with its own example: 10.057 62 Ω with u = 27 mΩ is 10.058 Ω.
-TEST(Rounded, UHasTwoSignificantDigitsAndTheValueTheSamePlace) {
+// GUM 7.2.6 with its own example: 10.057 62 Ω with u = 27 mΩ is 10.058 Ω.
+TEST(Rounded, UHasTwoDigitsAndTheValueTheSamePlace) {
   EXPECT_EQ(with_u(10.05762, 0.027, 4), "10.058 ± 0.027");
   EXPECT_EQ(with_u(12.3456, 1.149, 4), "12.3 ± 1.1");
   EXPECT_EQ(with_u(-0.123456, 0.00996, 4), "-0.123 ± 0.010");  // 0.00996 is 0.010
@@ -90,17 +90,17 @@ TEST(Rounded, UHasTwoSignificantDigitsAndTheValueTheSamePlace) {
   EXPECT_EQ(urad_to_place(3.3e-5, 3.3e-5), "33");
 }
 
-TEST(Rounded, AColumnHasOnePlaceWhereItsUAreAlike) {
+TEST(Rounded, AColumnWithSimilarUHasOnePlace) {
   EXPECT_EQ(column_u({0.9, 1.1, 0.5}), 1.1);
   EXPECT_EQ(column_u({0.2, 1.0}), 1.0);
-  EXPECT_EQ(column_u({0.19, 1.0}), 0);  // would have one digit
+  EXPECT_EQ(column_u({0.19, 1.0}), 0);  // would have only one digit
   EXPECT_EQ(column_u({}), 0);
   EXPECT_EQ(um_with_u(1e-6, 0.99e-9, 1.1e-9), "1.0000 ± 0.0010");
   EXPECT_EQ(urad_with_u(1e-6, 0.099e-6, 0.11e-6), "1.00 ± 0.10");
 }
 
-// Of an unknown u the places stay as they are everywhere else.
-TEST(Rounded, WithoutUAsElsewhere) {
+// If u is unknown, the number has its usual decimals.
+TEST(Rounded, WithoutUHasTheUsualDecimals) {
   EXPECT_EQ(um_to_place(1.23456e-6, 0), "1.2346");
   EXPECT_EQ(urad_to_place(1.23456e-6, kNaN), "1.235");
   EXPECT_EQ(um_with_u(1.23456e-6, kNaN), "1.2346 ± -");
@@ -124,7 +124,7 @@ TEST(Fixed, HasNoMinusZeroAndNo300Digits) {
   EXPECT_EQ(fixed(kNaN, 4), "-");
 }
 
-TEST(NoticeLines, OfACodeAreThreeAndACount) {
+TEST(NoticeLines, ShowsThreeOfACodeAndACount) {
   Notices many{notice(NoticeCode::cycle_unknown)};
   for (int i = 0; i < 100; ++i)
     many.push_back(notice(NoticeCode::probe_stepped, "A", {{"step_um", i}, {"time_s", 2}}));
@@ -139,7 +139,7 @@ TEST(NoticeLines, OfACodeAreThreeAndACount) {
   EXPECT_EQ(summarised(four), four);  // "and 1 more" would save nothing
 }
 
-TEST(TerminalColumns, OfAPipeAre80OrWhatColumnsSays) {
+TEST(TerminalColumns, APipeHas80OrTheStatedColumns) {
   if (::isatty(STDOUT_FILENO) == 1) GTEST_SKIP() << "the standard output is a terminal";
   const std::pair<const char*, std::size_t> cases[] = {
       {"132", 132}, {"20", 80}, {"0", 80}, {"", 80}, {"x", 80}, {"99999999999999999999", 80}};
@@ -151,7 +151,7 @@ TEST(TerminalColumns, OfAPipeAre80OrWhatColumnsSays) {
   EXPECT_EQ(terminal_columns(), 80u);
 }
 
-TEST(CsvText, KnowsWhatIsNotKnownAndQuotesWhatMustBe) {
+TEST(CsvText, UnknownIsEmptyAndSpecialTextIsQuoted) {
   CsvText csv;
   csv.cell(0.1).cell(kNaN).cell(-0.0).cell(7LL).cell("a, \"b\"").cell("c").end_row();
   EXPECT_EQ(csv.take(), "0.10000000000000001,,0,7,\"a, \"\"b\"\"\",c\n");
@@ -179,7 +179,7 @@ RunUncertainty noise_of(const Run& run) {
   return algo::run_uncertainty(nothing_declared, run);
 }
 
-TEST(RunTables, FitAnyTerminalWhateverTheNumbersAre) {
+TEST(RunTables, FitTheWidthOfTheTerminal) {
   for (const bool valid : {true, false}) {
     const auto run = one_point(valid, "five probes are needed, and of A, B, C two are left");
     for (const std::size_t width : {80u, 100u, 132u, 200u})
@@ -190,14 +190,14 @@ TEST(RunTables, FitAnyTerminalWhateverTheNumbersAre) {
   }
 }
 
-TEST(RunTables, AnUncertaintyThatIsNotKnownIsNotZero) {
+TEST(RunTables, UnknownUncertaintyIsNotShownAsZero) {
   const auto run = one_point(true, "");
   const std::string text = points_text(run, noise_of(run), 200);
   EXPECT_EQ(text.find("± 0.000"), std::string::npos) << text;
   EXPECT_EQ(text.find("-0.000 "), std::string::npos) << text;
 }
 
-TEST(RunCsv, HasUnitsInItsHeaderAndNothingWhereNothingIsKnown) {
+TEST(RunCsv, HasUnitsAndEmptyCellsForUnknownValues) {
   const auto run = one_point(true, ""), unsolved = one_point(false, "why");
   const std::string csv = points_csv(run, noise_of(run));
   EXPECT_TRUE(
@@ -212,9 +212,9 @@ TEST(RunCsv, HasUnitsInItsHeaderAndNothingWhereNothingIsKnown) {
             std::string::npos);
 }
 
-// The names are of the body that moves: where that is the fixture they have the other sign, as in
-// the JSON.
-TEST(RunCsv, SaysTheErrorsOfTheBodyThatMoves) {
+// The keys state errors of the moving body. If the fixture moves, the errors have the opposite
+// sign, as in the JSON.
+TEST(RunCsv, StatesTheErrorsOfTheMovingBody) {
   auto run = one_point(true, "");
   EXPECT_NE(points_csv(run, noise_of(run)).find(",-123.4567,"), std::string::npos)
       << points_csv(run, noise_of(run));
@@ -227,7 +227,7 @@ TEST(RunCsv, SaysTheErrorsOfTheBodyThatMoves) {
   EXPECT_NE(json.text().find("\"EYX_um\":123.4567,"), std::string::npos);
 }
 
-TEST(LogCsv, IsALogWithTimesToTheNanosecond) {
+TEST(LogCsv, HasTimesToTheNanosecond) {
   const std::vector<Channel> channels{
       {"encoder", Unit::um}, {"A", Unit::volt}, {"temperature", Unit::deg_c}, {"n", Unit::other}};
   EXPECT_EQ(log_csv_head({"axis: X"}, channels),

@@ -18,7 +18,7 @@ constexpr const char* kUpdate =
     R"({"id":"B","um":null,"quality":"missing","range_um":200}],)"
     R"("errors":{"EYX_um":0.25,"EAX_urad":-3.5},"run":7}}})";
 
-TEST(TextTable, SetsNumbersToTheRightAndWordsToTheLeft) {
+TEST(TextTable, AlignsNumbersRightAndTextLeft) {
   TextTable table({"error", "value/µm"});
   table.add({"EYX", "-12.5000"});
   table.add({"E", "3.0000"});
@@ -36,14 +36,14 @@ TEST(TextTable, CountsCharactersNotBytes) {
   EXPECT_EQ(table.text(), "a   b\n--  -\n±±  x\nzz  y\n");
 }
 
-TEST(TextTable, WhatIsNotKnownIsADash) {
+TEST(TextTable, UnknownValuesAreADash) {
   EXPECT_EQ(in_um(kNaN), "-");
   EXPECT_EQ(with_u(in_um(kNaN), in_um(1e-9)), "-");
   EXPECT_EQ(with_u(in_um(58.44e-9), in_um(2.1e-9)), "0.0584 ± 0.0021");
   EXPECT_EQ(in_urad(-1.0005e-6), "-1.000");
 }
 
-TEST(RangeBar, ShowsWhereInItsRangeAProbeIs) {
+TEST(RangeBar, ShowsThePositionInTheRange) {
   EXPECT_EQ(range_bar(0, 200)[21], '#');
   EXPECT_EQ(range_bar(-99.9, 200)[1], '#');
   EXPECT_EQ(range_bar(99.9, 200)[41], '#');
@@ -68,7 +68,7 @@ TEST(LiveUpdate, IsReadFromItsNotification) {
   EXPECT_EQ(update->run, 7);
 }
 
-TEST(LiveUpdate, AnythingElseIsNone) {
+TEST(LiveUpdate, RejectsOtherMessages) {
   for (const char* line :
        {"", "{", "[]", "42", "null", "{\"method\":\"run.event\",\"params\":{\"value\":{}}}",
         "{\"method\":\"live.update\"}", "{\"method\":\"live.update\",\"params\":[1]}"})
@@ -76,7 +76,7 @@ TEST(LiveUpdate, AnythingElseIsNone) {
   EXPECT_TRUE(read_update(R"({"method":"live.update","params":{"value":{}}})"));
 }
 
-TEST(LiveScreen, IsOneLineAnUpdateWhereThereIsNoTerminal) {
+TEST(LiveScreen, PrintsOneLineWithoutATerminal) {
   LiveScreen screen(false, 80);
   const std::string line = screen.next(*read_update(kUpdate));
   EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1);
@@ -85,7 +85,7 @@ TEST(LiveScreen, IsOneLineAnUpdateWhereThereIsNoTerminal) {
   EXPECT_NE(line.find("A 50.000 µm"), std::string::npos);
 }
 
-TEST(LiveScreen, DrawsAgainInPlaceOnATerminal) {
+TEST(LiveScreen, RedrawsInPlaceOnATerminal) {
   LiveScreen screen(true, 80);
   const std::string first = screen.next(*read_update(kUpdate));
   const std::string second = screen.next(*read_update(kUpdate));
@@ -112,7 +112,7 @@ TEST(JsonText, ShowsMembersAndTables) {
             "a: 1\nb.c: x\ng: -\n\nd\n e  f\n--  -\n 1  -\n20\n");
 }
 
-TEST(JsonText, WhatIsNoJsonComesBackAsItIs) {
+TEST(JsonText, ReturnsOtherTextUnchanged) {
   EXPECT_EQ(readable("{"), "{\n");
 }
 

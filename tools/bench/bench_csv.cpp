@@ -1,5 +1,5 @@
-// How fast CSV files of the bench are read: the row parser alone on one thread, the whole of
-// CsvRows (reading, hashing, parsing) as a program has it, and pandas.read_csv on the same file.
+// Speed of reading the CSV files of the benchmark: the row parser alone on one thread, the complete
+// CsvRows (reading, hashing, parsing), and pandas.read_csv on the same file.
 //   bench_csv log|frames FILE [REPEATS]   FILE of generate_log; the best of REPEATS (5) counts
 #include <algorithm>
 #include <chrono>
@@ -45,7 +45,7 @@ void print(const char* what, const Figures& f) {
               f.seconds * 1e9 / static_cast<double>(f.fields));
 }
 
-// The file is in memory, already cut into chunks: parsing is all that is timed.
+// The file is in memory and already cut into chunks, so that only parsing is timed.
 class ParseAlone {
  public:
   ParseAlone(const std::string& path, CsvKind kind) : kind_(kind), path_(path) {
@@ -93,7 +93,7 @@ Figures end_to_end(const std::string& path, CsvRowsOptions options) {
   return figures;
 }
 
-// The values of the file's blocks printed again with 17 digits.
+// Prints the values of the file again with 17 digits.
 Figures print_17(const std::string& path, CsvRowsOptions options) {
   auto rows = value(CsvRows::open(path, options));
   SampleBlock block;
@@ -120,7 +120,7 @@ Figures best(int runs, Run run) {
   return best;
 }
 
-// Seconds of pandas.read_csv alone, its import left out; 0: not installed.
+// Seconds of pandas.read_csv without its import; 0: pandas is not installed.
 double pandas_s(const std::string& path, int runs) {
   ::setenv("BENCH_FILE", path.c_str(), 1);
   ::setenv("BENCH_RUNS", std::to_string(runs).c_str(), 1);

@@ -1,5 +1,5 @@
-// The three reference lines of a long series in no order, and the minimum zone alone of one in
-// order. Bar: 20 ms for the minimum zone of 100,000 readings.
+// Times the three reference lines of a long unsorted series, and the minimum zone alone of a sorted
+// series. Limit: 20 ms for the minimum zone of 100,000 readings.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -20,7 +20,7 @@ double any(std::uint32_t i, std::uint32_t purpose) {
   return mdof::uniform(random[0], random[1]);
 }
 
-// Best of several rounds, in milliseconds.
+// Best of several rounds, ms.
 template <class Work>
 double best_ms(Work work) {
   double best = 1e9;

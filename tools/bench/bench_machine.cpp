@@ -1,9 +1,9 @@
-// A budget of the co-planar machine with all its 84 part errors varying, by the full product of its
-// 14 frames, on one thread; in nanoseconds of processor time a trial. Beside it
-// tools/bench/peers/machine_numpy.py does the same in NumPy.
+// Budget of the co-planar machine in which all 84 part errors vary, with the full product of its 14
+// frames, on one thread; processor time for each trial in ns. tools/bench/peers/machine_numpy.py
+// does the same with NumPy.
 //   bench_machine [TRIALS] [baseline|avx2|avx512]
-//   bench_machine --frames   prints the nominal machine for the peer, one row a frame from the tool
-//                            to the work: side, nominal rotation and translation, point
+//   bench_machine --frames   prints the nominal machine for the peer, one row for each frame from
+//                            the tool to the work: side, nominal rotation and translation, point
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -19,7 +19,7 @@ using mdof::InstructionSet;
 constexpr int kRounds = 5;
 const mdof::algo::Command kAt = {0.03, 0.02, 0.02, 0, 0.1, 0};
 
-// Half widths: 1 µm, and 50 µrad, the paper's Eq. 9.
+// Half widths: 1 µm and 50 µrad, Eq. 9 of the paper.
 mdof::Machine machine() {
   auto machine = mdof::parse_machine(mdof::co_planar_machine(), "co-planar").value();
   machine.sources.clear();

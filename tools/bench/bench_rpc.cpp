@@ -1,7 +1,8 @@
-// Round trip of compensation.at, the daemon's own, against a bare echo, and requests a second with
-// pipelining: both servers on one loop, one kind of socket, the same message sizes, blocks in turn.
+// Round trip of compensation.at against a bare echo, and pipelined requests in one second. Both
+// servers run on one loop with one kind of socket and the same message sizes, in alternating
+// blocks.
 //   bench_rpc [round trips] [pipelined requests]
-// Exit 1 when a bar is missed: ratio at most 1.5, at least 50,000 requests a second.
+// Exit status 1 if a limit is missed: ratio at most 1.5, at least 50,000 requests/s.
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -29,7 +30,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kMaxRatio = 1.5;
 constexpr double kMinRequestsPerS = 50e3;
-constexpr int kBlock = 1000;  // round trips before it is the other server's turn
+constexpr int kBlock = 1000;  // round trips before the other server's turn
 
 const std::string kRequest =
     R"({"jsonrpc":"2.0","method":"compensation.at","params":{"axis":"X","position_mm":12.3},"id":1})"
@@ -46,7 +47,7 @@ T must(Result<T> result) {
   return std::move(*result);
 }
 
-// A table of 61 points, 1 mm apart, active on the X axis.
+// A table with 61 points at a pitch of 1 mm, active on the X axis.
 daemon::ActiveTables table_in_force() {
   store::ActiveTable active;
   active.generation = 7;
@@ -63,7 +64,7 @@ daemon::ActiveTables table_in_force() {
   return {{std::make_shared<const store::ActiveTable>(std::move(active)), nullptr, nullptr}, {}};
 }
 
-// Gives a fixed reply to whatever it reads.
+// Sends a fixed reply for each read.
 struct Echo : std::enable_shared_from_this<Echo> {
   Echo(EventLoop& loop, int fd, std::string text)
       : socket(*loop.core()->context, fd), reply(std::move(text)) {}
@@ -150,7 +151,7 @@ void start(Bench& bench) {
   bench.loop.post([echo] { echo->read(); });
 }
 
-// The ratio of the medians.
+// Ratio of the medians.
 double compare_round_trips(const Bench& bench, int count) {
   std::vector<char> buffer(65536);
   std::vector<double> rpc_us, echo_us;
@@ -159,7 +160,7 @@ double compare_round_trips(const Bench& bench, int count) {
     const int fd = rpc ? bench.rpc.get() : bench.echo.get();
     const double us = round_trip_us(fd, bench.reply.size(), buffer);
     if (i >= 2 * kBlock)
-      (rpc ? rpc_us : echo_us).push_back(us);  // after a block of each to warm up
+      (rpc ? rpc_us : echo_us).push_back(us);  // the first block of each server warms up
   }
   const double rpc = median(rpc_us), echo = median(echo_us);
   std::printf("round trip, median of %zu calls of each kind; request %zu bytes, reply %zu bytes\n",
@@ -170,7 +171,7 @@ double compare_round_trips(const Bench& bench, int count) {
 }
 
 double pipelined_per_s(const Bench& bench, int count) {
-  constexpr int kChunk = 128, kAhead = 8;  // requests a send, sends ahead of the replies
+  constexpr int kChunk = 128, kAhead = 8;  // requests in one send, sends ahead of the replies
   std::string chunk;
   for (int i = 0; i < kChunk; ++i) chunk += kRequest;
   const std::size_t chunk_reply = kChunk * bench.reply.size();

@@ -1,5 +1,5 @@
-// The batch solver alone against a plain copy of the same bytes: six columns in, five out, in
-// memory too large for any cache. Bar: at least half of the copy's rate.
+// The batch solver alone against a plain copy of the same bytes: six input columns and five output
+// columns in memory larger than any cache. Limit: at least half of the copy's rate.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -28,7 +28,7 @@ probe = [
 ]
 )";
 
-// Best of several rounds, in seconds.
+// Best of several rounds, s.
 template <class Work>
 double best_s(Work work) {
   double best = 1e9;
@@ -58,7 +58,7 @@ int main() {
     from.reading_m[k] = in[k + 1].data();
     to.local[k] = out[k].data();
   }
-  // The same bytes: five columns copied, and the sixth, which is only read, folded into a sum.
+  // Moves the same bytes: five columns are copied, and the sixth, which is only read, is summed.
   double sum = 0;
   const double copy_s = best_s([&] {
     for (std::size_t k = 0; k < 5; ++k) std::memcpy(out[k].data(), in[k].data(), 8 * kFrames);

@@ -1,9 +1,11 @@
 // Storing runs against a bare prepared-statement loop into SQLite with the same rows and durability
-// (the bar: at least 0.8). The bare side gets a table without keys, checks or references, and its
-// rows ready to be bound; ours also keeps provenance, references and the hash of the results.
+// (limit: at least 0.8). The bare side has a table without keys, checks or references, and its rows
+// are ready to be bound; the store also keeps provenance, references and the hash of the results.
 //
-//   bench_store [FOLDER]    prints both rates and their ratio for small and for large runs; exit 1
-//                           below 0.8. FOLDER must be on a disk: in memory durability costs nothing
+//   bench_store [FOLDER]    prints both rates and their ratio for small and large runs; exit status
+// 1
+//                           below 0.8. FOLDER must be on a disk: in memory, durability costs
+// nothing
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -56,7 +58,7 @@ Run make_run(int points) {
   return run;
 }
 
-// The bare side: SQLite's own calls and nothing else.
+// The bare side, with direct calls of SQLite only.
 class Bare {
  public:
   explicit Bare(const fs::path& file) {
@@ -123,7 +125,7 @@ double median(std::vector<double> x) {
   return x[x.size() / 2];
 }
 
-// Rounds alternate, so that a slow moment of the disk or the machine meets both.
+// The rounds alternate, so that a slow moment of the disk or the computer affects both sides.
 double compare(const fs::path& folder, int points_per_run, int runs_per_round, int rounds) {
   const Run run = make_run(points_per_run);
   const std::string size = std::to_string(points_per_run);

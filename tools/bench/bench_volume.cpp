@@ -1,5 +1,5 @@
-// A volumetric table of 26 x 26 x 26 nodes: how long it takes to build, and its value at a command,
-// on one thread, in processor time.
+// A volumetric table with 26 x 26 x 26 nodes: the time to build it, and the time for its value at a
+// command; processor time on one thread.
 //   bench_volume
 #include <cstdio>
 #include <ctime>
@@ -16,7 +16,7 @@ double seconds_since(std::clock_t begin) {
   return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
 }
 
-// Every error of X, Y and Z at 21 positions.
+// A machine with every error of X, Y and Z at 21 positions.
 std::string description() {
   std::string text =
       "name = \"mill\"\nmachine = {chain = \"w-X-b-Y-Z-t\"}\ntool = {point_mm = [0, 0, 50]}\n";

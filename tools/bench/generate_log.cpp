@@ -1,9 +1,9 @@
-// Writes CSV files for benchmarks, the same bytes for the same arguments.
+// Writes CSV files for benchmarks. The same arguments give the same bytes.
 //   generate_log log    [ROWS [SEED]] > log.csv      1,500,000 rows are about 100 MB
 //   generate_log frames [ROWS [SEED]] > frames.csv     900,000 rows are about 100 MB
-// log: an axis that steps to targets 6 mm apart over 60 mm, both ways, again and again, and dwells
+// log: an axis steps to targets 6 mm apart over 60 mm in both directions, repeatedly, and dwells
 // 0.5 s at each, sampled at 4 kHz; readings of the default fixture with 10 nm of noise, 6 decimals.
-// No comment lines, so that any other CSV reader takes the file without options.
+// No comment lines, so that any other CSV reader reads the file without options.
 // frames: random positions and errors without noise, 17 digits.
 #include <algorithm>
 #include <array>
@@ -48,7 +48,7 @@ class Random {
   double uniform(double low, double high) {
     return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
   }
-  // Standard deviation 1, near enough to normal, the same on every system.
+  // Approximately normal with standard deviation 1, the same on every system.
   double normal() {
     double sum = -6;
     for (int i = 0; i < 12; ++i) sum += uniform(0, 1);
@@ -59,8 +59,8 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-// Position of the axis against time: dwell, smooth move, dwell ...; a turn without a dwell outside
-// the first and the last target, so that each target is reached from a known side.
+// Position of the axis over time: dwell, smooth move, dwell ... The axis turns without a dwell
+// beyond the first and the last target, so that each target has a defined approach.
 double position_mm(double time_s) {
   constexpr int kStops = 2 * kTargets + 2;  // up, turn, down, turn
   auto stop_mm = [](int i) {
@@ -74,7 +74,7 @@ double position_mm(double time_s) {
   constexpr double kCycle_s = 2 * kTargets * kStep_s + 2 * kMove_s;
   double t_s = std::fmod(time_s, kCycle_s);
   int stop = 0;
-  for (;; ++stop) {  // each stop: the move to the next one, then the dwell there
+  for (;; ++stop) {  // each stop: the move to the next stop, then the dwell there
     const bool turn = (stop + 1) % kStops == 0 || (stop + 1) % kStops == kTargets + 1;
     const double length_s = kMove_s + (turn ? 0 : kDwell_s);
     if (t_s < length_s || stop == kStops - 1) break;
@@ -96,7 +96,7 @@ Errors random_errors(Random& random) {
           random.uniform(-1000, 1000), random.uniform(-1000, 1000)};
 }
 
-// Lines for standard output.
+// Buffers lines for the standard output.
 class Output {
  public:
   void text(const char* s) { end_ = std::copy(s, s + std::strlen(s), end_); }

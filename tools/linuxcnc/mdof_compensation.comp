@@ -57,16 +57,16 @@ include "mdof_compensation.h";
 include <hal.h>;
 include <rtapi_slab.h>;
 ;;
-#define MOST_RECORDS 64 /* taken in one servo period */
+#define MOST_RECORDS 64 /* read in one servo period */
 #define NEAR_ZERO 1e-7
-#define JOINTS 6 /* joint j is of axis j % 3 */
+#define JOINTS 6 /* joint j belongs to axis j % 3 */
 
 static hal_stream_t stream;
 static struct mdof_table tables[2];
-static const struct mdof_table* in_force; /* NULL: none */
+static const struct mdof_table* in_force; /* table in use; NULL: none */
 static struct mdof_receiver receiver;
 static struct mdof_offset offsets[3];
-static double last_position[3]; /* that were numbers */
+static double last_position[3]; /* the last valid positions */
 static double silent_s, fault_s;
 
 EXTRA_SETUP() {

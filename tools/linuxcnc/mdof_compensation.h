@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later */
-/* Mathematics of the realtime component mdof_compensation: a table of corrections received record
-   by record, interpolated, and followed by an offset whose velocity and acceleration are limited.
-   No HAL and no memory of its own, so that it is tested outside LinuxCNC. C99 and C++.
+/* Mathematics of the realtime component mdof_compensation: it receives a table of corrections
+   record by record, interpolates in it, and lets an offset with limited velocity and acceleration
+   follow the correction. The code uses no HAL and allocates no memory, so that it can be tested
+   outside LinuxCNC. C99 and C++.
 
    Positions, corrections and offsets are in machine units (mm or inch), times in s. X, Y, Z are 0,
-   1, 2. The correction is what is added to a command. */
+   1, 2. The correction is added to a command. */
 #ifndef MDOF_COMPENSATION_H
 #define MDOF_COMPENSATION_H
 
@@ -15,8 +16,8 @@
 #define MDOF_SAME_PLACE 1e-6       /* machine units */
 #define MDOF_MOST_COORDINATES 1024 /* of an axis of the grid */
 
-/* Corrections at the nodes of a grid, X fastest, then Y, then Z. An axis with one coordinate
-   stands: the correction does not depend on its position. */
+/* Corrections at the nodes of a grid, X fastest, then Y, then Z. The correction does not
+   depend on the position of an axis with one coordinate. */
 struct mdof_table {
   int n[3];
   double coordinate[3][MDOF_MOST_COORDINATES]; /* strictly increasing */
@@ -24,11 +25,11 @@ struct mdof_table {
   long nodes;
   long generation_number;
   bool is_simulated;
-  double largest; /* |correction| */
+  double largest; /* largest |correction| */
 };
 
-/* The cell of `x` and how far into it, 0 to 1; outside the grid its end. Returns whether x is
- * inside. */
+/* Finds the cell of `x` and the position of x in the cell as a share, 0 to 1; outside the grid, the
+   end of the grid. Returns whether x is inside. */
 static inline bool mdof_cell(const double* at, int n, double x, int* cell, double* share) {
   int low = 0, high = n - 1;
   *cell = 0;
@@ -48,8 +49,8 @@ static inline bool mdof_cell(const double* at, int n, double x, int* cell, doubl
   return x >= at[0] - MDOF_SAME_PLACE && x <= at[n - 1] + MDOF_SAME_PLACE;
 }
 
-/* The correction at a position, linear along each axis between nodes; outside the grid that of its
-   end. Returns whether the position is inside. */
+/* The correction at a position, linear along each axis between nodes; outside the grid, the
+   correction at its end. Returns whether the position is inside. */
 static inline bool mdof_table_at(const struct mdof_table* table, const double position[3],
                                  double correction[3]) {
   int cell[3];
@@ -69,14 +70,14 @@ static inline bool mdof_table_at(const struct mdof_table* table, const double po
       node += stride * (cell[axis] + upper);
       stride *= table->n[axis];
     }
-    if (weight == 0) continue; /* also of a node beyond the last one */
+    if (weight == 0) continue; /* the node may be beyond the last one */
     for (int k = 0; k < 3; ++k) correction[k] += weight * table->correction[3 * node + k];
   }
   return inside;
 }
 
 struct mdof_limits {
-  double fade_velocity;    /* of the offset after a change of tables, unless the path asks more */
+  double fade_velocity;    /* limit after a change of tables, unless the path needs more */
   double max_velocity;     /* of the offset */
   double max_acceleration; /* of the offset */
   double max_offset;       /* largest |offset| */
@@ -86,17 +87,17 @@ struct mdof_offset {
   double value, velocity;
 };
 
-/* Also of a limit that is none (0 or less, not a number): 0. */
+/* Limits x to ±most. An invalid limit (0 or less, not a number) gives 0. */
 static inline double mdof_clamp(double x, double most) {
   if (!(most > 0)) return 0;
   return x > most ? most : x < -most ? -most : x;
 }
 
-/* The velocity with which a distance is covered in whole periods, losing at most max_acceleration *
-   period in each, so that it ends at rest: m (m + 1) / 2 steps of that size cover it. */
+/* The velocity that covers a distance in whole periods and decreases by at most max_acceleration *
+   period in each, so that the motion ends at rest: m (m + 1) / 2 steps of that size cover it. */
 static inline double mdof_approach(double distance, const struct mdof_limits* limits,
                                    double period) {
-  const double step = limits->max_acceleration * period; /* of the velocity */
+  const double step = limits->max_acceleration * period; /* change of velocity */
   const double far = fabs(distance);
   double velocity = step * (sqrt(1 + 8 * far / (step * period)) - 1) / 2;
   if (velocity > far / period) velocity = far / period;
@@ -104,33 +105,33 @@ static inline double mdof_approach(double distance, const struct mdof_limits* li
   return distance < 0 ? -velocity : velocity;
 }
 
-/* One period of the offset of one axis. `before` and `now`: what is asked at the last position and
-   at this one, of the same table. The offset goes along with what is asked, and what it is off
-   fades: where a table has been replaced, `before` is not where the offset stands. Both together
-   are no faster than fade_velocity, or than what is asked. Returns whether the offset is not what
-   is asked. */
+/* Moves the offset of one axis by one period. `before` and `now`: the corrections at the last and
+   at the present position, both from the same table. The offset follows the change of the
+   correction, and a remaining difference fades: after a table has been replaced, `before` differs
+   from the offset. The total velocity is at most fade_velocity or the velocity of the correction.
+   Returns whether the offset differs from the correction. */
 static inline bool mdof_follow(struct mdof_offset* offset, double before, double now,
                                const struct mdof_limits* limits, double period) {
   const double wanted_before = mdof_clamp(before, limits->max_offset);
   const double wanted = mdof_clamp(now, limits->max_offset);
   const double step = limits->max_acceleration * period;
   const double most =
-      fmax(limits->max_offset, fabs(offset->value)); /* no jump where it was changed */
+      fmax(limits->max_offset, fabs(offset->value)); /* no jump after a change of max_offset */
   const double asked = (wanted - wanted_before) / period;
   double velocity = asked + mdof_approach(wanted_before - offset->value, limits, period);
   velocity = mdof_clamp(velocity, fmax(limits->fade_velocity, fabs(asked)));
   velocity = mdof_clamp(velocity, limits->max_velocity);
   velocity = offset->velocity + mdof_clamp(velocity - offset->velocity, step);
-  if (!(step > 0) || !isfinite(velocity)) velocity = 0; /* limits that are none: it stands */
+  if (!(step > 0) || !isfinite(velocity)) velocity = 0; /* invalid limits: it rests */
   offset->value = mdof_clamp(offset->value + velocity * period, most);
   offset->velocity = velocity;
   return wanted != now || fabs(wanted - offset->value) > 1e-7;
 }
 
-/* A table comes from the loader one record at a time, so that a servo period takes a bounded part
-   of it. It is used only when it is whole; what a loader that ended has left is thrown away. */
-/* A record is a word, session << 4 | kind, and three numbers. A session is one table of one loader.
- */
+/* The loader sends a table one record at a time, so that a servo period handles a bounded part of
+   it. Only a complete table is used; the incomplete table of a loader that has ended is discarded.
+   A record is a word, session << 4 | kind, and three numbers. A session is one table of one
+   loader. */
 enum mdof_record_kind {
   MDOF_ALIVE = 1,      /* mdofd is connected (0, 1); the table in use is the active one (0, 1) */
   MDOF_CLEAR = 2,      /* no table is active */
@@ -145,13 +146,13 @@ enum mdof_received {
   MDOF_GOES_ON,
   MDOF_COMPLETE,
   MDOF_OUT_OF_ORDER,
-  MDOF_TOO_LARGE,   /* coordinates or nodes beyond the memory */
+  MDOF_TOO_LARGE,   /* more coordinates or nodes than the memory holds */
   MDOF_BAD_NUMBER,  /* not finite, not increasing */
   MDOF_BEYOND_LIMIT /* a correction beyond max_offset */
 };
 
 struct mdof_receiver {
-  struct mdof_table* table; /* that is filled; not the one in use */
+  struct mdof_table* table; /* the table that is filled; not the table in use */
   long most_nodes;
   unsigned session; /* 0: none is under way */
   int coordinates, coordinates_received;
@@ -204,8 +205,8 @@ static inline enum mdof_received mdof_receive_node(struct mdof_receiver* r, cons
   return MDOF_GOES_ON;
 }
 
-/* A record of a table, BEGIN to END. Those of a session that was refused or begun by another loader
-   go on to be ignored: MDOF_GOES_ON. */
+/* Handles a record of a table, BEGIN to END. Records of a refused session, or of a session that
+   another loader has replaced, are ignored: MDOF_GOES_ON. */
 static inline enum mdof_received mdof_receive(struct mdof_receiver* r, unsigned word,
                                               const double v[3], double max_offset) {
   const unsigned session = word >> 4;

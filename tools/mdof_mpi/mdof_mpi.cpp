@@ -7,7 +7,7 @@
 
 namespace {
 
-// MPI counts in int: a long message goes in pieces, after its length.
+// MPI counts in int, so a long message is sent in pieces, after its length.
 constexpr std::uint64_t kPiece = std::uint64_t{1} << 30;
 static_assert(kPiece <= std::numeric_limits<int>::max());
 constexpr int kLength = 1, kBytes = 2;

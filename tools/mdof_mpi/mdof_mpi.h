@@ -1,22 +1,23 @@
-// What mdof asks of MPI, as a C interface: the only code that links libmpi is a module of its own,
-// loaded when mdof finds itself under mpirun or srun, so that no other start of mdof pays for it.
+// The part of MPI that mdof uses, as a C interface. Only this separate module links libmpi. mdof
+// loads it only under mpirun or srun, so that other starts of mdof have no cost.
 #pragma once
 
 #include <cstdint>
 
 extern "C" {
 
-// Errors of MPI itself end all processes, as its default handler does. One thread calls these.
+// All functions are called from one thread. An error of MPI ends all processes (its default
+// handler).
 struct MdofMpi {
   int rank, size;
   void (*send)(int to, const char* bytes, std::uint64_t count);
-  std::uint64_t (*incoming)(int from);  // waits for a message; its length
+  std::uint64_t (*incoming)(int from);  // Waits for a message and returns its length.
   void (*receive)(int from, char* bytes, std::uint64_t count);
   void (*broadcast)(char* bytes, std::uint64_t count);  // from rank 0 to all
   void (*abort)(int exit_code);                         // ends all processes
   void (*finish)();
 };
 
-// MPI_Init and what comes with it; nullptr where MPI cannot be started.
+// Calls MPI_Init_thread; nullptr: MPI cannot be started.
 const MdofMpi* mdof_mpi_start();
 }

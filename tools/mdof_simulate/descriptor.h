@@ -6,7 +6,7 @@
 
 namespace mdof::simulate {
 
-// Closes it when it goes.
+// Owns a file descriptor and closes it.
 class Descriptor {
  public:
   explicit Descriptor(int fd = -1) : fd_(fd) {}

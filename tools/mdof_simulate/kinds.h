@@ -1,4 +1,4 @@
-// The kinds of devices that mdof-simulate knows, each wired to the machine.
+// The kinds of simulated devices, each connected to the simulated machine.
 #pragma once
 
 #include <filesystem>
@@ -17,11 +17,11 @@ namespace mdof::simulate {
 struct Wiring {
   Rig rig;
   std::shared_ptr<SensedMachine> machine;
-  std::filesystem::path folder;  // of the plan
+  std::filesystem::path folder;  // Folder of the plan.
 };
 
-// A device of this kind from the keys that are its own; `inputs` are channels of the rig or "".
-// Errors name file, line and key.
+// Creates a device of this kind from the keys of the kind in `table`. `inputs`: channels of the
+// rig, or "". Errors name file, line and key.
 Result<std::unique_ptr<drivers::SimulatedDevice>> make_device(
     const std::string& kind, const Wiring& wiring, const std::vector<std::string>& inputs,
     TomlTable& table);

@@ -1,4 +1,4 @@
-// mdof-simulate: devices without hardware, on real sockets, looking at one simulated machine.
+// mdof-simulate: simulated devices on real sockets, all connected to one simulated machine.
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>

@@ -1,6 +1,6 @@
-// The plan of mdof-simulate: a machine, and the devices that look at it (README.md has the keys).
-// USB devices are put on the bus of this machine by the kernel's module vhci-hcd, and are unplugged
-// when mdof-simulate ends.
+// The plan of mdof-simulate: a simulated machine and the devices that measure it (README.md lists
+// the keys). The kernel module vhci-hcd connects USB devices to the bus of this computer; they are
+// unplugged when mdof-simulate ends.
 #pragma once
 
 #include <filesystem>

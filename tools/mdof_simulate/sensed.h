@@ -1,4 +1,4 @@
-// A simulated machine as the inputs of several devices sense it: one truth, whoever asks.
+// A simulated machine that several devices sense; all of them sense the same truth.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 
 namespace mdof::simulate {
 
-// Thread-bound, as all devices are served by one thread.
+// Thread-bound, because one thread serves all devices.
 class SensedMachine {
  public:
   SensedMachine(const Rig& rig, drivers::SimulatorOptions options, drivers::ForwardModel model);
 
-  // Raw value of a channel as the rig's calibration expects it, in µm. Noise depends on the
-  // microsecond, so that two devices that ask at different times see different noise.
+  // Raw value of a channel before the rig's calibration, µm. The noise depends on the microsecond,
+  // so that two devices that read at different times see different noise.
   double raw_um(std::size_t channel, std::int64_t t_ns);
-  std::size_t channel_of(const std::string& id) const;  // SIZE_MAX: none
+  std::size_t channel_of(const std::string& id) const;  // SIZE_MAX: no such channel.
 
  private:
   drivers::Machine machine_;
@@ -29,7 +29,7 @@ class SensedMachine {
   std::int64_t at_ns_ = -1;
 };
 
-// What a device with these inputs senses of the machine.
+// The sensing function of a device with these inputs.
 drivers::Senses senses(std::shared_ptr<SensedMachine> machine,
                        std::vector<drivers::SensedInput> inputs);
 

@@ -23,14 +23,14 @@ namespace mdof::simulate {
 namespace {
 
 constexpr int kTurn_ms = 1;
-constexpr std::size_t kMostUnsent = 1 << 20;  // a client that does not read is dropped
+constexpr std::size_t kMostUnsent = 1 << 20;  // above it, a client that does not read is dropped
 
 std::int64_t now_ns() {
   const auto since = std::chrono::steady_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
 }
 
-struct Held {  // on its way, until its time
+struct Held {  // waits until its due time
   std::int64_t due_ns;
   std::string bytes;
 };
@@ -50,9 +50,9 @@ struct Listener {
   int tcp_port;
 };
 
-// A serial line, as a pseudo-terminal.
+// A serial line as a pseudo-terminal.
 struct Line {
-  Descriptor device_end, host_end;  // the host's is held open, so that the line stays
+  Descriptor device_end, host_end;  // host_end stays open, so that the line persists
   std::string path;
 };
 
@@ -111,10 +111,10 @@ struct Server::Parts {
   std::vector<Descriptor> held_lines;
   std::vector<Plugged> plugged;
   int next_id = 1;
-  std::uint64_t sent = 0;  // packets, for the jitter
+  std::uint64_t sent = 0;  // packets; selects the random number for the jitter
   std::int64_t start_ns = now_ns();
 
-  // Time on the device's own clock.
+  // Time of the device's own clock.
   std::int64_t device_ns(const Served& device) const {
     const auto passed = static_cast<double>(now_ns() - start_ns);
     return std::llround(passed * (1 + device.clock_ppm * 1e-6));

@@ -1,4 +1,4 @@
-// Serves simulated devices on TCP ports, serial lines and the USB of this machine, in one thread.
+// Serves simulated devices on TCP ports, serial lines and USB of this computer, in one thread.
 #pragma once
 
 #include <atomic>
@@ -16,25 +16,25 @@ namespace mdof::simulate {
 struct Served {
   std::string name;
   std::unique_ptr<drivers::SimulatedDevice> device;
-  bool uhid = false;           // on the USB: through uhid instead of vhci_hcd
-  std::vector<int> tcp_ports;  // one for each of the device's TCP ports; 0: a free one
-  double clock_ppm = 0;        // the device's clock is fast by so much
-  double jitter_ms = 0;        // what it sends is held back by 0 to this
-  std::int64_t seed = 1;       // of the jitter
+  bool uhid = false;           // USB only: use uhid instead of vhci_hcd.
+  std::vector<int> tcp_ports;  // One for each TCP port of the device; 0: any free port.
+  double clock_ppm = 0;        // Rate error of the device's clock, ppm; positive: fast.
+  double jitter_ms = 0;        // Each packet is delayed by 0 to this time.
+  std::int64_t seed = 1;       // Seed of the jitter.
 };
 
 // Thread-bound.
 class Server {
  public:
-  // Listens on `host` and plugs in. Errors: an address or a port that cannot be had.
+  // Listens on `host` and plugs in the USB devices. Error: an address or a port is not available.
   static Result<Server> listen(std::vector<Served> devices, const std::string& host);
   ~Server();
   Server(Server&&) noexcept;
 
-  // "capa-1 command 127.0.0.1:40123", "qsb serial /dev/pts/3", "encoders usb port 0": a line for
-  // each port.
+  // One line for each port: "capa-1 command 127.0.0.1:40123", "qsb serial /dev/pts/3", "encoders
+  // usb port 0".
   std::string addresses() const;
-  // Until `stop`, or until the last device has gone. Then all are unplugged.
+  // Serves until `stop` is true or the last device is unplugged, then unplugs all devices.
   void serve(const std::atomic<bool>& stop);
 
  private:

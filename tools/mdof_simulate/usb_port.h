@@ -1,5 +1,5 @@
-// Puts simulated USB devices on this machine's own bus, so that kernel, libusb and hidapi find them
-// as they would find the real ones.
+// Connects simulated USB devices to the bus of this computer, so that kernel, libusb and hidapi
+// find them like real devices.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,21 @@
 
 namespace mdof::simulate {
 
-// Thread-bound. Unplugs the device when it goes.
+// Thread-bound. The destructor unplugs the device.
 class UsbPort {
  public:
   virtual ~UsbPort() = default;
-  virtual int fd() const = 0;  // to be polled for input
-  // To be called when something came, and every millisecond or so besides. False: unplugged.
+  virtual int fd() const = 0;  // Poll it for input.
+  // Call it when input is available, and also about every millisecond. False: unplugged.
   virtual bool turn(std::int64_t now_ns) = 0;
   virtual std::string place() const = 0;  // "usb port 0", "uhid"
 };
 
-// Through the kernel's vhci_hcd: the whole USB. Error: the module is not loaded, no free port, no
-// permission. The device is to live longer.
+// Uses the kernel's vhci_hcd, which simulates the complete USB. Errors: the module is not loaded,
+// no port is free, no permission. `device` must outlive the port.
 Result<std::unique_ptr<UsbPort>> plug_into_vhci(drivers::usb::SimulatedUsb& device);
-// Its first HID interface that takes reports, through the kernel's uhid: no USB around it.
+// Connects only the first HID interface that accepts reports through the kernel's uhid, without
+// USB.
 Result<std::unique_ptr<UsbPort>> plug_into_uhid(drivers::usb::SimulatedUsb& device);
 
 }  // namespace mdof::simulate

@@ -13,13 +13,13 @@ using drivers::usb::Setup;
 
 enum Command : std::uint32_t { kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4 };
 constexpr std::size_t kHeader = 48;
-// Offsets within it.
+// Offsets in the header.
 constexpr std::size_t kCommandAt = 0, kNumberAt = 4, kDirectionAt = 12, kEndpointAt = 16;
-constexpr std::size_t kLengthAt = 24, kPacketsAt = 32, kSetupAt = 40;  // of kSubmit
-constexpr std::size_t kOtherAt = 20;                                   // of kUnlink: the number
+constexpr std::size_t kLengthAt = 24, kPacketsAt = 32, kSetupAt = 40;  // for kSubmit
+constexpr std::size_t kOtherAt = 20;                                   // for kUnlink: the number
 constexpr std::uint32_t kNotIsochronous = 0xFFFFFFFF;
 constexpr std::uint32_t kMostBytes = 1 << 20;
-// Linux's numbers, whatever this is compiled on.
+// Error numbers of Linux on every platform.
 constexpr int kStalled = -32, kCancelled = -104;
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
@@ -54,14 +54,14 @@ std::string UsbIp::exchange(std::string_view received, std::int64_t now_ns) {
   return std::exchange(to_send_, "");
 }
 
-// False: more must come before there is a whole one.
+// False: the command is not complete yet.
 bool UsbIp::take_command(std::int64_t now_ns) {
   if (received_.size() < kHeader) return false;
   switch (word_at(received_, kCommandAt)) {
     case kSubmit:
       return take_submit();
     case kUnlink:
-      serve(now_ns);  // what is done by now is done
+      serve(now_ns);  // complete the finished transfers first
       take_unlink();
       return true;
     default:
@@ -99,7 +99,7 @@ void UsbIp::take_unlink() {
       words({kUnlinked, number, 0, 0, 0, static_cast<std::uint32_t>(cancelled ? kCancelled : 0)});
 }
 
-// Each endpoint's transfers in order, the endpoints apart from each other.
+// Serves the transfers of each endpoint in order; endpoints do not block each other.
 void UsbIp::serve(std::int64_t now_ns) {
   std::set<std::pair<std::uint8_t, bool>> busy;
   for (auto transfer = waiting_.begin(); transfer != waiting_.end();) {

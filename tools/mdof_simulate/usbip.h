@@ -1,5 +1,5 @@
-// USB/IP (Linux, Documentation/usb/usbip_protocol.rst): how the kernel's vhci_hcd asks a device
-// that is not on any wire for what it would have been asked on one. Bytes in, bytes out: no I/O.
+// USB/IP (Linux, Documentation/usb/usbip_protocol.rst): the protocol by which the kernel's vhci_hcd
+// sends USB requests to a device without a cable. Works on bytes without I/O.
 #pragma once
 
 #include <cstdint>
@@ -13,20 +13,21 @@ namespace mdof::simulate {
 
 class UsbIp {
  public:
-  // The device is to live longer.
+  // `device` must outlive this object.
   explicit UsbIp(drivers::usb::SimulatedUsb& device) : device_(&device) {}
 
-  // What the host is sent now, after `received` (maybe nothing) came from it. To be called whenever
-  // something came, and every millisecond or so besides: transfers wait for the device.
+  // Takes the bytes `received` from the host (may be empty) and returns the bytes to send. Call it
+  // when bytes arrive, and also about every millisecond, because transfers wait for the device.
   std::string exchange(std::string_view received, std::int64_t now_ns);
-  // What came is not USB/IP, or asks for isochronous transfers: of no more use.
+  // The input is not USB/IP or requests isochronous transfers; the connection cannot be used
+  // further.
   bool broken() const { return broken_; }
 
  private:
   struct Transfer {
     std::uint32_t number = 0;
     bool in = false;
-    std::uint8_t endpoint = 0;  // without direction
+    std::uint8_t endpoint = 0;  // Without the direction.
     std::uint32_t length = 0;
     drivers::usb::Setup setup;
     std::string out;
@@ -40,7 +41,7 @@ class UsbIp {
 
   drivers::usb::SimulatedUsb* device_;
   std::string received_, to_send_;
-  std::deque<Transfer> waiting_;  // in the order they came
+  std::deque<Transfer> waiting_;  // In order of arrival.
   bool broken_ = false;
 };
 

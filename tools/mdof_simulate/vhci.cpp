@@ -16,8 +16,8 @@ namespace {
 
 const std::string kController = "/sys/devices/platform/vhci_hcd.0/";
 
-// A row a port: "hs 0000 004 ..."; 004 is free (VDEV_ST_NULL). Devices of full speed sit at the
-// ports for high speed, too.
+// Each row is a port: "hs 0000 004 ..."; state 004 is free (VDEV_ST_NULL). Full-speed devices also
+// use the high-speed ports.
 Result<int> free_port() {
   std::ifstream status(kController + "status");
   if (!status)
@@ -61,7 +61,7 @@ class VhciPort final : public UsbPort {
   }
 
  private:
-  // The kernel takes replies at any time, so that this does not wait for long.
+  // The kernel accepts replies at any time, so this loop does not wait for long.
   bool send(std::string_view bytes) {
     while (!bytes.empty()) {
       const ssize_t n = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);

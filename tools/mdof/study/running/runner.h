@@ -1,9 +1,9 @@
 // Runs the trials of a study on threads and on the processes of MPI, until all trials are done, the
 // adaptive rule has settled, or a user interrupts. None of these changes the figures.
 //
-// rank 0 chooses the batches of the next round ─▶ every process works off its share, with
-// separate statistics for each thread ─▶ each process merges its statistics ─▶ at intervals,
-// rank 0 merges all processes; it keeps the convergence, the checkpoints and the adaptive rule
+//   rank 0 chooses the batches of the next round ─▶ every process works off its share, with
+//   separate statistics for each thread ─▶ each process merges its statistics ─▶ at intervals,
+//   rank 0 merges all processes; it keeps the convergence, the checkpoints and the adaptive rule
 #pragma once
 
 #include <chrono>

@@ -1,9 +1,10 @@
-# All files of a target are compiled together, as most of the time of a build from nothing goes to headers and to
-# templates (tests/CAMPAIGNS.md has the figures). So under sanitizers, in tools/quickstart and .ci/run; who edits one
-# file builds faster without. Names of the anonymous namespaces must then differ. Where those of two folders are the
-# same, the folders stand in different parts below; tests are divided by the first letter of the file, too. For a new
-# clash ("redefinition", "ambiguous"): another name, a shared header, or another part for the folder.
-# Alone is what Highway includes again for each instruction set, and what cannot be together for another such reason.
+# Compiles all files of a target together, because headers and templates take most of the time of a full build
+# (tests/CAMPAIGNS.md has the figures). This is the default under sanitizers, in tools/quickstart and in .ci/run;
+# after an edit of one file a separate compilation is faster. Compiled together, names in anonymous namespaces must
+# differ. Folders with equal names are in different parts below; tests are also divided by the first letter of the
+# file. After a new clash ("redefinition", "ambiguous"), choose another name, a shared header, or another part for the
+# folder. Files that Highway includes again for each instruction set, and files with a similar obstacle, are compiled
+# alone.
 set(MDOF_COMPILE_TOGETHER "$ENV{MDOF_COMPILE_TOGETHER}" CACHE STRING
     "Compile the files of a target together (ON, OFF; default: of the environment, else under sanitizers)")
 set(MDOF_COMPILED_ALONE
@@ -49,7 +50,7 @@ foreach(file ${MDOF_COMPILED_ALONE})
   endif()
 endforeach()
 
-# mdof_compile_together(TARGET): once all its sources are known, in the folder that made it.
+# mdof_compile_together(TARGET): call it after all sources are known, in the folder that defines the target.
 function(mdof_compile_together target)
   if(NOT (MDOF_COMPILE_TOGETHER OR (MDOF_SANITIZE AND MDOF_COMPILE_TOGETHER STREQUAL "")))
     return()
@@ -65,7 +66,7 @@ function(mdof_compile_together target)
     else()
       string(MAKE_C_IDENTIFIER "${folder}" group)
       if(folder MATCHES "^tests")
-        # By the first letter, so that a new file does not change who is compiled with whom.
+        # Uses the first letter, so that a new file does not change the groups.
         string(REGEX REPLACE "^[a-c].*" "a" part "${name}")
         string(REGEX REPLACE "^[d-l].*" "d" part "${part}")
         string(REGEX REPLACE "^[m-r].*" "m" part "${part}")
@@ -80,6 +81,6 @@ function(mdof_compile_together target)
     endif()
   endforeach()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
-  # A class of a source file may have members of its anonymous namespace, wherever the file is included.
+  # A class in a source file may have members from its anonymous namespace, even if the file is included elsewhere.
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()

@@ -1,5 +1,5 @@
-# What "cmake --install" puts beside the programs: man pages, the licence, and an example configuration that
-# mdofd runs as it is, with simulated axes. (The programs themselves, units and rules: in their folders.)
+# Files that "cmake --install" installs in addition to the programs: man pages, the licence, and an example
+# configuration with simulated axes that mdofd runs unchanged. (Each folder installs its programs, units and rules.)
 install(FILES tools/mdof/mdof.1 tools/mdof_simulate/mdof-simulate.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES daemon/mdofd.toml.5 DESTINATION ${CMAKE_INSTALL_MANDIR}/man5)
 install(FILES tools/mdof/mdof-fields.7 DESTINATION ${CMAKE_INSTALL_MANDIR}/man7)

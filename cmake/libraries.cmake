@@ -7,7 +7,7 @@ find_package(SQLite3 REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(CLI11 REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
-find_path(HIGHWAY_INCLUDE hwy/highway.h REQUIRED)  # its headers only: nothing of it is linked
+find_path(HIGHWAY_INCLUDE hwy/highway.h REQUIRED)  # only its headers; nothing of it is linked
 pkg_check_modules(SIMDJSON REQUIRED IMPORTED_TARGET simdjson)
 pkg_check_modules(TOMLPLUSPLUS REQUIRED IMPORTED_TARGET tomlplusplus)
 pkg_check_modules(LIBXML2 REQUIRED IMPORTED_TARGET libxml-2.0)

@@ -25,8 +25,7 @@ struct NamedChart;
 namespace mdof::tools {
 
 void add_json_flag(CLI::App& command, bool& json);
-void add_csv_and_json_flags(CLI::App& command, bool& csv,
-                            bool& json);  // The flags exclude each other.
+void add_csv_and_json_flags(CLI::App& command, bool& csv, bool& json);  // exclusive flags
 void add_all_warnings_flag(CLI::App& command, bool& all);
 // --limit-um and --limit-um-per-mm, for algo::TableLimits::asked().
 struct LimitOptions {

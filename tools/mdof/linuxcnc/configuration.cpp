@@ -24,8 +24,8 @@ std::vector<std::string> joined_lines(const std::string& text) {
     lines.emplace_back();  // empty for a continued line, so that line numbers do not change
     if (!continues) std::swap(lines.back(), joined);
   }
-  if (!joined.empty())
-    lines.back() = std::move(joined);  // the last line of the file ends with a backslash
+  // The last line of the file ends with a backslash.
+  if (!joined.empty()) lines.back() = std::move(joined);
   return lines;
 }
 

@@ -20,11 +20,11 @@ struct LinuxCncIni {
   std::filesystem::path file;
   std::vector<IniEntry> entries;
 
-  const IniEntry* find(const std::string& section,
-                       const std::string& key) const;  // The first entry; nullptr: none.
+  // The first entry; nullptr: none.
+  const IniEntry* find(const std::string& section, const std::string& key) const;
   std::vector<const IniEntry*> all(const std::string& section, const std::string& key) const;
-  std::string value(const std::string& section,
-                    const std::string& key) const;  // Empty if there is no entry.
+  // Empty if there is no entry.
+  std::string value(const std::string& section, const std::string& key) const;
 };
 
 // Errors: the file cannot be read; a line is neither section, key nor comment; #INCLUDE.

@@ -70,8 +70,8 @@ void FrameSolver::solve_columns(const SampleBlock& block, SolvedRows& out) {
   for (std::size_t i = 0; i < block.scans(); ++i) {
     if (!has_missing(block, i)) continue;
     ++without_reading_;
-    for (auto& column : out.local)
-      column[i] = kNaN;  // also errors that do not depend on the missing reading
+    // Also the errors that do not depend on the missing reading.
+    for (auto& column : out.local) column[i] = kNaN;
   }
 }
 

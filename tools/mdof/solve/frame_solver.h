@@ -37,15 +37,13 @@ class FrameSolver {
   Status solve(SampleBlock& raw, SolvedRows& out);
 
   std::uint64_t rows() const { return rows_; }
-  std::uint64_t over_range() const {
-    return over_range_;
-  }  // Rows in which a probe is at the end of its range.
+  // Rows in which a probe is at the end of its range.
+  std::uint64_t over_range() const { return over_range_; }
   // Rows without errors because a probe's value is missing; not counted as unsolved.
   std::uint64_t without_reading() const { return without_reading_; }
   std::uint64_t unsolved() const { return unsolved_; }
-  const std::string& why_unsolved() const {
-    return why_unsolved_;
-  }  // The reason for the first unsolved row.
+  // The reason for the first unsolved row.
+  const std::string& why_unsolved() const { return why_unsolved_; }
   // The applied corrections (schema/rig/effects/physics.h) and their largest amount, one sentence
   // each.
   Notices correction_notices() const;
@@ -81,8 +79,8 @@ class FrameSolver {
   daemon::LargestChange tilt_, dielectric_;
   std::uint64_t rows_ = 0, over_range_ = 0, without_reading_ = 0, unsolved_ = 0;
   std::string why_unsolved_;
-  std::optional<std::array<double, 2>>
-      travels_m_;  // Least and largest d of the rows solved one by one.
+  // Least and largest d of the rows solved one by one.
+  std::optional<std::array<double, 2>> travels_m_;
   std::vector<std::optional<algo::ReadingSpan>> spans_;  // Probes with a calibrated stretch.
 };
 

@@ -30,8 +30,8 @@ class TextTable {
   using Block = std::vector<Column>;
 
   Block columns() const;
-  bool narrowed(Block& all,
-                std::size_t width) const;  // Narrows all columns to one block, if possible.
+  // Narrows all columns to one block, if possible.
+  bool narrowed(Block& all, std::size_t width) const;
   std::vector<Block> blocks(std::size_t width) const;
   std::string text_of(const Block& block) const;
   void append_row(std::string& out, const Block& block, std::size_t row) const;

@@ -25,10 +25,9 @@ class Processes {
   int size() const;
   bool first() const { return rank() == 0; }
 
-  std::string broadcast(std::string bytes);  // Returns the bytes of rank 0 to all processes.
-  std::uint64_t broadcast_number(
-      std::uint64_t x);  // Returns the number of rank 0 to all processes.
-  bool any(bool mine);   // Returns to all processes whether `mine` is true in any of them.
+  std::string broadcast(std::string bytes);         // Returns the bytes of rank 0 to all processes.
+  std::uint64_t broadcast_number(std::uint64_t x);  // Returns the number of rank 0 to all.
+  bool any(bool mine);  // Returns to all processes whether `mine` is true in any of them.
   void send(int to, std::string_view bytes);
   std::string receive(int from);
 

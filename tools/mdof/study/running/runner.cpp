@@ -203,8 +203,8 @@ std::uint64_t StudyRunner::feed_rule(const Round& round, Figures figures, StudyW
     rule_->add(of_batch);
     state.rule.push_back(std::move(of_batch));
   }
-  double ratio =
-      0;  // the factor by which s must decrease; s decreases with the root of the number of blocks
+  // The factor by which s must decrease; s decreases with the root of the number of blocks.
+  double ratio = 0;
   for (const auto& output : rule_->progress())
     ratio = std::max(ratio, output.worst / output.tolerance);
   expected_batches_ = std::isfinite(ratio) ? static_cast<double>(batch) * ratio * ratio : 0;

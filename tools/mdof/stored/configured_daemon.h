@@ -1,4 +1,4 @@
-// The mdofd of a configuration, which holds its devices while it runs.
+// The mdofd that a configuration belongs to; it holds its devices while it runs.
 #pragma once
 
 #include <string>
@@ -12,16 +12,18 @@ class App;
 
 namespace mdof::tools {
 
-// --socket of commands that have --config: `socket` stays empty unless it is given.
+// Adds --socket to commands with --config. `socket` stays empty unless the option is given.
 void add_configured_socket_option(CLI::App& command, std::string& socket);
 
-// `given`, or the socket in the configuration.
+// `given` if it is not empty, otherwise the socket in the configuration.
 const std::string& configured_socket(const daemon::Config& config, const std::string& given);
 
-// Whether somebody answers there. Error: that cannot be found out, as without permission.
+// Whether a server answers at the socket. Error: this cannot be determined, for example without
+// permission.
 Result<bool> daemon_runs(const std::string& socket);
 
-// For commands that open devices themselves. Error: mdofd runs, or nobody knows whether it does.
+// For commands that open devices themselves. Error: mdofd runs, or it cannot be determined whether
+// it runs.
 Status refuse_beside_daemon(const std::string& command, const std::string& socket);
 
 }  // namespace mdof::tools

@@ -8,12 +8,12 @@
 
 namespace mdof::tools {
 
-// One request over a connection of its own; gives the result as JSON. A daemon that does not run
-// is an io error that says how to start it.
+// Sends one request over a separate connection and returns the result as JSON. Error (io): mdofd
+// does not run; the message says how to start it.
 Result<std::string> call_daemon(const std::string& socket, std::string_view method,
                                 std::string_view params = "{}");
 
-// The same, printed: as JSON, or readably.
+// Sends the request and prints the result as JSON or as text.
 Status print_call(const std::string& socket, std::string_view method, std::string_view params,
                   bool json);
 

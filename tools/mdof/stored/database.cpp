@@ -11,7 +11,7 @@ Result<std::filesystem::path> database_path(const std::string& option) {
 
 namespace {
 
-// A FIFO would be waited for, and a folder is no disk error.
+// Refuses a FIFO, for which mdof would wait, and a folder, which would look like a disk error.
 Result<std::filesystem::path> database_file(const std::string& option) {
   MDOF_TRY(auto file, database_path(option));
   std::error_code ec;

@@ -1,4 +1,4 @@
-// Which database a command means, and who may write it.
+// Opens the database that a command uses.
 #pragma once
 
 #include <filesystem>
@@ -9,12 +9,12 @@
 
 namespace mdof::tools {
 
-// `option`: what --db gave; empty: the default of daemon/paths.h.
+// `option`: the argument of --db; empty: the default in daemon/paths.h.
 Result<std::filesystem::path> database_path(const std::string& option);
 Result<store::Store> open_to_read(const std::string& option);
 Result<store::Store> open_to_write(const std::string& option);
 
-// mdofd, or another mdof, is writing it now.
+// True if mdofd or another mdof has the database open for writing.
 Result<bool> somebody_writes(const std::string& option);
 
 }  // namespace mdof::tools

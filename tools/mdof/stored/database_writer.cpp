@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::chrono::hours kPatience{24};  // mdofd says nothing before a file is done
+constexpr std::chrono::hours kPatience{24};  // mdofd replies only after the whole file is evaluated
 
-// Whether this descriptor of a process has the writer's lock, as the kernel states it.
+// True if the kernel reports that this file descriptor has the writer's lock.
 bool locks(const fs::path& fdinfo) {
   std::ifstream lines(fdinfo);
   for (std::string line; std::getline(lines, line);)
@@ -36,7 +36,7 @@ bool holds(const fs::path& process, const fs::path& database) {
   return false;
 }
 
-// "mdofd (process 1234)"; of another user's processes nothing is seen.
+// "mdofd (process 1234)"; processes of other users are not visible and get a general name.
 std::string writer_of(const fs::path& database) {
   std::error_code ec;
   for (const auto& entry : fs::directory_iterator("/proc", ec)) {

@@ -1,4 +1,4 @@
-// Who writes the database that a command means, and how the command gets its work done.
+// Determines which process writes the database of a command, and connects to it.
 #pragma once
 
 #include <optional>
@@ -10,24 +10,25 @@
 
 namespace mdof::tools {
 
-// A connection to the mdofd that holds the database, which is then asked to write; nothing where
-// nobody holds it: the command writes itself. Errors, before anything was sent to it. io: some
-// other program writes, and the mdofd at `socket` is not there or holds another database. conflict:
-// nobody writes, and the mdofd at a `socket` that is not the default one holds another database.
-// `database` and `socket` are what the options gave.
+// Returns a connection to the mdofd that holds the database and has to write for the command;
+// nullopt if no process holds the database, so that the command writes itself. `database` and
+// `socket` are the values of the options. Nothing has been sent before an error. Errors:
+// io: another program writes, and no mdofd answers at `socket` or it holds another database;
+// conflict: no program writes, and the mdofd at a `socket` other than the default holds another
+// database.
 Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database,
                                                      const std::string& socket);
 
-// The same for a command that reads: nothing where no mdofd answers for the database, which the
-// command then reads itself. Error: conflict, as above.
+// The same for a command that reads: nullopt if no mdofd answers for the database, so that the
+// command reads it itself. Error: conflict, as above.
 Result<std::optional<rpc::Client>> mdofd_that_serves(const std::string& database,
                                                      const std::string& socket);
 
-// A file as mdofd opens it: absolute, without links.
+// The path under which mdofd opens the file: absolute, without links.
 std::string canonical_path(const std::string& file);
 
-// mdofd makes a run of a file and stores it, however long that takes; what it stored is read from
-// the database.
+// Asks mdofd to make and store a run from a file, and waits as long as this takes. Reads the stored
+// run from the database.
 Result<Run> stored_by(rpc::Client& mdofd, const std::string& database, std::string_view method,
                       std::string_view params);
 

@@ -1,4 +1,4 @@
-// Members of what the daemon says, with a fallback where one is missing or of another kind.
+// Reads members of JSON from mdofd, with a fallback if a member is missing or has another type.
 #pragma once
 
 #include <simdjson.h>
@@ -34,7 +34,7 @@ std::string text(const Json& of, std::string_view key) {
   return of.at_key(key).get_string().get(found) ? "" : std::string(found);
 }
 
-// Of an array of them.
+// The texts in an array; other elements are skipped.
 template <class Json>
 std::vector<std::string> texts(const Json& of, std::string_view key) {
   std::vector<std::string> found;
@@ -47,7 +47,7 @@ std::vector<std::string> texts(const Json& of, std::string_view key) {
   return found;
 }
 
-// Its "notices"; none where they cannot be read.
+// The member "notices"; empty if it cannot be read.
 template <class Json>
 Notices notices_of(const Json& of) {
   simdjson::dom::element list;

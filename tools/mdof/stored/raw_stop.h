@@ -10,8 +10,9 @@
 
 namespace mdof::tools {
 
-// From half the stop's averaged length (0.2 s at least) before it to as long after it. Errors: the
-// run has no such point; its recording is not there, or not what the run was made from.
+// The readings from half the averaged length of the stop (at least 0.2 s) before it until the same
+// time after it. Errors: the run has no such point; the recording is missing or is not the source
+// of the run.
 Result<std::vector<charts::RawSeries>> raw_stop(const Run& run, std::size_t row);
 
 }  // namespace mdof::tools

@@ -18,7 +18,7 @@
 namespace mdof::tools {
 namespace {
 
-// Its place in error_names().
+// Index of the error in error_names().
 Result<std::size_t> place_of_error(const std::string& asked, Axis axis) {
   std::string known;
   for (std::size_t k = 0; k < 5; ++k) {
@@ -50,8 +50,7 @@ Status add_error(const Run& run, std::size_t k, double scale_period_m, RunPositi
                {notice(NoticeCode::readings_left_out, "",
                        {{"left_out", series.left_out}, {"points", run.points.size()}})});
   const ErrorName& name = error_names(run.header.axis)[k];
-  constexpr std::size_t kFewestOfALine =
-      3;  // a line through two leaves nothing, whatever the axis is
+  constexpr std::size_t kFewestOfALine = 3;  // a line through two targets leaves no residual
   if (!name.angle && !found.keep_slope && figures->targets.size() < kFewestOfALine)
     return bad_input("run " + std::to_string(run.header.id) + ": the straightness " + name.name +
                      " needs at least three targets with error values; give --keep-slope to keep "
@@ -60,7 +59,7 @@ Status add_error(const Run& run, std::size_t k, double scale_period_m, RunPositi
   return {};
 }
 
-// Of each column; where one has none, of none.
+// Adds U to every column. If U of one column is unknown, no column gets U.
 Status add_uncertainty(const Run& run, const std::vector<std::size_t>& chosen,
                        RunPositioning& found) {
   MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
@@ -122,7 +121,7 @@ std::string run_positioning_json(const Run& run, const RunPositioning& found) {
 
 namespace {
 
-// What U covers, of the column that says most: before the figures.
+// States what U covers, for the column that covers most. Printed before the figures.
 std::string U_text(const RunPositioning& found, bool simulated, std::size_t width) {
   if (!found.U_reason.empty())
     return simulated_notice(simulated) + wrapped("U is unknown: " + found.U_reason, width) + "\n";

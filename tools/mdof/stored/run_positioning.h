@@ -1,4 +1,4 @@
-// The parameters of ISO 230-2 of the straightness and angular errors of a stored run.
+// Parameters of ISO 230-2 for the straightness and angular errors of a stored run.
 #pragma once
 
 #include <cstddef>
@@ -13,20 +13,20 @@
 namespace mdof::tools {
 
 struct RunPositioningRequest {
-  std::vector<std::string> errors;  // "EYX"; none: all five
-  bool keep_slope = false;          // of a straightness error: see readings_of_run()
-  bool partial = false;             // take a partial run as well
+  std::vector<std::string> errors;  // "EYX"; empty: all five.
+  bool keep_slope = false;          // For a straightness error: see readings_of_run().
+  bool partial = false;             // Accept a partial run.
 };
 
 struct RunPositioning {
-  std::vector<PositioningColumn> columns;  // one an error
-  Notices notices;                         // of the run and of its plan
+  std::vector<PositioningColumn> columns;  // One for each error.
+  Notices notices;                         // Notices of the run and of its plan.
   bool keep_slope = false;
-  std::string U_reason;  // why U is not known; "": it is
+  std::string U_reason;  // Why U is unknown; empty: U is known.
 };
 
-// At the point where the run is stated; scale_period_m 0: not known. Errors: the run is not
-// complete, has no such error, or its visits give no figures.
+// At the point where the run is stated. scale_period_m: 0 if unknown. Errors: the run is
+// incomplete, does not have this error, or its visits give no figures.
 Result<RunPositioning> run_positioning(const Run& run, const RunPositioningRequest& request,
                                        double scale_period_m);
 

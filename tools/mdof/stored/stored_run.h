@@ -1,4 +1,4 @@
-// A run that a daemon stored, as `mdof show` prints it.
+// A run stored by mdofd, in the format of `mdof show`.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace mdof::tools {
 
-// Read from the database that the daemon says it holds; nothing where that cannot be read from
-// here: another user's, for example.
+// Reads the run from the database of the daemon. nullopt: this process cannot read it, for example
+// because it belongs to another user.
 std::optional<std::string> stored_run_text(rpc::Client& daemon, std::int64_t run);
 
 }  // namespace mdof::tools

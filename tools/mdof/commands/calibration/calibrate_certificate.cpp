@@ -1,4 +1,5 @@
-// mdof calibrate certificate DCC: a probe's scale and linearity as a laboratory has found them.
+// mdof calibrate certificate DCC: reads the scale and linearity of a probe from a laboratory's
+// certificate.
 #include <CLI/CLI.hpp>
 
 #include "algo/calibration/certified_probe.h"

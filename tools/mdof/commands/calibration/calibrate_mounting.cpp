@@ -1,4 +1,5 @@
-// mdof calibrate mounting CLAMPING...: where the probes of a fixture sit, from a tilted target.
+// mdof calibrate mounting CLAMPING...: finds the positions of a fixture's probes from a tilted
+// target.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -47,10 +48,10 @@ Result<std::vector<NamedLog>> logs_of(const std::string& clamping) {
 struct Sources {
   std::vector<algo::Clamping> clampings;
   std::vector<CalibrationRecord::Source> files;
-  std::string started_utc;  // the newest
+  std::string started_utc;  // start of the newest log
 };
 
-// +1 or -1: which way the target goes along the axis as its encoder grows.
+// +1 or -1: direction of the target along the axis for increasing encoder values.
 double target_sign(const MountingCommand& command, const Rig& rig, Axis axis) {
   const std::string name(1, letter(axis));
   const auto& all = command.reversed;
@@ -129,7 +130,8 @@ void fill(CalibrationRecord& record, const MountingCalibration& found, const Rig
     record.probes.push_back(as_record(found.probes[k], rig.probes[k]));
 }
 
-// Found places would be taken for what was meant, and be known too well to be found anew.
+// Found places would be used as nominal places, and their small u would prevent a new
+// determination.
 Status check_not_calibrated(const Rig& rig) {
   for (const CalibrationRecord& record : rig.records)
     if (record.kind == "mounting")

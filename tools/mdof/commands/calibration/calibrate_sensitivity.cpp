@@ -1,4 +1,5 @@
-// mdof calibrate sensitivity LOG: a probe against the encoder of the axis that approaches it.
+// mdof calibrate sensitivity LOG: calibrates a probe against the encoder of the axis that
+// approaches it.
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -102,7 +103,7 @@ Status calibrate(const SensitivityCommand& command) {
     return fail(ErrorCode::usage, command.rig + ": the rig has no probe \"" + command.probe +
                                       "\"; the probes of the rig are " + probe_ids(rig));
   Calibration& calibration = rig.probes[*at].calibration;
-  calibration.linearity.clear();  // found anew
+  calibration.linearity.clear();  // determined anew
   calibration.polynomial_um.clear();
   MDOF_TRY(const Axis axis, algo::approaching_axis(rig, *at));
   MDOF_TRY(const auto log, daemon::read_stops(command.log, axis, rig));

@@ -1,4 +1,5 @@
-// mdof clearance RIG.toml: which motions bring the target to a probe, and how soon.
+// mdof clearance RIG.toml: shows which motions drive the target into a probe, and after how much
+// travel.
 #include <CLI/CLI.hpp>
 
 #include "algo/model/clearance.h"

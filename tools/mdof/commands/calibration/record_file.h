@@ -1,4 +1,4 @@
-// The calibration record that a command has made: its dates, its file.
+// The calibration record that a command writes: its dates and its file.
 #pragma once
 
 #include <string>
@@ -14,28 +14,30 @@ class App;
 namespace mdof::tools {
 
 struct RecordOptions {
-  std::string out, date;  // date empty: of the log, else today's
+  std::string out, date;  // Empty `date`: the date of the log, otherwise today.
   int valid_days = 365;
 };
 void add_record_options(CLI::App& command, RecordOptions& options);
-// Those without --date.
+// The options without --date.
 void add_record_file_options(CLI::App& command, RecordOptions& options);
 
 // "A, B, C".
 std::string probe_ids(const Rig& rig);
 
-// A record of this rig without probes; `started_utc` of the newest log, or empty. Error: no date.
+// A record of this rig without probes. `started_utc`: start of the newest log, or empty. Error:
+// invalid date.
 Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
                                        const RecordOptions& options,
                                        const std::string& started_utc);
 
-// Error: the file is there already: a record is never changed.
+// Error: the file exists already, because a record is never changed.
 Status write_record(const std::string& file, const std::string& text);
 
-// What a motion of the target along this axis may touch, as a sentence before one that asks for it.
+// A sentence that warns which probes a motion of the target along this axis may touch.
 std::string hazard_of(const Rig& rig, Axis axis);
 
-// Key of the rig's offset for a zero that was found: a gap's raw reading counts the other way.
+// The key offset_um of the rig for a measured zero. If the probe reads a gap, the zero counts in
+// the opposite sense.
 double offset_um_with(const Probe& probe, double zero_m);
 
 }  // namespace mdof::tools

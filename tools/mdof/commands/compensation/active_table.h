@@ -1,4 +1,4 @@
-// Which compensation tables are active, and what a change of that says.
+// The active compensation tables, and the output of a change.
 #pragma once
 
 #include <optional>
@@ -13,12 +13,13 @@ namespace mdof::tools {
 
 void add_expected_generation_option(CLI::App& command, std::optional<std::int64_t>& generation);
 
-// The generation of a table that is active, else 0.
+// The generation of an active table; 0: the table is not active.
 Result<std::int64_t> generation_of(store::Store& store, const CompensationTable& table);
 Result<std::int64_t> generation_of(store::Store& store, const VolumetricTable& table);
 
-// What came of an activation, from the JSON that mdofd and store::activation_json() give alike:
-// that JSON, or `done` or, where nothing changed, `already`, with the generation.
+// Prints the result of an activation. `reply` is the JSON that mdofd and store::activation_json()
+// return. The output is this JSON, or `done` with the generation, or `already` with the generation
+// if nothing changed.
 Status print_activation(const std::string& reply, const std::string& done,
                         const std::string& already, bool json);
 

@@ -1,5 +1,5 @@
-// mdof compensation build: the mean errors of runs of one axis as a table, or the corrections over
-// a plane or a volume of a machine; stored.
+// mdof compensation build: builds and stores a table with the mean errors of runs of one axis, or
+// the corrections over a plane or a volume of a machine.
 #include <CLI/CLI.hpp>
 
 #include "daemon/history.h"
@@ -22,8 +22,9 @@ namespace mdof::tools {
 namespace {
 
 struct BuildCommand {
-  std::string database, socket, axis, reference;  // empty: the rig's tool point, else the fixture
-  std::vector<std::string> words;                 // runs as they were given
+  // An empty reference means the tool point of the rig, otherwise the fixture.
+  std::string database, socket, axis, reference;
+  std::vector<std::string> words;  // the arguments RUN
   std::vector<std::int64_t> runs;
   bool keep_slope = false, partial = false, json = false, all_warnings = false;
   LimitOptions limits;
@@ -39,12 +40,12 @@ Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
                                daemon::action_now("compensation.build", daemon::this_process())};
   MDOF_TRY(request.limits, command.limits.limits());
   if (!command.reference.empty())
-    reference_from(command.reference, request.reference.emplace());  // the option takes no other
+    reference_from(command.reference, request.reference.emplace());  // always valid
   return daemon::build_table(store, request);
 }
 
-// mdofd has the database: it builds and stores. What it stored is read and shown like a table of
-// this program's.
+// If mdofd holds the database, it builds and stores the table. This program then reads and shows
+// it.
 Result<daemon::BuiltTable> build_there(rpc::Client& mdofd, const BuildCommand& command) {
   JsonWriter params;
   params.begin_object().key("runs").begin_array();
@@ -75,7 +76,7 @@ Status choose_runs(BuildCommand& command) {
   return {};
 }
 
-// What is of tables of the other kind is refused, not left out in silence.
+// Refuses options for tables of the other kind instead of ignoring them.
 Status check_kind(const BuildCommand& command) {
   if (!command.volume.asked()) {
     if (command.words.empty())

@@ -1,4 +1,4 @@
-// mdof compensation check: would the exported tables make the error vanish?
+// mdof compensation check: checks whether the exported tables would cancel the error.
 #include <CLI/CLI.hpp>
 
 #include "tools/mdof/commands/command.h"

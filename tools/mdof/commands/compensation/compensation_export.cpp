@@ -1,4 +1,4 @@
-// mdof compensation export: tables as the files of a machine's controller.
+// mdof compensation export: writes tables as files for the controller of a machine.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string_view>
@@ -69,12 +69,12 @@ std::string formats_text(std::size_t width) {
   return text;
 }
 
-// "EAX", not "EXX".
+// True for "EAX", false for "EXX".
 bool is_angle(const std::string& error) {
   return error.size() > 1 && std::string_view("ABC").find(error[1]) != std::string_view::npos;
 }
 
-// All or none: files of two exports beside each other would be a table of their own.
+// Writes all files or none: files of two exports together would form another table.
 Status check_free(const std::vector<fs::path>& files) {
   std::error_code ec;
   for (const fs::path& file : files)
@@ -166,7 +166,7 @@ std::string exported_text(const ExportedTables& exported, const std::vector<std:
 Status export_tables(const ExportTablesCommand& command) {
   if (command.list)
     return command.json ? write_line(formats_json()) : write_out(formats_text(terminal_columns()));
-  // A format that is not written is refused first: no --out would help.
+  // A format that mdof cannot write is refused first, because --out would not help.
   MDOF_CHECK(format_of(command.request));
   if (command.folder.empty()) return fail(ErrorCode::usage, "missing option --out FOLDER");
   MDOF_TRY(const ExportedTables exported, exported_tables(command.request));

@@ -1,4 +1,4 @@
-// mdof compensation linuxcnc: the HAL lines that put live compensation into a LinuxCNC.
+// mdof compensation linuxcnc: writes the HAL lines for live compensation in LinuxCNC.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
@@ -14,7 +14,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr double kMostMargin_mm = 5;  // far more than any correction, less than a mistyped one
+constexpr double kMostMargin_mm = 5;  // far more than any correction, but less than a typing error
 
 struct LinuxCncCommand {
   std::string ini, folder;

@@ -1,4 +1,4 @@
-// mdof compensation list: the stored tables, newest first.
+// mdof compensation list: lists the stored tables, newest first.
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/gate/table_documents.h"

@@ -1,4 +1,4 @@
-// mdof compensation show: a table, by default the active one.
+// mdof compensation show: shows a table, by default the active table.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -24,12 +24,12 @@ namespace {
 
 struct ShowTableCommand {
   std::string database, axis;
-  std::int64_t table = 0;  // 0: chosen here
+  std::int64_t table = 0;  // 0: choose_table() decides
   bool csv = false, json = false;
 };
 
-// The one asked for; else the active one, of the axis where it was given; else the newest. Of axis
-// or volume.
+// The requested table; otherwise the active table (of the axis, if given); otherwise the newest
+// table. Considers tables of axes and of the volume.
 Result<std::int64_t> choose_table(store::Store& store, const ShowTableCommand& command) {
   if (command.table != 0) return command.table;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) {

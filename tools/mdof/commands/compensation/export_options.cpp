@@ -1,4 +1,4 @@
-// The options that mdof compensation export and check have in common.
+// The common options of mdof compensation export and check.
 #include <CLI/CLI.hpp>
 
 #include "tools/mdof/commands/compensation/exported.h"
@@ -83,7 +83,7 @@ void add_export_options(CLI::App& command, ExportRequest& request, const std::st
   add_consent_flags(command, request.consent, "a table" + remark);
   command.add_flag("--not-active", request.not_active,
                    "Accept a table that is not active" + remark);
-  command.add_flag("--not-in-force", request.not_active)->group("");  // its former name
+  command.add_flag("--not-in-force", request.not_active)->group("");  // the former name
   command.add_flag("--unverified-sign", request.unverified_sign,
                    "Export although the sign convention of the controller is not confirmed");
   add_database_option(command, request.database);

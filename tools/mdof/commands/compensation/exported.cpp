@@ -23,7 +23,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr double kMostTolerance_um = 100;
-// More would call any file a correction.
+// With larger limits, any file would pass as a correction.
 constexpr double kMostResidual_um = 20, kMostResidual_percent = 50;
 
 Status check_request(const ExportRequest& request) {
@@ -43,7 +43,7 @@ Status check_request(const ExportRequest& request) {
   return {};
 }
 
-// Who reads the files has to know with which limits they passed.
+// Records changed limits in the files, so that the reader knows them.
 void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
                  std::vector<std::string>& marks) {
   std::string changed;
@@ -72,7 +72,8 @@ void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
   if (!changed.empty()) marks.push_back("LIMITS CHANGED: " + changed);
 }
 
-// What nobody may take for a measured result is refused, or marked where it is asked for.
+// Refuses data that must not be taken for a measured result, or marks them if the request accepts
+// them.
 Status judge(const daemon::Judged& judged, const ExportRequest& request, ExportedTables& out) {
   MDOF_CHECK(daemon::check_gate(judged, request.consent, "it is not exported"));
   auto& marks = out.options.marks;
@@ -101,7 +102,7 @@ Status judge_table(store::Store& store, const CompensationTable& table,
                      "from the same runs");
   MDOF_TRY(const daemon::Judged judged, daemon::judged_table(store, table));
   MDOF_CHECK(judge(judged, request, out));
-  // Positioning is never active: mdofd does not serve it.
+  // A table with positioning is never active, because mdofd does not serve it.
   if (table.has_positioning()) return {};
   MDOF_TRY(const std::int64_t generation, generation_of(store, table));
   return judge_active(table.id, generation, request, out.options.marks);
@@ -120,7 +121,7 @@ Status judge_sign(const controllers::Format& format, const ExportRequest& reques
   return {};
 }
 
-// "X=0,Y=1,Y=3"
+// Reads "X=0,Y=1,Y=3".
 Status take_joints(const ExportRequest& request, ExportedTables& out) {
   if ((!request.joints.empty() || request.units != "mm") && !out.format->takes_joints)
     return fail(
@@ -149,7 +150,7 @@ Status take_joints(const ExportRequest& request, ExportedTables& out) {
   return {};
 }
 
-// MAX_ACCELERATION where an option or the ini file says it; else it is not known.
+// Takes MAX_ACCELERATION from an option or from the ini file; without both it is unknown.
 Status take_ramps(const ExportRequest& request, ExportedTables& out) {
   const bool given = request.max_acceleration_mm_s2.has_value();
   if (!given && request.ini.empty()) return {};
@@ -178,7 +179,7 @@ Status take_siemens_limits(const ExportRequest& request, ExportedTables& out) {
                   "siemens-lec and siemens-cec have these options");
 }
 
-// What was measured in one approach alone holds in both where that is asked for.
+// If requested, errors that were measured in one approach only apply to both approaches.
 Status take_one_approach(CompensationTable& table, const ExportRequest& request,
                          ExportedTables& out) {
   const auto has = [](const std::vector<double>& x) {
@@ -203,7 +204,8 @@ Status take_one_approach(CompensationTable& table, const ExportRequest& request,
   return take(positioning_name(table.axis), table.positioning.forward, table.positioning.reverse);
 }
 
-// Its columns of both approaches are then the same: the controller takes them for a reversal of 0.
+// Both approaches of such a table have the same values, so the controller assumes a reversal error
+// of 0.
 Status mark_unknown_approach(store::Store& store, const CompensationTable& table,
                              ExportedTables& out) {
   if (!table.has_positioning() || !out.format->both_approaches) return {};
@@ -260,7 +262,7 @@ Status export_axes(store::Store& store, const ExportRequest& request,
   return {};
 }
 
-// Some hold both: then it is the table that says.
+// Some formats hold both kinds; the kind of the table then decides.
 Result<bool> takes_a_volume(store::Store& store, const controllers::Format& format,
                             const ExportRequest& request) {
   if (!format.volume.write || !format.axes.write) return format.volume.write != nullptr;
@@ -319,7 +321,7 @@ Status export_square(store::Store& store, const ExportRequest& request, Exported
           " state that the fixture is on the side of the work; measure with the fixture in the "
           "spindle, or correct the key \"moves\" in the rig");
   }
-  // The point at which tables of these rigs hold, too: the angle at another point is another.
+  // Tables of these rigs are valid at this point, too; the squareness depends on the point.
   const StatedAt at = stated_at_by_default(x);
   if (at != stated_at_by_default(y))
     return bad_input(name + ": tool_point_mm differs between the rigs of the runs " +

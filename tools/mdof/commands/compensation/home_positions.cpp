@@ -17,7 +17,7 @@ bool read_number(std::string_view text, double& mm) {
   return read.ec == std::errc() && read.ptr == end && std::isfinite(mm);
 }
 
-// "X and Y", "X, Y and Z"
+// Joins the names as "X and Y" or "X, Y and Z".
 std::string listed(std::string_view axes) {
   std::string text;
   for (std::size_t k = 0; k < axes.size(); ++k)

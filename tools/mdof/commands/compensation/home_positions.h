@@ -1,4 +1,4 @@
-// --home-mm of mdof compensation export and check.
+// Option --home-mm of mdof compensation export and check.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace mdof::tools {
 
 using Homes = std::vector<controllers::ExportOptions::Home>;
 
-// "X=10,Y=-20", or one number, whose axis is not known yet. Error: what is neither.
+// Reads "X=10,Y=-20", or one number, whose axis is still unknown. Error: the text is neither.
 Result<Homes> home_positions(const std::string& text);
 
-// A number for one axis becomes that of the only table. Errors: a number for several tables; a home
-// of an axis whose table is not among them.
+// Assigns a number without axis to the axis of the only table. Errors: a number for several tables;
+// a home of an axis without a table.
 Status give_homes_to(std::string_view axes, Homes& homes);
 
 }  // namespace mdof::tools

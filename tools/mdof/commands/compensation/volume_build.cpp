@@ -37,8 +37,8 @@ Status check_options(const VolumeOptions& o) {
   return {};
 }
 
-// Where the axes stand that are not of the grid. Three numbers name all axes, so those of the grid
-// must be 0.
+// Positions of the axes that are not in the grid. If three numbers are given, the numbers of the
+// axes in the grid must be 0.
 Result<algo::Command> others_from(const Machine& machine, const VolumeOptions& o) {
   MDOF_TRY(const algo::Command at, command_from(machine, o.at));
   const bool named = o.at.find('=') != std::string::npos;
@@ -78,13 +78,13 @@ Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
   return built;
 }
 
-// mdofd has the database: it builds and stores. What it stored is read and shown like a table of
-// this program's.
+// If mdofd holds the database, it builds and stores the table. This program then reads and shows
+// it.
 Result<daemon::BuiltVolumetric> build_there(rpc::Client& mdofd, const VolumeBuild& command) {
   const VolumeOptions& o = command.options;
   MDOF_TRY(const std::string text, read_text_file(o.machine));
   JsonWriter params;
-  // mdofd reads the files beside it, as this user may.
+  // mdofd reads the files in this folder with the permissions of this user.
   const std::string source = std::filesystem::absolute(o.machine).lexically_normal().string();
   params.begin_object().field("machine", text).field("machine_source", source);
   params.field("axes", axes_of(o)).field("step_mm", *o.step_mm);

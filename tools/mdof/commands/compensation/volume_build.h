@@ -1,4 +1,4 @@
-// mdof compensation build --machine: the corrections over a plane or a volume, stored.
+// mdof compensation build --machine: builds and stores corrections over a plane or a volume.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ struct VolumeOptions {
   std::optional<double> step_mm;
 
   bool asked() const { return !machine.empty(); }
-  Status check_unused() const;  // error (usage): an option of these without --machine
+  Status check_unused() const;  // Error (usage): one of these options is given without --machine.
 };
 void add_volume_options(CLI::App& command, VolumeOptions& options);
 

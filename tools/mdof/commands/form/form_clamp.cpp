@@ -1,5 +1,5 @@
-// mdof form clamp BEFORE AFTER [RELEASED]: what clamping does to a surface, and whether it stays
-// elastic.
+// mdof form clamp BEFORE AFTER [RELEASED]: calculates how clamping deforms a surface, and whether
+// the deformation stays elastic.
 #include <CLI/CLI.hpp>
 #include <optional>
 
@@ -33,7 +33,8 @@ struct Clamped {
   std::optional<bool> is_elastic;
 };
 
-// A stress needs the plate, and a verdict its yield limit too; part of them is a slip.
+// The stress needs all data of the plate, and the verdict also the yield limit. A part of the data
+// is an error.
 Status check_plate(const FormClampCommand& o) {
   const std::pair<const char*, bool> plate[] = {{"--thickness-mm", o.thickness_mm.has_value()},
                                                 {"--young-GPa", o.young_GPa.has_value()},
@@ -64,7 +65,7 @@ Result<Clamped> clamped(const FormClampCommand& o) {
               "the clamping deformation at the remaining pixels is unknown");
   if (!o.thickness_mm) return found;
   const algo::Plate plate{from_mm(*o.thickness_mm), *o.young_GPa * 1e9, *o.poisson};
-  // What springs back carries the stress; the plastic part stays without a load.
+  // The elastic part carries the stress; the plastic part remains without a load.
   auto stress = algo::plate_stress(found.clamping.elastic, plate, from_mm(o.smooth_mm));
   if (!stress) return in_context("--smooth-mm", std::move(stress.error()));
   found.stress = *stress;

@@ -1,4 +1,4 @@
-// mdof form compare A B: what a map differs by from another one.
+// mdof form compare A B: calculates the difference between two maps.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numbers>
@@ -36,7 +36,8 @@ struct Compared {
   double pixel_m = 0;        // of A, the smaller step
 };
 
-// Noise and small differences in form move the best pose by parts of a pixel, which is no notice.
+// Noise and small differences in form shift the best pose by a fraction of a pixel; no notice is
+// needed.
 constexpr double kPixelsMoved = 1, kMuchLeft = 0.5;
 
 Notices notices_of(const Compared& compared, const FormCompareCommand& o) {

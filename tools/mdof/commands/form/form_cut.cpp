@@ -1,4 +1,5 @@
-// mdof form cut WANTED CUT... --out NEXT: the path of the next pass from what the passes left.
+// mdof form cut WANTED CUT... --out NEXT: calculates the path of the next pass from the errors of
+// the passes.
 #include <CLI/CLI.hpp>
 #include <string>
 #include <vector>

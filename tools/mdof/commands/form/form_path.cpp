@@ -1,4 +1,4 @@
-// mdof form path MAP --out FILE: the path of a fast tool servo over a map.
+// mdof form path MAP --out FILE: calculates the path of a fast tool servo over a map.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -56,7 +56,7 @@ CLI::Validator whole_number_in(double least, double most) {
       "");
 }
 
-// Largest acceleration by second differences, and extremes.
+// Largest acceleration from second differences, and the extreme positions.
 class Motion {
  public:
   void add(double z_m) {
@@ -75,7 +75,7 @@ class Motion {
   std::size_t count_ = 0;
 };
 
-// The farthest measured pixel, where the map shows that the part ends there.
+// Distance of the farthest measured pixel, if the map shows that the part ends there.
 Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, double y_centre_m) {
   const algo::FarthestPixel pixel = algo::farthest_pixel(map, x_centre_m, y_centre_m);
   if (!algo::is_edge_missing(map)) return pixel.radius_m;
@@ -93,7 +93,7 @@ Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, doubl
 
 Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMap& map) {
   algo::SpiralRequest request;
-  if (!run_of_map(o.map)) {  // a scan has the spindle's axis at (0, 0)
+  if (!run_of_map(o.map)) {  // a scan has the spindle axis at (0, 0)
     const algo::MapMiddle middle = algo::middle_of(map);
     request.x_centre_m = middle.x_m;
     request.y_centre_m = middle.y_m;
@@ -160,14 +160,15 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
   return found;
 }
 
-// Not where two turns leave a ring between them.
+// nullopt if the feed leaves a ring between two turns.
 std::optional<algo::FeedRoughness> roughness_of(const FoundPath& found) {
   const algo::SpiralRequest& request = found.request;
   if (!(request.feed_m < 2 * request.tool_radius_m)) return {};
   return algo::feed_roughness(request.tool_radius_m, request.feed_m);
 }
 
-// A spiral about a long part leaves it for most of its turns, and bridges rise a little above it.
+// Limits for notices: a spiral around a long part leaves the part for most of each turn, and
+// bridges may rise a little above the part.
 constexpr double kMostlyBridged = 0.9, kHigherBridged = 1.1;
 
 Notices notices_of(const FoundPath& found, const FormPathCommand& o) {

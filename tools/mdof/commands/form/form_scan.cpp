@@ -1,4 +1,4 @@
-// mdof form scan RUN...: a height map of a part on a spindle from a probe of one's own.
+// mdof form scan RUN...: builds a height map of a part on a spindle from a separate probe.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>

@@ -20,10 +20,10 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{2} << 30;  // of a file that is read whole
+constexpr std::size_t kMostBytes = std::size_t{2} << 30;  // of a file read as a whole
 
-// The first piece shows what the file is. Text is read piece by piece, so that a map of many pixels
-// is not in memory as text too.
+// The first piece shows the format of the file. Text is read piece by piece, so that a large map is
+// not also in memory as text.
 class MapReader {
  public:
   MapReader(std::string file, std::optional<XyzUnits> units)
@@ -74,7 +74,7 @@ std::optional<std::int64_t> run_of_map(const std::string& name) {
 }
 
 Status check_out(const std::string& out, const std::vector<std::string>& maps) {
-  std::error_code unknown;  // a file that does not exist yet
+  std::error_code unknown;  // for a file that does not exist yet
   for (const std::string& map : maps)
     if (!out.empty() && !run_of_map(map) && std::filesystem::equivalent(out, map, unknown))
       return fail(ErrorCode::usage, "--out " + out + ": this is the file of the map " + map +

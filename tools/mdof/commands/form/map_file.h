@@ -1,4 +1,4 @@
-// Height maps as arguments of a command: files of each known form, and runs that scanned a part.
+// Height maps as arguments of a command: files in each known form, and runs that scanned a part.
 #pragma once
 
 #include <cstdint>
@@ -20,37 +20,37 @@ namespace mdof::tools {
 struct MapOptions {
   std::string unit, database;
 };
-// The run of "run:12", and of "12" where no file is called so.
+// The run number in "run:12", or in "12" if no file has this name.
 std::optional<std::int64_t> run_of_map(const std::string& name);
 
-// Error usage: `out` is the file of one of these maps, which would be overwritten.
+// Error (usage): `out` is the file of one of these maps and would be overwritten.
 Status check_out(const std::string& out, const std::vector<std::string>& maps);
 
-// Less than nine tenths of the measured pixels.
+// True if `common` is less than nine tenths of the measured pixels.
 bool is_few(std::size_t common, std::size_t measured);
-// A warning where `common` pixels are less than nine tenths of those of `map`; `rest`: what becomes
-// of the others.
+// Warns if `common` is less than nine tenths of the measured pixels of `map`. `rest`: what happens
+// to the other pixels.
 void warn_of_few(const SurfaceMap& map, std::size_t common, const std::string& rest);
 
 void add_map_options(CLI::App& command, MapOptions& options);
 
-// A file, recognised by what is in it: .sdf, Zygo .dat, CSV, XYZ; or "run:12", and "12" where no
-// file is called so. What was assumed of it is said as a warning.
+// Loads a file, recognised by its content: .sdf, Zygo .dat, CSV, XYZ; or a run: "run:12", or "12"
+// if no file has this name. Prints assumptions about the file as warnings.
 Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options);
 
-// Of these runs together; what was left out of them is said as a warning.
+// Joins these runs into one scan. Prints as warnings which heights are left out.
 Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
                                      std::optional<double> pixel_m, const std::string& database);
 
-// As CSV, whole or not at all; replaces a file of that name.
+// Writes CSV, either completely or not at all; replaces an existing file.
 Status save_map(const SurfaceMap& map, const std::string& file);
 
-// A map as a picture: the file's name without its ending, and a title.
+// A map to draw: file name without ending, and title.
 struct DrawnMap {
   std::string file, title;
   const SurfaceMap& map;
 };
-// As SVG into `folder`; empty: none. A map without a height is left out, which is said.
+// Writes SVG files into `folder`; empty: writes none. Leaves out a map without heights and says so.
 Status plot_maps(const std::vector<DrawnMap>& maps, const std::string& folder);
 
 void write_um(JsonWriter& json, const char* key, double pv_m, double rms_m);  // {pv_um, rms_um}

@@ -22,13 +22,13 @@ PathForm path_form(const std::string& file) {
   return PathForm::table;
 }
 
-// Fixed decimals through a whole number: a path has a hundred million of them.
+// Writes fixed decimals through an integer, because a path may have a hundred million numbers.
 void PathWriter::word(const char* before, double x, int decimals) {
   text_ += before;
   static constexpr std::array<double, 10> kTens = {
       {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9}};
   const double scaled = std::nearbyint(std::abs(x) * kTens[static_cast<std::size_t>(decimals)]);
-  if (!(scaled < 9e18)) {  // not of a path
+  if (!(scaled < 9e18)) {  // too large for a path
     text_ += plain_number(x, 17);
     return;
   }

@@ -1,4 +1,4 @@
-// The path of a fast tool servo as a file, written row by row.
+// Writes the path of a fast tool servo to a file row by row.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ enum class PathForm {
   table,  // CSV: t_s,rho_mm,theta_deg,z_um,on_part
   gcode   // inverse time (G93): X radius in mm, C in degrees, Z in mm
 };
-PathForm path_form(const std::string& file);  // by the end of its name
+PathForm path_form(const std::string& file);  // Chosen by the ending of the file name.
 
 struct PathRates {
   double speed_rpm = 0;
@@ -37,7 +37,7 @@ class PathWriter {
 
  private:
   Status flush();
-  // `before`, and x in fixed decimals: 9 are ns, pm, a billionth of a degree.
+  // Appends `before` and x with fixed decimals: 9 decimals are ns, pm, or a billionth of a degree.
   void word(const char* before, double x, int decimals = 9);
   std::string file_;
   PathRates rates_;

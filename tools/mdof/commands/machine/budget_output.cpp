@@ -23,7 +23,7 @@ constexpr const char* kNotKept =
     "source has u = 0";
 constexpr const char* kFactorRule = "all u are multiplied by the same factor";
 
-// The largest contribution to u_x² + u_y² + u_z² first.
+// Sorted by the contribution to u_x² + u_y² + u_z², largest first.
 std::vector<std::size_t> by_size(const algo::BudgetModel& model) {
   std::vector<std::size_t> order(model.causes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -44,7 +44,7 @@ void write_place(JsonWriter& json, const char* key, const Eigen::Vector3d& place
   json.end_object();
 }
 
-// u, intervals and the volume of a stage, or null with the reason.
+// Writes u, intervals and the volume of a stage, or null with the reason.
 void write_stage(JsonWriter& json, const FoundStage& stage) {
   if (stage.outputs.empty()) {
     for (const char* key : {"u_um", "interval_um", "volume_p95_um"}) json.key(key).null();
@@ -160,7 +160,7 @@ std::string contributions_text(const FoundMachineBudget& found) {
   return "\n" + table.text(terminal_columns());
 }
 
-// `at`: where the axes are.
+// `at`: the positions of the axes.
 std::string measured_text(const FoundMachineBudget& found, const std::string& at) {
   if (found.measured.empty()) return "";
   TextTable table({"measured error", "designed/µm", "measured/µm", "ratio"});

@@ -1,5 +1,5 @@
-// mdof machine budget --preset co-planar | MACHINE.toml: how far the tool may be off, what makes
-// it, and which tolerances keep it within a target.
+// mdof machine budget --preset co-planar | MACHINE.toml: calculates the error of the tool, its
+// causes, and the tolerances that keep the error within a target.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -34,7 +34,7 @@ std::vector<std::string> beyond_tables(const algo::BudgetModel& model) {
   return names;
 }
 
-// As if the description of their axes named them.
+// Adds the runs as if the descriptions of their axes named them.
 Status name_runs(Machine& machine, const MachineBudgetCommand& o) {
   if (o.runs.empty()) return {};
   MDOF_TRY(store::Store store, open_to_read(o.database));

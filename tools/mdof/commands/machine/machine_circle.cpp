@@ -1,5 +1,5 @@
-// mdof machine circle MACHINE.toml --radius-mm R | FILE.csv: the circular test (ISO 230-4) as the
-// chain predicts it, and as a ball bar measured it.
+// mdof machine circle MACHINE.toml --radius-mm R | FILE.csv: the circular test (ISO 230-4),
+// predicted from the chain or measured with a ball bar.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <limits>
@@ -36,25 +36,25 @@ struct MachineCircleCommand {
   bool csv = false, json = false;
 };
 
-// Predicted or measured, with its figures.
+// A predicted or measured circle with its figures.
 struct FoundCircle {
-  algo::CircularPath path;  // with its centre taken out
+  algo::CircularPath path;  // with the centre removed
   algo::CircularFigures figures;
 };
 
-// Measured - predicted, where it is largest. U covers 95 % of the prediction by the u of the errors
-// there, k = 1.96; NaN: none is declared. The ball bar has none.
+// The largest difference measured - predicted. U covers 95 % of the prediction from the u of the
+// errors there, k = 1.96; NaN: no u is declared. U does not include the ball bar.
 struct LargestDifference {
   double value_m = 0, angle_rad = 0, U_m = NAN;
   bool clockwise = false;
 };
 
 struct FoundCircles {
-  const Machine* machine = nullptr;  // none: only measured
+  const Machine* machine = nullptr;  // null: measured only
   std::vector<std::string> not_measured, beyond;
   bool simulated = false;
   std::optional<FoundCircle> predicted, measured;
-  std::optional<LargestDifference> largest;  // where both are
+  std::optional<LargestDifference> largest;  // present if both circles are present
 };
 
 Result<FoundCircle> evaluated(algo::CircularPath path) {
@@ -64,7 +64,7 @@ Result<FoundCircle> evaluated(algo::CircularPath path) {
   return found;
 }
 
-// Radial deviations that no machine has, as of another unit.
+// Refuses radial deviations that are too large for a machine, for example in another unit.
 Status check_deviations(const drivers::CsvTable& csv) {
   const double most_um = to_um(algo::TableLimits{}.length_m);
   for (const std::size_t column : {std::size_t{1}, std::size_t{2}})
@@ -78,7 +78,7 @@ Status check_deviations(const drivers::CsvTable& csv) {
   return {};
 }
 
-// Below what a ball bar resolves: probably in mm.
+// Warns if the deviations are below the resolution of a ball bar; they are then probably in mm.
 void warn_small(const drivers::CsvTable& csv) {
   double largest_um = 0;
   for (const std::size_t column : {std::size_t{1}, std::size_t{2}})
@@ -99,7 +99,7 @@ Result<algo::CircularPath> read_path(const drivers::CsvTable& csv) {
   return path;
 }
 
-// Of a prediction at equal angles from 0 on, linear between them.
+// A predicted deviation at an angle: values at equal angles from 0, linear between them.
 double at_angle(const std::vector<double>& deviations, double angle_rad) {
   const auto n = static_cast<double>(deviations.size());
   const double turns = angle_rad / (2 * std::numbers::pi);
@@ -124,7 +124,7 @@ LargestDifference largest_difference(const FoundCircle& measured, const FoundCir
   return largest;
 }
 
-// Of the radius, by the u of the tool's place there, its directions as independent.
+// U of the radius from the u of the tool position there; the directions count as independent.
 double expanded_at(const Machine& machine, const algo::CircleRequest& request, double angle_rad) {
   algo::Command command = request.centre;
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);

@@ -1,5 +1,5 @@
-// mdof machine diagonal MACHINE.toml | FILE.csv: diagonals as the chain predicts them (ISO 230-6),
-// or the squareness of two axes from measured ones.
+// mdof machine diagonal MACHINE.toml | FILE.csv: predicts the diagonals of the chain (ISO 230-6),
+// or finds the squareness of two axes from measured diagonals.
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -25,7 +25,7 @@ struct MachineDiagonalCommand {
   bool json = false;
 };
 
-// What was measured along one of the predicted diagonals.
+// The measurement along one of the predicted diagonals.
 struct Compared {
   std::size_t readings = 0;
   double range_m = 0, largest_difference_m = 0;
@@ -40,7 +40,7 @@ double at_position(const algo::Diagonal& d, double at_m) {
   return d.deviation_m[i] + (d.deviation_m[i + 1] - d.deviation_m[i]) * part;
 }
 
-// Of the readings of one diagonal, both less their value at its first reading.
+// Compares the readings of one diagonal; both series start at 0 at the first reading.
 Result<Compared> compared(const algo::Diagonal& d, std::size_t number,
                           const drivers::CsvTable& csv) {
   Compared c;

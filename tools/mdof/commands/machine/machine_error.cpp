@@ -1,4 +1,5 @@
-// mdof machine error MACHINE.toml --at X,Y,Z: the error of the tool against the work.
+// mdof machine error MACHINE.toml --at X,Y,Z: calculates the error of the tool relative to the
+// work.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <optional>

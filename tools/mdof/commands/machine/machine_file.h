@@ -1,4 +1,5 @@
-// MACHINE.toml with the tables that it names, and what all commands of a machine say.
+// Reads MACHINE.toml with the tables that it names, and has the output that all machine commands
+// share.
 #pragma once
 
 #include <string>
@@ -15,33 +16,33 @@ class App;
 
 namespace mdof::tools {
 
-// With the tables of its files, which stand relative to MACHINE.toml; what it names of the database
-// is not in it yet.
+// Reads the machine with the tables in files, whose paths are relative to MACHINE.toml. The errors
+// that it names from the database are not included yet.
 Result<Machine> described_machine(const std::string& file);
-// The same with its text, to which a comment with the hash of each file is added.
+// The same with the text of the file, extended by a comment with the hash of each table file.
 struct DescribedMachine {
   Machine machine;
   std::string text;
 };
 Result<DescribedMachine> described_with_text(const std::string& file);
-// Adds the rows of the database that it names, and the notices of them are shown; opened only where
-// it names some. `database`: what --db gave.
+// Adds the errors that the machine names from the database, and prints their notices. Opens the
+// database only if the machine names some. `database`: the argument of --db.
 Status add_stored_errors(Machine& machine, const std::string& database);
-// Both.
+// Calls described_machine() and add_stored_errors().
 Result<Machine> load_machine(const std::string& file, const std::string& database);
 
 void add_machine_argument(CLI::App& command, std::string& file);
 void add_approach_option(CLI::App& command, std::string& approach);
 algo::MachineApproach approach_from(const std::string& name);
 
-// "10,20,30": X, Y and Z; or "X=10,C=90": mm and degrees, the others at 0. Error: an axis that the
-// chain has not, what is no number.
+// "10,20,30": X, Y and Z; or "X=10,C=90": mm and degrees, with the other axes at 0. Errors: an axis
+// that is not in the chain; not a number.
 Result<algo::Command> command_from(const Machine& machine, const std::string& text);
 
-// The six components of an error, as keys of JSON and in µm or µrad.
+// The six components of an error in µm or µrad, as keys in JSON.
 inline constexpr const char* kComponents[] = {"x_um", "y_um", "z_um", "a_urad", "b_urad", "c_urad"};
 void write_components(JsonWriter& json, const char* key, const algo::Vector6& error);
-// {"X_mm": ..., "C_deg": ...} of the axes of the chain.
+// Writes {"X_mm": ..., "C_deg": ...} for the axes of the chain.
 void write_command(JsonWriter& json, const char* key, const Machine& machine,
                    const algo::Command& command);
 

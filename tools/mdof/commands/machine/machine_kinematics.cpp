@@ -1,5 +1,5 @@
-// mdof machine kinematics --preset co-planar: what a tilt drive makes of the steps and errors of
-// its screws, and the motion of the platform from that of the screws and back.
+// mdof machine kinematics --preset co-planar: calculates the effect of steps and errors of the
+// screws of a tilt drive, and converts motions between the platform and the screws.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 constexpr std::array<double, 4> kTurns_deg = {0, 15, 30, 45};
-constexpr std::array<double, 4> kTravel = {60e-3, 40e-3, 40e-3, 45 * kRadPerDeg};  // of the paper
+constexpr std::array<double, 4> kTravel = {60e-3, 40e-3, 40e-3, 45 * kRadPerDeg};  // from the paper
 
 struct KinematicsCommand {
   std::string preset = "co-planar", platform, screws, velocity, acceleration;
@@ -30,7 +30,8 @@ struct KinematicsCommand {
   bool json = false;
 };
 
-// One side of the drive: letters in the order of the arrays, and whether the last one is an angle.
+// One side of the drive: letters in the order of the arrays, and whether the last coordinate is an
+// angle.
 struct Side {
   const char* option;
   const char* letters;
@@ -84,9 +85,9 @@ struct Found {
   double platform_error_x_um, platform_error_y_um, platform_resolution_nm, spindle_resolution_nm;
   double tilt_error_x_um, tilt_error_y_um;
   Four rotation_resolution_deg{};
-  algo::ScrewMotion travel{};  // of the screws over kTravel
+  algo::ScrewMotion travel{};  // motion of the screws over kTravel
   std::optional<FourMotions> motion;
-  const Side* side = nullptr;  // that of `motion`
+  const Side* side = nullptr;  // the side of `motion`
 };
 
 Status check_options(const KinematicsCommand& o) {
@@ -125,7 +126,7 @@ Result<Found> find(const KinematicsCommand& o) {
     if (!step) return in_context("--arm-mm", std::move(step.error()));
     f.rotation_resolution_deg[i] = *step / kRadPerDeg;
   }
-  for (std::size_t i = 0; i < 4; ++i) {  // each axis alone; B by the screw A
+  for (std::size_t i = 0; i < 4; ++i) {  // each axis alone; the rotation B uses screw A
     FourMotions platform{};
     platform[i].position = kTravel[i];
     MDOF_TRY(const auto screws, algo::screws_for(drive, platform));

@@ -1,4 +1,5 @@
-// mdof machine map MACHINE.toml --plane XY --step-mm S: errors of the tool over a plane.
+// mdof machine map MACHINE.toml --plane XY --step-mm S: calculates the errors of the tool over a
+// plane.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -49,8 +50,8 @@ std::string csv_header(const Machine& machine, const std::vector<FoundMap>& maps
          covers_text(machine, !first.no_u.empty()) + ".\n" + csv.take();
 }
 
-// Cells as of CsvText, for a million rows: numbers become text many at a time, and the commands of
-// an axis once.
+// Formats cells like CsvText, but for a million rows: converts many numbers at a time, and the
+// positions of an axis only once.
 class MapRows {
  public:
   MapRows(const FoundMap& found, bool with_approach)
@@ -64,14 +65,14 @@ class MapRows {
       begins_[i] = Cell(approach + in_mm_17(map_.first_m[i]));
   }
 
-  // Of the points at a command of the second axis; until the next call.
+  // The rows at one position of the second axis; valid until the next call.
   std::string_view line(std::size_t j) {
     const std::size_t n = begins_.size();
     for (std::size_t i = 0; i < n; ++i) {
       const algo::PlanePoint& p = map_.points[j * n + i];
       for (std::size_t k = 0; k < 3; ++k) {
         const auto of = static_cast<Eigen::Index>(k);
-        values_[kValues * i + k] = to_um(p.error[of]) + 0.0;  // -0 is 0
+        values_[kValues * i + k] = to_um(p.error[of]) + 0.0;  // turns -0 into 0
         values_[kValues * i + 3 + k] = to_um(p.u[of]);
       }
     }
@@ -83,7 +84,7 @@ class MapRows {
       for (std::size_t k = kValues * i; k < kValues * (i + 1); ++k) {
         *out++ = ',';
         if (!std::isfinite(values_[k])) continue;
-        std::memcpy(out, texts_[k].text, kDouble17Size);  // all of it: a fixed size is faster
+        std::memcpy(out, texts_[k].text, kDouble17Size);  // a fixed size is faster
         out += texts_[k].size;
       }
       *out++ = '\n';
@@ -93,7 +94,8 @@ class MapRows {
 
  private:
   static constexpr std::size_t kValues = 6;
-  // An approach and a number, at most 33 characters. All of it is copied: a fixed size is faster.
+  // An approach and a number, at most 33 characters. The whole buffer is copied, because a fixed
+  // size is faster.
   struct Cell {
     Cell() = default;
     explicit Cell(const std::string& of) : size(std::min(of.size(), text.size())) {
@@ -110,7 +112,7 @@ class MapRows {
 
   const algo::PlaneMap& map_;
   std::vector<Cell> begins_;
-  std::vector<double> values_;  // of a line
+  std::vector<double> values_;  // of one line
   std::vector<DoubleText> texts_;
   std::vector<char> line_;
 };

@@ -1,4 +1,4 @@
-// mdof drift LOG: has the system warmed up? From a log of a parked axis.
+// mdof drift LOG: decides from a log of a parked axis whether the system has warmed up.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <optional>

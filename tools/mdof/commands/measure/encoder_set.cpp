@@ -1,4 +1,4 @@
-// mdof encoder set: gives mdofd the place of an axis whose encoder counts from anywhere.
+// mdof encoder set: sets the position of an axis with an incremental encoder in mdofd.
 #include <CLI/CLI.hpp>
 
 #include "schema/base/json_writer.h"

@@ -1,5 +1,5 @@
-// mdof export: raw samples of a recording as CSV, or results of runs as a document, for other
-// programs.
+// mdof export: writes raw samples of a recording as CSV, or results of runs as a document, for
+// other programs.
 #include <CLI/CLI.hpp>
 #include <map>
 
@@ -25,12 +25,12 @@ constexpr auto kToStandardOutput = static_cast<std::size_t>(-1);
 
 struct ExportCommand {
   std::string recording, csv = kStandardOutput, rig;
-  std::string format = "csv", out;  // of runs
+  std::string format = "csv", out;  // for runs
   std::vector<std::string> sources;
   ReportRequest request;
 };
 
-// "OUT.csv", or "OUT-counter.csv" where there are several devices.
+// "OUT.csv"; with several devices "OUT-counter.csv".
 std::string file_of(const std::string& file, const std::string& device) {
   const std::size_t slash = file.rfind('/'), dot = file.rfind('.');
   const bool ends = dot != file.npos && (slash == file.npos || dot > slash);
@@ -71,7 +71,7 @@ class Export {
     return file == kToStandardOutput ? write_out(text_) : files_.write(file, text_);
   }
 
-  // Begins text_ with the head where the file is a new one.
+  // Starts text_ with the header if the file is new.
   Result<std::size_t> file_for(const SampleBlock& block) {
     if (const auto found = file_of_.find(block.device); found != file_of_.end())
       return found->second;
@@ -146,7 +146,7 @@ Status export_document(ExportCommand& command) {
   return write_line(command.out);
 }
 
-// A run as mdof show has it: points as CSV, the whole run as JSON.
+// Writes a run in the format of mdof show: points as CSV, or the complete run as JSON.
 Status export_run(const ExportCommand& command) {
   const std::string& source = command.sources.front();
   if (const std::string why = run_word_error(source); !why.empty())

@@ -1,4 +1,4 @@
-// mdof import FILE: what another instrument measured, as a stored run.
+// mdof import FILE: stores the errors from another instrument as a run.
 #include <CLI/CLI.hpp>
 
 #include "daemon/history.h"
@@ -52,7 +52,7 @@ Result<Run> import_and_store(const ImportCommand& command) {
 }
 
 Status import(ImportCommand command) {
-  command.request.axis = *axis_from(command.axis);  // the option takes no other
+  command.request.axis = *axis_from(command.axis);  // the option accepts only valid names
   command.request.sense = positioning_sense_from(command.sense);
   if (!command.travel.empty()) command.request.against_command = command.travel == "-";
   MDOF_TRY(command.request.limits, command.limits.limits());
@@ -64,7 +64,7 @@ Status import(ImportCommand command) {
         " is read as actual minus commanded position in the coordinates of the controller (the "
         "default of the format). If the errors in the file are positive in the + direction of "
         "the machine axis, set --sense body");
-  // Of other errors the reference point is not known, so they make no table.
+  // Other errors give no table, because their reference point is unknown.
   say(std::string("stored; ") +
       (positioning ? "build a compensation table with: mdof compensation build "
                    : "show the run with: mdof show ") +

@@ -1,4 +1,4 @@
-// mdof live: the probes against their ranges, as mdofd sees them now.
+// mdof live: shows the present readings of the probes in mdofd relative to their ranges.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -17,7 +17,7 @@ namespace mdof::tools {
 namespace {
 
 constexpr std::chrono::seconds kPatience{10};
-constexpr std::chrono::milliseconds kTurn{100};  // within which Ctrl-C is seen
+constexpr std::chrono::milliseconds kTurn{100};  // longest delay of Ctrl-C
 
 struct LiveCommand {
   std::string socket, axis;
@@ -25,7 +25,7 @@ struct LiveCommand {
   bool json = false, ndjson = false;
 };
 
-// mdofd sends no value of an axis that it does not have: the command would wait for ever.
+// mdofd sends no updates for an unknown axis, and the command would wait forever.
 Status check_axis(rpc::Client& client, const std::string& axis) {
   MDOF_TRY(const std::string info, client.call("server.info"));
   simdjson::dom::parser parser;
@@ -51,7 +51,7 @@ Result<rpc::Client> subscribe(const LiveCommand& command) {
   return client;
 }
 
-// Trouble is printed when it comes; a screen shows it with the next update.
+// Prints a fault at once; on a screen, the next update shows it.
 Status report(const std::string& notification, const LiveCommand& command) {
   const auto trouble = read_trouble(notification);
   if (!trouble || (!command.axis.empty() && trouble->axis != command.axis)) return {};
@@ -61,7 +61,7 @@ Status report(const std::string& notification, const LiveCommand& command) {
   return {};
 }
 
-// The next update of the axis asked for.
+// The next update of the requested axis.
 Result<LiveUpdate> next_update(rpc::Client& client, const LiveCommand& command) {
   const auto end = std::chrono::steady_clock::now() + kPatience;
   while (std::chrono::steady_clock::now() < end && !Interrupt::requested()) {
@@ -77,7 +77,7 @@ Result<LiveUpdate> next_update(rpc::Client& client, const LiveCommand& command) 
                   "; to see the state of the devices, use: mdof device list");
 }
 
-// A document has an end: one update unless a count is given.
+// Prints a finite document: one update, or --count updates.
 Status print_document(rpc::Client& client, const LiveCommand& command) {
   JsonWriter json;
   json.begin_object().key("updates").begin_array();
@@ -89,7 +89,7 @@ Status print_document(rpc::Client& client, const LiveCommand& command) {
   return write_line(json.text());
 }
 
-// Lines as they come: JSON objects or text, or a screen that is drawn anew.
+// Prints each update as it arrives: as a JSON object, as text, or on a screen that is redrawn.
 Status print_updates(rpc::Client& client, const LiveCommand& command) {
   const Interrupt interrupt;
   LiveScreen screen(out_is_terminal(), terminal_columns());

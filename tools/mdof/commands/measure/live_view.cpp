@@ -42,7 +42,7 @@ std::string head_line(const LiveUpdate& u) {
   return line + (u.simulated ? ", SIMULATED" : "") + (u.stale ? ", STALE: no new values" : "");
 }
 
-// Each of them stays whole.
+// Joins the parts into lines; a part is not broken.
 std::string packed(const std::vector<std::string>& parts, std::size_t columns) {
   std::string out, line;
   for (const auto& part : parts) {
@@ -83,7 +83,7 @@ std::string log_entry(const LiveUpdate& u, std::size_t columns) {
 
 std::size_t bar_width(std::size_t columns) {
   const std::size_t room = columns > kBesideBar ? columns - kBesideBar : 0;
-  return std::clamp(room, kFewestBar, kMostBar) / 2 * 2 - 1;  // odd: it has a middle
+  return std::clamp(room, kFewestBar, kMostBar) / 2 * 2 - 1;  // odd, so that the bar has a middle
 }
 
 std::string block(const LiveUpdate& u, std::size_t columns) {

@@ -1,4 +1,4 @@
-// One instant of the bench as text.
+// One update of the measurement as text.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace mdof::tools {
 
-// The value of a "live.update" notification; NaN: not known.
+// The value of a "live.update" notification; NaN: unknown.
 struct LiveUpdate {
   struct Probe {
     std::string id, quality;
@@ -19,29 +19,29 @@ struct LiveUpdate {
   double encoder_mm = 0;
   bool still = false, simulated = false, stale = false;
   std::vector<Probe> probes;
-  std::vector<std::pair<std::string, double>> errors;  // "EYX_um"; empty: not solved
-  std::optional<std::int64_t> run;                     // under way
-  std::vector<std::string> trouble;                    // of its devices, as it stands
-  std::string json;                                    // all of it
+  std::vector<std::pair<std::string, double>> errors;  // "EYX_um"; empty: not solved.
+  std::optional<std::int64_t> run;                     // The run in progress.
+  std::vector<std::string> trouble;                    // Present faults of the devices.
+  std::string json;                                    // The complete value.
 };
 
-// nullopt: the line is something else.
+// nullopt: the line is another message.
 std::optional<LiveUpdate> read_update(std::string_view notification);
 
-// A "run.event" of the type "trouble" (a device is lost, back, suspect or slow) or "left_out" (a
-// stop is near no target).
+// A "run.event" of type "trouble" (a device is lost, back, suspect or slow) or "left_out" (a stop
+// is near no target).
 struct TroubleEvent {
-  std::string axis, line;  // for people
-  std::string json;        // all of it
+  std::string axis, line;  // `line`: text for people.
+  std::string json;        // The complete event.
 };
 std::optional<TroubleEvent> read_trouble(std::string_view notification);
 
-// "|.....#....+.........|": the reading within -range/2 ... range/2, '+' the middle; '<' or '>'
-// beyond an end; blank where it is not known.
+// "|.....#....+.........|": the reading within -range/2 ... range/2; '+' marks the middle, '<' or
+// '>' a reading beyond an end. Blank if the reading is unknown.
 std::string range_bar(double um, double range_um, std::size_t width = 41);
 
-// On a terminal a block of lines for each axis, drawn again in place; else a few words per update,
-// which go on in the next line. No line is longer than `columns`.
+// On a terminal, redraws a block of lines for each axis in place. Otherwise prints one text for
+// each update, wrapped into several lines. No line is longer than `columns`.
 class LiveScreen {
  public:
   LiveScreen(bool terminal, std::size_t columns) : terminal_(terminal), columns_(columns) {}
@@ -50,8 +50,8 @@ class LiveScreen {
  private:
   bool terminal_;
   std::size_t columns_;
-  std::map<std::string, std::string> blocks_;  // by axis
-  std::size_t lines_ = 0;                      // drawn last
+  std::map<std::string, std::string> blocks_;  // By axis.
+  std::size_t lines_ = 0;                      // Number of lines drawn last.
 };
 
 }  // namespace mdof::tools

@@ -1,6 +1,6 @@
-// mdof record: a run of an axis from its start to its end, watched: point k of n, what is awaited.
-// The daemon measures; this command asks and shows. It may end or be killed without loss to the run
-// unless it was asked to stop it.
+// mdof record: measures a run of an axis and shows its progress: point k of n, the next target.
+// mdofd measures; this command only requests and shows. Its end does not affect the run, unless the
+// user asks it to stop the run.
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -25,8 +25,8 @@ using simdjson::dom::element;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kEventWait{200};      // Ctrl-C is seen within this
-constexpr milliseconds kEndPatience{30000};  // a long run is evaluated within this
+constexpr milliseconds kEventWait{200};      // longest delay of Ctrl-C
+constexpr milliseconds kEndPatience{30000};  // limit for the evaluation of a long run
 
 struct RecordCommand {
   std::string socket, axis, note;
@@ -69,8 +69,8 @@ void warn_wrapped(std::string_view words) {
   say(wrapped("warning: " + std::string(words), terminal_columns(), 2));
 }
 
-// "point 3 of 26, next 15.000 mm"; a run without targets or repeats knows less. Of those asked for
-// only solved ones count, each once; further ones are reported.
+// "point 3 of 26, next 15.000 mm"; a run without targets or repeats shows less. Of the requested
+// points only solved points count, each once; the line also reports further points.
 std::string progress_line(const auto& event) {
   const std::int64_t all = integer(event, "points").value_or(0);
   const std::int64_t points = integer(event, "done").value_or(all);
@@ -84,7 +84,7 @@ std::string progress_line(const auto& event) {
                                                 : line + ", next " + fixed(awaited_mm, 3) + " mm";
 }
 
-// Shows the event; gives the run to read where it says that the axis has ended its run.
+// Shows the event. Returns the run to read when the axis has ended its run.
 std::optional<std::int64_t> take_event(std::string_view notification, std::int64_t run,
                                        const std::string& axis) {
   simdjson::dom::parser parser;
@@ -100,12 +100,12 @@ Status ask_to_stop(rpc::Client& client, std::int64_t run) {
   JsonWriter params;
   params.begin_object().field("run", run).end_object();
   const auto stopped = client.call("run.stop", params.text());
-  // The run may have ended by itself meanwhile: its event is on the way.
+  // If the run has ended by itself meanwhile, its event follows.
   if (stopped || stopped.error().code == ErrorCode::not_found) return {};
   return tl::unexpected(stopped.error());
 }
 
-// Until the run has ended; gives the run to read.
+// Waits until the run has ended. Returns the run to read.
 Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordCommand& command) {
   const auto begin = steady_clock::now();
   std::optional<steady_clock::time_point> stopped;
@@ -130,7 +130,7 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
   }
 }
 
-// The run as `mdof show` prints it; an error where it is not what was asked for.
+// Prints the run in the format of `mdof show`. Error: the run is not as requested.
 Status print_result(rpc::Client& client, std::int64_t run, const std::string& result,
                     bool as_json) {
   MDOF_CHECK(as_json ? write_line(result)

@@ -1,4 +1,4 @@
-// mdof replay LOG: a recorded log becomes a stored run.
+// mdof replay LOG: evaluates a recorded log and stores the run.
 #include <CLI/CLI.hpp>
 
 #include "algo/model/restate.h"
@@ -58,7 +58,7 @@ std::string params_of(const daemon::ReplayRequest& request) {
   return json.take();
 }
 
-// mdofd has the database: it reads the log, computes and stores.
+// If mdofd holds the database, it reads the log, evaluates and stores.
 Result<Run> replay_there(rpc::Client& mdofd, const ReplayCommand& command) {
   const daemon::ReplayRequest& request = command.request;
   if (request.log == "-")
@@ -70,7 +70,7 @@ Result<Run> replay_there(rpc::Client& mdofd, const ReplayCommand& command) {
 
 Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
   Reference reference{};
-  reference_from(command.reference, reference);  // the option takes no other
+  reference_from(command.reference, reference);  // the option accepts only valid names
   MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
   return stated_at(rig, reference);
 }
@@ -79,7 +79,7 @@ Result<Run> replay_and_store(const ReplayCommand& command) {
   MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
   if (mdofd) return replay_there(*mdofd, command);
   MDOF_TRY(Run run, replay_here(command.request));
-  MDOF_CHECK(asked_reference(command, run));  // what cannot be shown is not stored
+  MDOF_CHECK(asked_reference(command, run));  // a run that cannot be shown is not stored
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(run.header.id,
            store.add_run(run, daemon::action_now("run.replay", daemon::this_process()),
@@ -94,7 +94,7 @@ Status replay(ReplayCommand command) {
   }
   MDOF_TRY(Run run, command.keep_out ? replay_here(command.request) : replay_and_store(command));
   MDOF_TRY(const StatedAt at, asked_reference(command, run));
-  run = algo::restate(std::move(run), at);  // what is stored is stated at the fixture
+  run = algo::restate(std::move(run), at);  // the stored run is stated at the fixture
   show_notices(run.header.notices, command.all_warnings);
   if (command.json) return write_line(daemon::replay_document(run, daemon::stated_run(run)));
   run.header.notices.clear();  // shown already

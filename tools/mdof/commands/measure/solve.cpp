@@ -1,4 +1,4 @@
-// mdof solve FRAMES.csv: positions and readings in, five errors a row out.
+// mdof solve FRAMES.csv: calculates five errors for each row of positions and readings.
 //
 //   csv read -> here: parse, calibrate and solve -> write rows            (threads; bounded memory)
 #include <CLI/CLI.hpp>
@@ -21,7 +21,7 @@ struct SolveCommand {
   bool csv = false, json = false;
 };
 
-// One row out for one row in: none may be skipped.
+// Each input row gives one output row, so no row may be skipped.
 drivers::CsvRowsOptions reading_options() {
   drivers::CsvRowsOptions options;
   options.kind = CsvKind::frames;
@@ -36,7 +36,7 @@ Status solve_rows(drivers::CsvRows& frames, FrameSolver& solver, ErrorRows& out)
     MDOF_TRY(const drivers::ReadState state, frames.next(block));
     if (state == drivers::ReadState::end) return {};
     SolvedRows* const rows = out.next();
-    if (!rows) return {};  // finish() says why
+    if (!rows) return {};  // finish() returns the error
     MDOF_CHECK(solver.solve(block, *rows));
     out.put();
   }

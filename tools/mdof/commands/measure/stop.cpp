@@ -1,4 +1,4 @@
-// mdof stop: ends the runs under way, through mdofd, which evaluates and stores them.
+// mdof stop: ends the runs in progress; mdofd evaluates and stores them.
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
@@ -27,14 +27,14 @@ struct UnderWay {
   std::int64_t run = 0;
 };
 
-// What run.stop says of one of them.
+// The reply of run.stop for one run.
 struct Stopped {
   std::string reply, axis, state;
-  std::int64_t run = 0;  // another one may have superseded it
+  std::int64_t run = 0;  // another run may have superseded it
   Notices notices;
 };
 
-// Error: the axis asked for is none of mdofd's.
+// Error: mdofd does not have the requested axis.
 Result<std::vector<UnderWay>> runs_under_way(const std::string& info, const std::string& axis) {
   simdjson::dom::parser parser;
   std::vector<UnderWay> runs;
@@ -87,7 +87,7 @@ std::string name_of(const Stopped& run) {
   return "run " + std::to_string(run.run) + " of axis " + run.axis;
 }
 
-// With its reason, which is among its notices.
+// The failure with its reasons from the notices.
 std::string failure_text(const Stopped& run) {
   std::string reasons;
   for (const Notice& each : run.notices)
@@ -96,7 +96,7 @@ std::string failure_text(const Stopped& run) {
   return name_of(run) + " failed" + reasons;
 }
 
-// Error (check): the runs that failed, with their reasons.
+// Error (check): names the failed runs with their reasons.
 Status check_results(const std::vector<Stopped>& runs) {
   std::string failures;
   for (const Stopped& run : runs)
@@ -104,8 +104,8 @@ Status check_results(const std::vector<Stopped>& runs) {
   return failures.empty() ? Status() : fail(ErrorCode::check, failures);
 }
 
-// The option that names the database of `info`, where the command that shows a run would read
-// another one.
+// The option for the database in `info`, if the command that shows a run would read another
+// database by default.
 std::string database_option(const std::string& info) {
   simdjson::dom::parser parser;
   const std::string database = text(parser.parse(simdjson::padded_string(info)), "database");

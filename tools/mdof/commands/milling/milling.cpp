@@ -1,5 +1,5 @@
-// mdof milling --preset micro-end-mill | PLAN.toml: forces, deflection and wall of a micro end
-// mill.
+// mdof milling --preset micro-end-mill | PLAN.toml: calculates forces, deflection and wall of a
+// micro end mill.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <optional>
@@ -32,7 +32,7 @@ struct MillingCommand {
   unsigned threads = default_threads();
 };
 
-// One model of a plan with what it gives.
+// One model of a plan with its results.
 struct Milled {
   MillingPlan plan;
   algo::MillingResult result;
@@ -122,7 +122,8 @@ void write_members(JsonWriter& json, const Milled& milled, const MillingCommand&
   if (milled.sensitivity) write_milling_sensitivity(json, request_of(o), *milled.sensitivity);
 }
 
-// The first with its members outside, each further one under the name of its deflection model.
+// The members of the first model are at the top level; each further model is under the name of its
+// deflection model.
 std::string milling_json(const std::vector<Milled>& all, const MillingCommand& o) {
   JsonWriter json;
   json.begin_object().field("name", all.front().plan.name);
@@ -203,7 +204,7 @@ std::string milling_text(const std::vector<Milled>& all) {
   return text;
 }
 
-// A chart for each model of deflection.
+// Draws a chart for each deflection model.
 Status write_walls(const std::vector<Milled>& all, const std::string& folder) {
   constexpr auto kLanguage = output::Language::english;
   std::vector<charts::NamedChart> drawn;
@@ -232,7 +233,7 @@ Status milling(const MillingCommand& o) {
   std::vector<Milled> all;
   MDOF_TRY(const Milled first, mill(declared, o));
   all.push_back(first);
-  if (!o.preset.empty()) {  // beside the paper's model the one of a steady cut
+  if (!o.preset.empty()) {  // the model of a steady cut in addition to the paper's model
     declared.plan.deflection = DeflectionModel::steady;
     MDOF_TRY(const Milled steady, mill(declared, o));
     all.push_back(steady);

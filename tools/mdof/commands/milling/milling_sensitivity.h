@@ -1,4 +1,4 @@
-// mdof milling --sensitivity: how much of the variation of force and wall each input makes.
+// mdof milling --sensitivity: the share of each input in the variation of force and wall.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@ namespace mdof::tools {
 
 struct MillingSensitivityRequest {
   std::uint64_t trials = 64,
-                seed = 1;  // trials: of the indices; each solves the cut 2 + inputs times
+                seed = 1;  // `trials` for the indices; each trial solves the cut 2 + inputs times
   unsigned threads = 1;
 };
 
 struct MillingSensitivity {
   std::vector<algo::VaryingInput> inputs;
-  std::vector<std::vector<double>> effects;  // [input][output], of one u
-  std::vector<OutputSummary> outputs;        // by Monte Carlo
+  std::vector<std::vector<double>> effects;  // [input][output], effect of one u
+  std::vector<OutputSummary> outputs;        // By Monte Carlo.
   std::vector<OutputIndices> indices;
 };
 
-// The figures do not depend on the threads.
+// The figures do not depend on the number of threads.
 Result<MillingSensitivity> find_milling_sensitivity(const DeclaredMillingPlan& declared,
                                                     const MillingSensitivityRequest& request);
 

@@ -1,4 +1,5 @@
-// mdof part PART.toml: the error of a part along its path, what makes it, and what takes it out.
+// mdof part PART.toml: calculates the error of a part along its path, its causes, and their
+// compensation.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -43,7 +44,7 @@ std::vector<std::size_t> ranked(const std::vector<algo::PartShare>& shares) {
   return order;
 }
 
-// Where causes have no u, a U of 0 and a residual that is u alone are not known.
+// If causes have no u, a U of 0 and a residual that consists of u only are unknown.
 void forget_unknown(FoundPart& found) {
   if (found.part.no_u.empty()) return;
   const auto forget = [](double& x) {
@@ -65,7 +66,7 @@ void write_share(JsonWriter& json, const algo::PartShare& share) {
       .field("U_rms_um", to_um(share.U_rms_m));
 }
 
-// Of the path, at which the layer has no value and counts as 0.
+// Number of path points at which the layer has no value and counts as 0.
 std::uint64_t lacking_points(const LoadedPart& part, const std::string& layer) {
   for (const Notice& each : part.notices)
     if (each.code == NoticeCode::map_lacks_points && each.subject == layer)

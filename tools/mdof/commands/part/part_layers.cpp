@@ -53,7 +53,7 @@ Result<algo::PartPath> load_path(const std::string& file) {
 
 // ---- axes and budget ----
 
-// Tables of the plan count as those that the machine file names: with its checks and their senses.
+// Adds the tables of the plan as if the machine file named them, with its checks and their senses.
 Status name_tables(LoadedPart& part, const PartLayer& layer, const std::string& database) {
   if (layer.from.empty()) return {};
   Machine& machine = part.machine;
@@ -83,7 +83,7 @@ Status name_tables(LoadedPart& part, const PartLayer& layer, const std::string& 
 
 // ---- form and milling ----
 
-// The part springs back by the elastic deformation: what was cut to its place goes to -z.
+// The part springs back by the elastic deformation, so the surface moves towards -z after the cut.
 Result<algo::PartCause> form_cause(LoadedPart& part, const PartLayer& layer,
                                    const std::string& file, const std::string& database) {
   MDOF_TRY(const SurfaceMap map, load_map(file, {{}, database}));
@@ -108,8 +108,8 @@ Result<algo::PartCause> form_cause(LoadedPart& part, const PartLayer& layer,
   return cause;
 }
 
-// From the wall to the tool, in the plane of X and Y: of the normals, or across the path (down cut:
-// the tool is left of the wall's edge; a spindle that turns clockwise, M3).
+// Directions from the wall to the tool in the XY plane: from the normals, or across the path (down
+// cut: the tool is left of the edge of the wall; the spindle turns clockwise, M3).
 Field wall_normals(const algo::PartPath& path, bool is_up) {
   Field normals;
   const std::size_t n = path.at_m.size();
@@ -134,10 +134,10 @@ Result<std::vector<algo::PartCause>> milling_causes(const LoadedPart& part,
       algo::new_cause("tool deflection", part.path.at_m.size()),
       algo::new_cause("deflection over the depth", part.path.at_m.size())};
   for (std::size_t k = 0; k < normals.size(); ++k) {
-    // Outward is into the wall.
+    // Outward means into the wall.
     causes[0].value_m[k] = -result.wall.offset_mean_m * normals[k];
     if (std::isfinite(offset.u_m)) causes[0].u_m[k] = offset.u_m * normals[k];
-    // From tip to root a slope: its standard deviation over the depth.
+    // A slope from tip to root: its standard deviation over the depth.
     causes[1].u_m[k] = result.wall.form_m / std::sqrt(12.0) * normals[k];
   }
   return causes;
@@ -145,7 +145,7 @@ Result<std::vector<algo::PartCause>> milling_causes(const LoadedPart& part,
 
 // ---- all layers ----
 
-// A compensation takes out the value; what is not known of it stays.
+// A compensation removes the value; its uncertainty remains.
 algo::PartCause without_value(algo::PartCause cause) {
   for (Eigen::Vector3d& value : cause.value_m) value.setZero();
   return cause;

@@ -1,4 +1,4 @@
-// PART.toml with all that it names: the path, the machine, and the causes of each layer.
+// PART.toml with everything that it names: the path, the machine, and the causes of each layer.
 #pragma once
 
 #include <string>
@@ -14,27 +14,27 @@ namespace mdof::tools {
 
 struct LoadedLayer {
   PartLayer plan;
-  std::string compensated_by;  // what takes it out; empty: nothing does
+  std::string compensated_by;  // The compensation that removes it; empty: none.
 };
 
 struct LoadedPart {
   PartPlan plan;
   Machine machine;
   algo::PartPath path;
-  std::vector<LoadedLayer> layers;  // those that are on
+  std::vector<LoadedLayer> layers;  // Active layers only.
   std::vector<algo::PartCause> causes;
-  // The same causes when each layer's compensation is applied: what is left of them.
+  // The remainder of the same causes after the compensation of each layer.
   std::vector<algo::PartCause> left;
   std::vector<std::string> not_measured, no_u;
-  // What was assumed: tables beyond whose ends the path goes, tables ("table:N") whose removed
-  // slope would be squareness, points of the path that the form map does not cover.
+  // Assumptions: tables that do not cover the path, tables ("table:N") without the slope that would
+  // be squareness, points of the path that the form map does not cover.
   std::vector<std::string> beyond_tables, tables_without_slope;
   std::size_t points_off_form_map = 0;
-  Notices notices;  // what a layer lacks; its subject is the layer
+  Notices notices;  // Missing data of a layer; the subject is the layer.
 };
 
-// Files stand relative to PART.toml; stored tables in the database. What was assumed is also
-// printed as a warning.
+// File paths are relative to PART.toml; stored tables are in the database. Assumptions are also
+// printed as warnings.
 Result<LoadedPart> load_part(const std::string& file, const std::string& database);
 
 }  // namespace mdof::tools

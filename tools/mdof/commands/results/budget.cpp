@@ -1,4 +1,4 @@
-// mdof budget RUN, mdof budget RUN_X RUN_Y: where the uncertainty of a figure comes from.
+// mdof budget RUN, mdof budget RUN_X RUN_Y: shows the contributors to the uncertainty of figures.
 #include <CLI/CLI.hpp>
 #include <optional>
 
@@ -53,7 +53,7 @@ Status check_options(const BudgetCommand& command) {
   return {};
 }
 
-// One run, or the two of a squareness; "latest" is looked up once.
+// One run, or the two runs of a squareness. "latest" is looked up only once.
 Result<std::vector<std::int64_t>> runs_of(store::Store& store, const BudgetCommand& command) {
   if (command.run_b.empty()) {
     MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
@@ -67,7 +67,7 @@ Result<daemon::FoundBudgets> of_one_run(store::Store& store, const BudgetCommand
                                         std::int64_t run) {
   daemon::RunBudgetsRequest request;
   request.run = run;
-  reference_from(command.reference, request.reference);  // the option takes no other
+  reference_from(command.reference, request.reference);  // the option accepts only valid names
   request.figure = command.figure;
   if (command.at_mm) request.at_m = from_mm(*command.at_mm);
   request.trials = command.trials;

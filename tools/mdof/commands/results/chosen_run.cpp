@@ -25,7 +25,7 @@ void add_chosen_run(CLI::App& command, ChosenRun& choice) {
 
 Result<Run> load_run(store::Store& store, const ChosenRun& choice) {
   Reference reference{};
-  reference_from(choice.reference, reference);  // the option takes no other
+  reference_from(choice.reference, reference);  // the option accepts only valid names
   MDOF_TRY(const auto id, run_number(store, choice.run, axis_from(choice.axis)));
   return daemon::run_stated_at(store, id, reference);
 }

@@ -15,23 +15,23 @@ struct ChosenRun {
   std::string database, run, axis, reference = "fixture";
   bool csv = false, json = false, all_warnings = false;
   Extent extent = Extent::brief;
-  std::string out;  // file to write; empty: standard output
+  std::string out;  // Output file; empty: standard output.
 };
 
 void add_chosen_run(CLI::App& command, ChosenRun& choice);
 
-// With its errors stated at the reference that was chosen.
+// The errors are stated at the chosen reference.
 Result<Run> load_run(store::Store& store, const ChosenRun& choice);
 
-// A warning to read another run instead.
+// Warns if another run supersedes this run.
 Status warn_if_superseded(store::Store& store, std::int64_t run);
 
-// A table of bare numbers, with what people must know of them: lines "# SIMULATED", "# DOUBTFUL"
-// before it, so that the file says it wherever it goes, and notices.
+// Writes a table of bare numbers with the lines "# SIMULATED" and "# DOUBTFUL" before it, so that
+// the file itself contains these marks, and prints the notices.
 Status write_csv_of(const Run& run, bool noise_only, const std::string& csv,
                     const ChosenRun& choice);
 
-// The run whole, as mdof show and mdof export write it.
+// Prints the run in the format of mdof show and mdof export.
 Status show_run(const ChosenRun& choice);
 
 }  // namespace mdof::tools

@@ -1,4 +1,4 @@
-// mdof compare RUN_BEFORE RUN_AFTER: what a compensation, or a repair, did to an axis.
+// mdof compare RUN_BEFORE RUN_AFTER: shows the effect of a compensation or a repair on an axis.
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -26,7 +26,7 @@ struct CompareCommand {
   bool json = false, all_warnings = false;
 };
 
-// "0.123 ± 0.045"; in the unit of the figure, and so is U.
+// "0.123 ± 0.045" in the unit of the figure; U_cell() uses the same unit.
 std::string value_cell(const Budget& budget) {
   if (!(budget.u >= 0)) return fixed(to_key_unit(budget.value), 3);
   return with_u(to_key_unit(budget.value), to_key_unit(budget.u), 3);
@@ -36,7 +36,7 @@ std::string U_cell(double U) {
   return std::isnan(U) ? "unknown" : to_place(to_key_unit(U), to_key_unit(U), 3);
 }
 
-// "reduced, to 1/9.8": the factor only where what is left is seen.
+// "reduced by factor 9.8"; the factor is given only if the remaining value exceeds its U.
 std::string effect_text(const daemon::ComparedFigure& figure) {
   std::string text = daemon::to_string(figure.effect);
   if (figure.effect == daemon::Effect::changed)
@@ -54,7 +54,7 @@ std::string um_cell(double value, double U) {
   return std::isnan(value) ? "-" : um_to_place(value, U);
 }
 
-// Target by target, each approach and the reversal.
+// The targets one by one, with each approach and the reversal error.
 std::string positioning_points_text(const daemon::Comparison& c) {
   if (!c.why_no_points.empty()) return wrapped(c.why_no_points, terminal_columns()) + "\n";
   TextTable table({"position/mm", "", "before/µm", "U/µm", "after/µm", "U/µm"}, 2);
@@ -114,7 +114,7 @@ Status compare(const CompareCommand& command) {
   daemon::ComparisonRequest request;
   MDOF_TRY(request.before, run_number(store, command.before));
   MDOF_TRY(request.after, run_number(store, command.after));
-  reference_from(command.reference, request.reference);  // the option takes no other
+  reference_from(command.reference, request.reference);  // the option accepts only valid names
   MDOF_TRY(const auto found, daemon::compare_runs(store, request));
   show_notices(found.notices, command.all_warnings);
   std::vector<Budget> changes;

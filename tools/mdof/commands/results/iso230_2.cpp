@@ -1,5 +1,5 @@
-// mdof iso230-2 FILE.csv, mdof iso230-2 --run RUN: the parameters of ISO 230-2, of positioning
-// readings in a file or of the errors of a stored run.
+// mdof iso230-2 FILE.csv, mdof iso230-2 --run RUN: calculates the parameters of ISO 230-2 from
+// positioning readings in a file or from the errors of a stored run.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
@@ -43,7 +43,7 @@ struct Iso230Command {
   bool json = false, all_warnings = false;
 };
 
-// None: neither contribution is declared.
+// nullopt: no contribution is declared.
 std::optional<PositioningUncertainty> uncertainty_of(const Iso230Command& command) {
   if (!command.device_limit_um && !command.drift_um) return std::nullopt;
   return algo::positioning_uncertainty({from_um(command.device_limit_um.value_or(kNoFigure)),
@@ -117,7 +117,7 @@ Status draw_run(const Run& run, const RunPositioning& found, const std::string& 
 
 Status iso230_of_run(const Iso230Command& command) {
   Reference reference{};
-  reference_from(command.reference, reference);  // the option takes no other
+  reference_from(command.reference, reference);  // the option accepts only valid names
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
   MDOF_TRY(const Run run, daemon::run_stated_at(store, id, reference));

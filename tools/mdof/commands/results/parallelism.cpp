@@ -1,4 +1,5 @@
-// mdof parallelism RUN_A RUN_B: the angle between two motions along one axis, with its uncertainty.
+// mdof parallelism RUN_A RUN_B: calculates the angle between two motions along one axis with its
+// uncertainty.
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/budgets.h"

@@ -1,4 +1,4 @@
-// mdof plot RUN...: charts of stored runs as SVG files.
+// mdof plot RUN...: draws charts of stored runs as SVG files.
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/evaluation.h"
@@ -28,7 +28,7 @@ struct PlotCommand {
   bool json = false;
 };
 
-// Folder and names as they are written.
+// Charts to write, with folders and names.
 struct Plotted {
   std::vector<charts::NamedChart> charts;
   std::vector<std::string> left_out;
@@ -39,7 +39,7 @@ struct Plotted {
   }
 };
 
-// Runs that are no pair for it are drawn all the same.
+// Draws the squareness of each possible pair; a pair without one does not stop the other charts.
 void draw_squareness(store::Store& store, const std::vector<charts::StatedResults>& runs,
                      output::Language language, Plotted& plotted) {
   std::vector<const charts::StatedResults*> all;
@@ -80,7 +80,7 @@ Status draw_table(store::Store& store, std::int64_t number, output::Language lan
 Result<Plotted> draw_all(const PlotCommand& command) {
   Reference reference{};
   output::Language language{};
-  reference_from(command.reference, reference);  // the options take no others
+  reference_from(command.reference, reference);  // the options accept only valid names
   output::language_from(command.language, language);
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto numbers, run_numbers(store, command.runs, command.axis));

@@ -1,4 +1,4 @@
-// mdof report RUN...: a report of stored runs as one HTML file.
+// mdof report RUN...: writes a report of stored runs as one HTML file.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
@@ -27,7 +27,7 @@ struct ReportCommand {
 
 constexpr std::size_t kLongestHead = 1 << 20;
 
-// HTML of the user's own. A comment or a script could hide what the report must show.
+// The user's own HTML. A comment or a script is refused, because it could hide required content.
 Result<std::string> company_head(const std::string& file) {
   if (file.empty()) return std::string();
   MDOF_TRY(std::string head, read_text_file(file, kLongestHead));
@@ -42,7 +42,7 @@ Result<std::string> company_head(const std::string& file) {
   return head + "\n";
 }
 
-// The same bytes as mdof export --format dcc gives.
+// Attaches the same bytes that mdof export --format dcc writes.
 void attach_certificate(report::Report& report) {
   const auto dcc = documents::dcc_xml(report);
   if (dcc)
@@ -59,7 +59,7 @@ Status write_report(const ReportCommand& command) {
                     ": the HTML file and the PDF file would have this name; give --out FILE.html, "
                     "and mdof writes FILE.pdf beside the HTML file");
   MDOF_TRY(report::Report report, report_of_runs(command.request));
-  output::language_from(command.language, report.language);  // the option takes no other
+  output::language_from(command.language, report.language);  // the option accepts only valid names
   MDOF_TRY(report.head, company_head(command.head));
   attach_certificate(report);
   MDOF_CHECK(write_file(command.out, report::report_html(report), Existing::replace));

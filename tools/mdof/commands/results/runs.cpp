@@ -1,4 +1,4 @@
-// mdof runs: what is stored, as run.list gives it.
+// mdof runs: lists the stored runs with run.list.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -21,7 +21,7 @@ namespace {
 
 using simdjson::dom::element;
 
-constexpr std::int64_t kListPage = 100;  // of run.list
+constexpr std::int64_t kListPage = 100;  // page size of run.list
 
 struct RunsCommand {
   std::string database, socket, axis;
@@ -38,7 +38,7 @@ Result<std::string> listed_here(const RunsCommand& command) {
 
 struct RunsPage {
   std::int64_t total = 0;
-  std::vector<std::string> runs;  // as they came
+  std::vector<std::string> runs;  // in their order in the reply
 };
 
 Result<RunsPage> page_in(const std::string& reply) {

@@ -1,4 +1,4 @@
-// mdof show RUN: a stored run, its points or its figures.
+// mdof show RUN: shows the points or the figures of a stored run.
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/analysis/analysis.h"

@@ -1,4 +1,4 @@
-// mdof squareness RUN_A RUN_B: the angle between two axes, with its standard uncertainty.
+// mdof squareness RUN_A RUN_B: calculates the angle between two axes with its standard uncertainty.
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
@@ -56,7 +56,7 @@ Result<std::string> fit_here(const SquarenessCommand& command) {
   return daemon::squareness_document(fitted, lines);
 }
 
-// mdofd has the database: it fits and stores.
+// If mdofd holds the database, it fits and stores.
 Result<std::string> fit_there(rpc::Client& mdofd, const SquarenessCommand& command) {
   JsonWriter params;
   params.begin_object().field("run_a", command.run_a).field("run_b", command.run_b);
@@ -74,18 +74,18 @@ AxisPair axes_in(const element& document) {
   return found.size() == 2 ? AxisPair{found[0], found[1]} : AxisPair{};
 }
 
-// A result as its document says it, in SI.
+// Reads a result from its document, in SI units.
 struct Said {
   const element& document;
   AxisPair axes = axes_in(document);
   std::string name = squareness_name(axes);
 
   double rad(const std::string& key) const { return from_urad(number(document, key + "_urad")); }
-  // Of one of the reference lines.
+  // A value for one of the reference lines.
   double by(const char* line, const std::string& key) const {
     return from_urad(number(document["lines"][line], key + "_urad"));
   }
-  // In the sense of the squareness; the document gives the angle of the material.
+  // In the sense of the squareness; the document contains the angle of the artefact's material.
   double artefact_rad() const {
     Squareness s;
     s.axes = axes;
@@ -147,7 +147,7 @@ std::string undeclared_text(const element& document) {
   Budget budget;
   budget.not_declared = texts(document, "not_declared");
   budget.noise_only = flag(document, "noise_only");
-  // The words of a rig that declares nothing name no line of it.
+  // If a rig declares nothing, the text has no line of the budget.
   if (text(document, "u_covers").find(kNothingDeclared) == std::string::npos)
     budget.lines.emplace_back().key = "declared";
   return not_declared_text(std::vector{budget});

@@ -1,4 +1,5 @@
-// mdof straightness FILE.csv: a series measured by anything, about each reference line.
+// mdof straightness FILE.csv: calculates straightness from a measured series, for each reference
+// line.
 #include <CLI/CLI.hpp>
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// mdof trend: figures of the stored runs over time, with control limits.
+// mdof trend: shows figures of the stored runs over time with control limits.
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <tuple>
@@ -23,7 +23,7 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kFirmBaseline = 8;  // values; of fewer, limits are provisional
+constexpr std::size_t kFirmBaseline = 8;  // values; with fewer, limits are provisional
 
 struct TrendCommand {
   std::string database, axis, figure, plots;
@@ -37,7 +37,7 @@ std::string runs_of(const daemon::TrendValue& value) {
   return text;
 }
 
-// "µm" of "EYX_straightness_um".
+// "µm" for "EYX_straightness_um".
 std::string unit_of(const daemon::Trend& trend) {
   return trend.figure.ends_with("_um") ? "µm" : "µrad";
 }
@@ -107,7 +107,7 @@ std::string text_of(const daemon::Trend& trend) {
   return out + wrapped(sentence_of(trend), terminal_columns()) + "\n";
 }
 
-// Of all charts with values.
+// The common state of all charts with values.
 NoiseOnly noise_only_of(const std::vector<daemon::Trend>& trends) {
   std::optional<NoiseOnly> all;
   for (const daemon::Trend& trend : trends)
@@ -115,7 +115,7 @@ NoiseOnly noise_only_of(const std::vector<daemon::Trend>& trends) {
   return all.value_or(NoiseOnly::none);
 }
 
-// One row a figure: its last value and what the chart says of it.
+// One row for each figure: its last value and its state in the chart.
 std::string brief_text(const std::vector<daemon::Trend>& trends) {
   TextTable table(
       {"figure", "unit", "values", "last value", "lower limit", "upper limit", "state"});

@@ -1,4 +1,5 @@
-// mdof separate reversal FIRST SECOND: two runs or files, the target turned by 180° in between.
+// mdof separate reversal FIRST SECOND: two runs or files, with the target turned by 180° in
+// between.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,8 @@ struct ReversalCommand {
   std::optional<double> turned_at_mm;
 };
 
-// The middle of what the first set-up reads: then the same places come back end for end.
+// The middle of the places that the first set-up measures; a turn about it maps these places onto
+// each other.
 double middle_of_target(const algo::SeparationRequest& request) {
   const algo::SetUp& first = request.set_ups.front();
   const auto [low, high] = std::minmax_element(first.position_m.begin(), first.position_m.end());

@@ -1,4 +1,5 @@
-// mdof separate shift SET_UP...: the target shifted by known lengths, and turned in some of them.
+// mdof separate shift SET_UP...: the target is shifted by known lengths, and turned in some
+// set-ups.
 #include <CLI/CLI.hpp>
 #include <cmath>
 

@@ -1,4 +1,5 @@
-// mdof separate square RUN_X RUN_Y RUN_X2 RUN_Y2: squareness without knowing the square's angle.
+// mdof separate square RUN_X RUN_Y RUN_X2 RUN_Y2: finds squareness without a known angle of the
+// square.
 #include <CLI/CLI.hpp>
 #include <array>
 

@@ -15,7 +15,7 @@
 namespace mdof::tools {
 namespace {
 
-// The map is subtracted as it is: what is unseen would be taken to be flat.
+// The rig subtracts the map unchanged, so an undetermined part of the map would count as flat.
 Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
                  const OutputOptions& options) {
   if (!options.rig_toml) return {};
@@ -33,7 +33,7 @@ Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
           "turned about the moving axis, or give --despite-unseen");
 }
 
-// "set-up 2" is what the algorithm knows; people know their files and runs.
+// The algorithm names "set-up 2"; adds the names of the files and runs.
 Error with_names(Error error, const SeparationRecord& record) {
   std::string names;
   for (std::size_t k = 0; k < record.sources.size(); ++k)

@@ -1,4 +1,4 @@
-// From the set-ups that a command has made ready to what it prints.
+// Separates the set-ups that a command has prepared, and prints the result.
 #pragma once
 
 #include "daemon/measure/gate/gate.h"
@@ -13,14 +13,14 @@ namespace mdof::tools {
 
 struct OutputOptions {
   bool csv = false, json = false, rig_toml = false, despite_unseen = false, all_warnings = false;
-  daemon::Consent consent;  // to a map
+  daemon::Consent consent;  // consent to a map
 };
 
 void add_output_options(CLI::App& command, OutputOptions& options);
 
-// Separates and prints. Error (check): a map is asked for, and the gate of
-// daemon/measure/gate/gate.h refuses it (set-ups that contradict each other are invalid), or more
-// than offset and slope of it is unseen.
+// Separates and prints. Error (check): a map is requested, but daemon/measure/gate/gate.h refuses
+// it (contradictory set-ups are invalid), or the map has an undetermined part besides offset and
+// slope.
 Status separate_and_print(LoadedSources loaded, const char* method, const OutputOptions& options);
 
 }  // namespace mdof::tools

@@ -117,7 +117,8 @@ std::string at_text(const Vec3& p) {
          plain_number(to_mm(p[2])) + "] mm";
 }
 
-// Of one probe at the same place along the axis in all runs; at another height there is a lever.
+// The probe must be at the same place along the axis in all runs; another place across it causes an
+// Abbe offset.
 Status check_places(const std::vector<Vec3>& at, const SourceOptions& options,
                     LoadedSources& loaded) {
   const double match_m = from_mm(options.match_mm);

@@ -1,4 +1,4 @@
-// What a separation is made of, as the command line gives it: stored runs, or CSV files.
+// The inputs of a separation from the command line: stored runs or CSV files.
 #pragma once
 
 #include <optional>
@@ -17,10 +17,10 @@ class App;
 namespace mdof::tools {
 
 struct SourceOptions {
-  std::vector<std::string> sources;  // numbers of runs or latest, else names of files
+  std::vector<std::string> sources;  // Run numbers or latest, otherwise file names.
   std::string surface, turned_about, database;
-  std::string probe;                            // runs
-  std::string axis = "X", moves, travel = "+";  // files
+  std::string probe;                            // For runs only.
+  std::string axis = "X", moves, travel = "+";  // For files only.
   bool axis_given = false, sides_given = false;
   double at_mm = 0;
   std::optional<double> u_um;
@@ -30,18 +30,18 @@ struct SourceOptions {
 
 void add_source_options(CLI::App& command, SourceOptions& options);
 
-// All set-ups, not turned nor shifted yet, with what they are called.
+// All set-ups before turns and shifts, with their names.
 struct LoadedSources {
   algo::SeparationRequest request;
-  SeparationRecord record;  // without its result
-  Notices notices;          // of the runs, and what they have in them
+  SeparationRecord record;  // Without its result.
+  Notices notices;          // Notices of the runs and of their contents.
 };
 
-// Errors: files beside runs, runs of several axes or sides, a rig that subtracts a height map
-// already, the same readings twice, and what reading them gives.
+// Errors: files together with runs, runs of several axes or sides, a rig that already subtracts a
+// height map, the same readings twice, and errors of reading.
 Result<LoadedSources> load_sources(const SourceOptions& options);
 
-// By 180° about which axis the turned ones were turned: --turned-about, else the motion.
+// The axis of the 180° turn of the turned set-ups: --turned-about, otherwise the axis of motion.
 Axis turned_about(const SourceOptions& options, Axis motion);
 
 }  // namespace mdof::tools

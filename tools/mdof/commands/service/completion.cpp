@@ -1,4 +1,5 @@
-// mdof completion SHELL: the completion of commands and options, made of the commands themselves.
+// mdof completion SHELL: prints a script that completes commands and options, generated from the
+// commands.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
@@ -10,9 +11,9 @@
 namespace mdof::tools {
 namespace {
 
-// A command with what may follow it.
+// A command with the words that may follow it.
 struct Node {
-  std::string path;  // "compensation export"; of mdof itself ""
+  std::string path;  // "compensation export"; empty for mdof itself
   std::vector<const CLI::App*> below;
   std::vector<const CLI::Option*> options;
 };
@@ -43,13 +44,13 @@ std::string options_after(const Node& node) {
   return words;
 }
 
-// Of an option that takes no others: "X Y Z"; else "".
+// The only valid values of an option, such as "X Y Z"; empty: any value.
 std::string values_of(const Node& node, const CLI::Option& option) {
   std::string values;
   if (node.path.starts_with("compensation ") && long_name(option) == "--format")
     for (const controllers::Format& format : controllers::formats())
       values += (values.empty() ? "" : " ") + std::string(format.name);
-  const std::string type = option.get_type_name();  // "TEXT:{X,Y,Z}" of IsMember
+  const std::string type = option.get_type_name();  // "TEXT:{X,Y,Z}" for IsMember
   const std::size_t begin = type.find(":{");
   if (begin == std::string::npos || type.back() != '}') return values;
   values = type.substr(begin + 2, type.size() - begin - 3);
@@ -57,7 +58,7 @@ std::string values_of(const Node& node, const CLI::Option& option) {
   return values;
 }
 
-// bash and zsh: where no word fits, files are offered.
+// In bash and zsh, file names are offered if no word fits.
 std::string bash_script(const std::vector<Node>& nodes) {
   std::string cases;
   for (const Node& node : nodes)
@@ -117,7 +118,7 @@ std::string quoted(std::string text) {  // for fish
 std::string fish_script(const std::vector<Node>& nodes) {
   std::string script = "# fish completion of mdof; made by: mdof completion fish\n";
   for (const Node& node : nodes) {
-    // Each word of the path has been typed, and of a group none of its commands yet.
+    // Each word of the path has been typed, but no command of the group yet.
     std::string condition = node.path.empty() ? "__fish_use_subcommand" : "";
     for (const std::string& word : CLI::detail::split(node.path, ' '))
       if (!word.empty())

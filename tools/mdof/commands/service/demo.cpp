@@ -1,4 +1,4 @@
-// mdof demo: a simulated machine, mdofd and its page, measuring.
+// mdof demo: runs mdofd with a simulated machine and its web page, and measures.
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <chrono>
@@ -32,7 +32,7 @@ struct DemoCommand {
   std::string folder, mdofd, http = "127.0.0.1:0";
 };
 
-// A folder of its own, removed at the end, or the one that was given.
+// A temporary folder that is removed at the end, or the given folder.
 class DemoFolder {
  public:
   static Result<DemoFolder> make(const std::string& given) {
@@ -69,7 +69,7 @@ std::string token_in(const fs::path& file) {
   return line;
 }
 
-// Where the page is, and what it asks for.
+// Says where the page is and which token it needs.
 Result<std::string> welcome(rpc::Client& mdofd, const DemoFolder& folder) {
   MDOF_TRY(const std::string info, mdofd.call("server.info"));
   simdjson::dom::parser parser;
@@ -83,7 +83,7 @@ Result<std::string> welcome(rpc::Client& mdofd, const DemoFolder& folder) {
 
 Status demo(const DemoCommand& command) {
   const Interrupt interrupt;
-  std::signal(SIGPIPE, SIG_IGN);  // an error of writing ends mdofd as well
+  std::signal(SIGPIPE, SIG_IGN);  // a write error also ends mdofd
   MDOF_TRY(const fs::path program, find_mdofd(command.mdofd));
   MDOF_TRY(const DemoFolder folder, DemoFolder::make(command.folder));
   MDOF_TRY(DemoDaemon daemon, DemoDaemon::start(program, folder.path(), command.http));

@@ -1,4 +1,4 @@
-// An mdofd of mdof's own, with simulated axes, in a folder.
+// Starts a separate mdofd with simulated axes in a folder.
 #pragma once
 
 #include <sys/types.h>
@@ -10,12 +10,13 @@
 
 namespace mdof::tools {
 
-// Thread-bound. The destructor asks it to end (SIGTERM), and waits until it has.
+// Thread-bound. The destructor sends SIGTERM and waits until mdofd has ended.
 class DemoDaemon {
  public:
-  // Writes the example configuration into `folder` and starts `program` on it; the page is served
-  // at `http` ("127.0.0.1:0": any port). Its words go to mdofd.log there. Gives it once it answers.
-  // Errors (io): files cannot be written, it cannot be started, or ends at once (its last words).
+  // Writes the example configuration into `folder` and starts `program` with it; mdofd serves the
+  // page at `http` ("127.0.0.1:0": any port) and writes its output to mdofd.log in the folder.
+  // Returns when mdofd answers. Errors (io): files cannot be written; mdofd cannot be started, or
+  // ends at once (with its last message).
   static Result<DemoDaemon> start(const std::filesystem::path& program,
                                   const std::filesystem::path& folder, const std::string& http);
   ~DemoDaemon();
@@ -29,11 +30,11 @@ class DemoDaemon {
  private:
   DemoDaemon(pid_t pid, std::string socket) : pid_(pid), socket_(std::move(socket)) {}
 
-  pid_t pid_;  // 0: it has ended
+  pid_t pid_;  // 0: mdofd has ended
   std::string socket_;
 };
 
-// `asked`, or mdofd beside this program, else on PATH.
+// `asked` if given, otherwise mdofd in the folder of this program, otherwise mdofd on PATH.
 Result<std::filesystem::path> find_mdofd(const std::string& asked);
 
 }  // namespace mdof::tools

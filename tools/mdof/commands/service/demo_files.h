@@ -1,4 +1,4 @@
-// The example configuration (daemon/examples/), in the program: mdof demo works without files.
+// The example configuration (daemon/examples/), embedded in the program: mdof demo needs no files.
 #pragma once
 
 namespace mdof::tools {

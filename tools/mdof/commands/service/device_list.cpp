@@ -1,4 +1,4 @@
-// mdof device list: the devices of mdofd, as it reports them.
+// mdof device list: lists the devices of mdofd.
 #include <CLI/CLI.hpp>
 
 #include "daemon/rpc/line/client.h"

@@ -1,4 +1,4 @@
-// mdof device monitor: a device's values, which this program reads itself.
+// mdof device monitor: prints the values of a device, which this program opens itself.
 #include <CLI/CLI.hpp>
 
 #include "tools/mdof/checks/device_probe.h"

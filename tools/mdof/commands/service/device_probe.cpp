@@ -1,4 +1,4 @@
-// mdof device probe: what a device says, at what rate and with what noise; opened by this program.
+// mdof device probe: opens a device and shows its description, rate and noise.
 #include <CLI/CLI.hpp>
 
 #include "schema/base/json_writer.h"
@@ -18,7 +18,7 @@ struct ProbeCommand {
   bool json = false;
 };
 
-// Every device in turn; one that fails does not keep the others from being asked.
+// Probes all devices in turn; a failed device does not stop the others.
 Status probe(const ProbeCommand& command) {
   MDOF_TRY(const auto devices, chosen_devices(command.choice, "device probe"));
   const Interrupt interrupt;

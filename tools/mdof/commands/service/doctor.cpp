@@ -1,4 +1,4 @@
-// mdof doctor: what is wrong with this machine, its configuration and its devices, and the remedy.
+// mdof doctor: checks this computer, the configuration and the devices, and prints remedies.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -57,7 +57,7 @@ Diagnosis diagnose(const drivers::DriverSpec& device) {
       found.lost > 0 ? "reduce the rate of the device, or the load of this computer" : ""};
 }
 
-// As mdofd says of one of its devices.
+// The state of a device as mdofd reports it.
 Diagnosis diagnosis_from(const simdjson::dom::element& device) {
   const std::string state = text(device, "state"), error = text(device, "error");
   std::string what =
@@ -69,7 +69,7 @@ Diagnosis diagnosis_from(const simdjson::dom::element& device) {
   return {trouble.empty() ? Level::good : Level::bad, what, trouble};
 }
 
-// A running mdofd holds its devices: it is asked.
+// A running mdofd holds its devices, so it is asked for their states.
 std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::string& socket) {
   std::vector<Diagnosis> all = {
       {Level::good, "mdofd is running (" + socket + ") and uses the devices", ""}};

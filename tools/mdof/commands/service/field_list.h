@@ -1,4 +1,4 @@
-// The names of members and columns for people: mdof help fields.
+// mdof help fields: describes the names of members and columns.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace mdof::tools {
 
-std::string field_list(std::size_t width);  // sorted by name
-// Of a name with its groups, or without.
+std::string field_list(std::size_t width);  // Sorted by name.
+// Accepts a name with or without its groups.
 Result<std::string> field_text(const std::string& name, std::size_t width);
 
 }  // namespace mdof::tools

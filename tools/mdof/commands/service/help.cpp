@@ -1,4 +1,5 @@
-// mdof help [COMMAND]: the same as mdof [COMMAND] --help; mdof help fields: the names in results.
+// mdof help [COMMAND]: prints mdof [COMMAND] --help; mdof help fields: describes the names in
+// results.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -19,7 +20,7 @@ Status help_fields(const std::vector<std::string>& words) {
   return {};
 }
 
-// App::help() prints that of the command that was called: of this one.
+// App::help() prints the help of the called command, which is this command.
 Status help(CLI::App* app, const std::vector<std::string>& words) {
   if (!words.empty() && words.front() == "fields") return help_fields(words);
   std::string name = app->get_name();

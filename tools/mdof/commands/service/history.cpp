@@ -1,4 +1,4 @@
-// mdof history: who did what.
+// mdof history: lists the recorded actions.
 #include <CLI/CLI.hpp>
 
 #include "daemon/history.h"

@@ -1,4 +1,4 @@
-// The devices of a configuration that a command opens itself, while no mdofd has them.
+// The devices of a configuration that a command opens itself while mdofd does not run.
 #pragma once
 
 #include <string>
@@ -14,14 +14,15 @@ class App;
 namespace mdof::tools {
 
 struct DeviceChoice {
-  std::string socket;  // empty: that of the configuration
+  std::string socket;  // Empty: the socket in the configuration.
   std::string config = "/etc/mdof/mdofd.toml";
-  std::string name;  // empty: all of them
+  std::string name;  // Empty: all devices.
 };
 
 void add_device_choice(CLI::App& command, DeviceChoice& choice);
 
-// Never empty. Error: none has that name; or mdofd runs and holds them, which `command` then says.
+// Never empty. Errors: no device has this name; mdofd runs and holds the devices (the message names
+// `command`).
 Result<std::vector<drivers::DriverSpec>> chosen_devices(const DeviceChoice& choice,
                                                         const std::string& command);
 

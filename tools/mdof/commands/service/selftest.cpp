@@ -1,4 +1,5 @@
-// mdof selftest: does this installation compute, detect and store as it should? Needs no files.
+// mdof selftest: checks that this installation calculates, detects and stores correctly. Needs no
+// files.
 #include <CLI/CLI.hpp>
 
 #include "schema/base/json_writer.h"

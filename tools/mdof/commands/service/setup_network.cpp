@@ -1,4 +1,4 @@
-// mdof setup network: lets the packaged service reach a device on a network.
+// mdof setup network: allows the packaged service to connect to a device on a network.
 #include <CLI/CLI.hpp>
 
 #include "schema/base/json_writer.h"

@@ -1,4 +1,4 @@
-// mdof status: what mdofd is doing.
+// mdof status: shows the state of mdofd.
 #include <CLI/CLI.hpp>
 #include <cmath>
 
@@ -27,7 +27,7 @@ std::string or_dash(const std::optional<std::int64_t>& number) {
   return number ? std::to_string(*number) : "-";
 }
 
-// A line for each axis where something is to be said about the zero of its encoder.
+// One line for each axis whose encoder zero has a note.
 std::string encoder_text(const array& axes, std::size_t columns) {
   std::string lines;
   for (const element axis : axes)

@@ -1,4 +1,4 @@
-// mdof token: what the web page asks for before it changes something.
+// mdof token: prints the token that the web page requires before a change.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

@@ -1,5 +1,5 @@
-// mdof verify: are the database, with the recordings and logs of its runs, or one recording, what
-// was once written?
+// mdof verify: checks that the database, with the recordings and logs of its runs, or one recording
+// has not changed since it was written.
 #include <CLI/CLI.hpp>
 
 #include "daemon/measure/replay/verify_sources.h"
@@ -25,14 +25,14 @@ bool is_sha256(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// What was found wrong, and what cannot be checked; a file that cannot be judged is an error.
+// Findings, and sources that cannot be checked. A file that cannot be judged is an error.
 using daemon::SourceCheck;
 
 void add(const std::vector<std::string>& more, std::vector<std::string>& to) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-// The database itself, then the files that its runs were made from.
+// Checks the database, then the files from which its runs were made.
 Status verify_database(const std::string& option, const std::string& head, SourceCheck& check,
                        store::ChainHead& now) {
   MDOF_TRY(store::Store store, open_to_read(option));
@@ -45,7 +45,7 @@ Status verify_database(const std::string& option, const std::string& head, Sourc
         "the chain of hashes has no link with the hash " + head +
         " (--head): data that was stored before mdofd reported this hash was removed or changed");
   const auto sources = daemon::verify_sources(store);
-  // A database that is damaged has said so above, and may not name its files.
+  // A damaged database is reported above; it may not name its files.
   if (!sources) return findings.empty() ? Status(tl::unexpected(sources.error())) : Status();
   add(sources->findings, check.findings);
   append(check.notices, sources->notices);

@@ -1,4 +1,4 @@
-// mdof sensitivity: how mounting errors become errors of the result, by Monte Carlo.
+// mdof sensitivity: calculates the effect of mounting errors on the result, by Monte Carlo.
 //
 //   rank 0 reads the request ─▶ all processes make the experiment ─▶ all run its trials ─▶ rank 0
 //   makes the analyses of the plan, stores, draws and prints
@@ -24,7 +24,7 @@
 namespace mdof::tools {
 namespace {
 
-// The study in this process; what is stored is the business of rank 0.
+// The study in this process; only rank 0 stores it.
 struct Job {
   Study study;
   StudyWork work;
@@ -32,10 +32,10 @@ struct Job {
   std::string started_utc;
 };
 
-// What rank 0 knows from the command line and the database before the experiment is made.
+// The data that rank 0 reads from the command line and the database before the experiment is made.
 struct Start {
   StudyRequest request;
-  std::optional<StoredStudy> stored;  // to be continued
+  std::optional<StoredStudy> stored;  // the study to continue
 };
 
 Result<Start> start_of(const SensitivityCommand& command) {
@@ -95,14 +95,14 @@ Status draw(const SensitivityCommand& command, const StudyResult& result) {
   return command.plots.empty() ? Status() : charts::write_study_plots(result, command.plots);
 }
 
-// The key of an output that no trial gave; "": none.
+// Key of an output without any value; empty: none.
 std::string unsolved_output(const StudyResult& result) {
   for (const OutputSummary& s : result.outputs)
     if (s.n == 0) return s.key;
   return "";
 }
 
-// None of the trials gave this output: why, as far as the first of them shows.
+// No trial gave this output. The message contains the reason of the first trial, if it is known.
 Status not_solved(const Study& study, const std::string& key, std::uint64_t trials) {
   const Status first = study.slow() ? check_run_trial(*study.plan, 0) : Status();
   return fail(
@@ -111,7 +111,7 @@ Status not_solved(const Study& study, const std::string& key, std::uint64_t tria
           (first ? "show a trial with --trial 0" : "trial 0: " + words::text(first.error())));
 }
 
-// Exit code 1: there is a result, but not the one that was asked for.
+// Exit code 1: a result exists, but not the requested result.
 Status judge(const Study& study, const StudyResult& result, const StudyRecorder& recorder) {
   if (result.state == StudyState::complete) {
     const std::string key = unsolved_output(result);
@@ -163,11 +163,11 @@ Status show_trial(const SensitivityCommand& command, const Processes& processes)
 
 Status sensitivity(SensitivityCommand& command) {
   MDOF_TRY(Processes processes, Processes::join());
-  Status done = check_usage(command);  // the same on all
+  Status done = check_usage(command);  // the same in all processes
   if (done) done = command.trial ? show_trial(command, processes) : run_study(command, processes);
   const bool speaks = processes.first();
   processes.leave();
-  // mpirun ends all processes once one has failed: the others must not keep rank 0 from saying why.
+  // mpirun ends all processes after one has failed, so only rank 0 reports the error.
   return speaks ? done : Status();
 }
 

@@ -1,4 +1,4 @@
-// mdof studies [STUDY]: the list of the stored sensitivity studies, or one of them.
+// mdof studies [STUDY]: lists the stored sensitivity studies, or shows one of them.
 #include <CLI/CLI.hpp>
 #include <optional>
 
@@ -26,7 +26,7 @@ struct StudiesCommand {
 
 struct Row {
   store::StudyRecord record;
-  std::string state;  // open: under way, or its process was killed
+  std::string state;  // open: in progress, or its process was killed
   std::uint64_t trials = 0;
 };
 

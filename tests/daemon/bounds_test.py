@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""No request may ask for more than a call may take: every parameter of every method has a bound, and what is beyond it
-is refused at once, by its name, while the daemon goes on serving.
+"""Every parameter of every method has a bound. mdofd refuses a value beyond the bound at once and by its name, and
+continues to serve.
 
 usage: bounds_test.py MDOFD MDOF"""
 import os
@@ -19,7 +19,7 @@ LONG = 60_000  # bytes of a value that still fits into a request line
 
 
 def beyond(schema):
-    """Values of the right type that no method may take."""
+    """Values of the right type that no method may accept."""
     kind = schema["type"]
     if kind == "string":
         return ["x" * (schema["maxLength"] + 1)] if schema["maxLength"] < LONG else []

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""mdof beside a daemon: stop, replay into its database, and the same answers with it and without it.
+"""mdof beside a running daemon: stop, replay into its database, and the same replies with and without it.
 
 usage: command_line_test.py MDOFD MDOF"""
 import contextlib
@@ -110,7 +110,7 @@ class FreeText(CommandLine):
 
 class Record(CommandLine):
     def test_ends_with_what_show_prints_and_fits_the_terminal(self):
-        # Complete or not: it is shown.
+        # A run is shown whether it is complete or not.
         _, out, _ = mdof("record", "--axis", "X", "--for-s", 6, "--socket", self.daemon.socket)
         run = self.client.call("run.list")["runs"][0]["run"]
         self.assertEqual(re.search(r"^run (\d+), axis X", out, re.MULTILINE)[1], str(run))
@@ -120,12 +120,12 @@ class Record(CommandLine):
 
 
     def test_names_the_run_that_has_the_result(self):
-        # Begun on the way back, the first targets get other numbers once lower ones are seen.
+        # A run that begins in reverse numbers its targets anew when it reaches lower ones.
         other = Daemon(MDOFD, os.path.join(self.folder.name, "back"), simulator("X", dwell_s=0.4))
         client = other.start()
         self.addCleanup(other.stop)
         for attempt in range(12):
-            time.sleep(0.3 * attempt)  # at another place of the cycle
+            time.sleep(0.3 * attempt)  # in another part of the cycle
             _, _, err = mdof("record", "--axis", "X", "--for-s", 3.5, "--socket", other.socket)
             newest = client.call("run.list", count=1)["runs"][0]
             if newest["supersedes"]:
@@ -134,7 +134,7 @@ class Record(CommandLine):
         self.assertIsNotNone(before, err)
         self.assertIn(f"run {newest['run']} contains the result", err)
         self.assertIn(f"contains the result and replaces run {before}", err)
-        # Of one measurement one run is listed.
+        # Only one run of one measurement is listed.
         started = [r["started_utc"] for r in json.loads(self.done("runs", "--db", other.database, "--json"))["runs"]]
         self.assertEqual((len(set(started)), started[0]), (len(started), newest["started_utc"]))
         self.assertNotRegex(self.done("runs", "--db", other.database), rf"(?m)^ *{before} ")
@@ -189,7 +189,8 @@ class Replay(CommandLine):
             self.client.call("run.replay", path=LOG["X"], rig=open(RIG["X"]).read(), settle_s=-1)
 
     def wait_until_read(self):
-        """Until the daemon's thread that reads a CSV log is there: the replay itself takes 0.2 s on a fast machine."""
+        """Waits until the daemon's thread that reads a CSV log exists: the replay itself takes only 0.2 s on a fast
+        computer."""
         tasks = f"/proc/{self.daemon.process.pid}/task"
         for _ in range(10_000):
             for task in os.listdir(tasks):
@@ -216,7 +217,7 @@ class Replay(CommandLine):
 
 
 class Holder(CommandLine):
-    """A command acts on the database it names, or not at all."""
+    """A command acts on the named database or not at all."""
 
     def setUp(self):
         super().setUp()
@@ -252,7 +253,7 @@ class Holder(CommandLine):
 
 
 class TheSame(unittest.TestCase):
-    """What mdof says does not depend on whether a daemon holds the database."""
+    """The output of mdof does not depend on whether a daemon holds the database."""
 
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -271,14 +272,14 @@ class TheSame(unittest.TestCase):
         self.folder.cleanup()
 
     def counted(self, name, text):
-        """Generations are seconds since 1970 or later ones: here the first of a database is 1, the next 2, ..."""
+        """Replaces generations, which are seconds since 1970 or later: the first of a database is 1, the next 2, ..."""
         seen = self.generations[name]
 
         def count(match):
             if match[0] not in seen:
                 seen.append(match[0])
             return str(seen.index(match[0]) + 1)
-        return re.sub(r"(?<![\d.])\d{10}(?![\d.])", count, text)  # and no digits of a fraction
+        return re.sub(r"(?<![\d.])\d{10}(?![\d.])", count, text)  # no digits of a fraction
 
     def generation(self, reply):
         return int(self.counted("daemon", str(reply["generation"])))

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What happens to the database while mdofd has it: links to it, other databases, its end; and lists of what it holds.
+"""The database while mdofd uses it: links to it, other databases, its removal; and lists of its contents.
 
 usage: database_test.py MDOFD MDOF"""
 import contextlib
@@ -114,10 +114,10 @@ class Database(unittest.TestCase):
             self.refused(reason, "compensation.activate", despite_warnings=True, table=table)
             self.refused(reason, "compensation.deactivate", axis="X")
             self.refused(reason, "compensation.build", runs=[1])
-            self.assertEqual(self.client.call("compensation.status"), before)  # machines go on
+            self.assertEqual(self.client.call("compensation.status"), before)  # the active tables stay active
         code, out, _ = mdof("status", "--socket", self.daemon.socket)
         self.assertIn("storage lost", out)
-        os.rename(aside, self.daemon.database)  # the very file
+        os.rename(aside, self.daemon.database)  # the same file
         self.wait_for_event(watcher, "")
         self.client.call("compensation.deactivate", axis="X")
 
@@ -128,7 +128,7 @@ class Database(unittest.TestCase):
                 return
 
     def acknowledged(self):
-        """A run and a table in force that are in the -wal file alone: rows, and what is in force."""
+        """A run and an active table whose data are only in the -wal file: returns the rows and the active table."""
         run = self.replayed()
         self.client.call("compensation.activate", despite_warnings=True,
                          table=self.client.call("compensation.build", runs=[run])["table"])
@@ -140,7 +140,8 @@ class Database(unittest.TestCase):
         run = self.client.call("run.list")["runs"][0]["run"]
         return self.client.points(run), self.client.call("compensation.status")
 
-    # To close it once more would drop the locks of SQLite, and the next program that closes it delete the -wal.
+    # Closing a second descriptor would release the locks of SQLite; the next program that closes the database would
+    # then delete the -wal.
     def test_the_own_files_are_never_opened_a_second_time(self):
         before = self.acknowledged()
         hard, soft = (os.path.join(self.folder.name, name) for name in ("hard", "soft"))
@@ -150,7 +151,7 @@ class Database(unittest.TestCase):
         recording = self.client.call("run.get", run=run)["recording"]["path"]
         for path in (*(self.daemon.database + end for end in ("", "-wal", "-shm")), hard, soft, recording, recording + "-shm"):
             with open(RIG["X"]) as rig:
-                reason = "" if path == soft else "mdofd is writing this file"  # a link may be refused as such
+                reason = "" if path == soft else "mdofd is writing this file"  # a link may be refused because it is a link
                 self.refused(reason, "run.replay", path=path, rig=rig.read())
         os.remove(hard)
         self.client.call("run.stop", run=run, abort=True)
@@ -183,10 +184,10 @@ class Database(unittest.TestCase):
                 self.assertEqual(self.after_a_kill(), before)
                 self.assertEqual(self.client.call("server.info")["storage"], "ok")
 
-    # What is lost cannot be had back; it must not look as if it had never been.
+    # Lost data cannot be recovered, but the database must not look as if they had never existed.
     def test_what_is_lost_with_a_wal_is_told_and_no_older_table_is_served(self):
         self.acknowledged()
-        self.daemon.stop()  # that is in the database itself
+        self.daemon.stop()  # data stored before this are in the database file
         self.client = self.daemon.start()
         status = self.acknowledged()[1]
         self.head_told()
@@ -223,7 +224,7 @@ class Database(unittest.TestCase):
             database.execute("DELETE FROM deed WHERE id = (SELECT max(id) FROM deed)")
             database.execute("DELETE FROM ledger WHERE id > (SELECT max(id) - 2 FROM ledger)")
 
-        def calculate_anew(database):  # of the last link alone; one that fits would look the same to the head
+        def calculate_anew(database):  # recalculates only the last link; a consistent one would agree with the head
             database.execute("UPDATE ledger SET sha256 = ? WHERE id = (SELECT max(id) FROM ledger)", ("0" * 64,))
         for spoil in (cut, calculate_anew):
             for under_mdofd in (False, True):
@@ -262,7 +263,7 @@ class Database(unittest.TestCase):
             database.execute("UPDATE point SET dy_m = dy_m + 1e-6 WHERE run = ? AND row = 3", (run,))
         self.client.call("run.points", run=run, offset=0, count=2)
         self.refused("were changed after they were stored", "run.points", run=run, offset=2, count=2)
-        self.refused("were changed after they were stored", "run.points", run=run, offset=0, count=2)  # the run is suspect now
+        self.refused("were changed after they were stored", "run.points", run=run, offset=0, count=2)  # the run is now known to be changed
 
     def test_a_run_under_way_fails_with_that_reason(self):
         watcher = Client(self.daemon.socket)
@@ -300,7 +301,7 @@ class Database(unittest.TestCase):
     def test_a_run_that_no_line_holds_is_listed_shortened(self):
         self.replayed()
         self.daemon.stop()
-        with sqlite3.connect(self.daemon.database) as database:  # as an older mdof stored it
+        with sqlite3.connect(self.daemon.database) as database:  # in the form of an older mdof
             database.execute("DROP TRIGGER run_no_update")
             database.execute("UPDATE run SET note = ?", ("n" * 100_000,))
         self.client = self.daemon.start()

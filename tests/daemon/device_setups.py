@@ -1,7 +1,9 @@
-"""Live setups, one for each driver: what mdof-simulate serves, how mdofd reads it, how near the truth it is.
+"""Live setups, one for each driver: the simulated devices of mdof-simulate, the configuration of mdofd, and the
+accuracy of the result.
 
-Each has five probes and an encoder at one simulated machine: EYX a wave of 2 µm in 10 mm, EBX one of 30 µrad
-in 8 mm. {NAME} stands for the address that mdof-simulate gave to port NAME ("t7 stream": host and port)."""
+Each setup has five probes and an encoder at one simulated machine: EYX is a wave of 2 µm with a period of 10 mm, EBX
+is a wave of 30 µrad with a period of 8 mm. {NAME} is replaced by the address that mdof-simulate gives to port NAME
+("t7 stream": host and port)."""
 import math
 import os
 import subprocess
@@ -33,9 +35,9 @@ class Setup:
         self.rig = os.path.join(DATA, "devices", rig)
         self.plan, self.devices, self.measure = plan, devices, measure
         self.straightness_um, self.angle_urad = straightness_um, angle_urad
-        self.position_um = position_um  # how near the positions are to the targets, where they are the machine's own
-        self.usb = usb  # needs the kernel's vhci_hcd, and root: in tests/vm
-        self.comedi = comedi  # needs comedi_by_rows.cpp in the place of comedilib
+        self.position_um = position_um  # largest distance of positions from the targets, if they are positions of the machine
+        self.usb = usb  # needs the kernel's vhci_hcd and root: in tests/vm
+        self.comedi = comedi  # needs comedi_by_rows.cpp instead of comedilib
         self.targets, self.dwell_s, self.speed_mm_s = list(targets), dwell_s, speed_mm_s
 
     def plan_text(self):
@@ -43,7 +45,7 @@ class Setup:
                               speed_mm_s=self.speed_mm_s) + self.plan
 
     def config_text(self, addresses):
-        """For a folder with the rig in it, in which mdof-simulate and mdofd work."""
+        """For a folder that contains the rig and is the working folder of mdof-simulate and mdofd."""
         devices = self.devices
         for name, address in addresses.items():
             host, _, port = address.rpartition(":")
@@ -61,7 +63,7 @@ def channels(**inputs):
     return "channel = [" + ", ".join(rows) + "]\n"
 
 
-FAST = "most_counts_per_s = 1e9"  # simulated counters lose nothing, and this machine is quick
+FAST = "most_counts_per_s = 1e9"  # simulated counters lose nothing, and this machine is fast
 AINS = {channel: f"AIN{i}" for i, channel in enumerate("ABCDE")}
 T7_PLAN = """
 [[device]]
@@ -79,7 +81,7 @@ stream_port = {t7 stream port}
 rate_hz = 1000
 """
 
-# Of the board of comedi_by_rows.cpp: volts = (code · 20 / 65535 - 10 - 0.05) / 1.05, about code 32768.
+# For the board in comedi_by_rows.cpp: volts = (code · 20 / 65535 - 10 - 0.05) / 1.05, near code 32768.
 COMEDI_CALIBRATION = f"""{{
   driver_name => "rows",
   board_name => "rows-of-csv",
@@ -191,7 +193,7 @@ driver = "qsb"
 name = "scale"
 port = "{scale serial}"
 """ + channels(encoder=("count", "um_per_count = 0.1")), straightness_um=0.03, angle_urad=2, comedi=True),
-    # A scale of 0.1 mm a count; ten readings of each amplifier a second.
+    # A scale of 0.1 mm per count; ten readings per second from each amplifier.
     "modbus": Setup("rig_volts_X.toml", """
 [[device]]
 name = "adam"
@@ -218,7 +220,7 @@ profile = "lika-smax"
 port = "{slide modbus}"
 """ + channels(encoder=("position", "um_per_count = 100")), straightness_um=0.05, angle_urad=3,
         measure="[measure]\nmax_gap_s = 0.5", targets=(10, 12, 14.1, 16.2), dwell_s=1.6, speed_mm_s=20),
-    # Capacitance converters at 30 scans a second, a counter of the kernel at 200.
+    # Capacitance converters at 30 scans per second, and a counter of the kernel at 200.
     "linux": Setup("rig_gaps_X.toml", """
 [[device]]
 name = "counter"
@@ -300,7 +302,7 @@ poll_ms = 10
 
 
 class Simulators:
-    """mdof-simulate at work with a setup's plan."""
+    """A running mdof-simulate with the plan of a setup."""
 
     def __init__(self, program, setup, folder):
         plan = os.path.join(folder, "devices.toml")
@@ -320,8 +322,8 @@ class Simulators:
 
 
 def worst_errors(points, zero_mm=0.0):
-    """The greatest difference from the truth by error, at the fixture, each up to a constant. zero_mm: what the
-    encoder shows at 0, which moves the positions and no error. The pitch has a lever on EZX."""
+    """The largest difference from the truth for each error, at the fixture, each up to a constant. zero_mm: reading
+    of the encoder at 0, which shifts the positions but no error. The pitch acts on EZX through a lever."""
     def pitch_urad(d):
         return 30 * math.sin(2 * math.pi * d / 8)
 

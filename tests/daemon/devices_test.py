@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Live devices on real sockets: two capaNCDT controllers and a T7, each with its own clock, look at one
-simulated machine; mdofd measures, records, and survives what they do.
+"""Live devices on real sockets: two capaNCDT controllers and a T7, each with its own clock, measure one simulated
+machine. mdofd measures, records, and handles their faults.
 
 usage: devices_test.py MDOFD MDOF MDOF_SIMULATE"""
 import json
@@ -19,7 +19,7 @@ from mdofd import DATA, Client, Daemon, RpcError, notice_lines  # noqa: E402
 MDOFD, MDOF, SIMULATE = sys.argv[1:4]
 RIG = os.path.join(DATA, "devices", "rig_X.toml")
 TARGETS = [0, 2, 4.1, 6.2]
-# The device's own error of a reading: 24 bits of 2000 µm, 16 bits of 20 V times 10 µm/V, the noise.
+# The device's own error of a reading: 24 bits of 2000 µm, 16 bits of 20 V times 10 µm/V, and noise.
 STRAIGHTNESS_UM, ANGLE_URAD = 0.08, 6
 
 PLAN = """
@@ -101,12 +101,12 @@ input = "AIN1"
 """
 
 
-if os.environ.get("MDOF_SANITIZED"):  # whose simulator needs more than a core at 4 kHz
+if os.environ.get("MDOF_SANITIZED"):  # with sanitizers the simulator needs more than a core at 4 kHz
     CONFIG = CONFIG.replace("sample_time_us = 256", "sample_time_us = 960").replace("rate_hz = 4000", "rate_hz = 1000")
 
 
 class Simulators:
-    """mdof-simulate with a plan; on free ports the first time, on the same ones after a restart."""
+    """mdof-simulate with a plan; it uses free ports the first time and the same ports after a restart."""
 
     def __init__(self, folder):
         self.plan = os.path.join(folder, "devices.toml")
@@ -212,9 +212,9 @@ class Devices(unittest.TestCase):
         self.simulators.start()
         self.wait_until_all_flow()
         self.assertTrue(all(d["reopened"] > 0 for d in self.devices().values()))
-        # The T7 has lost its count with its power: no reading is good, as its place is not sure ...
+        # The T7 has lost its count after a power failure: no reading is good, because the position is unknown ...
         self.wait_until(lambda: self.qualities() == {"suspect"}, "readings are not suspect")
-        # ... until somebody has found the zero again and says so by starting mdofd anew.
+        # ... until a user has restored the zero and restarts mdofd.
         self.daemon.stop()
         type(self).client = self.daemon.start()
         self.wait_until_all_flow()
@@ -242,11 +242,12 @@ class Devices(unittest.TestCase):
             self.assertIsNone(value["errors"])
         finally:
             self.simulators.start()
-            self.daemon.stop()  # the T7's count is not trusted after its restart
+            self.daemon.stop()  # the count of the T7 is not valid after its restart
             type(self).client = self.daemon.start()
 
     def say_where_it_stands(self):
-        """As it shows already. The axis goes on by itself: said too late it is refused, or true of another stop."""
+        """Sets the position that the axis already shows. The axis moves on by itself, so a late request is refused
+        or applies to another stop."""
         end = time.monotonic() + 120
         while time.monotonic() < end:
             watcher = Client(self.daemon.socket)
@@ -283,7 +284,7 @@ class Devices(unittest.TestCase):
         self.assertEqual(self.client.call("run.get", run=cut)["state"], "aborted")
         before = self.client.points(cut)
         self.wait_until_all_flow()
-        # Nobody knows whether it counted on: two places could come under one number.
+        # It is unknown whether the device continued counting: two places could get one number.
         with self.assertRaisesRegex(RpcError, "has lost its datum since the run.*mdof encoder set"):
             self.client.call("run.resume", run=cut)
         self.say_where_it_stands()
@@ -301,15 +302,15 @@ class Devices(unittest.TestCase):
 
     def check_both_parts(self, header, cut, before):
         points = self.client.points(header["run"])
-        # What was stored is there to the bit; the last stop may have gone on, unseen. Its u holds the repeatability of
-        # the whole run, which has more repeats now.
+        # Stored points are unchanged to the bit; only the last stop may have continued unseen. Its u contains the
+        # repeatability of the whole run, which now has more repeats.
         def stored(some):
             return [{k: v for k, v in p.items() if k not in ("u", "u_random", "U", "k", "nu_eff")} for p in some]
 
         self.assertEqual(stored(points[:len(before) - 1]), stored(before[:-1]))
         again, last = stored([points[len(before) - 1], before[-1]])
         self.assertTrue(again == last or "interrupted" in again["flags"], (again, last))
-        # One that the cut went through may lack a probe: then it has no errors, and says why.
+        # A stop that was interrupted may lack a probe: then it has no errors and gives the reason.
         solved = [p for p in points if p["EYX_um"] is not None]
         self.assertTrue(all(p["flags"] for p in points if p not in solved), points)
         self.assertGreaterEqual(len(solved), 16)

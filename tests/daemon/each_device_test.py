@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""A live run of every driver: simulated devices on real sockets, lines and files -> mdofd -> points that are
-right, and the same bits from a replay of the recording. Those on the USB: tests/vm/run live.
+"""A live run of every driver: simulated devices on real sockets, lines and files -> mdofd -> correct points, and the
+same bits from a replay of the recording. tests/vm/run live tests the USB devices.
 
 usage: each_device_test.py MDOFD MDOF MDOF_SIMULATE [--comedi LIBRARY] [--keep FOLDER] [SETUP...]
 
---comedi LIBRARY stands for comedilib's boards (comedi_by_rows.cpp); without it those are left out.
+--comedi LIBRARY replaces the boards of comedilib (comedi_by_rows.cpp); without it these setups are left out.
 
---keep FOLDER writes NAME.mdofrec and NAME.json, what a replay of it must give: tests/data/devices/recordings,
-which tests/daemon/kept_recordings_test.py replays."""
+--keep FOLDER writes NAME.mdofrec, and NAME.json with the expected result of its replay, for
+tests/data/devices/recordings, which tests/daemon/kept_recordings_test.py replays."""
 import argparse
 import json
 import os
@@ -26,7 +26,7 @@ def wait_until_all_flow(client, timeout_s=60):
     end = time.monotonic() + timeout_s
     while True:
         devices = client.call("device.list")["devices"]
-        # Before, mdofd warns that times may be off, and on a busy machine the packets are late.
+        # Before this, mdofd warns that times may be wrong, and on a busy computer the packets are late.
         settled = all(not d["clock"] or d["clock"]["settled"] for d in devices)
         if settled and all(d["state"] == "open" and d["scans"] > 20 for d in devices):
             return
@@ -35,7 +35,7 @@ def wait_until_all_flow(client, timeout_s=60):
 
 
 def shown_at_zero_mm(daemon, setup):
-    """An incremental encoder counts from where the axis stood when it was opened: what it shows at the first target."""
+    """The reading of an incremental encoder at the first target; it counts from its position when it was opened."""
     watcher = Client(daemon.socket)
     watcher.call("live.subscribe", interval_ms=20, events=False)
     pass_s = 2 * len(setup.targets) * (setup.dwell_s + 1)
@@ -44,15 +44,15 @@ def shown_at_zero_mm(daemon, setup):
         value = watcher.next_note()["params"]["value"]
         if value["still"]:
             stops.append(round(value["encoder_mm"], 2))
-    # The axis turns round behind the last targets: that is no stop.
+    # The axis reverses beyond the last targets without a stop.
     return min(s for s in set(stops) if stops.count(s) > 0.02 * len(stops)) - setup.targets[0]
 
 
 def measured(daemon, client, targets, axis="X", meanwhile=lambda run: None):
-    """The id of a run that is complete, each target once, both ways."""
+    """Returns the id of a complete run: each target once, in both directions."""
     watcher = Client(daemon.socket, timeout_s=120)
     watcher.call("live.subscribe", interval_ms=20)
-    # A run that begins at the very end of a stop holds that stop, too, with too few readings to be solved.
+    # A run that begins at the very end of a stop also contains this stop, with too few readings to be solved.
     while not (value := watcher.next_note()["params"]["value"]).get("axis") == axis or value.get("still", True):
         pass
     run = client.call("run.start", axis=axis, targets_mm=targets, repeats=1)["run"]
@@ -100,7 +100,7 @@ def check(options, name):
             daemon.process.kill()
             daemon.process.wait()
         recording = header["recording"]["path"]
-        again = replayed(options.mdof, recording)  # no option: what was asked for is in the recording
+        again = replayed(options.mdof, recording)  # no option: the requested options are in the recording
         assert again["points"] == points, f"{name}: a replay gives other points"
         for key in ("state", "options", "straightness", "angles", "note"):
             assert again[key] == header[key], f"{name}: a replay gives another {key}"

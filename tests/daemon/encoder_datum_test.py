@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""An encoder that counts starts at 0 wherever the axis stands: runs and tables say so, until somebody says where it
-stands (encoder.set, mdof encoder set) or the configuration does (offset_mm); and again when its device lost power.
+"""An incremental encoder starts at 0 at any position of the axis: runs and tables state this until a user sets the
+position (encoder.set, mdof encoder set) or the configuration gives it (offset_mm); and again after its device has
+lost power.
 
 usage: encoder_datum_test.py MDOFD MDOF MDOF_SIMULATE"""
 import json
@@ -34,7 +35,7 @@ class EncoderDatum(unittest.TestCase):
         self.setup_.targets, self.setup_.dwell_s = TARGETS, 0.5
         shutil.copy(self.setup_.rig, self.folder.name)
         self.simulators = Simulators(SIMULATE, self.setup_, self.folder.name)
-        self.addCleanup(lambda: self.simulators.kill())  # those of then
+        self.addCleanup(lambda: self.simulators.kill())  # the simulators at that time
 
     def begin(self, change=lambda text: text):
         self.offset_mm, self.said_mm = 0, []
@@ -66,7 +67,7 @@ class EncoderDatum(unittest.TestCase):
         return started, self.client.call("run.get", run=run), self.client.points(run)
 
     def shown_still(self):
-        """What the axis shows while it stands, freshly."""
+        """A fresh reading of the axis at rest."""
         watcher = Client(self.daemon.socket)
         watcher.call("live.subscribe", interval_ms=20, events=False)
         since = None
@@ -88,8 +89,8 @@ class EncoderDatum(unittest.TestCase):
         return float(re.search(r"offset ([\d.-]+) mm", out).group(1))
 
     def set_at_rest(self, wanted_mm, set_position):
-        """Says where the axis stands, by which its count becomes `wanted_mm` of the machine. The axis goes on by
-        itself: said too late it was refused, or true of another stop, and is said again."""
+        """Sets the position so that the count becomes `wanted_mm` of the machine. The axis moves on by itself: a
+        late request is refused or applies to another stop, and is repeated."""
         for _ in range(100):
             position_mm = self.shown_still() + wanted_mm - self.offset_mm
             try:
@@ -113,7 +114,8 @@ class EncoderDatum(unittest.TestCase):
         self.assertEqual(code, 0, err)
         self.assertIn("has no datum", " ".join(out.split()))
         self.assertIn("mdof encoder set", " ".join(out.split()))
-        # Information of the run, no warning: what the axis does is right. A table would be at another place.
+        # This is information about the run, not a warning: the motion of the axis is correct, but a table would be
+        # shifted.
         code, out, err = self.mdof("compensation", "build", header["run"], "--db", self.daemon.database,
                                    "--socket", self.daemon.socket, "--json")
         self.assertEqual(code, 0, err)
@@ -137,7 +139,7 @@ class EncoderDatum(unittest.TestCase):
             nearest = min(TARGETS, key=lambda t: abs(t + 112.5 - p["position_mm"]))
             self.assertLess(abs(nearest + 112.5 - p["position_mm"]), 0.01, p)
         self.check_replay(header)
-        # Twice is not twice the offset.
+        # Setting the position twice does not add the offset twice.
         self.set_at_rest(0, self.set_by_rpc)
 
     def check_replay(self, header):
@@ -156,7 +158,7 @@ class EncoderDatum(unittest.TestCase):
             self.client.call("encoder.set", axis="X", position_mm=1)
         time.sleep(0.3)
         self.client.call("run.stop", run=run, abort=True)
-        refused = 0  # over a whole pass: the axis moves for some of it
+        refused = 0  # over a whole pass: the axis moves for a part of it
         end = time.monotonic() + 4
         while time.monotonic() < end:
             try:
@@ -293,7 +295,7 @@ class EncoderDatum(unittest.TestCase):
 
 
 class Units(unittest.TestCase):
-    """Volts are no position, whichever device gives them: said of the configuration, by its line and with what to do."""
+    """A position in volts is refused for every device: by the line of the configuration, with a remedy."""
 
     def test_an_encoder_in_volts_is_refused_before_anything_is_opened(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""mdofd from outside: runs, live view, squareness, compensation, and the same bits from a replay.
+"""mdofd as a client sees it: runs, live view, squareness, compensation, and the same bits from a replay.
 
 usage: end_to_end_test.py MDOFD MDOF"""
 import fcntl
@@ -22,9 +22,9 @@ from result_schemas import methods  # noqa: E402
 
 MDOFD, MDOF = sys.argv[1:3]
 TARGETS = [0, 2, 4.1, 6.2]
-# X and Y carry the work, Z the tool: the corrections of EYX and EZX go opposite ways.
+# X and Y carry the work, Z the tool: the corrections of EYX and EZX have opposite signs.
 MACHINE = '[machine]\nchain = "w-Y-X-b-Z-t"\n'
-# A run that begins in a stop has the warning that this stop was too short.
+# A run that begins in a stop warns that this stop was too short.
 MAYBE_BEGUN_IN_A_STOP = {"despite_warnings": True}
 SIMULATED = {"simulated": True, **MAYBE_BEGUN_IN_A_STOP}
 FACTOR = {"EYX_um": -1, "EZX_um": 1}
@@ -56,7 +56,7 @@ class EndToEnd(unittest.TestCase):
         cls.folder.cleanup()
 
     def measured(self, **params):
-        """Starts a run, waits for its end, gives its id."""
+        """Starts a run, waits for its end and returns its id."""
         watcher = Client(self.daemon.socket)
         watcher.call("live.subscribe", interval_ms=1000)
         run = self.client.call("run.start", **params)["run"]
@@ -89,7 +89,7 @@ class EndToEnd(unittest.TestCase):
         self.assertEqual(again["recording"]["sha256"], header["recording"]["sha256"])
         code, out, err = mdof("replay", header["recording"]["path"], "--no-store", "--json", "--note", "other",
                               "--targets-mm", *TARGETS[1:])
-        self.assertEqual(code, 0, err)  # what is given on the command line counts
+        self.assertEqual(code, 0, err)  # options on the command line take precedence
         self.assertEqual(json.loads(out)["options"]["targets_mm"], TARGETS[1:])
         self.assertEqual(json.loads(out)["note"], "other")
 
@@ -102,14 +102,14 @@ class EndToEnd(unittest.TestCase):
         self.assertFalse(self.client.call("run.get", run=run)["simulated"])
 
     def test_a_run_stopped_in_a_dwell_keeps_its_id_and_that_point(self):
-        # On a loaded machine the axis may have moved on before the request comes: then once more.
+        # On a loaded computer the axis may have moved on before the request arrives: then the test tries again.
         for _ in range(5):
             run, stopped, still_mm = self.stopped_in_a_dwell()
             points = self.client.points(stopped)
             if abs(points[-1]["position_mm"] - still_mm) < 0.01:
                 break
         self.assertEqual(stopped, run)
-        # Complete only with each target: the run says which it has not.
+        # The run is complete only with each target: it names the missing ones.
         seen = {p["target"] for p in points}
         header = self.client.call("run.get", run=run)
         self.assertEqual(header["state"], "complete" if len(seen) == len(TARGETS) else "partial")
@@ -120,7 +120,7 @@ class EndToEnd(unittest.TestCase):
     def stopped_in_a_dwell(self):
         watcher = Client(self.daemon.socket)
         watcher.call("live.subscribe", interval_ms=20, events=True)
-        # Targets given: else a run that begins in reverse numbers them anew with each that it meets.
+        # Targets are given, because otherwise a run that begins in reverse renumbers them at each new target.
         run = self.client.call("run.start", axis="X", targets_mm=TARGETS)["run"]
         points = 0
         while points < 3:
@@ -278,7 +278,7 @@ class EndToEnd(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             other = Daemon("/usr/bin/systemd-socket-activate", os.path.join(folder, "d"), simulator("X"))
             other.arguments = ["-l", other.socket, MDOFD]
-            client = other.start()  # starts mdofd by connecting
+            client = other.start()  # connecting starts mdofd
             self.assertEqual(client.call("server.info")["server"], "mdofd")
             other.stop()
 
@@ -286,7 +286,7 @@ class EndToEnd(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             other = Daemon(MDOFD, folder, simulator("X"))
             with open(other.database, "w") as database:
-                fcntl.lockf(database, fcntl.LOCK_EX, 1, 1 << 62)  # another writer, which it waits for
+                fcntl.lockf(database, fcntl.LOCK_EX, 1, 1 << 62)  # another writer, for which mdofd waits
                 process = subprocess.Popen([MDOFD, "--config", other.config], stderr=subprocess.PIPE, text=True)
                 end = time.monotonic() + 4
                 while not catches(process.pid, signal.SIGTERM) and time.monotonic() < end:

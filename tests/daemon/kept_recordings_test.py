@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""The recordings of live runs that are kept, one for each driver, give the results that they gave then.
+"""The kept recordings of live runs, one for each driver, give their original results.
 
-usage: kept_recordings_test.py MDOF. They were made by each_device_test.py --keep, some of them in format 1, which had
-not yet what was asked of the run: it was put into their headers afterwards, but for that in format-1/, which needs to
-be told its targets."""
+usage: kept_recordings_test.py MDOF. each_device_test.py --keep has made the recordings, some of them in format 1,
+which did not contain the request for the run. The request was added to their headers later, except for format-1/,
+whose replay needs the targets as options."""
 import glob
 import json
 import os
@@ -23,7 +23,7 @@ def check(file, *options):
     assert len(expected["points"]) >= 8, file
     assert len(result["points"]) == len(expected["points"]), f"{file}: there are other points"
     for point, then in zip(result["points"], expected["points"]):
-        # u_random, U, k and nu_eff came later; these rigs declare nothing, so that u is what it was.
+        # u_random, U, k and nu_eff were added later; these rigs declare nothing, so u has not changed.
         assert {key: point[key] for key in then} == then, f"{file}: the points are others"
     print(f"{os.path.basename(file)}: {len(result['points'])} points to the bit")
 

@@ -1,15 +1,14 @@
 #!/usr/bin/python3
-"""A long run at 1 kHz: what a point costs the daemon does not grow, and no scan is lost.
+"""A long run at 1 kHz: the daemon's cost of a point does not grow, and no scan is lost.
 
 usage: long_run.py MDOFD [--points N]
 
-Prints the daemon's processor time a point over the first and the last tenth of the run (without the
-very first hundred points), its share of a core, its memory, and the scans lost. What else the machine
-does moves the time of a point by more than the bound. Therefore a second daemon begins the same run
-when the last tenth begins, and the cost at the end is compared with the cost of that young run, which
-meets the same machine. Exits with 1 where a point of the old run costs over 10 % more than one of the
-young run, a scan was lost, or a point is not stored. It lasts some 110 ms a point: 20,000 points are
-39 minutes; of a few hundred the shares are too rough for the bound."""
+Prints the daemon's processor time per point over the first and the last tenth of the run (without the first hundred
+points), its share of a core, its memory, and the lost scans. Other load on the computer changes the time of a point
+by more than the limit. Therefore a second daemon begins the same run when the last tenth begins, and the cost at the
+end is compared with the cost of this young run on the same computer. Exits with 1 if a point of the old run costs
+over 10 % more than a point of the young run, a scan was lost, or a point is not stored. A point takes about 110 ms:
+20,000 points take 39 minutes; with a few hundred points the shares are too uncertain for the limit."""
 import argparse
 import atexit
 import os
@@ -22,7 +21,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from mdofd import Daemon, simulator  # noqa: E402
 
 WARM_UP = 100
-LAST_TENTH = 3  # the mark at which the last tenth begins
+LAST_TENTH = 3  # index of the mark at which the last tenth begins
 MEASURE = "\n[measure]\nsettle_s = 0.01\nmin_length_s = 0.02\n"
 
 
@@ -37,8 +36,8 @@ def memory_MiB(pid):
 
 
 class Marks:
-    """When, at what processor time and memory, the run had so many points; `at_mark` is told how many
-    of them were passed."""
+    """Records time, processor time and memory when the run has these numbers of points. `at_mark` gets the number of
+    passed marks."""
 
     def __init__(self, pid, at, at_mark):
         self.pid, self.at, self.at_mark, self.seen = pid, list(at), at_mark, []
@@ -57,7 +56,8 @@ def stretch(begin, end):
 
 
 def measure(daemon, at, at_mark=lambda passed: None):
-    """One run until it has `at[-1]` points: what was seen at each mark, the run's header, what is stored."""
+    """Measures one run until it has `at[-1]` points. Returns the records at the marks, the run's header, and the
+    stored points."""
     client = daemon.start()
     client.call("live.subscribe", interval_ms=1000)
     run = client.call("run.start", axis="X")["run"]

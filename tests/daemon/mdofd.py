@@ -1,7 +1,7 @@
-"""A daemon under test: starts mdofd with a configuration in a folder of its own and talks to it.
+"""A daemon under test: starts mdofd with a configuration in a separate folder and talks to it.
 
-Messages of JSON-RPC are lines; notifications are kept apart from answers. In a unittest each result is checked against the
-schema that rpc.discover gives of it; otherwise (benchmarks, a virtual machine) this needs the standard library alone."""
+Messages of JSON-RPC are lines; notifications are kept apart from replies. In a unittest each result is checked
+against its schema from rpc.discover; otherwise (benchmarks, a virtual machine) only the standard library is needed."""
 import gzip
 import json
 import os
@@ -30,7 +30,8 @@ repeats = {repeats}
 
 
 def notice_lines(document):
-    """The notices of a run, a table or another document as mdof prints them: a line each, marked unless doubtful."""
+    """The notices of a run, a table or another document in the format of mdof: one line each, marked unless
+    doubtful."""
     return [("" if n["severity"] == "doubtful" else n["severity"] + ": ") + n["text"] for n in document["notices"]]
 
 
@@ -41,7 +42,7 @@ def simulator(axis="X", rate_hz=2000, dwell_s=0.3, targets_mm=(0, 2, 4.1, 6.2), 
 
 
 def write_log(path):
-    """Half a second at each of 0 ... 3 mm, for a replay."""
+    """A log for a replay with half a second at each of 0 ... 3 mm."""
     with open(path, "w") as log:
         log.write("time_s,encoder_mm,A_um,B_um,C_um,D_um,E_um\n")
         for i in range(2400):
@@ -51,7 +52,7 @@ def write_log(path):
 
 
 def recorded_again(log, folder):
-    """The same readings a day later: readings of one recording may not count twice."""
+    """The same readings a day later, because readings of one recording must not count twice."""
     path, column = os.path.join(folder, "again.csv"), None
     with gzip.open(log, "rt") as first, open(path, "w") as second:
         for line in first:
@@ -78,7 +79,7 @@ class RpcError(Exception):
 
 
 class Client:
-    schemas = None  # of the results of the mdofd under test
+    schemas = None  # schemas of the results of the mdofd under test
 
     def __init__(self, path, timeout_s=30):
         self.socket = socket.socket(socket.AF_UNIX)
@@ -124,7 +125,7 @@ class Client:
 
 
 class Daemon:
-    # relative: mdofd works in the folder, and nothing that it writes down names the folder.
+    # relative: mdofd works in the folder, and nothing that it writes contains the name of the folder.
     def __init__(self, program, folder, config, durability="full", relative=False):
         self.program, self.folder, self.relative = program, folder, relative
         os.makedirs(folder, exist_ok=True)
@@ -139,7 +140,7 @@ class Daemon:
         self.arguments, self.environment = [], {}
 
     def start(self, timeout_s=60):
-        """Until it has answered: TSan (LLVM 14) may lose a signal that comes in the main thread's first wait."""
+        """Waits until mdofd has answered: TSan (LLVM 14) may lose a signal during the first wait of the main thread."""
         self.log = open(os.path.join(self.folder, "stderr"), "ab")
         self.process = subprocess.Popen([self.program, *self.arguments, "--config", self.config],
                                         stderr=self.log, stdout=self.log,

@@ -1,4 +1,5 @@
-"""The recording file by the letter of schema/recording/recording.h, with nothing of mdof: its header, and its chain of hashes."""
+"""Reads the header and the chain of hashes of a recording as schema/recording/recording.h defines them, without code
+of mdof."""
 import hashlib
 import sqlite3
 
@@ -24,7 +25,7 @@ def header_hash(header):
 
 
 def checked_hash(path):
-    """The recording's hash, once every hash in the file has been found right."""
+    """The hash of the recording, after every hash in the file has been checked."""
     header = header_of(path)
     before = header_hash(header)
     assert before == header["sha256"], f"{path}: the header"

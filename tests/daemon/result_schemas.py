@@ -1,5 +1,5 @@
-"""Checks results of mdofd against the schemas that rpc.discover gives, by python3-jsonschema, strictly. A schema states only the
-names and types of members, so of several results with the same names and types one is checked."""
+"""Checks results of mdofd strictly against the schemas of rpc.discover, with python3-jsonschema. A schema states
+only names and types of members, so only one of several results with the same names and types is checked."""
 import jsonschema
 
 
@@ -29,7 +29,7 @@ class Schemas:
         self.right = set()
 
     def wrong(self, method, result):
-        """What is wrong with a result, one text each."""
+        """The errors in a result, one text each."""
         if method not in self.checks or (key := (method, form(result))) in self.right:
             return []
         found = [f"{method}: /{'/'.join(map(str, e.absolute_path))}: {e.message[:300]}"

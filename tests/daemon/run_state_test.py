@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A live run is complete only with all targets of all repeats; ended early it is partial, says what is missing, is
-built on only if that is asked for, and can be gone on with.
+"""A live run is complete only with all targets of all repeats. A run that ended early is partial, names what is
+missing, is used for tables only on request, and can be continued.
 
 usage: run_state_test.py MDOFD MDOF"""
 import json
@@ -44,7 +44,7 @@ class RunState(unittest.TestCase):
 
     @classmethod
     def stopped_early(cls):
-        """A run of two repeats, stopped after six points of sixteen: its header."""
+        """The header of a run with two repeats that was stopped after six of sixteen points."""
         return cls.stopped_early_by(cls.client, cls.watcher())
 
     @staticmethod
@@ -67,7 +67,7 @@ class RunState(unittest.TestCase):
                 return self.client.call("run.get", run=value["run"])
 
     def missing_of(self, header):
-        """By an account of its own: (target, direction) -> how many points are missing."""
+        """Calculated independently: (target, direction) -> number of missing points."""
         missing = {(t + 1, d): 2 for t in range(len(TARGETS)) for d in (1, -1)}
         for p in self.client.points(header["run"]):
             if p["EYX_um"] is not None and missing[p["target"], p["direction"]] > 0:
@@ -115,7 +115,7 @@ class RunState(unittest.TestCase):
         self.assertEqual(notice_lines(json.loads(out)), notice_lines(built))
 
     def test_it_can_be_gone_on_with(self):
-        """And what was asked for is in the recording of the run that goes on, too."""
+        """The recording of the continued run also contains the request."""
         partial = self.stopped_early()
         watcher = self.watcher()
         resumed = self.client.call("run.resume", run=partial["run"])["run"]
@@ -123,7 +123,7 @@ class RunState(unittest.TestCase):
         self.assertEqual(header["state"], "complete", notice_lines(header))
         self.assertIn(header["supersedes"], (partial["run"], resumed))
         self.assertTrue(all(n == 0 for n in self.missing_of(header).values()))
-        for run in (partial, header):  # it has the same targets
+        for run in (partial, header):  # both runs have the same targets
             self.assertEqual([n["code"] for n in run["notices"]].count("scale_period_hidden"), 1, notice_lines(run))
         code, out, err = mdof("replay", header["recording"]["path"], "--no-store", "--json")
         self.assertEqual(code, 0, err)
@@ -163,7 +163,7 @@ class RunState(unittest.TestCase):
         watcher = self.watcher()
         run = self.client.call("run.start", axis="X")["run"]
         points = 0
-        while points < 2:  # a run that travels and stops at one position only is doubtful
+        while points < 2:  # a run that only moves and stops at one position is doubtful
             points += watcher.next_note()["params"]["value"].get("type") == "points"
         self.client.call("run.stop", run=run)
         header = self.ended(watcher)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A disk that is full, or a database that another program locks: mdofd starts, serves the table in force, says so, and
-goes on once it can write. And a signal that comes when a terminal is closed ends a run in good order.
+"""A full disk, or a database locked by another program: mdofd starts, serves the active table, reports the fault,
+and continues when it can write again. A signal from a closed terminal ends a run in good order.
 
 usage: storage_test.py MDOFD MDOF"""
 import contextlib
@@ -52,7 +52,7 @@ class Served(unittest.TestCase):
         return client.call("server.info")["axes"][0]
 
     def cut_off(self, client):
-        """A table in force, and a run that a kill cuts off."""
+        """An active table, and a run that is cut off by a kill."""
         log = os.path.join(self.folder.name, "log.csv")
         write_log(log)
         with open(RIG["X"]) as rig:
@@ -75,7 +75,7 @@ class SmallDisk(Served):
         if mounted.returncode != 0:
             self.skipTest("a small disk cannot be mounted here: " + mounted.stderr.strip())
         self.addCleanup(lambda: subprocess.run(["umount", "-l", self.disk], check=False))
-        self.addCleanup(self.end)  # before that
+        self.addCleanup(self.end)  # before the unmount
         with open(self.daemon.config) as f:
             config = f.read()
         self.daemon.database = os.path.join(self.disk, "mdof.db")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A T7 on real sockets, and what goes wrong with it: nobody else opens it while mdofd has it, a silent one is
-stale for whoever looks first, and one that restarts is told at once, by its cause.
+"""Faults of a T7 on real sockets: no other program opens it while mdofd holds it, a silent T7 is stale for the first
+client that looks, and a restarted T7 is reported at once with the cause.
 
 usage: trouble_test.py MDOFD MDOF MDOF_SIMULATE"""
 import fcntl
@@ -125,7 +125,7 @@ class Trouble(unittest.TestCase):
             time.sleep(0.02)
 
     def mdof(self, *words, elsewhere=True):
-        # The default socket is not the daemon's.
+        # The default socket is not the socket of the daemon.
         environment = {**os.environ, "XDG_RUNTIME_DIR": os.path.join(self.folder.name, "elsewhere")}
         environment.pop("RUNTIME_DIRECTORY", None)
         done = subprocess.run([MDOF, *map(str, words)], capture_output=True, text=True, env=environment, timeout=60)
@@ -177,7 +177,7 @@ class Trouble(unittest.TestCase):
 
     def test_the_first_value_of_a_silent_device_is_stale(self):
         self.simulator.process.send_signal(signal.SIGSTOP)
-        time.sleep(1.5)  # nobody looks meanwhile
+        time.sleep(1.5)  # no client reads meanwhile
         for count in (1, 2, 5):
             code, out, err = self.mdof("live", "--count", count, "--json", "--socket", self.daemon.socket)
             self.assertEqual(code, 0, err)
@@ -208,7 +208,7 @@ class Trouble(unittest.TestCase):
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         lines = []
 
-        # What is told is broken into lines of 80 characters.
+        # Messages are broken into lines of 80 characters.
         def read_until(pattern):
             begin = len(lines)
             while not re.search(pattern, " ".join(" ".join(lines[begin:]).split())):
@@ -250,7 +250,7 @@ class Trouble(unittest.TestCase):
         live.stdout.close()
         self.assertEqual(kinds, ["lost", "suspect", "back"])
 
-    # An old error is no state; a datum that is lost is one, and is told before the next run.
+    # An old error is no state. A lost datum is a state and is reported before the next run.
     def check_afterwards(self):
         device = self.device()
         self.assertIsNone(device["error"])
@@ -264,7 +264,7 @@ class Trouble(unittest.TestCase):
         for kind in ("lost", "suspect", "back"):
             self.assertEqual(len(re.findall(f'axis X: device "t7": {kind}: ', journal)), 1, journal)
 
-    # live, device list and status, in a pipe and on terminals of 80 and more columns.
+    # live, device list and status, in a pipe and on terminals with 80 and more columns.
     def test_no_line_is_wider_than_the_terminal(self):
         self.client.call("run.stop", run=self.client.call("run.start", axis="X", note="a note " * 30)["run"])
         for words in (("live", "--count", "3"), ("device", "list"), ("status",)):
@@ -274,7 +274,7 @@ class Trouble(unittest.TestCase):
             code, out, err = self.mdof(*words)
             self.assertEqual(code, 0, err)
             self.check_width(out, 80, words)
-        self.simulator.process.send_signal(signal.SIGSTOP)  # long messages
+        self.simulator.process.send_signal(signal.SIGSTOP)  # causes long messages
         self.wait_until(lambda: self.device()["state"] != "open")
         for words in (("live", "--count", "1"), ("device", "list"), ("status",)):
             words = (*words, "--socket", self.daemon.socket)
@@ -285,10 +285,10 @@ class Trouble(unittest.TestCase):
     def check_width(self, out, columns, words):
         self.assertTrue(out.strip(), words)
         for line in out.splitlines():
-            if os.path.join(self.folder.name, "mdof.db") not in line:  # a path stays whole
+            if os.path.join(self.folder.name, "mdof.db") not in line:  # a path is not broken
                 self.assertLessEqual(len(line), columns, (words, line))
 
-    # What is drawn, without the movements of the cursor.
+    # The drawn text without the movements of the cursor.
     def on_terminal(self, columns, *words):
         ours, its = pty.openpty()
         fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))

@@ -1,17 +1,16 @@
 #!/usr/bin/python3
-"""What a power cut may leave, rebuilt from the writes of a live run: nothing acknowledged is lost.
+"""Disk states after a power cut, rebuilt from the writes of a live run: no acknowledged data are lost.
 
 usage: crash_state_test.py MDOFD MDOF RECORDED_CALLS.so [--states N] [--seed S] [--without-flush]
 
-mdofd measures and a preloaded library (recorded_calls.cpp) writes down each write and flush. Then N
-states of the disk are made: the power fails after some call; what was flushed before is there, and of
-each write that was not, chance says whether it is there, whole, its first half only, or not at all. In
-each state the database passes its integrity check, every point and chunk that a client had been told of
-by then is there, and the recording can be read. Beside the run other programs write and read
-(storekeeper/others.py); the tables and replays that they were promised are there as well.
+mdofd measures, and a preloaded library (recorded_calls.cpp) records each write and flush. Then N states of the disk
+are made: the power fails after some call; everything flushed before is present, and each write that was not flushed
+is by chance complete, half complete or missing. In each state the database passes its integrity check, every point
+and chunk that a client had received by then is present, and the recording is readable. During the run other programs
+write and read (storekeeper/others.py); their acknowledged tables and replays are present as well.
 
-With --without-flush the flushes are left out of the account, as if the disk had lied: something must
-then be lost. The command exits with 1 if nothing is."""
+With --without-flush the flushes are ignored, as if the disk had not performed them: data must then be lost. The
+command exits with 1 if nothing is lost."""
 import argparse
 import atexit
 import collections
@@ -34,7 +33,7 @@ RUN_S = 4
 
 
 class Told:
-    """What the daemon told, and when: (time_ns, points in all) and (time_ns, chunks in all)."""
+    """Messages of the daemon with their times: (time_ns, total points) and (time_ns, total chunks)."""
 
     def __init__(self):
         self.points, self.chunks = [], []
@@ -48,7 +47,7 @@ class Told:
                 elif value.get("type") == "recorded":
                     self.chunks.append((time.monotonic_ns(), value["chunk"]))
         except (OSError, ValueError):
-            pass  # the end
+            pass  # the connection has ended
 
     @staticmethod
     def until(told, time_ns):
@@ -56,7 +55,7 @@ class Told:
 
 
 def recorded_run(options, folder):
-    """A run, killed after a while: what it told, its calls, its run number."""
+    """A run that is killed after a while: its messages, its calls, its run number."""
     config = simulator("X", rate_hz=4000, dwell_s=0.3, targets_mm=(0, 0.5, 1.1, 1.6))
     data, record = os.path.join(folder, "data"), os.path.join(folder, "calls")
     open(record, "wb").close()
@@ -86,7 +85,7 @@ def read_calls(record, data):
         while line := f.readline():
             time_ns, op, offset, length, path = line.decode().rstrip("\n").split(" ", 4)
             content = f.read(int(length)) if op == "W" else b""
-            if not path.endswith("-shm"):  # made anew whenever a database is opened
+            if not path.endswith("-shm"):  # created anew whenever a database is opened
                 calls.append(Call(int(time_ns), op, int(offset), int(length),
                                   os.path.relpath(path, data), content))
     return calls
@@ -135,7 +134,7 @@ def write_out(files, folder):
 
 
 def ask(database, sql):
-    connection = sqlite3.connect(database)  # for writing: what is half written is rolled back
+    connection = sqlite3.connect(database)  # opened for writing, so that an incomplete transaction is rolled back
     try:
         return connection.execute(sql).fetchone()[0]
     finally:

@@ -1,12 +1,11 @@
 #!/usr/bin/python3
-"""The n-th call that writes or flushes a file fails while mdofd measures: nothing acknowledged is lost.
+"""The n-th call that writes or flushes a file fails while mdofd measures: no acknowledged data are lost.
 
 usage: failing_call_test.py MDOFD MDOF FAILING_CALLS.so [--lives N] [--seed S]
 
-Each life of the daemon has another call that fails (failing_calls.cpp), once or from then on, with
-ENOSPC or EIO. It may refuse to start, or end its run as failed; it may not crash. Then it is killed and
-started whole: each point and chunk that it had acknowledged is there, database and recording are sound,
-and it measures again."""
+In each life of the daemon another call fails (failing_calls.cpp), once or permanently, with ENOSPC or EIO. The
+daemon may refuse to start or end its run as failed, but it must not crash. Then it is killed and started without a
+fault: each acknowledged point and chunk is present, database and recording are sound, and it measures again."""
 import argparse
 import atexit
 import errno
@@ -21,13 +20,13 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from kill_test import Acknowledged, check  # noqa: E402
 from mdofd import Daemon, RpcError, simulator  # noqa: E402
 
-LAST_CALL = 400  # a run makes so many in a second or two
+LAST_CALL = 400  # a run makes this many calls in a second or two
 MOST_S = 60
-ANSWER_S = 5  # a disk that refuses all may leave the run without an end
+ANSWER_S = 5  # a disk that refuses all writes may leave the run without an end
 
 
 def wait_for_fault(daemon, told, acknowledged, run):
-    """Until the call has failed, and the run, if there is one, has ended by it or gone on."""
+    """Waits until the call has failed and the run, if any, has ended because of it or has continued."""
     end = time.monotonic() + MOST_S
     while not os.path.exists(told):
         assert time.monotonic() < end, "the call that is to fail does not come"
@@ -36,18 +35,18 @@ def wait_for_fault(daemon, told, acknowledged, run):
     before, end = (len(acknowledged.points), acknowledged.chunk + 1), time.monotonic() + ANSWER_S
     while run and not acknowledged.ended and time.monotonic() < end and daemon.process.poll() is None:
         if len(acknowledged.points) > before[0] and acknowledged.chunk > before[1]:
-            break  # one chunk may have been on its way
+            break  # one chunk may have been in transit
         time.sleep(0.01)
 
 
 def faulty_life(daemon, fault):
-    """The run that it began, if it could, and what was promised."""
+    """Returns the run that it began, if any, and the acknowledged data."""
     daemon.environment = fault
     acknowledged = Acknowledged()
     try:
         client = daemon.start()
     except RuntimeError:
-        return None, acknowledged  # it said why, and ended
+        return None, acknowledged  # it reported the reason and ended
     run = None
     try:
         client.call("live.subscribe", interval_ms=1000)
@@ -77,7 +76,7 @@ def main():
         config = simulator("X", rate_hz=4000, dwell_s=0.3, targets_mm=(0, 0.5, 1.1, 1.6))
         daemon = Daemon(options.mdofd, folder, config)
         atexit.register(lambda: daemon.process and daemon.process.kill())
-        # And on, until a fault has hit a run that had points.
+        # Continues until a fault has hit a run that had points.
         while life < options.lives or not (points and failed or life >= 10 * options.lives):
             life += 1
             fault = {"LD_PRELOAD": os.path.abspath(options.library),

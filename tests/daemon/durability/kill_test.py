@@ -1,18 +1,18 @@
 #!/usr/bin/python3
-"""SIGKILL at random moments of a simulated run at 4 kHz: nothing acknowledged is lost.
+"""SIGKILL at random moments of a simulated run at 4 kHz: no acknowledged data are lost.
 
 usage: kill_test.py MDOFD MDOF [--kills N] [--durability full|normal] [--seed S] [--naive]
 
-A client notes what the daemon acknowledges: points (run.event "points") and chunks of the recording
-(run.event "recorded"). After each kill: the database passes its integrity check, every acknowledged
-point is there to the bit, the recording reads back up to the last acknowledged chunk at least, and
-the daemon serves again within 2 s. Beside it other programs write and read (storekeeper/others.py):
-the tables and replays that they were promised are there as well.
+A client notes what the daemon acknowledges: points (run.event "points") and chunks of the recording (run.event
+"recorded"). After each kill: the database passes its integrity check, every acknowledged point is present to the
+bit, the recording is readable at least up to the last acknowledged chunk, and the daemon serves again within 2 s. At
+the same time other programs write and read (storekeeper/others.py): their acknowledged tables and replays are
+present as well.
 
-With --durability normal the test still passes, and must: SIGKILL ends a process, not the kernel, and
-what was written survives in the page cache. Only a power cut tells the two apart. --break-it deletes
-a row behind the daemon's back, to show that a loss would be seen; with --naive a foreign file is
-opened for writing beside it, and the command exits with 1 unless acknowledged rows are lost by that."""
+With --durability normal the test must still pass: SIGKILL ends a process but not the kernel, and written data
+survive in the page cache. Only a power cut shows the difference. --break-it deletes a row without the daemon's
+knowledge, to show that a loss is detected. With --naive a foreign file is opened for writing at the same time, and
+the command exits with 1 unless acknowledged rows are lost by that."""
 import argparse
 import atexit
 import json
@@ -32,7 +32,7 @@ from storekeeper.others import Others  # noqa: E402
 
 
 class Acknowledged:
-    """What one life of the daemon promised."""
+    """The acknowledged data of one life of the daemon."""
 
     def __init__(self):
         self.points, self.chunk, self.ended = [], 0, False
@@ -48,7 +48,7 @@ class Acknowledged:
                 elif value.get("type") == "ended":
                     self.ended = True
         except (OSError, ValueError):
-            pass  # the kill
+            pass  # the daemon was killed
 
 
 def count(database, sql):
@@ -59,8 +59,8 @@ def count(database, sql):
 
 
 def measured(point):
-    """Without what is stated of it: from the second visit of a place on, u counts the scatter of the visits,
-    which is not known when the first is told."""
+    """The point without its uncertainty: from the second visit of a place on, u contains the scatter of the visits,
+    which is unknown when the first visit is reported."""
     return {key: value for key, value in point.items() if key not in ("u", "u_random", "U", "k", "nu_eff")}
 
 
@@ -142,7 +142,7 @@ def main():
                 if not options.naive or not re.search("acknowledged|malformed", str(loss)):
                     raise
                 losses.append(f"kill {kill}: {loss}")
-                break  # the database may be of no use from now on
+                break  # the database may be unusable from now on
         daemon.kill() if losses else daemon.stop()
     assert totals["chunks"] > 0
     print(f"{kill + 1} kills, durability {options.durability}: {totals['points']} points, {totals['chunks']} chunks and "

@@ -1,19 +1,18 @@
 #!/usr/bin/python3
-"""Power cuts at random moments of a simulated run at 4 kHz: nothing acknowledged is lost.
+"""Power cuts at random moments of a simulated run at 4 kHz: no acknowledged data are lost.
 
 usage: power_cut_test.py MDOFD MDOF [--cuts N] [--durability full|normal] [--seed S]
 
-The database and the recordings are on an ext4 of their own, in a file on a loop device (root only). A
-cut is the kernel's own: the file system is shut down without writing its journal (EXT4_IOC_SHUTDOWN,
-EXT4_GOING_FLAGS_NOLOGFLUSH; linux/fs/ext4/ioctl.c), so that whatever was not flushed to the device is
-gone. Then the daemon is killed, the file system mounted again, and kill_test's checks follow: each
-acknowledged point and chunk is there, database and recording are sound, the daemon serves again. Beside
-it other programs write and read (storekeeper/others.py); what they were promised is there as well. What
-counts is what had been received when the cut began: a flush that the ioctl meets under way can return
-success for bytes that are gone, which no power cut leaves anybody to tell.
+The database and the recordings are on a separate ext4 file system, in a file on a loop device (root only). The
+kernel makes the cut: it shuts down the file system without writing its journal (EXT4_IOC_SHUTDOWN,
+EXT4_GOING_FLAGS_NOLOGFLUSH; linux/fs/ext4/ioctl.c), so that data not flushed to the device are lost. Then the daemon
+is killed, the file system is mounted again, and the checks of kill_test follow: each acknowledged point and chunk is
+present, database and recording are sound, the daemon serves again. At the same time other programs write and read
+(storekeeper/others.py); their acknowledged data are present as well. Only data received before the cut began count:
+a flush during the ioctl can return success for lost bytes, which no real power cut can report.
 
-With --durability normal acknowledged rows must be lost: were none, these cuts would prove nothing. The
-command then exits with 1 if nothing was lost."""
+With --durability normal acknowledged rows must be lost; otherwise these cuts would prove nothing. The command then
+exits with 1 if nothing was lost."""
 import argparse
 import atexit
 import fcntl
@@ -38,7 +37,7 @@ SKIPPED = 77
 
 
 class Disk:
-    """An ext4 in a file, whose power can be cut."""
+    """An ext4 file system in a file, whose power can be cut."""
 
     def __init__(self, folder):
         self.image, self.path = os.path.join(folder, "disk.img"), os.path.join(folder, "disk")
@@ -65,7 +64,7 @@ class Disk:
 
 
 def one_life(client, daemon, disk, others, chance):
-    """Measures until the power fails. The run, and what the daemon had promised by then."""
+    """Measures until the power fails. Returns the run and the data that the daemon had acknowledged by then."""
     client.call("live.subscribe", interval_ms=1000)
     run = client.call("run.start", axis="X")["run"]
     acknowledged = Acknowledged()
@@ -80,7 +79,7 @@ def one_life(client, daemon, disk, others, chance):
     others.stop()
     del acknowledged.points[points:]
     acknowledged.chunk, acknowledged.until_ns = chunk, cut_ns
-    daemon.log.close()  # it is on the disk
+    daemon.log.close()  # the log is on the disk
     disk.unmount()
     mounted = disk.mount()
     assert mounted.returncode == 0, mounted.stderr
@@ -97,7 +96,7 @@ def campaign(options, disk):
     client = daemon.start()
     others = Others(daemon, options.mdof)
     others.prepare()
-    os.sync()  # the configuration and the foreign files are to outlive the first cut
+    os.sync()  # the configuration and the foreign files must survive the first cut
     for cut in range(options.cuts):
         run, acknowledged = one_life(client, daemon, disk, others, chance)
         points, chunks = points + len(acknowledged.points), chunks + acknowledged.chunk
@@ -105,9 +104,9 @@ def campaign(options, disk):
         try:
             assert not (gone := others.lost(daemon.database, acknowledged.until_ns)), gone
             check(daemon.database, run, acknowledged, client, options.mdof)
-        except Exception as loss:  # any answer but the right one
+        except Exception as loss:  # any result except a correct one
             losses.append(f"cut {cut}: {type(loss).__name__}: {loss}")
-        others.forget()  # a number that was lost is given anew
+        others.forget()  # a lost number is assigned again
     daemon.stop()
     daemon.log.close()
     return points, chunks, others, losses

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""One quantity has one name, one value, one u and one U, wherever it is told: in text, JSON, CSV and by RPC. Two runs
-along X and one along Y of rigs that declare something; every command and every method that states an uncertainty is
-asked, and what they say of a quantity is compared. A command or method that this test does not know fails it.
+"""One quantity has one name, one value, one u and one U in every output: text, JSON, CSV and RPC. The test uses two
+runs along X and one along Y, with rigs that declare uncertainties. It calls every command and method that states an
+uncertainty and compares their values of each quantity. A command or method that the test does not know makes it
+fail.
 
 usage: one_quantity_test.py MDOFD MDOF"""
 import copy
@@ -26,12 +27,13 @@ OF_RIG = "\n[installation]\nu_angle_mrad = 2\n[drift]\nu_um_per_h = 0.1\n"
 NOT_DECLARED = ["u_flatness_um", "[encoder] u_um", "u_offset_mm"]
 EXACT = 1e-12  # relative
 
-# What states the uncertainty of a run, of two, or of a table of runs is compared here ...
+# Commands and methods whose uncertainty of a run, of two runs, or of a table is compared here ...
 COMPARED = {"budget", "compare", "compensation build", "compensation show", "parallelism", "replay", "show",
             "squareness", "trend"}
 COMPARED_METHODS = {"compensation.at", "compensation.build", "compensation.grid", "compensation.status", "compensation.table",
                     "parallelism.fit", "run.budget", "run.compare", "run.get", "run.points", "run.trend", "squareness.budget", "squareness.fit"}
-# ... and what states none, or that of other things: of files, of studies, of calibrations, of a machine's description.
+# ... and those that state none, or the uncertainty of other things: files, studies, calibrations, descriptions of
+# machines.
 OTHERS = {"clearance", "completion", "demo", "help", "machine kinematics", "machine budget", "milling",
           "form scan", "form compare", "form clamp", "form cut", "form path", "part", "plot", "report",
           "calibrate certificate", "calibrate mounting", "calibrate sensitivity", "compensation activate", "compensation check",
@@ -53,14 +55,15 @@ def mdof(*words):
 
 
 def half_digit(text):
-    """Of a number of a text, and rounding; one of two significant digits may end in zeros: "1200"."""
+    """Half a digit of a number in a text, with rounding. A number with two significant digits may end in zeros:
+    "1200"."""
     whole = text.lstrip("-")
     step = 10.0 ** -len(whole.split(".")[1]) if "." in whole else 10.0 ** max(0, len(whole) - 2)
     return 0.6 * step
 
 
 class Notes:
-    """What was said of each quantity: (name, where it was said, {"value", "u", "U"}, None or half a digit of each as shown)."""
+    """The statements about each quantity: (name, place, {"value", "u", "U"}, None or half a digit of each as shown)."""
 
     def __init__(self):
         self.said = []
@@ -146,7 +149,7 @@ class OneQuantity(unittest.TestCase):
     @classmethod
     def run_commands(cls):
         cls.documents["replay"], cls.texts["replay"] = json.loads(cls.replayed[0]), cls.replayed[1]
-        # Run 1 and 2 are of X, of one log; run 3 is of Y.
+        # Runs 1 and 2 measure X and come from one log; run 3 measures Y.
         for name, words, forms, *key in (("squareness", (2, 3), "tj"), ("budget", (1,), "tjc"), ("parallelism", (1, 2), "tj"),
                                    ("show", (1,), "tjc"), ("show", (1, "--figures"), "tjc", "show --figures"),
                                    ("compensation build", (1,), "tj")):
@@ -296,7 +299,7 @@ class OneQuantity(unittest.TestCase):
         self.assertEqual(len(self.notes.places("EYX_slope_urad")), 23)
         self.assertEqual(len(self.notes.places("EC0Y_urad")), 12)
 
-    # A comparison that finds nothing in numbers that differ would prove nothing.
+    # A comparison that does not detect different numbers would prove nothing.
     def test_a_changed_number_is_found(self):
         changed = 0
         for i, (name, where, numbers, shown) in enumerate(self.notes.said):
@@ -316,7 +319,7 @@ class OneQuantity(unittest.TestCase):
                 changed += 1
         self.assertGreater(changed, 300)
 
-    # Form and noise are no uncertainty of the slope: all three are there, and all three differ.
+    # Form and noise are no uncertainty of the slope: all three are present and differ.
     def test_form_is_not_u(self):
         f = self.documents["show --figures"]["straightness"]["EYX_um"]["mean"]
         budget = self.documents["budget"]["figures"]["EYX_slope_urad"]
@@ -358,7 +361,7 @@ class OneQuantity(unittest.TestCase):
         self.assertEqual(COMPARED - {name.split(" of ")[0] for name in self.documents}, set())
 
 
-# A rig that declares nothing says so in the first line of every text.
+# A rig that declares nothing: the first line of every text says so.
 class NothingDeclared(unittest.TestCase):
     def test_the_first_line_says_so(self):
         with tempfile.TemporaryDirectory() as folder:

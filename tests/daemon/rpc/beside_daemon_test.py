@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Every command of mdof works while mdofd runs and holds the database: what reads, reads; what writes, has mdofd write.
-Documents are those of a database that nobody holds, but for times and paths. A command that this test does not know
-fails it. One exception, which says so: a study is stored in a database of its own.
+"""Every command of mdof works while mdofd runs and holds the database: a reading command reads, and a writing
+command has mdofd write. The documents are the same as for a database without a daemon, apart from times and paths. A
+command that this test does not know makes it fail. One exception, which the command states: a study is stored in a
+separate database.
 
 usage: beside_daemon_test.py MDOFD MDOF"""
 import gzip
@@ -21,7 +22,8 @@ ROOT = os.path.join(DATA, "..", "..")
 LOG = {axis: os.path.join(DATA, "five-probe", f"log_{axis}.csv.gz") for axis in "XY"}
 BAD_INPUT, IN_USE = 3, 4
 SCAN = '[scan]\nprobe = "F"\nposition_mm = [0, 0, 0]\nmeasures = "+Z"\ncentre_mm = 0\n'
-# In this order, of one database: WRITES makes what READS shows. "@" is the folder. Runs: 1, 4 X; 2 Y; 3 laser; 5 a scan.
+# In this order, in one database: WRITES makes what READS shows. "@" is the folder. Runs: 1, 4 X; 2 Y; 3 laser; 5 a
+# scan.
 WRITES = [("replay", LOG["X"], "--rig", RIG["X"]), ("replay", LOG["Y"], "--rig", RIG["Y"]),
           ("import", "@/laser.csv", "--axis", "X", "--u-um", "0.3", "--sense", "body", "--travel", "-", "--note", "laser"),
           ("replay", "@/again.csv", "--rig", RIG["X"], "--settle-s", "0.12", "--note", "again"),
@@ -42,7 +44,7 @@ FILES = [("plot", "1", "--out", "@/plots"), ("report", "1", "--out", "@/report.h
          ("form", "cut", "5", "5", "--out", "@/next.csv"),
          ("form", "path", "5", "--speed-rpm", "300", "--feed-mm-min", "300", "--out", "@/spiral.csv"),
          ("compensation", "export", "1", "--format", "json", "--out", "@/table.json")]
-# sensitivity writes checkpoints for hours, studies shows them; shift and square take runs as separate reversal does.
+# sensitivity writes checkpoints for hours, studies shows them; shift and square accept runs like separate reversal.
 NOT_TRIED = {"sensitivity", "separate shift", "separate square"}
 MACHINE = """name = "m"
 machine = {chain = "w-Y-X-b-t"}
@@ -63,7 +65,7 @@ path = "path.csv"
 [layers]
 axes = true
 """
-# Differ from one time, folder or program that wrote to the other.
+# Members that differ with the time, the folder or the writing program.
 BY_OCCASION = {"started_utc", "ended_utc", "utc", "created_utc", "activated_utc", "generation", "pid", "uid", "gid", "user", "database", "recording",
                "path", "file", "bytes", "hash", "link", "head", "chain", "sha256", "table_sha256", "rig_source"}
 
@@ -137,7 +139,7 @@ class BesideDaemon(unittest.TestCase):
             self.assertIn(reason, done.stderr)
             self.assertIn(name, done.stderr)
 
-    # Of a file that is not there the words differ: mdofd opens it with an absolute path, and says that it does.
+    # For a missing file the messages differ, because mdofd opens it with an absolute path and says so.
     def test_a_mistake_has_the_code_and_the_words_that_it_has_without_mdofd(self):
         for words in (("squareness", "2", "1"), ("squareness", "1", "1"), ("squareness", "1", "3"), ("squareness", "1", "99"),
                       ("squareness", "1", "4"), ("compare", "1", "1"), ("parallelism", "1", "1"),
@@ -157,7 +159,7 @@ class BesideDaemon(unittest.TestCase):
         return done.returncode, done.stderr.replace(database, "DATABASE")
 
     def test_a_socket_of_another_database_is_refused(self):
-        """Else a table that the user took for active would be active in a database that serves nobody."""
+        """Otherwise the user would activate a table in a database that no daemon serves."""
         for words in (("compensation", "activate", "1"), ("compensation", "deactivate", "--axis", "X"),
                       ("compensation", "build", "1"), ("runs",)):
             done = subprocess.run([MDOF, *words, "--db", self.free, "--socket", self.daemon.socket],
@@ -182,7 +184,7 @@ class BesideDaemon(unittest.TestCase):
 
 
 def name_of(words):
-    """Of the command: one word or two."""
+    """Name of the command: one word or two."""
     return " ".join(words[:2] if words[0] in ("compensation", "machine", "form", "separate") else words[:1])
 
 
@@ -200,7 +202,7 @@ def without_occasion(document):
     if not isinstance(document, dict):
         return document
     if document.get("deed") in ("compensation.activate", "compensation.deactivate"):
-        document = {key: value for key, value in document.items() if key != "id"}  # a generation, of the clock
+        document = {key: value for key, value in document.items() if key != "id"}  # a generation, from the clock
     return {key: without_occasion(value) for key, value in document.items() if key not in BY_OCCASION}
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""The web page's transport as clients of other people see it: http.client and urllib of Python, curl where it is there.
-The files of the page as they are on the disk, the same answers as on the Unix socket, writing with the token alone,
-events by EventSource's rules, resumed after an end; `mdof token`; what the configuration and --http take.
+"""The web page's transport with independent clients: http.client and urllib of Python, curl if installed. Tests the
+files of the page, the same replies as on the Unix socket, writing only with the token, events by the rules of
+EventSource and resumed after an end, `mdof token`, and the accepted values of the configuration and --http.
 
 usage: http_test.py MDOFD MDOF"""
 import gzip
@@ -116,7 +116,7 @@ class Http(unittest.TestCase):
             self.assertEqual(same.exception.code, 304)
             same.exception.close()
         self.assertEqual(self.get("")[2], files["index.html"].read_bytes())
-        self.assertLess(sent, 200_000)  # all of it
+        self.assertLess(sent, 200_000)  # the complete page
 
     def test_answers_are_those_of_the_socket(self):
         for method, params in (("run.list", {}), ("device.list", {}), ("compensation.status", {}),
@@ -127,7 +127,7 @@ class Http(unittest.TestCase):
                     expected = {"result": self.socket.call(method, **params)}
                 except Exception as error:
                     expected = {"error": {"code": error.code}}
-                if method == "device.list":  # what it counts goes on
+                if method == "device.list":  # its counters change
                     self.assertEqual(answer["result"].keys(), expected["result"].keys())
                 elif "error" in expected:
                     self.assertEqual(answer["error"]["code"], expected["error"]["code"])
@@ -218,7 +218,7 @@ class Http(unittest.TestCase):
 
 class Configuration(unittest.TestCase):
     def started(self, http, *arguments):
-        """server.info's http, or what mdofd says."""
+        """The member http of server.info, or the error of mdofd."""
         with tempfile.TemporaryDirectory() as folder:
             daemon = Daemon(MDOFD, folder, http.replace("FOLDER", folder) + simulator())
             daemon.arguments = list(arguments)

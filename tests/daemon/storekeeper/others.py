@@ -1,10 +1,11 @@
-"""Programs beside an mdofd that measures, for the campaigns that end it: a second writer (mdof compensation build, mdof
-squareness), run.replay and mdof verify of foreign files, and a program that opens the database and closes it again.
+"""Programs that run beside a measuring mdofd in the tests that end it: a second writer (mdof compensation build,
+mdof squareness), run.replay and mdof verify of foreign files, and a program that opens and closes the database.
 
-The foreign files are a log; a database whose rollback journal names the -wal of mdofd's database, or the recording under way,
-as its super-journal, which SQLite deletes for whoever opens such a file for writing; and mdofd's own database, -wal, -shm and recording, which are no
-longer locked once a second descriptor of them was closed in mdofd. With `naive` the foreign database is opened for
-writing, as any program with SQLite does: what was acknowledged must then be lost."""
+The foreign files are a log; a database whose rollback journal names the -wal of mdofd's database, or the current
+recording, as its super-journal, which SQLite deletes for any program that opens such a file for writing; and mdofd's
+own database, -wal, -shm and recording, whose locks are released when mdofd closes a second descriptor of them. With
+`naive` the foreign database is opened for writing, as by any program with SQLite: acknowledged data must then be
+lost."""
 import json
 import os
 import sqlite3
@@ -22,7 +23,7 @@ OWN = ("mdof.db", "mdof.db-wal", "mdof.db-shm")
 
 
 def half_written():
-    """The bytes of a database with a transaction that did not end, and of its journal."""
+    """The bytes of a database with an incomplete transaction, and of its journal."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "made")
         with closing(sqlite3.connect(path, isolation_level=None)) as connection:
@@ -43,12 +44,12 @@ def super_journal(name):
 
 
 class Others:
-    """Of one mdofd; prepare() once, start() and stop() in each life."""
+    """The programs beside one mdofd: prepare() once, start() and stop() in each life."""
 
     def __init__(self, daemon, mdof, naive=False):
         self.daemon, self.mdof, self.naive = daemon, mdof, naive
         self.folder = os.path.join(daemon.folder, "beside")
-        self.tables, self.replays = [], []  # (time_ns, number) of what was acknowledged
+        self.tables, self.replays = [], []  # (time_ns, number) of acknowledged data
         self.victim, self.half = False, half_written()
         self.forgotten = [0, 0]
         self.counts = {"refused": 0, "verified": 0, "opened": 0}
@@ -93,7 +94,7 @@ class Others:
             try:
                 work()
             except (OSError, ValueError, RpcError, sqlite3.Error):
-                pass  # the kill, or a disk without power
+                pass  # killed, or a disk without power
             self.over.wait(0.02)
 
     def write(self):
@@ -103,7 +104,7 @@ class Others:
         self.command("squareness", *self.runs, *self.at())
 
     def own_files(self):
-        """Of mdofd, the newest recording among them."""
+        """Files of mdofd, including the newest recording."""
         recordings = os.path.join(self.daemon.folder, "recordings")
         all_of_them = [entry for entry in os.scandir(recordings) if entry.name.endswith(".mdofrec")]
         newest = sorted(all_of_them, key=lambda entry: entry.stat().st_mtime)[-1:]
@@ -136,18 +137,18 @@ class Others:
         self.command("verify", "--db", self.daemon.database)
 
     def open(self):
-        """As another program: for writing, and without mdof."""
+        """Opens the database for writing without mdof, like any other program."""
         with closing(sqlite3.connect(self.daemon.database)) as connection:
             connection.execute("SELECT count(*) FROM run").fetchone()
         self.counts["opened"] += 1
 
     def forget(self):
-        """What was lost is counted once."""
+        """Counts a loss only once."""
         self.forgotten = [self.forgotten[0] + len(self.tables), self.forgotten[1] + len(self.replays)]
         self.tables, self.replays = [], []
 
     def lost(self, database, until_ns=None):
-        """Sentences: what was acknowledged until then and is not there."""
+        """Sentences about data that were acknowledged until then and are missing."""
         losses = []
         with closing(sqlite3.connect(f"file:{database}?mode=ro", uri=True)) as connection:
             for kind, told in (("compensation_table", self.tables), ("run", self.replays)):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""mdofd ends when it is asked to, with exit code 0: while it still reads its configuration, and while it replays a
-file that does not answer.
+"""mdofd ends on request with exit code 0, even while it reads its configuration or replays a file that does not
+answer.
 
 usage: stop_test.py MDOFD"""
 import ctypes
@@ -18,11 +18,11 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from mdofd import RIG, Client, Daemon, RpcError, simulator, write_log  # noqa: E402
 
 FAN_CLASS_CONTENT, FAN_MARK_ADD, FAN_OPEN_PERM, AT_FDCWD = 0x4, 0x1, 0x10000, -100
-SOON_S = 20  # TimeoutStopSec of mdofd.service: systemd kills it then
+SOON_S = 20  # TimeoutStopSec of mdofd.service, after which systemd kills it
 
 
 def held_file(path):
-    """From now on every open() of the file waits, until the descriptor that this gives is closed; None: not possible."""
+    """Makes every open() of the file wait until the returned descriptor is closed; None: not possible."""
     libc = ctypes.CDLL(None, use_errno=True)
     group = libc.fanotify_init(FAN_CLASS_CONTENT, os.O_RDONLY)
     mask = ctypes.c_uint64(FAN_OPEN_PERM)
@@ -37,7 +37,7 @@ def bytes_read(pid):
 
 
 def blocked_signals(pid):
-    """Of each thread, a bit for each signal."""
+    """For each thread, one bit for each blocked signal."""
     masks = {}
     for thread in os.listdir(f"/proc/{pid}/task"):
         with open(f"/proc/{pid}/task/{thread}/status") as status:
@@ -62,7 +62,7 @@ class Stop(unittest.TestCase):
         self.assertEqual(code, 0)
 
     def test_a_signal_while_the_configuration_is_read_is_a_success(self):
-        """The configuration is so long that mdofd has read it long before it knows what is in it."""
+        """The configuration is so long that mdofd reads it long before it has parsed it."""
         with open(self.daemon.config, "a") as config:
             config.write("# a comment that means nothing but time\n" * 90_000)
         size = os.path.getsize(self.daemon.config)
@@ -75,7 +75,7 @@ class Stop(unittest.TestCase):
             self.assertFalse(os.path.exists(self.daemon.database), "it was later than this test means")
 
     def test_the_signals_go_to_the_main_thread(self):
-        """One that came to a device's thread would interrupt its driver."""
+        """A signal to a device's thread would interrupt its driver."""
         self.daemon.start()
         pid, end = self.daemon.process.pid, time.monotonic() + SOON_S
         ending = sum(1 << number - 1 for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP))

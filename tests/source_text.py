@@ -1,4 +1,4 @@
-"""The texts of a C++ source: its string literals as the compiler joins them, and its comments, each with its line."""
+"""The texts of a C++ source with their lines: string literals as the compiler joins them, and comments."""
 import re
 
 LITERAL = r'(?:u8|[uUL])?"(?:[^"\\\n]|\\.)*"'

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Stands where LinuxCNC's screen would: does what a test asks over the socket COMMANDS, a line of JSON each way."""
+"""Replaces LinuxCNC's screen: does what a test requests over the socket COMMANDS, one line of JSON in each
+direction."""
 import json
 import os
 import socket
@@ -88,7 +89,7 @@ def idle():
 
 
 def stands():
-    """joint-pos, pos-in and pos-out of X, Y, Z, once nothing moves any more."""
+    """joint-pos, pos-in and pos-out of X, Y, Z after all motion has ended."""
     last = None
     while True:
         now = [[hal.get_value(f"mdof-compensation.{pin}-{k}") for k in range(3)] for pin in ("joint-pos", "pos-in", "pos-out")]
@@ -99,7 +100,7 @@ def stands():
 
 
 def go(places):
-    """To each place, and what the pins are there."""
+    """Moves to each place and returns the pins there."""
     found = []
     do(command.mode, linuxcnc.MODE_MDI)
     for place in places:

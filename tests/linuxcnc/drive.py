@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Stands where LinuxCNC's screen would: switches on, homes, goes to places, writes what each joint was told and what
-its motor was told. WAY: JSON, places of all three axes in mm; the answer goes to SEEN, a JSON list."""
+"""Replaces LinuxCNC's screen: switches on, homes, moves to places, and records the commands of each joint and motor.
+WAY: JSON with places of all three axes in mm; the result is written to SEEN as a JSON list."""
 import json
 import os
 import time

@@ -1,5 +1,5 @@
-"""A headless LinuxCNC with the realtime component of tools/linuxcnc compiled for it, asked over a socket, and an mdofd
-beside it. LinuxCNC refuses root: it runs as nobody, with its folder of modules replaced for it alone (a mount
+"""A headless LinuxCNC with the compiled realtime component of tools/linuxcnc, controlled over a socket, and an
+mdofd. LinuxCNC refuses root, so it runs as nobody. Its folder of modules is replaced only for this process (a mount
 namespace), so that nothing is installed."""
 import csv
 import io
@@ -30,13 +30,14 @@ net estop iocontrol.0.user-enable-out => iocontrol.0.emc-enable-in
 net prepare iocontrol.0.tool-prepare => iocontrol.0.tool-prepared
 net change iocontrol.0.tool-change => iocontrol.0.tool-changed
 """
-# Drives that are where they are told to be; a period later the feedback shows it. Home switches at -3 mm of the drive.
+# Drives that follow their commands exactly; the feedback shows the position one period later. Home switches at -3 mm of
+# the drive.
 DRIVES = "".join(f"net drive-{k} => sampler.0.pin.{6 + k}\n"
                  f"net mdof-{axis}-position => sampler.0.pin.{k}\nnet mdof-{axis}-command => sampler.0.pin.{3 + k}\n"
                  for k, axis in enumerate("xyz"))
 SWITCH = ("net drive-{0} => comp.{0}.in0\nsetp comp.{0}.in1 {1}\nnet switch-{0} comp.{0}.out => joint.{0}.home-sw-in\n"
           "addf comp.{0} servo-thread\n")
-# Two joints of Y, whose switches are RACKED_MM apart, so that the drives' positions differ by that.
+# Two joints of Y, whose switches are RACKED_MM apart, so that the positions of the drives differ by this length.
 GANTRY, RACKED_MM = "XYZY", 0.25
 SECOND = "net drive-3 => sampler.0.pin.10\nnet mdof-y2-command => sampler.0.pin.9\n"
 
@@ -60,7 +61,7 @@ def skip_where_missing():
 
 
 def ini(limits, velocity, acceleration, min_ferror=0.02, inch=False, joints="XYZ"):
-    """All in mm. joints: the axis of each; a second joint of an axis is as the first."""
+    """All values in mm. joints: the axis of each; a second joint of an axis has the same settings as the first."""
     if inch:
         limits, (velocity, acceleration, min_ferror) = [(low / 25.4, high / 25.4) for low, high in limits], [
             x / 25.4 for x in (velocity, acceleration, min_ferror)]
@@ -109,8 +110,8 @@ KINEMATICS = trivkins coordinates={joints}{" kinstype=BOTH" if len(joints) > 3 e
 
 class LinuxCnc:
     def __init__(self, folder, text, mdofd, plant=("", ""), words=()):
-        """plant: a mistake in the component, which the test has to see; what is replaced, by what. words: options of
-        mdof compensation linuxcnc."""
+        """plant: an error in the component that the test must detect; (text, replacement). words: options of mdof
+        compensation linuxcnc."""
         self.folder = folder
         folder.mkdir()
         count = text.count("[JOINT_")
@@ -185,12 +186,13 @@ class LinuxCnc:
             time.sleep(0.02)
 
     def sample(self):
-        """Begins to keep what each servo period sampled."""
+        """Starts to keep the samples of each servo period."""
         time.sleep(0.3)
         self.from_byte = (self.folder / "samples").stat().st_size
 
     def sampled(self):
-        """Rows [number, at x y z, in x y z, out x y z] since sample(); of a gantry also in and out of the second joint."""
+        """Rows [number, at x y z, in x y z, out x y z] since sample(); with a gantry also in and out of the second
+        joint."""
         time.sleep(0.3)
         with open(self.folder / "samples") as samples:
             samples.seek(self.from_byte)
@@ -212,7 +214,7 @@ class LinuxCnc:
 
 
 class Grid:
-    """A table by `mdof compensation show --csv`, linear between nodes; mm."""
+    """A table from `mdof compensation show --csv`, linear between nodes; mm."""
 
     def __init__(self, text):
         rows = list(csv.DictReader(line for line in io.StringIO(text) if not line.startswith("#")))
@@ -232,7 +234,7 @@ class Grid:
 
 
 class Mdofd:
-    """An mdofd whose socket LinuxCNC's user may use, and the tables of its database."""
+    """An mdofd whose socket is accessible to LinuxCNC's user, and the tables of its database."""
 
     def __init__(self, folder):
         from mdofd import Daemon, simulator
@@ -269,7 +271,7 @@ class Mdofd:
         return json.loads(self.mdof("compensation", "activate", table, *words, "--json"))["generation"]
 
     def take(self, database, table):
-        """Another database in place of its own, and a table of it that it serves; the generation."""
+        """Replaces its database by another one and serves a table of it; returns the generation."""
         self.daemon.stop()
         shutil.copy(database, self.daemon.database)
         for more in ("-wal", "-shm"):

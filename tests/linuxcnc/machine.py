@@ -1,4 +1,4 @@
-"""The files of a LinuxCNC without a machine: three joints whose motors are where they are told to be."""
+"""The files of a LinuxCNC without a machine: three joints whose motors follow their commands exactly."""
 HAL = """loadrt [KINS]KINEMATICS
 loadrt [EMCMOT]EMCMOT servo_period_nsec=[EMCMOT]SERVO_PERIOD num_joints=[KINS]JOINTS
 addf motion-command-handler servo-thread

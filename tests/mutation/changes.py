@@ -1,7 +1,7 @@
 """Finds the places of a C++ source where tests/mutate can plant a small change, and plants them.
 
-A change has a plain form (the text that replaces a span) and, where there is one, a switched form: edits
-that leave the program as it was until MDOF_CHANGE names the change's number (switch.h).
+A change has a plain form (the text that replaces a span) and, if possible, a switched form: edits that do not change
+the program until MDOF_CHANGE names the change's number (switch.h).
 """
 import dataclasses
 import re
@@ -17,7 +17,7 @@ TOKEN = re.compile(r'''
   | (?P<sign><=>|<<=|>>=|->\*|\.\.\.|::|->|\+\+|--|\+=|-=|\*=|/=|%=|&=|\|=|\^=|==|!=|<=|>=|&&|\|\||<<|[^\w\s])
 ''', re.X | re.S)
 OPENS, CLOSES = {'(': ')', '[': ']', '{': '}'}, {')', ']', '}'}
-# What stands in these says something to people or to the compiler.
+# The arguments of these are for people or for the compiler.
 TALKS = {'assert', 'static_assert', 'bad_input', 'fail', 'not_of_this_kind', 'to_string', 'plain_number',
          'reserve', 'alignas', 'sizeof', 'noexcept', 'decltype', 'in_mm', 'in_um'}
 KEYWORDS = {'return', 'if', 'else', 'for', 'while', 'do', 'switch', 'case', 'default', 'const', 'constexpr',
@@ -37,8 +37,8 @@ class Token:
     text: str
     start: int
     depth: int = 0
-    partner: int = -1    # of a bracket
-    silent: bool = False  # in what is not to be changed
+    partner: int = -1    # partner of a bracket
+    silent: bool = False  # inside code that must not be changed
 
     @property
     def end(self):
@@ -56,7 +56,7 @@ class Change:
     source: str = ''
     shown: str = ''
     number: int = 0
-    const_at: int = -1  # a constexpr that the switched form makes const
+    const_at: int = -1  # position of a constexpr that the switched form makes const
 
     @property
     def key(self):
@@ -92,7 +92,7 @@ def spaced(text, token):
 
 
 def rest_of_operand(tokens, i, ends):
-    """The index after the operand that begins at i: the first of `ends` at its depth, or a closing."""
+    """The index after the operand that begins at i: the first of `ends` at its depth, or a closing bracket."""
     depth = tokens[i].depth
     while i < len(tokens):
         token = tokens[i]
@@ -108,7 +108,7 @@ class Finder:
         self.starts = {i for i in range(1, len(self.tokens)) if self.begins_statement(i)}
 
     def add(self, first, last, shown, plain, edits):
-        """first..last: tokens that the plain form replaces; shown: what is said of them."""
+        """first..last: tokens that the plain form replaces; shown: their description."""
         t = self.tokens
         change = Change(self.file, t[first].start, t[last].end, plain, edits)
         change.line = self.text.count('\n', 0, change.start) + 1
@@ -273,13 +273,13 @@ def changes_of(file, text):
 
 
 def planted(text, changes, header='mutate_switch.h'):
-    """The text with the switched forms of all `changes` (of one file; each at most once a place)."""
+    """The text with the switched forms of all `changes` (in one file; each at most once at a place)."""
     edits = []
     for change in changes:
         size = change.edits[-1][1] - change.edits[0][0] if change.edits else 0
         for k, (start, end, new) in enumerate(change.edits):
-            # At one place: first what closes, the inner before the outer; then what opens, the outer
-            # before the inner; then what replaces.
+            # Order at one place: closing texts first, the inner before the outer; then opening texts, the outer before
+            # the inner; then replacements.
             if end > start:
                 order = (start, 2, 0, 0)
             elif k == 1:

@@ -1,8 +1,8 @@
-"""Reads equivalent.txt: which changes are known to change nothing, or nothing that is promised.
+"""Reads equivalent.txt: changes that are known to change nothing, or no promised behaviour.
 
-A line is  file | line of the source | change | reason  of one change as tests/mutate reports it, or
-file | NAME NAME ... | any value | reason  of the first values of names: constants, and members that are set before
-they are read. With "next value" in place of "any value" twice a constant is a change that a test has to notice.
+A line is  file | line of the source | change | reason  for one change as tests/mutate reports it, or file | NAME
+NAME ... | any value | reason  for the initial values of names: constants, and members that are set before they are
+read. With "next value" instead of "any value", a test must detect a change to twice the constant.
 """
 import re
 
@@ -34,5 +34,5 @@ class Explanations:
 def is_twice(before, after):
     try:
         return not before.isdigit() and float(after) == 2 * float(before)
-    except ValueError:  # hexadecimal, or with a suffix: there is a next one only
+    except ValueError:  # hexadecimal, or with a suffix: only a next value exists
         return False

@@ -3,7 +3,7 @@ import math
 
 
 def grid(width_mm, height_mm, pixel_mm):
-    """Places of pixels about (0, 0)."""
+    """Places of pixels around (0, 0)."""
     nx, ny = round(width_mm / pixel_mm) + 1, round(height_mm / pixel_mm) + 1
     return ([round((i - (nx - 1) / 2) * pixel_mm, 9) for i in range(nx)],
             [round((j - (ny - 1) / 2) * pixel_mm, 9) for j in range(ny)])

@@ -1,6 +1,6 @@
 """A machine with a five-probe fixture, in numbers: bodies as 4x4 matrices, probes as lines that meet planes.
 
-Shares no code and no formula with mdof: tests compare with it. Metres and radians; machine axes."""
+Shares no code and no formula with mdof, because tests compare with it. Metres and radians; machine axes."""
 import math
 import random
 
@@ -10,7 +10,7 @@ PROBES = {
           "D": ((0, .015, .02), "y"), "E": ((.01, .015, .02), "y")},
     "Y": {"A": ((0, .01, 0), "z"), "B": ((-.01, 0, 0), "z"), "C": ((.01, 0, 0), "z"),
           "D": ((-.015, 0, .02), "-x"), "E": ((-.015, .01, .02), "-x")},
-    "Z": {"A": ((0, 0, .01), "y"), "B": ((.01, 0, 0), "y"), "C": ((-.01, 0, 0), "y"),  # that of X, its axes turned round
+    "Z": {"A": ((0, 0, .01), "y"), "B": ((.01, 0, 0), "y"), "C": ((-.01, 0, 0), "y"),  # like X, with its axes exchanged
           "D": ((.015, .02, 0), "x"), "E": ((.015, .02, .01), "x")},
 }
 DIRECTION = {"z": (0, 0, 1), "x": (1, 0, 0), "y": (0, 1, 0), "-x": (-1, 0, 0)}
@@ -26,7 +26,7 @@ def moved(x=0.0, y=0.0, z=0.0):
 
 
 def turned(a, b, c):
-    """About the machine's axes, A first."""
+    """Turn about the axes of the machine, A first."""
     sa, ca, sb, cb, sc, cc = (f(t) for t in (a, b, c) for f in (math.sin, math.cos))
     rx = [[1, 0, 0, 0], [0, ca, -sa, 0], [0, sa, ca, 0], [0, 0, 0, 1]]
     ry = [[cb, 0, sb, 0], [0, 1, 0, 0], [-sb, 0, cb, 0], [0, 0, 0, 1]]
@@ -49,8 +49,8 @@ def dot(a, b):
 
 
 def reading(in_C, point, direction):
-    """How far along the probe's direction, from `point`, its line meets the target's plane. The plane
-    lies in C where the probe finds it with C = M, across its direction. in_C: from M into C."""
+    """Distance along the probe's direction, from `point`, at which its line meets the target's plane. The plane is
+    fixed in C at the place where the probe finds it for C = M, across its direction. in_C: from M into C."""
     offset = dot(direction, point)
     p = applied(in_C, point)
     u = [sum(in_C[i][k] * direction[k] for k in range(3)) for i in range(3)]
@@ -64,14 +64,14 @@ def readings(axis, pose_MC):
 
 
 def pose(axis, travel, errors):
-    """Of C in M: `errors` are two straightness (of C's origin) and A, B, C of the target."""
+    """Pose of C in M: `errors` are two straightness errors (of C's origin) and A, B, C of the target."""
     first, second, a, b, c = errors
     shift = {"X": (travel, first, second), "Y": (first, travel, second), "Z": (first, second, travel)}[axis]
     return product(moved(*shift), turned(a, b, c))
 
 
 def error_at(axis, travel, pose_MC, point):
-    """Of the target's material that is at `point` of M when all is nominal, m."""
+    """Error of the point of the target that is nominally at `point` of M, m."""
     along = {"X": (1, 0, 0), "Y": (0, 1, 0), "Z": (0, 0, 1)}[axis]
     nominal = tuple(p - travel * u for p, u in zip(point, along))
     return tuple(x - p for x, p in zip(applied(pose_MC, nominal), point))
@@ -103,7 +103,8 @@ def stops(targets_m, repeats, overrun_m=1e-3):
 
 def write_log(path, axis, way, readings_at, rate_hz=500, dwell_s=0.3, speed_m_s=0.03, noise_m=5e-9,
               encoder_noise_m=1e-8, seed=1):
-    """A probe log along `way`, pairs (encoder position, whether to dwell). readings_at(encoder_m): m."""
+    """A probe log along `way`, which consists of pairs (encoder position, whether to dwell). readings_at(encoder_m):
+    m."""
     source = random.Random(seed)
     gauss, lines, at, time = source.gauss, [], None, 0.0
     step = speed_m_s / rate_hz
@@ -132,7 +133,7 @@ def write_log(path, axis, way, readings_at, rate_hz=500, dwell_s=0.3, speed_m_s=
 
 
 def write_rig(path, axis, extra="", range_um=400):
-    """The default fixture; `extra` stands before the probes."""
+    """The default fixture; `extra` is inserted before the probes."""
     named = {"z": "+Z", "y": "+Y", "x": "+X", "-x": "-X"}
     text = f'name = "model"\naxis = "{axis}"\n{extra}\n'
     for probe, (point, way) in PROBES[axis].items():
@@ -143,7 +144,7 @@ def write_rig(path, axis, extra="", range_um=400):
 
 
 def slope(x, y):
-    """Of the least-squares line."""
+    """Slope of the least-squares line."""
     mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
     return (sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y))
             / sum((a - mean_x) ** 2 for a in x))

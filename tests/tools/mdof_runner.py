@@ -17,12 +17,13 @@ DATA = pathlib.Path(os.environ["MDOF_TEST_DATA"])
 
 
 def notice_lines(document):
-    """The notices of a run, a table or another document as mdof prints them: a line each, marked unless doubtful."""
+    """The notices of a run, a table or another document in the format of mdof: one line each, marked unless
+    doubtful."""
     return [("" if n["severity"] == "doubtful" else n["severity"] + ": ") + n["text"] for n in document["notices"]]
 
 
 def run(*arguments, stdin=None, env=None):
-    """(exit code, standard output, standard error). Each column of a CSV has to be one that mdof explains."""
+    """(exit code, standard output, standard error). mdof must explain each column of a CSV."""
     done = subprocess.run([MDOF, *map(str, arguments)], input=stdin, capture_output=True,
                           timeout=600, env={**os.environ, **(env or {})})
     out = done.stdout.decode()
@@ -34,7 +35,7 @@ def run(*arguments, stdin=None, env=None):
 
 
 def run_on_full_disk(*arguments, free_bytes):
-    """As run(), where no file can grow beyond so many bytes; SQLite needs 32 KiB beside a database."""
+    """Like run(), but no file can grow beyond this size; SQLite needs 32 KiB beside a database."""
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (free_bytes, free_bytes))
@@ -44,7 +45,7 @@ def run_on_full_disk(*arguments, free_bytes):
 
 
 def run_json(*arguments):
-    """The one JSON document of a successful command."""
+    """The single JSON document of a successful command."""
     code, out, err = run(*arguments, "--json")
     assert code == 0, f"mdof {arguments}: exit {code}: {err}"
     return json.loads(out)

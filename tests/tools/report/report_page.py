@@ -1,4 +1,4 @@
-"""A report read back with Python's parser, and numbers as it shows them."""
+"""Reads a report back with Python's parser, and numbers as the report shows them."""
 import html.parser
 import unittest
 
@@ -8,7 +8,8 @@ VOID = {"meta", "br", "img", "input", "link", "hr", "base"}
 
 
 class Page(html.parser.HTMLParser):
-    """Tags with their attributes, tables as lists of rows, texts of pre, facts; every tag must be closed in its place."""
+    """Tags with their attributes, tables as lists of rows, texts of pre, facts; every tag must be closed in the
+    right place."""
 
     def __init__(self, text):
         super().__init__(convert_charrefs=True)

@@ -1,5 +1,5 @@
-"""Reads a chart as a person does: scales from the labels of its ticks, places of its marks from what is drawn. Shares
-nothing with what draws it."""
+"""Reads a chart like a person: scales from the labels of its ticks, places of its marks from the drawing. Shares no
+code with the program that draws it."""
 import re
 import xml.etree.ElementTree as ET
 
@@ -12,7 +12,7 @@ def number(label):
 
 
 def power(title):
-    """The 10^n that stands in the title of an axis."""
+    """The 10^n in the title of an axis."""
     found = re.search(r"10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", title)
     return 10.0 ** int("".join(POWERS[c] for c in found[1])) if found else 1.0
 
@@ -24,7 +24,7 @@ def scale(places):
 
 
 def centre(shape):
-    """Middle of a disc, a square or a diamond, px."""
+    """Centre of a disc, a square or a diamond, px."""
     at = lambda name: float(shape.get(name))
     if shape.tag == SVG + "circle":
         return at("cx"), at("cy")
@@ -55,7 +55,7 @@ class Panel:
         self.y = scale([(px, v * power(self.titles[-1])) for px, v in y]) if len(set(y)) > 1 else None
 
     def marks(self):
-        """Of each mark its data, and where it is drawn in the units of the axes (None, None: a cross at the edge)."""
+        """For each mark its data and its place in the units of the axes (None, None: a cross at the edge)."""
         for g in self.group:
             if g.tag != SVG + "g" or g.get("data-row") is None:
                 continue
@@ -68,7 +68,7 @@ class Panel:
             yield data | {"shape": shapes[0].tag[len(SVG):]}, self.x(px), self.y(py)
 
     def per_px(self):
-        """Units of the axes for a pixel."""
+        """Units of the axes per pixel."""
         return abs(self.x(1) - self.x(0)), abs(self.y(1) - self.y(0))
 
 

@@ -32,6 +32,6 @@ def is_known(mdof, name):
 
 
 def unknown_columns(mdof, csv):
-    """Of the head of a CSV: names that no row explains."""
+    """Names in the header of a CSV that no row explains."""
     head = next((line for line in csv.splitlines() if line and not line.startswith("#")), "")
     return [name for name in head.split(",") if name and not is_known(mdof, name)]

@@ -1,4 +1,4 @@
-"""What the jobs share: modules, simulated devices, the daemon, figures. Runs inside the virtual machine."""
+"""Common code of the jobs: modules, simulated devices, the daemon, figures. Runs inside the virtual machine."""
 import glob
 import json
 import os
@@ -26,7 +26,7 @@ def load(*modules):
 
 
 def start_udev():
-    """Where systemd is not the first process."""
+    """For jobs in which systemd is not the first process."""
     os.makedirs("/run/udev", exist_ok=True)
     run("/lib/systemd/systemd-udevd", "--daemon")
     run("udevadm", "trigger")
@@ -47,14 +47,14 @@ def figure(text):
 
 
 def check_kernel():
-    """Nothing went wrong in the kernel on the way."""
+    """Checks that the kernel reported no error."""
     bad = [line for line in run("dmesg").splitlines()
            if any(word in line for word in ("BUG:", "WARNING:", "Oops", "Call Trace"))]
     assert not bad, "\n".join(bad)
 
 
 class Simulate:
-    """mdof-simulate with a plan; killed means unplugged."""
+    """mdof-simulate with a plan; killing it unplugs the devices."""
 
     def __init__(self, name, devices):
         os.makedirs(FOLDER, exist_ok=True)
@@ -74,7 +74,7 @@ class Simulate:
         return lines[:-1]
 
     def known(self):
-        """Whether mdof-simulate has such devices."""
+        """Whether mdof-simulate knows these devices."""
         done = subprocess.run(["timeout", "5", "mdof-simulate", self.plan], capture_output=True, text=True)
         return "known kinds" not in done.stderr
 
@@ -84,7 +84,7 @@ class Simulate:
         self.process.stdout.close()
 
 
-# Probes on sockets of the guest, beside what is under test. Simulated devices and their configuration.
+# Simulated probes on sockets of the guest, in addition to the tested device, and their configuration.
 CAPA = """
 [[device]]
 name = "capa"
@@ -136,7 +136,7 @@ channel = [{ id = "encoder", input = "encoder1", um_per_count = 0.5 }]
 
 
 def still_config(*columns):
-    """What stands still, at no cost: columns of csv_stream."""
+    """Columns of csv_stream with constant values, which cost no time."""
     script = os.path.join(os.path.dirname(os.path.abspath(__file__)), "still_probes.py")
     command = json.dumps(["python3", script, *columns])
     return f'[[axis]]\nrig = "{RIG}"\n[[axis.device]]\ndriver = "csv_stream"\nname = "still"\ncommand = {command}\n'
@@ -170,7 +170,7 @@ name = "mcc"
 rate_hz = 500
 channel = [{ id = "D", input = "CH0" }, { id = "E", input = "CH1" }]
 """
-# The kernel's own board for tests: a sawtooth and a square.
+# The kernel's own test board: a sawtooth and a square wave.
 COMEDI_CONFIG = """
 [[axis.device]]
 driver = "linux_comedi"
@@ -183,7 +183,7 @@ channel = [{{ id = "D", input = "CH0" }}, {{ id = "E", input = "CH1" }}]
 
 
 class Station:
-    """mdofd with `config`, and simulated devices beside what is under test."""
+    """mdofd with `config`, and simulated devices in addition to the tested device."""
 
     def __init__(self, config, beside=PROBES):
         self.probes = beside and Simulate("probes", beside)
@@ -196,7 +196,7 @@ class Station:
         return {d["device"]: d for d in self.client.call("device.list")["devices"]}[name]
 
     def wait_for_scans(self, name, more=1, timeout_s=30):
-        """How long it took until so many more came."""
+        """Waits for this many more scans; returns the time in s."""
         begin, before = time.monotonic(), self.device(name)["scans"]
         wait_until(lambda: self.device(name)["scans"] >= before + more, f"scans of {name}: {self.device(name)}",
                    timeout_s)
@@ -210,8 +210,8 @@ class Station:
             return int(f.read().split()[1]) * resource.getpagesize() // 1024
 
     def watch_targets(self, from_zero=True, targets_mm=(0, 2, 4.1, 6.2), timeout_s=120):
-        """Until the axis has stood at each target, in live values that are fresh; how many values it took. A U6
-        counts from where it was started: `from_zero` false."""
+        """Waits until the axis has stopped at each target, in fresh live values; returns the number of values. A U6
+        counts from its position at the start: `from_zero` false."""
         watcher = Client(self.daemon.socket, timeout_s=timeout_s)
         watcher.call("live.subscribe", interval_ms=100, events=False)
         stood, last, values, end = set(), None, 0, time.monotonic() + timeout_s
@@ -236,7 +236,7 @@ class Station:
 
 
 def probe(station_or_config, name):
-    """`mdof device probe`, which opens the device itself."""
+    """Runs `mdof device probe`, which opens the device itself."""
     done = subprocess.run(["mdof", "device", "probe", name, "--config", station_or_config, "--for-s", "2",
                            "--json"], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
@@ -274,6 +274,6 @@ def usb_node(vendor):
             with open(os.path.join(os.path.dirname(path), "uevent")) as f:
                 node = "/dev/" + dict(line.strip().split("=", 1) for line in f)["DEVNAME"]
         except OSError:
-            continue  # it has just gone
+            continue  # the device has just gone
         return node if os.path.exists(node) else None
     return None

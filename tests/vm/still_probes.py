@@ -1,4 +1,4 @@
-"""Prints rows of columns (A_um ... encoder_mm) that stand still, for the driver csv_stream.
+"""Prints rows of columns (A_um ... encoder_mm) with constant values, for the driver csv_stream.
 
 usage: still_probes.py COLUMN..."""
 import sys

@@ -1,5 +1,6 @@
-"""The kernel's comedi_test, a board of Comedi without hardware, by comedilib: its sawtooth follows the kernel's clock, so
-that each sample says when it was taken. Volts, times, no scan lost; a buffer that runs over; the end of a range."""
+"""The kernel's comedi_test, a Comedi board without hardware, through comedilib: its sawtooth follows the kernel's
+clock, so that each sample shows its own time. Checks volts, times, no lost scan, a buffer overrun, and the end of a
+range."""
 # limit: 400 s
 import csv
 import grp
@@ -12,11 +13,11 @@ import time
 import guest
 
 AMPLITUDE_V, PERIOD_S, RATE_HZ = 5.0, 2.0, 500.0
-CODE_V = 20 / 65535  # at -10 to 10 V
+CODE_V = 20 / 65535  # for -10 to 10 V
 
 
 def plug(amplitude_V=AMPLITUDE_V, buffer_KiB=2048):
-    """The board, anew."""
+    """Loads the board again."""
     if os.path.exists("/sys/module/comedi"):
         guest.run("modprobe", "-r", "comedi_test")
         guest.run("modprobe", "-r", "comedi")
@@ -28,7 +29,7 @@ def plug(amplitude_V=AMPLITUDE_V, buffer_KiB=2048):
 
 
 def phase_s(volts):
-    """Of a sample of the sawtooth: when it was taken, by the kernel's clock, but for whole periods."""
+    """Time of a sample of the sawtooth in the kernel's clock, modulo the period."""
     return (volts + AMPLITUDE_V) / (2 * AMPLITUDE_V) * PERIOD_S
 
 
@@ -43,7 +44,7 @@ def check_rules():
 
 
 def recorded(station):
-    """Time, sawtooth and square of a run of some seconds."""
+    """Time, sawtooth and square wave of a run of some seconds."""
     run = station.client.call("run.start", axis="X")["run"]
     time.sleep(3 * PERIOD_S)
     station.client.call("run.stop", run=run)
@@ -79,7 +80,7 @@ def config(rate_hz=RATE_HZ, range_v=10):
 
 
 def check_overrun():
-    """mdofd sleeps for longer than the kernel's buffer lasts: 2 s of two inputs at 2 kHz."""
+    """mdofd sleeps longer than the kernel's buffer lasts: 2 s of two inputs at 2 kHz."""
     plug(buffer_KiB=16)
     station = guest.Station(config(rate_hz=2000), beside=None)
     station.wait_for_scans("board", 1000)

@@ -1,5 +1,5 @@
-"""A PoKeys on the kernel's USB (vhci_hcd, usbhid, hidraw), and on its HID layer alone (uhid): `mdof device
-probe`, and the live values of mdofd."""
+"""A PoKeys on the kernel's USB (vhci_hcd, usbhid, hidraw), and on its HID layer alone (uhid): `mdof device probe`,
+and the live values of mdofd."""
 # limit: 300 s
 import guest
 
@@ -16,8 +16,8 @@ def check(bus, interfaces):
     print(found)
     assert found["error"] is None and found["lost"] == 0, found
     assert "PoKeys57U 12345, firmware 4.2.19" in found["description"], found
-    assert found["rate_hz"] > 20, found  # of 100, but the machine is an emulated one
-    assert found["channels"][0]["values"] > 20, found  # what took long is suspect
+    assert found["rate_hz"] > 20, found  # of 100, because the machine is emulated
+    assert found["channels"][0]["values"] > 20, found  # late values are suspect
     guest.figure(f"{bus}: {found['rate_hz']:.1f} scans a second of 100, {found['lost']} lost")
 
     station = guest.Station(guest.PROBES_CONFIG + guest.POKEYS_CONFIG)

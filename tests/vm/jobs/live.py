@@ -1,5 +1,5 @@
-"""A live run of each USB driver: device on the kernel's USB -> mdofd -> points that are right, and the same bits
-from a replay. The recordings are left in build/vm/out/live, those of tests/data/devices/recordings come from there."""
+"""A live run of each USB driver: device on the kernel's USB -> mdofd -> correct points, and the same bits from a
+replay. The recordings are written to build/vm/out/live; those in tests/data/devices/recordings come from there."""
 # limit: 600 s
 import argparse
 import os

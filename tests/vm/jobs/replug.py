@@ -1,5 +1,5 @@
-"""Each USB device unplugged and plugged in again 50 times while mdofd reads it: opened again each time, soon,
-and at no cost. A node that is shown too late, or a leak, is seen: that is tried at the end."""
+"""Each USB device is unplugged and plugged in again 50 times while mdofd reads it: mdofd opens it again each time,
+quickly, and without a leak. The last part shows that a late node and a leak are detected."""
 # limit: 1800 s
 import os
 import time
@@ -7,10 +7,10 @@ import time
 import guest
 
 ROUNDS = int(os.environ.get("MDOF_REPLUGS", "50"))
-WARM_UP = 20  # in the first dozen, memory grows by up to 2 MiB and then no more
+WARM_UP = 20  # in the first dozen rounds, memory grows by up to 2 MiB and then stays constant
 MOST_S, MOST_GROWTH_KIB = 1.0, 1024
 
-# A device on the USB: its plan, the configuration with what is beside it, whether its node is there.
+# A USB device: its plan, the configuration with additional devices, and whether its node exists.
 DEVICES = {
     "encoders": (guest.POKEYS, guest.still_config("A_um", "B_um", "C_um", "D_um", "E_um") + guest.POKEYS_CONFIG,
                  lambda: len(guest.hidraw_nodes()) == 3),
@@ -49,7 +49,7 @@ def replug(station, name, plug, there, rounds, late_s=0.0):
     result = Rounds(rounds)
     for i in range(-WARM_UP, rounds):
         guest.wait_until(lambda: station.device(name)["state"] != "open", f"{name} is away")
-        time.sleep((0.1, 0.4, 1.0)[i % 3])  # pauses between openings of any length
+        time.sleep((0.1, 0.4, 1.0)[i % 3])  # pauses of different lengths between openings
         before = station.device(name)["scans"]
         plug.start()
         guest.wait_until(there, f"nodes of {name}", pause_s=0.01)
@@ -80,7 +80,7 @@ for device, (plan, config, there) in DEVICES.items():
     guest.figure(f"{device}: {result.text()}")
     print([round(s, 2) for s in result.seconds], result.resident_KiB)
     assert not result.failures(), result.failures()
-    # The control.
+    # The control test.
     late = replug(station, device, plug, there, 2, late_s=1.1)
     late.descriptors[-1] += 1
     assert len(late.failures()) == 2, late.failures()

@@ -1,5 +1,5 @@
-"""A serial gadget (dummy_hcd, g_serial): a Modbus RTU slave at its end, driver "modbus" at /dev/ttyACM0; unplugged
-and plugged in again."""
+"""A serial gadget (dummy_hcd, g_serial) with a Modbus RTU slave at its end, and the driver "modbus" at /dev/ttyACM0;
+unplugged and plugged in again."""
 # limit: 300 s
 import os
 import subprocess
@@ -40,7 +40,7 @@ def crc(frame):
 
 
 def slave():
-    """Holding register n of unit 1 reads n, forever: its own process."""
+    """Holding register n of unit 1 always reads n; runs in a separate process."""
     import termios
     import tty
     line = os.open("/dev/ttyGS0", os.O_RDWR | os.O_NOCTTY)

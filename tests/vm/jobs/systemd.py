@@ -1,5 +1,6 @@
-"""systemd as the first process, and mdofd as its package installs it: units, user and group, udev rules. Active
-and ready, devices without root (USB, Comedi), restarted by the watchdog, the socket kept; rights by the rules."""
+"""systemd as the first process, and mdofd installed like its package: units, user and group, udev rules. mdofd is
+active and ready, opens devices without root (USB, Comedi), is restarted by the watchdog, keeps its socket, and gets
+its permissions from the rules."""
 # pid 1: systemd
 # limit: 400 s
 import grp
@@ -20,7 +21,7 @@ def show(prop):
 
 
 def wait_for_scans(device="encoders"):
-    """In a client of its own, as every client would: the socket never goes."""
+    """Uses a separate client, like every client: the socket always exists."""
     client = guest.Client(SOCKET, timeout_s=60)
 
     def scans():
@@ -41,7 +42,7 @@ def node_of_interface(number):
 
 
 def check_rules():
-    """The rule gives the group what mdof talks to, and not the keyboard."""
+    """The rule gives the group access to the devices of mdof, but not to the keyboard."""
     for number, group, mode in ((1, "mdof", 0o660), (0, "root", 0o600), (2, "root", 0o600)):
         status = os.stat(node_of_interface(number))
         assert grp.getgrgid(status.st_gid).gr_name == group, (number, status)
@@ -68,7 +69,7 @@ def check_watchdog():
     pid = show("MainPID")
     begin = time.monotonic()
     guest.run("kill", "-STOP", pid)
-    # A client that comes meanwhile is kept waiting, not refused.
+    # A client that connects meanwhile must wait and is not refused.
     waiting = socket.socket(socket.AF_UNIX)
     waiting.connect(SOCKET)
     guest.wait_until(lambda: show("NRestarts") == "1" and show("ActiveState") == "active", "a restart by the watchdog",
@@ -106,7 +107,7 @@ wait_for_scans()
 wait_for_scans("board")
 guest.figure("the service reads a Comedi board, which is iocard's")
 check_user()
-# In systemd's unit, through the udev rule, unplugged and plugged in again.
+# In systemd's unit, with the udev rule, unplugged and plugged in again.
 encoders.kill()
 guest.wait_until(lambda: not guest.hidraw_nodes(), "hidraw nodes go")
 encoders.start()

@@ -20,7 +20,7 @@ for name, (plan, beside, config, vendor) in DEVICES.items():
     found = guest.probe(guest.config_file(config), name)
     print(found)
     assert found["error"] is None and found["scans"] > 500, found
-    assert 400 < found["rate_hz"] < 600, found  # its own clock's, however slow the machine is
+    assert 400 < found["rate_hz"] < 600, found  # by the device's own clock, however slow the machine is
     guest.figure(f"{name}: {found['description']}, {found['rate_hz']:.1f} scans a second, {found['lost']} lost")
     station = guest.Station(config, beside)
     station.wait_for_scans(name, 500)

@@ -1,6 +1,6 @@
-"""systemd as the first process, mdofd as its package installs it, and users of their own: the history names them, their
-groups decide who may activate a table and who has the control's connection, each has a limit of connections, and the
-group mdof reads the results. The unit with PrivateUsers=yes is the control: it fails."""
+"""systemd as the first process, mdofd installed like its package, and separate users: the history names them, their
+groups decide who may activate a table and who has the connection of the control, each user has a limit of
+connections, and the group mdof can read the results. The unit with PrivateUsers=yes is the control test: it fails."""
 # pid 1: systemd
 # limit: 900 s
 import json
@@ -18,7 +18,7 @@ UID = {"approver": 2001, "cnc": 2002, "plain": 2003, "other": 2004, "stranger": 
 GROUPS = {"metrology": (2101, ["approver"]), "cnc_machine": (2102, ["cnc"])}
 FORBIDDEN = -32003
 
-# One call, or connections that are held until its standard input ends; the answers are JSON.
+# One call, or connections that are held until the standard input ends; the replies are JSON.
 CLIENT = """
 import json, sys
 from mdofd import Client, RpcError
@@ -57,7 +57,7 @@ def call(user, method, **params):
 
 
 def hold(user, connections):
-    """The process that holds them, and how many were served."""
+    """The process that holds the connections, and how many were served."""
     process = subprocess.Popen(client(user, hold=connections), stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     return process, json.loads(process.stdout.readline())
 
@@ -100,7 +100,7 @@ def make_table():
 
 
 def activated_by(user, table):
-    """Who the history says it was; None: it was refused."""
+    """The user in the history; None: refused."""
     answer = call(user, "compensation.activate", table=table, despite_warnings=True)
     if "code" in answer:
         assert answer["code"] == FORBIDDEN, answer
@@ -133,7 +133,7 @@ def check_connections():
     other, served_other = hold("other", 31)
     holders.append(other)
     assert served_other == 31, served_other
-    # 63 of 64 are taken: the last one is the control's.
+    # 63 of 64 connections are in use: the last one is reserved for the control.
     assert "code" in call("approver", "server.info"), "the connection of cnc_group went to another"
     assert "code" not in call("cnc", "server.info"), "cnc_group is turned away"
     let_go(holders)
@@ -162,7 +162,7 @@ add_users()
 os.makedirs("/etc/mdof", exist_ok=True)
 write_log("/etc/mdof/log.csv")
 with open(CONFIG, "w") as f:
-    # Without a limit for idle clients: the clock of an emulated machine can be far ahead of its connections.
+    # No limit for idle clients, because the clock of an emulated machine can be far ahead of its connections.
     f.write('[rpc]\napprove_group = "metrology"\ncnc_group = "cnc_machine"\nidle_timeout_s = 0\n' + simulator("X"))
 start()
 run, table = make_table()

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """The budget of bench_machine in vectorised NumPy on one thread: 84 even part errors, the full product of 14 frames.
 
-The nominal machine comes from `bench_machine --frames` on stdin, so that both do the same. Two ways: the product of
-4x4 matrices, as the paper's Eq. 8 and 10 have it, which the bar of 20 is for; and the fastest that was found, which
-takes the tool's point through the frames by plane rotations, in place in buffers made once. Prints nanoseconds a
-trial of the best array size and the same figures as bench_machine, first those of the matrices.
+The nominal machine comes from `bench_machine --frames` on stdin, so that both programs use the same. Two ways: the
+product of 4x4 matrices, as in Eq. 8 and 10 of the paper, to which the limit of 20 applies; and the fastest known
+way, which moves the tool point through the frames by plane rotations, in place in buffers that are created once.
+Prints ns per trial for the best array size, and the same figures as bench_machine, first with the matrices.
   bench_machine --frames | machine_numpy.py [TRIALS]
 """
 import sys
@@ -24,7 +24,7 @@ class Machine:
         self.t = [np.empty(m) for _ in range(4)]
 
     def turn(self, angle, u, v, sense):
-        """(u, v) turned by the angle, in place."""
+        """Turns (u, v) by the angle, in place."""
         s, c, a, b = self.t
         np.sin(angle, out=s)
         np.cos(angle, out=c)
@@ -43,7 +43,7 @@ class Machine:
         u[:] = a
 
     def nominal(self, R, move):
-        """R p + move of all points; most frames only move."""
+        """R p + move for all points; most frames only move."""
         if not np.array_equal(R, np.eye(3)):
             old = [x.copy() for x in self.p]
             for i in range(3):
@@ -104,7 +104,7 @@ class Matrices:
         return M
 
     def body(self, frames):
-        """Product from the bed outwards."""
+        """The product of the frames from the bed outwards."""
         product = np.broadcast_to(np.eye(4), (self.m, 4, 4))
         for _, R, move, point in frames:
             to, back, nominal = np.eye(4), np.eye(4), np.eye(4)

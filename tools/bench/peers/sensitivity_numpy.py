@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Simulation I in vectorised NumPy on one thread, as fast as NumPy does it: the peer of mdof.
+"""Simulation I in vectorised NumPy on one thread, as fast as possible with NumPy: the peer of mdof.
 
-Prints nanoseconds a trial of the best array size, first of the histogram way (which is mdof's own: equal bins,
-np.bincount, constant memory), then of keeping and partitioning all trials (exact quantiles, no constant
-memory). All work is in place in buffers made once; random numbers are NumPy's Philox.
-Statistics over all trials and in each of 20 bins of travel: mean, sd, min, max, quantiles, symmetric and
-shortest 95 % interval.
+Prints ns per trial for the best array size, first with histograms (like mdof: equal bins, np.bincount, constant
+memory), then with all trials kept and partitioned (exact quantiles, no constant memory). All work is in place in
+buffers that are created once; random numbers come from NumPy's Philox.
+Statistics over all trials and in each of 20 bins of travel: mean, sd, min, max, quantiles, symmetric and shortest 95
+% interval.
   sensitivity_numpy.py [TRIALS]
 """
 import sys
@@ -20,7 +20,7 @@ QUANTILES = (0.025, 0.25, 0.5, 0.75, 0.975)
 
 
 class Simulation:
-    """`bins` rows of m trials, a row a bin of travel."""
+    """`bins` rows with m trials; one row for each bin of travel."""
 
     def __init__(self, m, seed=1):
         self.rng = np.random.Generator(np.random.Philox(seed))
@@ -143,7 +143,7 @@ def by_histogram(trials, m):
     counts = np.zeros((5, BINS * CORE), dtype=np.int64)
     t, index = np.empty((BINS, m)), np.empty((BINS, m), dtype=np.intp)
     offset = (np.arange(BINS) * CORE).astype(float)[:, None]
-    # The core, from a pilot, as mdof does it.
+    # The core, from a pilot, as in mdof.
     low, per_width = [], []
     for x in simulation.run():
         q = np.quantile(x[:, :500], (0.01, 0.99))
@@ -196,7 +196,7 @@ def by_sorting(trials, m):
 
 
 def best_ns(work, trials, sizes, rounds=2):
-    """Best over the sizes and rounds: (ns a trial, trials at once)."""
+    """Best over the sizes and rounds: (ns per trial, trials at once)."""
     found = []
     for m in (m for m in sizes if BINS * m <= trials):
         for _ in range(rounds):

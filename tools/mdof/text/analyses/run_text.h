@@ -11,7 +11,7 @@
 namespace mdof::tools {
 
 enum class Extent {
-  brief,    // means by target, points that have flags or no errors, figures with U
+  brief,    // means by target, points with flags or without errors, figures with U
   figures,  // figures by approach and reference line, closure, drift; no points
   all,      // all points, then as `figures`
 };

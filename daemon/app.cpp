@@ -109,11 +109,11 @@ struct App::Parts {
     keeper.reset();
   }
   Status open_store();
-  void read_anew();
+  void reopen_reader();
   void start_stations();
   std::optional<DatumSetting> last_datum(Axis axis);
   void report(const char* topic, const std::string& json, std::string_view of = "");
-  void to_journal(Axis axis, const Trouble& trouble);
+  void log_trouble(Axis axis, const Trouble& trouble);
   void handle_signals();
   Status listen();
   Status serve_page();
@@ -143,7 +143,7 @@ Status App::Parts::open_store() {
     loop.post([this, now] {
       std::fprintf(stderr, "storage %s%s%s\n", now.state.c_str(), now.reason.empty() ? "" : ": ",
                    now.reason.c_str());
-      if (now.state == "ok") read_anew();
+      if (now.state == "ok") reopen_reader();
       report(kRunTopic, storage_json(now));
     });
   };
@@ -162,7 +162,7 @@ Status App::Parts::open_store() {
 }
 
 // While the database was not writable, it may have been opened as immutable.
-void App::Parts::read_anew() {
+void App::Parts::reopen_reader() {
   auto opened = store::Store::open(config.database, store::Access::read_only);
   if (opened) *reader = std::move(*opened);
   if (query) query->open_again();
@@ -176,7 +176,7 @@ void App::Parts::start_stations() {
   events.trouble = [this](Axis axis, std::int64_t run, const Trouble& trouble) {
     loop.post([this, axis, run, trouble] {
       report(kRunTopic, trouble_json(axis, run, trouble));
-      to_journal(axis, trouble);
+      log_trouble(axis, trouble);
     });
   };
   for (auto& axis : config.axes) {
@@ -211,7 +211,7 @@ void App::Parts::report(const char* topic, const std::string& json, std::string_
     std::fprintf(stderr, "%s\n", printable(*text).c_str());
 }
 
-void App::Parts::to_journal(Axis axis, const Trouble& trouble) {
+void App::Parts::log_trouble(Axis axis, const Trouble& trouble) {
   const std::string line = std::string("axis ") + letter(axis) + ": " + trouble_line(trouble);
   const std::string key = std::string(1, letter(axis)) + to_string(trouble.kind) + trouble.device;
   if (const auto text = journal.admit(key, line, std::chrono::steady_clock::now()))
@@ -266,7 +266,7 @@ Status App::Parts::serve_page() {
 // The watchdog is notified only if this loop runs and every thread has reported in time.
 void App::Parts::watch() {
   loop.call_every(std::chrono::milliseconds(50), [this] {
-    const auto wanted = service.wanted_every(kLiveTopic);
+    const auto wanted = service.wanted_interval(kLiveTopic);
     for (auto& station : stations) station->watch(wanted);
   });
   if (const auto interval = systemd::watchdog_interval()) {
@@ -289,7 +289,7 @@ void App::Parts::watch_reader() {
   if (damage.empty()) damage = query->take_damage();
   if (damage.empty()) return;
   keeper->note_damage(damage);
-  read_anew();
+  reopen_reader();
 }
 
 void App::Parts::watch_clock() {

@@ -21,12 +21,12 @@ std::string name_of_user(uid_t uid) {
 
 }  // namespace
 
-Actor actor_of(std::int64_t uid, std::int64_t gid, std::int64_t pid) {
+Actor actor_from_ids(std::int64_t uid, std::int64_t gid, std::int64_t pid) {
   return {uid, gid, pid, name_of_user(static_cast<uid_t>(uid))};
 }
 
 Actor this_process() {
-  return actor_of(::getuid(), ::getgid(), ::getpid());
+  return actor_from_ids(::getuid(), ::getgid(), ::getpid());
 }
 
 HistoryEntry action_now(std::string name, Actor by) {

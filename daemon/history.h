@@ -9,7 +9,7 @@
 
 namespace mdof::daemon {
 
-Actor actor_of(std::int64_t uid, std::int64_t gid, std::int64_t pid);
+Actor actor_from_ids(std::int64_t uid, std::int64_t gid, std::int64_t pid);
 Actor this_process();
 HistoryEntry action_now(std::string name, Actor by);
 

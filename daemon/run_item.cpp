@@ -21,7 +21,7 @@ std::string cut(const std::string& text, std::size_t bytes) {
 }
 
 // The options of an imported run that determine the signs of its errors; "" for other runs.
-std::string sense_of_imported(const RunHeader& header) {
+std::string imported_sense_json(const RunHeader& header) {
   if (!is_imported(header)) return "";
   const ImportedSense stated = run_options(header).imported;
   JsonWriter json;
@@ -36,7 +36,7 @@ std::string sense_of_imported(const RunHeader& header) {
 
 RunHeader shortened(RunHeader header) {
   header.note = cut(header.note, kNoteBytes);
-  header.provenance.options_json = sense_of_imported(header);
+  header.provenance.options_json = imported_sense_json(header);
   std::size_t bytes = 0, kept = 0;
   for (; kept < header.notices.size() && bytes < kNoticesBytes; ++kept) {
     for (auto& [key, x] : header.notices[kept].values)

@@ -12,7 +12,7 @@ Status check_id(const ChannelInput& channel, const Rig& rig) {
   std::vector<std::string> known = {kEncoderChannel};
   for (const Probe& probe : rig.probes) known.push_back(probe.id);
   if (std::find(known.begin(), known.end(), channel.id) != known.end()) return {};
-  const std::string nearest = nearest_of(channel.id, known);
+  const std::string nearest = nearest_candidate(channel.id, known);
   return bad_input(channel.where + ": \"" + channel.id + "\" is neither a probe of " + rig.source +
                    " nor \"" + kEncoderChannel + "\"" +
                    (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
@@ -106,7 +106,7 @@ Status read_further_channels(std::vector<FurtherAxis> axes, const ChannelKeys& m
   return {};
 }
 
-std::vector<Channel> of_part(std::vector<Channel> channels, const ChannelPart& part) {
+std::vector<Channel> channels_for_axis(std::vector<Channel> channels, const ChannelPart& part) {
   if (part.empty()) return channels;
   std::erase_if(channels, [&](const Channel& c) { return !part.contains(c.id); });
   for (Channel& channel : channels) channel.id = part.at(channel.id);
@@ -119,8 +119,8 @@ std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels) {
   return ids;
 }
 
-bool counts_at(const std::vector<ChannelInput>& channels, const std::vector<std::string>& counters,
-               const std::string& id) {
+bool is_at_counter(const std::vector<ChannelInput>& channels,
+                   const std::vector<std::string>& counters, const std::string& id) {
   return std::any_of(channels.begin(), channels.end(), [&](const ChannelInput& channel) {
     return channel.id == id &&
            std::find(counters.begin(), counters.end(), channel.input) != counters.end();
@@ -140,7 +140,7 @@ std::map<std::string, EncoderOrigin> further_encoders(const std::vector<ChannelI
   std::map<std::string, EncoderOrigin> encoders;
   for (const FurtherAxis& axis : axes) {
     const std::string id = further_id(kEncoderChannel, axis.rig.axis);
-    encoders[id] = encoder_origin(channels, counts_at(channels, counters, id), id);
+    encoders[id] = encoder_origin(channels, is_at_counter(channels, counters, id), id);
   }
   return encoders;
 }

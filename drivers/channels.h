@@ -49,15 +49,16 @@ Status read_further_channels(std::vector<FurtherAxis> axes, const ChannelKeys& m
 // The channels of a device that belong to one axis: name at the device -> name in the rig of the
 // axis. Empty: all channels belong to the axis and keep their names.
 using ChannelPart = std::map<std::string, std::string>;
-std::vector<Channel> of_part(std::vector<Channel> channels, const ChannelPart& part);
+std::vector<Channel> channels_for_axis(std::vector<Channel> channels, const ChannelPart& part);
 
 // For DriverSpec::channels.
 std::vector<std::string> ids_of(const std::vector<ChannelInput>& channels);
 
 // Whether the encoder `id` is at one of the inputs `counters`. Only a counter can lose its datum;
 // an encoder in volts cannot.
-bool counts_at(const std::vector<ChannelInput>& channels, const std::vector<std::string>& counters,
-               const std::string& id = kEncoderChannel);
+bool is_at_counter(const std::vector<ChannelInput>& channels,
+                   const std::vector<std::string>& counters,
+                   const std::string& id = kEncoderChannel);
 // Origin of the encoder `id`. `counts`: encoders of this driver count from the position at which
 // they were switched on.
 EncoderOrigin encoder_origin(const std::vector<ChannelInput>& channels, bool counts,

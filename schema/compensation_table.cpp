@@ -35,7 +35,7 @@ std::string table_sha256(const CompensationTable& t) {
   put_text(t.sides.moves());
   put_text(t.sides.travel());
   put_text(t.machine.text);
-  put_text(travels_of(t.machine));
+  put_text(chain_travels_text(t.machine));
   put_text(to_string(t.stated.reference));
   put(bytes, std::span<const double>(t.stated.point_m));
   put_counted(bytes, t.position_m);

@@ -73,7 +73,7 @@ struct CompensationTable {
   }
   // Combined standard uncertainty of positioning. With one reading per target, repeatability is
   // unknown and u is the declared uncertainty.
-  double u_of_positioning(bool of_forward, std::size_t row) const {
+  double positioning_u_at(bool of_forward, std::size_t row) const {
     const double value = (of_forward ? positioning.forward : positioning.reverse)[row];
     const double u_random = (of_forward ? positioning.u_forward : positioning.u_reverse)[row];
     if (!has_declared() || std::isnan(value)) return u_random;

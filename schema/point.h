@@ -26,8 +26,8 @@ struct Point {
   std::vector<double> probe_sd_m;      // standard deviation of single readings
   std::uint64_t scan_fingerprint = 0;  // algo/points/scan_fingerprint.h; 0: none
   // Smallest and largest position between the previous point and this one; NaN if not observed.
-  double way_min_m = std::numeric_limits<double>::quiet_NaN();
-  double way_max_m = std::numeric_limits<double>::quiet_NaN();
+  double travel_min_m = std::numeric_limits<double>::quiet_NaN();
+  double travel_max_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 enum class Model { simplified, exact, rigid };

@@ -67,7 +67,7 @@ void write_side(JsonWriter& json, const CompensationTable& t, const Side& side, 
   write_along(along(side.along));
   json.key("u").begin_object();
   write_five([&](std::size_t k) { return t.u_of(side.u, k, row); });
-  write_along(t.has_positioning() ? t.u_of_positioning(side.is_forward, row) : std::nan(""));
+  write_along(t.has_positioning() ? t.positioning_u_at(side.is_forward, row) : std::nan(""));
   json.end_object();
   if (t.has_declared()) {
     json.key("u_random").begin_object();
@@ -135,7 +135,7 @@ void write_point(JsonWriter& json, const MovingAxis& moving, const MeasuredPoint
   const bool judged = p.errors.valid && redundant(p);
   json.field("residual_um", judged ? to_um(p.errors.residual_m) : std::nan(""))
       .field("samples", p.point.samples);
-  write_strings(json, "flags", texts_of(p.point.flags));
+  write_strings(json, "flags", flag_texts(p.point.flags));
   if (!p.errors.valid) json.field("reason", p.errors.reason);
   json.end_object();
 }
@@ -205,8 +205,7 @@ void write_header_members(JsonWriter& json, const RunHeader& h, NoticeWords word
   write_notices(json, "notices", h.notices, words);
 }
 
-const Budget* budget_of_slope(const std::vector<Budget>& budgets,
-                              const StraightnessFigure& figure) {
+const Budget* slope_budget(const std::vector<Budget>& budgets, const StraightnessFigure& figure) {
   if (figure.approach != "mean") return nullptr;
   return find_budget(budgets, figure.error_key.substr(0, 3) + "_slope_urad");
 }
@@ -214,7 +213,7 @@ const Budget* budget_of_slope(const std::vector<Budget>& budgets,
 void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>& figures,
                         const std::vector<Budget>& budgets) {
   write_by_key(json, figures, [&](const StraightnessFigure& f) {
-    const Budget* budget = budget_of_slope(budgets, f);
+    const Budget* budget = slope_budget(budgets, f);
     json.field("least_squares_um", to_um(f.straightness_least_squares_m))
         .field("end_point_um", to_um(f.straightness_end_point_m))
         .field("slope_least_squares_urad", plain(to_urad(f.slope_least_squares_rad)))
@@ -236,7 +235,7 @@ void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures) {
 }
 
 void write_run_members(JsonWriter& json, const RunMembers& members, NoticeWords words) {
-  const auto& [run, header, uncertainty, figures, with_points, most_visits] = members;
+  const auto& [run, header, uncertainty, figures, with_points, visit_limit] = members;
   write_header_members(json, header, words);
   write_covers(json, uncertainty);
   json.field("points_total", static_cast<std::uint64_t>(run.points.size()));
@@ -252,7 +251,7 @@ void write_run_members(JsonWriter& json, const RunMembers& members, NoticeWords 
   write_angles(json, run.angles);
   write_stated(json, figures);
   json.key("plausibility");
-  run.plausibility ? write_plausibility(json, *run.plausibility, most_visits)
+  run.plausibility ? write_plausibility(json, *run.plausibility, visit_limit)
                    : static_cast<void>(json.null());
 }
 
@@ -337,7 +336,7 @@ void write_table_members(JsonWriter& json, const CompensationTable& t) {
   }
   json.key("chain");
   t.machine.known() ? json.value(t.machine.text) : json.null();
-  json.field("chain_travel", travels_of(t.machine));
+  json.field("chain_travel", chain_travels_text(t.machine));
   write_corrections(json, t);
   json.field("sense", t.has_positioning() ? kPositioningTableSense : kTableSense);
   if (t.has_positioning())

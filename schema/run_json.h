@@ -41,7 +41,7 @@ struct RunMembers {
   const RunUncertainty& uncertainty;
   const StatedFigures& figures;  // for write_stated()
   bool with_points = true;
-  std::size_t most_visits = kAllVisits;  // for write_plausibility()
+  std::size_t visit_limit = kAllVisits;  // for write_plausibility()
 };
 // Writes the members into an open object.
 void write_run_members(JsonWriter& json, const RunMembers& members, NoticeWords words);
@@ -52,7 +52,7 @@ void write_straightness(JsonWriter& json, const std::vector<StraightnessFigure>&
                         const std::vector<Budget>& budgets = {});
 // The budget of the least-squares slope of `figure`. nullptr if `budgets` does not hold it; budgets
 // exist for the mean of both approaches only.
-const Budget* budget_of_slope(const std::vector<Budget>& budgets, const StraightnessFigure& figure);
+const Budget* slope_budget(const std::vector<Budget>& budgets, const StraightnessFigure& figure);
 void write_angles(JsonWriter& json, const std::vector<AngleFigure>& figures);
 
 // Writes the members into an open object. `budgets`: EC0Y first, then the slopes.

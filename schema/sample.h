@@ -67,7 +67,7 @@ struct FrameBlock {
   std::vector<std::vector<Quality>> probe_quality;  // [probe][instant]; empty: all good
   // [probe][instant] 1 if a new sample of the probe arrived since the previous instant, 0 if the
   // value is interpolated from the same samples; empty: 1 everywhere.
-  std::vector<std::vector<std::uint8_t>> probe_fresh = {};
+  std::vector<std::vector<std::uint8_t>> probe_is_new = {};
 
   std::size_t size() const { return time_ns.size(); }
   Quality quality_at(std::size_t probe, std::size_t i) const {

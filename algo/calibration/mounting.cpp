@@ -57,9 +57,9 @@ class Fit {
         probe_(Eigen::VectorXd::Zero(model_.unknowns())) {}
 
   Status run(double u_encoder_m) {
-    MDOF_CHECK(settle([this] { return step_of_poses(); }));
+    MDOF_CHECK(settle([this] { return solve_poses(); }));
     model_.widen_by_encoder(pose_, u_encoder_m);
-    return settle([this] { return step_of_all(); });
+    return settle([this] { return solve_all_unknowns(); });
   }
   MountingFit result(const Rig& rig, const std::vector<Clamping>& clampings) const;
   const MountingView& view() const { return view_; }
@@ -82,7 +82,7 @@ class Fit {
                 Remedy::reverse_target);
   }
 
-  double step_of_poses() {
+  double solve_poses() {
     const auto lines = model_.linearised(pose_, probe_);
     const Eigen::VectorXd step = LeastSquares(lines.by_pose, kRankTolerance).solve(lines.misfit);
     pose_ += step;
@@ -92,7 +92,7 @@ class Fit {
   // Solves for the probes' unknowns as a whole, not only for their change, in the combinations that
   // are seen at this step. Nothing remains of combinations that were seen only at an earlier step.
   // After kChoosingSteps the seen combinations are fixed.
-  double step_of_all() {
+  double solve_all_unknowns() {
     const auto lines = model_.linearised(pose_, probe_);
     const PoseSpace poses(lines.by_pose);
     const Eigen::MatrixXd shown = poses.without(lines.by_probe);
@@ -144,7 +144,7 @@ class Fit {
   Eigen::VectorXd pose_, probe_;
   MountingView view_;
   Eigen::Index pose_rank_ = 0;
-  int steps_ = 0;  // number of step_of_all() calls
+  int steps_ = 0;  // number of solve_all_unknowns() calls
 };
 
 // The unseen part keeps the rig's uncertainty; NaN: the rig does not declare it.
@@ -169,7 +169,7 @@ void Fit::report_probe(const Rig& rig, std::size_t k, const Unseen& unseen,
   const Eigen::Vector3d moved =
       found(unknown_of(k, kPlace1)) * e1 + found(unknown_of(k, kPlace2)) * e2;
   const Eigen::Vector3d direction =
-      model_.turned_direction(k, found(unknown_of(k, kTowards1)), found(unknown_of(k, kTowards2)));
+      model_.rotated_direction(k, found(unknown_of(k, kTowards1)), found(unknown_of(k, kTowards2)));
   out.id = rig.probes[k].id;
   out.position_seen = seen(kPlace1) && seen(kPlace2);
   out.direction_seen = seen(kTowards1) && seen(kTowards2);
@@ -268,7 +268,7 @@ MountingFit Fit::result(const Rig& rig, const std::vector<Clamping>& clampings) 
   fit.covariance = widened * (s.asDiagonal() * scaled * s.asDiagonal());
   fit.seen = s.asDiagonal() * view_.projector() *
              s.unaryExpr([](double x) { return x > 0 ? 1 / x : 0; }).asDiagonal();
-  const Unseen unseen = unseen_of(model_, view_);
+  const Unseen unseen = find_unseen(model_, view_);
   fit.found.not_seen = unseen.sentences;
   fit.found.u_together_m = unseen.u_together_m;
   fit.found.clampings = clampings.size();
@@ -278,7 +278,7 @@ MountingFit Fit::result(const Rig& rig, const std::vector<Clamping>& clampings) 
   report_covariance(rig, unseen, fit.covariance, fit.found);
   for (std::size_t i = 0; i < clampings.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const Errors5 a = model_.angles_of(pose_, i), b = model_.angles_of(pose_, j);
+      const Errors5 a = model_.clamping_angles(pose_, i), b = model_.clamping_angles(pose_, j);
       const Eigen::Vector3d apart(a[kEx] - b[kEx], a[kEy] - b[kEy], a[kEz] - b[kEz]);
       fit.found.tilt_rad = std::max(fit.found.tilt_rad, apart.norm());
     }

@@ -120,13 +120,13 @@ bool MountingModel::declared(Eigen::Index unknown) const {
   return declared_[static_cast<std::size_t>(unknown)];
 }
 
-Eigen::Vector3d MountingModel::turned_direction(std::size_t probe, double towards1,
-                                                double towards2) const {
+Eigen::Vector3d MountingModel::rotated_direction(std::size_t probe, double towards1,
+                                                 double towards2) const {
   const auto& two = towards_[probe];
   return (nominal_.probes[probe].u_M + towards1 * two[0] + towards2 * two[1]).normalized();
 }
 
-Errors5 MountingModel::angles_of(const Eigen::VectorXd& pose, std::size_t clamping) const {
+Errors5 MountingModel::clamping_angles(const Eigen::VectorXd& pose, std::size_t clamping) const {
   Errors5 errors{};
   const auto first = static_cast<Eigen::Index>(3 * clamping);
   for (std::size_t e = 0; e < 3; ++e)
@@ -137,7 +137,7 @@ Errors5 MountingModel::angles_of(const Eigen::VectorXd& pose, std::size_t clampi
 // The target's travel is part of the carriage's position; its x component is `travel_m` of the
 // model.
 Errors5 MountingModel::pose_of(const Eigen::VectorXd& pose, const TraverseReading& at) const {
-  Errors5 errors = angles_of(pose, at.clamping);
+  Errors5 errors = clamping_angles(pose, at.clamping);
   const auto first = static_cast<Eigen::Index>(3 * clampings_ + 2 * at.traverse);
   errors[kDy] = pose(first) + at.travel_M().y();
   errors[kDz] = pose(first + 1) + at.travel_M().z();
@@ -150,7 +150,7 @@ FixtureProbe MountingModel::mounted(const Eigen::VectorXd& probe, std::size_t k)
     return probe(unknown_of(k, which)) * scale_(unknown_of(k, which));
   };
   p.p_MP += value(kPlace1) * along_[k][0] + value(kPlace2) * along_[k][1];
-  p.u_M = turned_direction(k, value(kTowards1), value(kTowards2));
+  p.u_M = rotated_direction(k, value(kTowards1), value(kTowards2));
   return p;
 }
 
@@ -200,7 +200,7 @@ void MountingModel::widen_by_encoder(const Eigen::VectorXd& pose, double u_encod
   for (TraverseReading& seen : readings_) {
     const FixtureProbe& p = nominal_.probes[seen.probe];
     const Eigen::Vector3d n_M =
-        local_rotation(nominal_.axis, angles_of(pose, seen.clamping)).R_MC * p.n_C;
+        local_rotation(nominal_.axis, clamping_angles(pose, seen.clamping)).R_MC * p.n_C;
     const double slope = n_M.dot(seen.way_M) / n_M.dot(p.u_M);
     seen.u_m = std::hypot(seen.u_m, slope * u_encoder_m);
   }

@@ -42,7 +42,7 @@ class MountingModel {
   // to.
   const Eigen::Vector3d& along(std::size_t probe, std::size_t which) const;
   const Eigen::Vector3d& towards(std::size_t probe, std::size_t which) const;
-  Eigen::Vector3d turned_direction(std::size_t probe, double towards1, double towards2) const;
+  Eigen::Vector3d rotated_direction(std::size_t probe, double towards1, double towards2) const;
 
   // Prior standard uncertainty of each unknown, before the logs; 0: exact.
   const Eigen::VectorXd& scale() const { return scale_; }
@@ -60,7 +60,7 @@ class MountingModel {
 
   // Adds the effect of the encoder's declared uncertainty at a tilt to the u of the readings.
   void widen_by_encoder(const Eigen::VectorXd& pose, double u_encoder_m);
-  Errors5 angles_of(const Eigen::VectorXd& pose, std::size_t clamping) const;
+  Errors5 clamping_angles(const Eigen::VectorXd& pose, std::size_t clamping) const;
 
  private:
   void take(const std::vector<Clamping>& clampings);

@@ -160,7 +160,7 @@ class Naming {
 
 }  // namespace
 
-Unseen unseen_of(const MountingModel& model, const MountingView& view) {
+Unseen find_unseen(const MountingModel& model, const MountingView& view) {
   return Naming(model, view).take();
 }
 

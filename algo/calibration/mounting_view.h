@@ -30,6 +30,6 @@ struct Unseen {
 };
 inline constexpr double kUnseenShare = 0.05;  // an unknown with a larger share is not seen
 
-Unseen unseen_of(const MountingModel& model, const MountingView& view);
+Unseen find_unseen(const MountingModel& model, const MountingView& view);
 
 }  // namespace mdof::algo

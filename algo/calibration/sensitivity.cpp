@@ -34,7 +34,7 @@ struct Reading {
 
 // Groups by position along the axis, ascending. A group ends at a gap of more than a fifth of a
 // step.
-std::vector<std::vector<Reading>> visits_of_places(std::vector<Reading> all, double apart_m) {
+std::vector<std::vector<Reading>> group_by_position(std::vector<Reading> all, double apart_m) {
   std::sort(all.begin(), all.end(),
             [](const Reading& a, const Reading& b) { return a.true_m < b.true_m; });
   const double span_m = all.back().true_m - all.front().true_m;
@@ -205,7 +205,7 @@ Result<SensitivityCalibration> fit_sensitivity(const Rig& rig, std::size_t probe
   found.id = own.id;
   found.sensitivity_1 = line.slope;
   const SlopeUncertainty u =
-      slope_uncertainty(visits_of_places(all, kOnePlace * own.range_m), line.slope,
+      slope_uncertainty(group_by_position(all, kOnePlace * own.range_m), line.slope,
                         std::abs(along) * rig.uncertainty.encoder.u);
   found.u_sensitivity_1 = u.u;
   found.freedom = u.freedom;

@@ -113,7 +113,8 @@ Place place_on(const std::vector<double>& x, double at) {
 }
 
 // For the rare series with gaps: linear over the grid points that have a value.
-double over_holes(const std::vector<double>& x, const std::vector<double>& y, double at) {
+double interpolate_over_gaps(const std::vector<double>& x, const std::vector<double>& y,
+                             double at) {
   std::size_t below = x.size(), above = x.size();
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (!std::isfinite(y[i])) continue;
@@ -129,7 +130,7 @@ double over_holes(const std::vector<double>& x, const std::vector<double>& y, do
 double interpolate(const std::vector<double>& x, const std::vector<double>& y, double at,
                    const Place& place) {
   const double low = y[place.below], high = y[std::min(place.below + 1, y.size() - 1)];
-  if (!std::isfinite(low) || !std::isfinite(high)) return over_holes(x, y, at);
+  if (!std::isfinite(low) || !std::isfinite(high)) return interpolate_over_gaps(x, y, at);
   return place.share == 1.0 ? high : low + (high - low) * place.share;
 }
 
@@ -141,8 +142,8 @@ bool spans(const std::vector<double>& x, const std::vector<double>& y, double at
   while (last > 0 && !std::isfinite(y[last - 1])) --last;
   if (first >= last) return false;
   if (first + 1 == last) return at == x[first];
-  return at >= x[first] - kEndShare * (x[first + 1] - x[first]) &&
-         at <= x[last - 1] + kEndShare * (x[last - 1] - x[last - 2]);
+  return at >= x[first] - kEndTolerance * (x[first + 1] - x[first]) &&
+         at <= x[last - 1] + kEndTolerance * (x[last - 1] - x[last - 2]);
 }
 
 bool measured_there(const CompensationTable& table, double position_m, TableSide side) {
@@ -230,7 +231,7 @@ Result<CompensationTable> build_table(const std::vector<Run>& measured,
   return std::move(of.table);
 }
 
-Result<Notices> uneven_visits_of(const std::vector<Run>& runs) {
+Result<Notices> uneven_visit_notices(const std::vector<Run>& runs) {
   if (runs.empty()) return Notices();
   const RunHeader& header = runs.front().header;
   const auto first = target_means({header.axis, header.sides}, runs.front().points, Approach::both);

@@ -42,7 +42,7 @@ std::array<std::vector<std::vector<double>>, kErrorCount> references_of(
     const CompensationTable& table, const TableOptions& options);
 // Notices of uneven_visits() for the points of all runs together, numbered through all runs. Error:
 // the runs have different targets.
-Result<Notices> uneven_visits_of(const std::vector<Run>& runs);
+Result<Notices> uneven_visit_notices(const std::vector<Run>& runs);
 
 // Evaluates the errors at a position: linear between grid points; outside, the end value is held
 // and `inside` is false. u is linear between two targets, too: no correlation of the two values

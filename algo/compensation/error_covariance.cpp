@@ -44,8 +44,8 @@ Result<Covariance5> of_noise(const Rig& rig, const Run& run) {
 
 // Factor of a correlation if two values refer to different shares of the means: the cosine between
 // their weights of independent targets.
-Covariance5 of_weights(const std::array<std::vector<std::vector<double>>, kErrorCount>& references,
-                       std::size_t row) {
+Covariance5 weight_correlation(
+    const std::array<std::vector<std::vector<double>>, kErrorCount>& references, std::size_t row) {
   Covariance5 products{};
   const std::size_t n = references[0][row].size();
   for (std::size_t j = 0; j < n; ++j) {
@@ -77,7 +77,7 @@ std::array<std::vector<double>, kErrorCount> noise_of(const CompensationTable& t
 // The covariance of the forward approach with its variances raised to those of the reverse approach
 // where these are larger. An approach without values has no variances; then the result is the
 // other's.
-Covariance5 larger_of(const Covariance5& forward, const Covariance5& reverse) {
+Covariance5 larger_covariance(const Covariance5& forward, const Covariance5& reverse) {
   if (forward == Covariance5{}) return reverse;
   Errors5 scale;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
@@ -105,14 +105,14 @@ Result<ErrorCovariances> error_covariances(const CompensationTable& table,
   const auto u_noise = noise_of(table);
   ErrorCovariances all;
   for (std::size_t row = 0; row < table.position_m.size(); ++row) {
-    const Covariance5 weights = of_weights(references, row);
+    const Covariance5 weights = weight_correlation(references, row);
     Covariance5& noise = all.noise.emplace_back();
     for (std::size_t k = 0; k < kErrorCount; ++k)
       for (std::size_t l = 0; l < kErrorCount; ++l)
         noise[at(k, l)] =
             u_noise[k][row] * u_noise[l][row] * (k == l ? 1 : probes[at(k, l)] * weights[at(k, l)]);
     if (!declared.forward.empty())
-      all.declared.push_back(larger_of(declared.forward[row], declared.reverse[row]));
+      all.declared.push_back(larger_covariance(declared.forward[row], declared.reverse[row]));
   }
   return all;
 }

@@ -20,7 +20,7 @@ struct InRun {
   Contributor contributor;
 };
 
-bool is_of_several_tables(const std::vector<InRun>& all) {
+bool is_shared_by_tables(const std::vector<InRun>& all) {
   std::set<std::size_t> tables;
   for (const InRun& one : all) tables.insert(one.table);
   return tables.size() > 1;
@@ -45,12 +45,11 @@ Result<std::map<std::string, std::vector<InRun>>> quantities_of(
           all[contributor.common_as].push_back({t, r, contributor});
     }
   }
-  std::erase_if(all, [](const auto& of) { return !is_of_several_tables(of.second); });
+  std::erase_if(all, [](const auto& of) { return !is_shared_by_tables(of.second); });
   return all;
 }
 
-Result<std::vector<Errors5>> changes_of_table(const BuiltFrom& of,
-                                              const std::vector<Run>& shifted) {
+Result<std::vector<Errors5>> table_changes(const BuiltFrom& of, const std::vector<Run>& shifted) {
   MDOF_TRY(const TableOfMeans built, table_of_means(shifted, of.options));
   std::vector<Errors5> changes(of.table.position_m.size());
   for (std::size_t row = 0; row < changes.size(); ++row)
@@ -82,7 +81,7 @@ Result<std::vector<SharedQuantity>> shared_quantities(const std::vector<BuiltFro
         for (std::size_t i = 0; i < in_runs.size(); ++i)
           if (in_runs[i].table == t && p < parts[i].size())
             shift(shifted[in_runs[i].run].points, parts[i][p]);
-        MDOF_TRY(auto changes, changes_of_table(tables[t], shifted));
+        MDOF_TRY(auto changes, table_changes(tables[t], shifted));
         shared.by_table.push_back(std::move(changes));
       }
     }

@@ -62,7 +62,7 @@ class SharedShifts {
     std::copy_if(points.begin(), points.end(), std::back_inserter(counted), counts_in_means);
     by_noise_ = parts_by_run_shifts(counted);
     levels_ = pass_levels(moving, counted, u_visit);
-    run_level_ = named_from_local(moving, without_drift_of_runs(points).u_level);
+    run_level_ = named_from_local(moving, subtract_run_drifts(points).u_level);
   }
   bool has_levels() const { return !levels_.parts.empty(); }
   double run_level(std::size_t k) const { return std::abs(run_level_[k]); }
@@ -116,13 +116,14 @@ Errors5 half_difference(const MovingAxis& moving, const std::vector<MeasuredPoin
   std::map<int, Halves> of_run;
   std::map<int, Errors5> of_target;
   std::map<int, double> runs_at;
-  const auto half_of = [](const Sums& sums, std::size_t k) {
+  const auto side_half_mean = [](const Sums& sums, std::size_t k) {
     return (sums.sum[1][k] / sums.visits[1] - sums.sum[0][k] / sums.visits[0]) / 2;
   };
   for (const auto& [where, sums] : at_target) {
     if (sums.visits[0] == 0 || sums.visits[1] == 0) continue;
     runs_at[where.second] += 1;
-    for (std::size_t k = 0; k < kErrorCount; ++k) of_target[where.second][k] += half_of(sums, k);
+    for (std::size_t k = 0; k < kErrorCount; ++k)
+      of_target[where.second][k] += side_half_mean(sums, k);
   }
   // Subtract the mean reversal of each target, so that runs with different targets are comparable.
   for (const auto& [where, sums] : at_target) {
@@ -130,7 +131,8 @@ Errors5 half_difference(const MovingAxis& moving, const std::vector<MeasuredPoin
     Halves& run = of_run[where.first];
     run.targets += 1;
     for (std::size_t k = 0; k < kErrorCount; ++k) {
-      const double off = half_of(sums, k) - of_target[where.second][k] / runs_at[where.second];
+      const double off =
+          side_half_mean(sums, k) - of_target[where.second][k] / runs_at[where.second];
       run.sum[k] += off;
       run.square[k] += off * off;
     }

@@ -32,7 +32,7 @@ DriftDesign design_of(const Points& points) {
   std::vector<TimedVisit> visits;
   for (const MeasuredPoint* p : points) {
     const auto place = places.emplace(std::pair(p->target, p->point.direction), places.size());
-    visits.push_back({place.first->second, time_of_s(*p)});
+    visits.push_back({place.first->second, middle_time_s(*p)});
   }
   return DriftDesign(std::move(visits));
 }
@@ -52,7 +52,7 @@ DriftFit errors_fit(const Points& points) {
 }
 
 // Only from points with readings of all probes.
-std::vector<SeriesDrift> drifts_of_probes(const Points& points) {
+std::vector<SeriesDrift> probe_drifts(const Points& points) {
   Points whole;
   std::copy_if(points.begin(), points.end(), std::back_inserter(whole), [](const auto* p) {
     return std::none_of(p->point.probe_m.begin(), p->point.probe_m.end(),
@@ -87,7 +87,7 @@ std::vector<Closure> closures_of(const Points& points) {
     }
     if (!end) continue;
     Closure closure{start.run,
-                    time_of_s(*end) - time_of_s(start),
+                    middle_time_s(*end) - middle_time_s(start),
                     end->point.direction == start.point.direction,
                     {}};
     for (std::size_t k = 0; k < kErrorCount; ++k)
@@ -116,7 +116,7 @@ void take_means(const Groups& groups, Eigen::MatrixXd& columns) {
 }
 
 // Sum of squares of y that the columns and a mean of each group do not explain.
-double left_of(Eigen::MatrixXd columns, Eigen::MatrixXd y, const Groups& groups) {
+double residual_square(Eigen::MatrixXd columns, Eigen::MatrixXd y, const Groups& groups) {
   take_means(groups, columns);
   take_means(groups, y);
   const Eigen::MatrixXd fitted = columns * LeastNorm(columns).solve(y);
@@ -156,12 +156,12 @@ bool may_be_steps(const Points& points, const DriftFit& fit, std::size_t k) {
     const MeasuredPoint& p = *points[static_cast<std::size_t>(i)];
     y(i, 0) = p.errors.local[k];
     drift(i, 0) = p.point.direction;
-    drift.row(i).tail(order) = fit.design().polynomials(time_of_s(p)).head(order).transpose();
+    drift.row(i).tail(order) = fit.design().polynomials(middle_time_s(p)).head(order).transpose();
     steps(i, static_cast<Eigen::Index>(groups.pass[static_cast<std::size_t>(i)])) = 1;
   }
   const double least = static_cast<double>(n) * kLeastScatter_m * kLeastScatter_m;
-  const double of_drift = std::max(left_of(drift, y, groups.target), least);
-  const double of_steps = std::max(left_of(steps, y, groups.target), least);
+  const double of_drift = std::max(residual_square(drift, y, groups.target), least);
+  const double of_steps = std::max(residual_square(steps, y, groups.target), least);
   return 0.5 * static_cast<double>(n) * natural_log(of_steps / of_drift) < kLogLikelihoodRatio;
 }
 
@@ -175,7 +175,7 @@ std::string why_not_seen(const DriftDesign& design) {
 
 }  // namespace
 
-double time_of_s(const MeasuredPoint& point) {
+double middle_time_s(const MeasuredPoint& point) {
   return (ns_to_s(point.point.begin_ns) + ns_to_s(point.point.end_ns)) / 2;
 }
 
@@ -195,7 +195,7 @@ DriftOfRun::DriftOfRun(const std::vector<MeasuredPoint>& points) {
     found_.not_seen = why_not_seen(design_of(report));
     return;
   }
-  found_.length_s = time_of_s(*report.back()) - time_of_s(*report.front());
+  found_.length_s = middle_time_s(*report.back()) - middle_time_s(*report.front());
   fit_.emplace(errors_fit(report));
   if (fit_->design().orders() == 0) {
     found_.not_seen = why_not_seen(fit_->design());
@@ -205,14 +205,14 @@ DriftOfRun::DriftOfRun(const std::vector<MeasuredPoint>& points) {
   for (std::size_t k = 0; k < kErrorCount; ++k)
     if (fit_->series()[k].significant() && may_be_steps(report, *fit_, k)) fit_->take_for_steps(k);
   std::copy_n(fit_->series().begin(), kErrorCount, found_.errors.begin());
-  found_.probes = drifts_of_probes(report);
+  found_.probes = probe_drifts(report);
 }
 
 std::vector<MeasuredPoint> DriftOfRun::without(std::vector<MeasuredPoint> points) const {
   if (!fit_ || !found_.removable()) return points;
   for (MeasuredPoint& p : points) {
     if (!p.errors.valid) continue;
-    const Eigen::VectorXd drift = fit_->drift(time_of_s(p));
+    const Eigen::VectorXd drift = fit_->drift(middle_time_s(p));
     for (std::size_t k = 0; k < kErrorCount; ++k)
       p.errors.local[k] -= drift(static_cast<Eigen::Index>(k));
   }
@@ -227,7 +227,7 @@ std::vector<std::vector<Errors5>> DriftOfRun::removal_shifts(
     const std::vector<MeasuredPoint>& points) const {
   if (!fit_) return {};
   std::vector<double> time_s;
-  for (const MeasuredPoint& p : points) time_s.push_back(time_of_s(p));
+  for (const MeasuredPoint& p : points) time_s.push_back(middle_time_s(p));
   const std::vector<Eigen::MatrixXd> all = DriftFit(*fit_).parts(time_s);
   std::vector<std::vector<Errors5>> parts(static_cast<std::size_t>(all.front().cols()),
                                           std::vector<Errors5>(points.size()));

@@ -61,6 +61,6 @@ class DriftOfRun {
 };
 
 // The middle of a point's samples.
-double time_of_s(const MeasuredPoint& point);
+double middle_time_s(const MeasuredPoint& point);
 
 }  // namespace mdof::algo

@@ -13,8 +13,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kGrowth = 1.5;     // tolerated growth of an error that varies at its floor
-constexpr double kInACorner = 0.2;  // share of the square; a quarter of it is inside at a corner
+constexpr double kGrowth = 1.5;  // tolerated growth of an error that varies at its floor
+constexpr double kLeastSmoothingShare =
+    0.2;  // share of the square; a quarter of it is inside at a corner
 
 // Actual - wanted of each pass, over the pixels that all passes have.
 Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
@@ -38,7 +39,7 @@ Result<std::vector<SurfaceMap>> errors_of(const CuttingPasses& passes) {
 // Pixels that do not determine a parabola are not changed.
 SurfaceMap smoothed(const SurfaceMap& map, double side_m) {
   if (side_m <= 0) return map;
-  const LocalParabola square(map, side_m, kInACorner);
+  const LocalParabola square(map, side_m, kLeastSmoothingShare);
   SurfaceMap result = map;
   Parabola found;
   for (std::size_t j = 0; j < map.ny; ++j)

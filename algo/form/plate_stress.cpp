@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLeastOfSquare = 0.5;  // share of the square that must be measured
+constexpr double kLeastSquareShare = 0.5;  // share of the square that must be measured
 
 double von_mises_Pa(const Parabola& c, const Plate& plate) {
   const double stiffness = plate.youngs_modulus_Pa * plate.thickness_m / 2;
@@ -23,7 +23,7 @@ double von_mises_Pa(const Parabola& c, const Plate& plate) {
 }  // namespace
 
 Result<PlateStress> plate_stress(const SurfaceMap& form, const Plate& plate, double smooth_m) {
-  const LocalParabola square(form, smooth_m, kLeastOfSquare);
+  const LocalParabola square(form, smooth_m, kLeastSquareShare);
   if (!square.is_large_enough())
     return fail(ErrorCode::usage,
                 "the smoothing length of " + plain_number(to_mm(smooth_m)) +

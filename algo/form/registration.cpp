@@ -29,8 +29,9 @@ constexpr std::size_t kForTurns = 400;
 constexpr int kTurnSteps = 4;  // for the shift, to each side
 constexpr double kTurnStep_deg = 5;
 constexpr std::size_t kTurnsFitted = 6;
-constexpr double kAlike = 5e-3;     // part of the mean size of A: below it no search is needed
-constexpr double kMostOfPlace = 4;  // times the mean size of A: limit of the residual of one place
+constexpr double kAlike = 5e-3;  // part of the mean size of A: below it no search is needed
+constexpr double kPlaceResidualLimit =
+    4;  // times the mean size of A: limit of the residual of one place
 // A pose found by search must leave less than this part of the first residual, and of A.
 constexpr double kMuchBetter = 0.5;
 
@@ -82,36 +83,39 @@ class Registration {
       : b_(surface),
         pixel_m_(std::min(std::min(a.dx_m, a.dy_m), std::min(b.dx_m, b.dy_m))),
         flat_(without_plane(a)),
-        few_(places_of(flat_, kForSearch)),
-        course_(places_of(flat_, kForCourse)),
-        evidence_(a, few_) {
-    own_.left_m = few_.z_m;
+        search_places_(places_of(flat_, kForSearch)),
+        fit_places_(places_of(flat_, kForCourse)),
+        evidence_(a, search_places_) {
+    own_.left_m = search_places_.z_m;
     double sum_m = 0;
-    for (const double z : few_.z_m) sum_m += std::abs(z);
-    most_m_ = kMostOfPlace * sum_m / static_cast<double>(few_.z_m.size());
+    for (const double z : search_places_.z_m) sum_m += std::abs(z);
+    most_m_ = kPlaceResidualLimit * sum_m / static_cast<double>(search_places_.z_m.size());
   }
 
   MapPose found() {
     MapPose pose = fitted_at_rest();
-    PoseFit fit = fit_at(few_, b_, pose);
+    PoseFit fit = fit_at(search_places_, b_, pose);
     if (search(fit))
       pose =
-          fitted_from(course_, b_, fit.pose, evidence_.determined(b_, fit.pose), pixel_m_, 20).pose;
+          fitted_from(fit_places_, b_, fit.pose, evidence_.determined(b_, fit.pose), pixel_m_, 20)
+              .pose;
     Eigen::MatrixXd directions = evidence_.determined(b_, pose);
-    if (directions.cols() > 0 && flat_.measured() > course_.z_m.size()) {
+    if (directions.cols() > 0 && flat_.measured() > fit_places_.z_m.size()) {
       pose = fitted_from(places_of(flat_, kForFit), b_, pose, directions, pixel_m_, 6).pose;
       directions = evidence_.determined(b_, pose);
     }
     undetermined_ = 3 - static_cast<std::size_t>(directions.cols());
-    const PoseFit moved = fit_at(few_, b_, pose), at_rest = fit_at(few_, b_, {});
+    const PoseFit moved = fit_at(search_places_, b_, pose),
+                  at_rest = fit_at(search_places_, b_, {});
     const double before_m = left(at_rest, common(at_rest, moved)).size_m;
     if (before_m > 0) left_by_movement_ = left(moved, common(moved, at_rest)).size_m / before_m;
-    moved_m_ = std::hypot(pose.shift_x_m, pose.shift_y_m) +
-               std::abs(std::remainder(pose.turn_rad, 2 * std::numbers::pi)) * few_.size_m / 2;
-    return about_origin(pose, few_);
+    moved_m_ =
+        std::hypot(pose.shift_x_m, pose.shift_y_m) +
+        std::abs(std::remainder(pose.turn_rad, 2 * std::numbers::pi)) * search_places_.size_m / 2;
+    return about_origin(pose, search_places_);
   }
   std::size_t undetermined() const { return undetermined_; }
-  double left_by_movement() const { return left_by_movement_; }
+  double residual_ratio() const { return left_by_movement_; }
   double moved_m() const { return moved_m_; }
 
  private:
@@ -128,7 +132,7 @@ class Registration {
     Eigen::MatrixXd directions = evidence_.determined(b_, pose);
     bool has_lost = false;
     for (int again = 0; again < 5 && directions.cols() > 0; ++again) {
-      pose = fitted_from(course_, b_, pose, directions, pixel_m_, 20).pose;
+      pose = fitted_from(fit_places_, b_, pose, directions, pixel_m_, 20).pose;
       const Eigen::MatrixXd now = evidence_.determined(b_, pose);
       if (now.cols() == directions.cols() || (has_lost && now.cols() > directions.cols())) break;
       if (now.cols() < directions.cols()) {
@@ -141,25 +145,25 @@ class Registration {
   }
 
   PoseFit fitted_few(const MapPose& start, const Eigen::MatrixXd& directions) const {
-    return fitted_from(few_, b_, start, directions, pixel_m_, 30);
+    return fitted_from(search_places_, b_, start, directions, pixel_m_, 30);
   }
   // Fit from another start; directions that the shape does not determine at its end are taken as 0.
-  PoseFit fitted_elsewhere(const MapPose& start) const {
+  PoseFit fitted_from_other_start(const MapPose& start) const {
     PoseFit fit = fitted_few(start, Eigen::MatrixXd::Identity(3, 3));
     const Eigen::MatrixXd directions = evidence_.determined(b_, fit.pose);
     if (directions.cols() == 3) return fit;
     const double turn = std::remainder(fit.pose.turn_rad, 2 * std::numbers::pi);
-    const Eigen::Vector3d at(fit.pose.shift_x_m, fit.pose.shift_y_m, turn * few_.size_m);
+    const Eigen::Vector3d at(fit.pose.shift_x_m, fit.pose.shift_y_m, turn * search_places_.size_m);
     const Eigen::Vector3d held = directions * (directions.transpose() * at);
-    return fitted_few({held(0), held(1), held(2) / few_.size_m}, directions);
+    return fitted_few({held(0), held(1), held(2) / search_places_.size_m}, directions);
   }
 
   double overlap(const PoseFit& fit) const {
-    return fit.count / static_cast<double>(few_.z_m.size());
+    return fit.count / static_cast<double>(search_places_.z_m.size());
   }
   bool is_measured(double x_m, double y_m) const {
-    const double i = std::nearbyint((x_m + few_.x_mid_m - flat_.x0_m) / flat_.dx_m),
-                 j = std::nearbyint((y_m + few_.y_mid_m - flat_.y0_m) / flat_.dy_m);
+    const double i = std::nearbyint((x_m + search_places_.x_mid_m - flat_.x0_m) / flat_.dx_m),
+                 j = std::nearbyint((y_m + search_places_.y_mid_m - flat_.y0_m) / flat_.dy_m);
     return i >= 0 && j >= 0 && i < static_cast<double>(flat_.nx) &&
            j < static_cast<double>(flat_.ny) &&
            !std::isnan(flat_.at(static_cast<std::size_t>(i), static_cast<std::size_t>(j)));
@@ -170,9 +174,9 @@ class Registration {
     std::vector<bool> counts(fit.left_m.size());
     const Turn here(fit.pose.turn_rad), back(-other.pose.turn_rad);
     for (std::size_t k = 0; k < counts.size(); ++k) {
-      const double x = here.x_m(few_.x_m[k], few_.y_m[k]) + fit.pose.shift_x_m -
+      const double x = here.x_m(search_places_.x_m[k], search_places_.y_m[k]) + fit.pose.shift_x_m -
                        other.pose.shift_x_m,
-                   y = here.y_m(few_.x_m[k], few_.y_m[k]) + fit.pose.shift_y_m -
+                   y = here.y_m(search_places_.x_m[k], search_places_.y_m[k]) + fit.pose.shift_y_m -
                        other.pose.shift_y_m;
       counts[k] = !std::isnan(fit.left_m[k]) && !std::isnan(other.left_m[k]) &&
                   is_measured(back.x_m(x, y), back.y_m(x, y));
@@ -210,13 +214,13 @@ class Registration {
     if (is_found(fit) || !evidence_.has_shape()) return false;
     bool is_elsewhere = false;
     const auto take = [&](const MapPose& start) {
-      PoseFit other = fitted_elsewhere(start);
+      PoseFit other = fitted_from_other_start(start);
       if (!is_much_better(other, fit)) return;
       fit = std::move(other);
       is_elsewhere = true;
     };
     take({});
-    if (!is_found(fit)) take(searched(few_, b_));
+    if (!is_found(fit)) take(searched(search_places_, b_));
     if (!is_found(fit))
       for (const MapPose& start : turned_starts(places_of(flat_, kForTurns), b_)) take(start);
     return is_elsewhere;
@@ -225,9 +229,9 @@ class Registration {
   const Surface& b_;
   double pixel_m_;
   SurfaceMap flat_;
-  Places few_, course_;
+  Places search_places_, fit_places_;
   ShapeEvidence evidence_;
-  PoseFit own_;  // A itself at `few_`
+  PoseFit own_;  // A itself at `search_places_`
   double most_m_ = 0;
   std::size_t undetermined_ = 0;
   double left_by_movement_ = 1, moved_m_ = 0;
@@ -281,7 +285,7 @@ Result<Comparison> compare(const SurfaceMap& a, const SurfaceMap& b, Register ho
     Registration registration(a, b, surface);
     result.pose = registration.found();
     result.undetermined = registration.undetermined();
-    result.left_by_movement = registration.left_by_movement();
+    result.residual_ratio = registration.residual_ratio();
     result.moved_m = registration.moved_m();
   }
   result.difference = difference_at(a, surface, result.pose);

@@ -28,7 +28,7 @@ struct Comparison {
   std::size_t undetermined = 0;
   // Mean size of the residual at common places, divided by the residual without a movement of B
   // (piston and tilt removed in both); 1 without a movement.
-  double left_by_movement = 1;
+  double residual_ratio = 1;
   double moved_m = 0;          // upper bound of the displacement of a place of A by that movement
   double pv_m = 0, rms_m = 0;  // rms about the mean
   std::size_t pixels = 0;

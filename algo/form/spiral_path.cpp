@@ -15,10 +15,11 @@ namespace mdof::algo {
 namespace {
 
 constexpr double kMostPoints = 1e10;
-constexpr double kTouching = 1e-6;  // last step of the iteration, relative to the tool's radius
+constexpr double kContactConverged =
+    1e-6;  // last step of the iteration, relative to the tool's radius
 constexpr int kMostSteps = 40;
-constexpr double kNowhere = -std::numeric_limits<double>::infinity();
-constexpr double kHigher_m = 1e-9;    // above the place that the iteration found
+constexpr double kNoContact_m = -std::numeric_limits<double>::infinity();
+constexpr double kContactDifference_m = 1e-9;  // above the place that the iteration found
 constexpr double kBetweenPixels = 4;  // largest curvature between pixels relative to that at pixels
 constexpr int kFewestPlaces = 64, kMostPlaces = 2000;
 
@@ -53,7 +54,7 @@ double sharpest_valley_per_m(const SurfaceMap& map) {
 template <class Height>
 double highest(const Height& height, double r, int places) {
   const double step = 2 * r / (places + 1);
-  double best = kNowhere, at = 0;
+  double best = kNoContact_m, at = 0;
   for (int k = 1; k <= places; ++k)
     if (const double off = k * step - r, z = height(off); z > best) {
       best = z;
@@ -76,7 +77,7 @@ double highest(const Height& height, double r, int places) {
 SpiralPath::SpiralPath(const SurfaceMap& map, const SpiralRequest& request)
     : request_(request), surface_(map, request.extend_pixels, Extension::line) {
   const double r = request.tool_radius_m;
-  may_touch_twice_ = r > 0 && kBetweenPixels * r * sharpest_valley_per_m(map) > 1;
+  has_sharp_valleys_ = r > 0 && kBetweenPixels * r * sharpest_valley_per_m(map) > 1;
   const double to_a_pixel = 4 * r / std::min(map.dx_m, map.dy_m);
   places_ = static_cast<int>(std::clamp(to_a_pixel, 1.0 * kFewestPlaces, 1.0 * kMostPlaces));
   const std::size_t n = request.points_per_turn;
@@ -142,7 +143,7 @@ bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) con
   for (int step = 0; !is_found && step < kMostSteps; ++step) {
     const double slope = point.slope_x * cos + point.slope_y * sin;
     const double next = r * slope / std::sqrt(1 + slope * slope);
-    is_found = std::abs(next - d) < kTouching * r;
+    is_found = std::abs(next - d) < kContactConverged * r;
     d = next;
     if (!surface_at(rho_m + d, point, there)) return false;
   }
@@ -151,13 +152,13 @@ bool SpiralPath::contact(double rho_m, double cos, double sin, Touch& found) con
   };
   found.z_m = r > 0 ? lowest(point.z_m, d) : point.z_m;
   found.is_too_sharp = !is_found;
-  if (may_touch_twice_ || !is_found) {
+  if (has_sharp_valleys_ || !is_found) {
     const auto height = [&](double off) {
       SurfacePoint other;
-      return surface_at(rho_m + off, other, there) ? lowest(other.z_m, off) : kNowhere;
+      return surface_at(rho_m + off, other, there) ? lowest(other.z_m, off) : kNoContact_m;
     };
     const double off = highest(height, r, places_), best = height(off);
-    if (found.is_too_sharp || best > found.z_m + kHigher_m) {
+    if (found.is_too_sharp || best > found.z_m + kContactDifference_m) {
       if (!surface_at(rho_m + off, point, there)) return false;
       found.z_m = best;
       found.is_too_sharp = true;
@@ -215,7 +216,7 @@ struct SpiralPath::Gap {
   }
 };
 
-void SpiralPath::look_back(std::size_t first, Gap& gap) const {
+void SpiralPath::find_touch_before(std::size_t first, Gap& gap) const {
   const std::size_t turn = request_.points_per_turn;
   for (std::size_t k = std::min(turn, points_); k-- > first;)  // back from the end of the turn
     if (touch(k, gap.before)) {
@@ -244,7 +245,7 @@ Result<SpiralCounts> SpiralPath::each(const std::function<Status(const PathPoint
     while (end < points_ && !touch(end, gap.after)) ++end;
     gap.has_after = end < points_;
     gap.after_at = static_cast<std::ptrdiff_t>(end);
-    if (!gap.has_before && gap.has_after) look_back(end, gap);
+    if (!gap.has_before && gap.has_after) find_touch_before(end, gap);
     for (; k < end; ++k) {
       ++counts.bridged;
       MDOF_CHECK(take({rho_m(k), gap.z_m(static_cast<std::ptrdiff_t>(k)), k, OnPart::bridged}));

@@ -62,12 +62,12 @@ class SpiralPath {
   // Length of the path between two indices.
   double arc_m(std::ptrdiff_t from, std::ptrdiff_t to) const;
   // Searches the last contact before `first`, as if another turn preceded the first turn.
-  void look_back(std::size_t first, Gap& gap) const;
+  void find_touch_before(std::size_t first, Gap& gap) const;
 
   SpiralRequest request_;
   Surface surface_;
-  bool may_touch_twice_ = false;  // the surface is somewhere curved more than the tool
-  int places_ = 0;                // places over the tool's width, to search the highest
+  bool has_sharp_valleys_ = false;  // the surface is somewhere curved more than the tool
+  int places_ = 0;                  // places over the tool's width, to search the highest
   std::size_t points_ = 0;
   std::vector<double> cos_, sin_;  // for the points of a turn
 };

@@ -12,7 +12,7 @@ using Complex = std::complex<double>;
 
 // Relative to the largest height; smaller amplitudes count as 0.
 constexpr double kRounding = 1e-13;
-constexpr double kOfABend =
+constexpr double kBendRemainder =
     1.0 / 16;  // part of a bend between turns that its line leaves: 1 / 2 pi^2
 
 // The operator of the library tests for infinities first.
@@ -90,7 +90,7 @@ void TurnSpectrum::finish() {
 void TurnSpectrum::finish_turn(double next) {
   const std::size_t n = turn_.size();
   const double change = next - turn_.front();
-  if (turns_ > 0) bend_ = std::max(bend_, std::abs(change - change_));
+  if (turns_ > 0) largest_change_step_ = std::max(largest_change_step_, std::abs(change - change_));
   change_ = change;
   for (std::size_t k = 0; k < n; ++k)
     work_[k] = turn_[k] - change_ * (static_cast<double>(k) / static_cast<double>(n));
@@ -121,7 +121,7 @@ std::size_t TurnSpectrum::undulations(double share) const {
   for (std::size_t h = 1; h < largest_.size(); ++h) most = std::max(most, largest_[h]);
   std::size_t found = 0;
   for (std::size_t h = 1; h < largest_.size(); ++h)
-    if (largest_[h] > std::max(kRounding * height_, kOfABend * bend_) &&
+    if (largest_[h] > std::max(kRounding * height_, kBendRemainder * largest_change_step_) &&
         largest_[h] >= share * most)
       found = h;
   return found;

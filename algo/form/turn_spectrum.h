@@ -54,8 +54,8 @@ class TurnSpectrum {
   std::vector<std::complex<double>> work_;
   std::size_t turns_ = 0;
   double squares_ = 0, least_ = 0, most_ = 0, height_ = 0;
-  double change_ = 0;  // from the start of a turn to the start of the next
-  double bend_ = 0;    // largest difference of `change_` between successive turns
+  double change_ = 0;               // from the start of a turn to the start of the next
+  double largest_change_step_ = 0;  // largest difference of `change_` between successive turns
 };
 
 }  // namespace mdof::algo

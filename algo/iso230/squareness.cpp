@@ -157,9 +157,9 @@ Result<StraightnessSlope> straightness_slope(const Run& measured, std::size_t na
   }
   StraightnessSlope slope;
   slope.line = least_squares_line(x, column(series, named));
-  slope.u_slope_rad = std::max(
-      propagated(x, series, named),
-      scatter_of_runs(run.header.moving(), without_drift_of_runs(run.points).points, named));
+  slope.u_slope_rad =
+      std::max(propagated(x, series, named),
+               scatter_of_runs(run.header.moving(), subtract_run_drifts(run.points).points, named));
   return slope;
 }
 
@@ -176,7 +176,8 @@ Status check_given(const ArtefactGiven& given) {
 
 }  // namespace
 
-Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const ArtefactGiven& given) {
+Result<SquareArtefact> combined_artefact(const Rig& rig_a, const Rig& rig_b,
+                                         const ArtefactGiven& given) {
   constexpr const char* kAngle = "artefact_angle_error_urad";
   MDOF_CHECK(check_given(given));
   SquareArtefact artefact;

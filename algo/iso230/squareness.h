@@ -21,7 +21,8 @@ struct ArtefactGiven {
 // origin where its position is. Errors: a given value is above 10 mrad or not a number; the rigs
 // differ; an angle error is given and the side of a face is unknown (it is at 0, on both sides, or
 // its normal contradicts).
-Result<SquareArtefact> artefact_of(const Rig& rig_a, const Rig& rig_b, const ArtefactGiven& given);
+Result<SquareArtefact> combined_artefact(const Rig& rig_a, const Rig& rig_b,
+                                         const ArtefactGiven& given);
 
 // Points where the straightness of the two axes is stated. From one point to another the slope
 // changes by the lever arm times the slope of an angle, and so does the squareness.

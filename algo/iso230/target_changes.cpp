@@ -44,11 +44,11 @@ std::vector<Errors5> TargetChanges::without_drift(const std::vector<Errors5>& ch
   const std::vector<Errors5> drifts = drifts_->of(errors);
   for (std::size_t i = 0; i < errors.size(); ++i)
     for (std::size_t k = 0; k < kErrorCount; ++k)
-      errors[i][k] -= drifts[drifts_->run_of_points()[i]][k];
+      errors[i][k] -= drifts[drifts_->point_runs()[i]][k];
   return errors;
 }
 
-TargetChanges::Ways TargetChanges::means_of_ways(const std::vector<Errors5>& errors) const {
+TargetChanges::Ways TargetChanges::direction_means(const std::vector<Errors5>& errors) const {
   Ways means;
   means.fill(std::vector<Errors5>(visits_.size(), Errors5{}));
   for (std::size_t i = 0; i < errors.size(); ++i)
@@ -74,7 +74,7 @@ Errors5 TargetChanges::mean_reversal(const Ways& ways) const {
 }
 
 std::vector<Errors5> TargetChanges::of(const std::vector<Errors5>& changes) const {
-  const Ways ways = means_of_ways(without_drift(changes));
+  const Ways ways = direction_means(without_drift(changes));
   const Errors5 reversal = mean_reversal(ways);
   std::vector<Errors5> named;
   named.reserve(visits_.size());

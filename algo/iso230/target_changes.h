@@ -29,7 +29,7 @@ class TargetChanges {
   using Ways = std::array<std::vector<Errors5>, 2>;  // [way][target]
 
   std::vector<Errors5> without_drift(const std::vector<Errors5>& changes) const;
-  Ways means_of_ways(const std::vector<Errors5>& errors) const;
+  Ways direction_means(const std::vector<Errors5>& errors) const;
   Errors5 mean_reversal(const Ways& ways) const;
 
   MovingAxis moving_;

@@ -167,7 +167,7 @@ const char* to_string(Approach approach) {
 
 std::vector<TargetMean> target_means(const MovingAxis& moving,
                                      const std::vector<MeasuredPoint>& points, Approach approach) {
-  const WithoutDrift without = without_drift_of_runs(points);
+  const WithoutDrift without = subtract_run_drifts(points);
   const Errors5 u_level = named_from_local(moving, without.u_level);
   MeansByTarget means = means_of(moving, without.points, approach);
   for (const auto& [target, drifting] : means_of(moving, points, approach))

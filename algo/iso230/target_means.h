@@ -25,7 +25,7 @@ struct TargetMean {
 };
 
 // Means of the valid points at each target that has any, ascending in position. The drift is
-// removed with without_drift_of_runs(), and u contains it. Approach::both is the mean of the means
+// removed with subtract_run_drifts(), and u contains it. Approach::both is the mean of the means
 // of the two directions. A target with one direction only is assumed to have the mean reversal
 // (forward - reverse) of the others, because its own approach alone would shift it by half a
 // reversal; its u contains their scatter and their trend, extrapolated to this target. If no target

@@ -9,7 +9,7 @@ namespace mdof::algo {
 namespace {
 
 constexpr int kMostSteps = 50;
-constexpr double kStill_m = 1e-12;
+constexpr double kConverged_m = 1e-12;
 // Axes nearer to parallel than this count as parallel: cos 90° is 6e-17, and places are rounded.
 constexpr double kParallel = 1e-9;
 
@@ -82,7 +82,7 @@ Result<CompensatingCommand> compensating_command(const Machine& machine, const C
     const Eigen::VectorXd step = inverse.solve(Eigen::VectorXd(target - reached.p));
     for (std::size_t i = 0; i < directions.size(); ++i)
       c.command[directions[i]] += step[static_cast<Eigen::Index>(i)];
-    c.converged = step.norm() < kStill_m;
+    c.converged = step.norm() < kConverged_m;
   }
   const auto values = values_at(machine, c.command, approach);
   c.residual_m = actual_tool(machine, values).p - target;
@@ -113,8 +113,7 @@ Eigen::MatrixXd fixed_directions(const Machine& machine, const Command& command)
   return LeastNorm(J.transpose(), kParallel).null_space();
 }
 
-std::vector<ErrorDerivative> derivatives_of_command(const Machine& machine,
-                                                    const Command& command) {
+std::vector<ErrorDerivative> command_derivatives(const Machine& machine, const Command& command) {
   std::vector<ErrorDerivative> all = derivatives(machine, command);
   const auto directions = linear_axes(machine);
   const LeastNorm inverse(jacobian(machine, command, directions), kParallel);
@@ -127,7 +126,7 @@ std::vector<ErrorDerivative> derivatives_of_command(const Machine& machine,
   return all;
 }
 
-std::array<double, 3> reversal_of_command(const Machine& machine, const Command& command) {
+std::array<double, 3> command_reversal(const Machine& machine, const Command& command) {
   std::array<double, 3> sum{};
   const auto directions = linear_axes(machine);
   if (directions.empty()) return sum;

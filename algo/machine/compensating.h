@@ -37,11 +37,11 @@ Eigen::MatrixXd fixed_directions(const Machine& machine, const Command& command)
 // derivatives() with the place in the commands of X, Y, Z instead of the work's coordinates, whose
 // directions a rotary axis changes: the effect of a unit of each error on the correction, except
 // for its sign. 0 for an axis that the chain does not have.
-std::vector<ErrorDerivative> derivatives_of_command(const Machine& machine, const Command& command);
+std::vector<ErrorDerivative> command_derivatives(const Machine& machine, const Command& command);
 
 // Difference of the corrections of X, Y, Z between the approaches of the axes at a command, m. For
 // each axis it is forward minus reverse with the other axes at their means; the magnitudes are
 // added, because each axis may come from either side. First order in the errors.
-std::array<double, 3> reversal_of_command(const Machine& machine, const Command& command);
+std::array<double, 3> command_reversal(const Machine& machine, const Command& command);
 
 }  // namespace mdof::algo

@@ -137,9 +137,11 @@ TablePlace place_of(const std::vector<double>& position, double at) {
   if (position.empty()) return {};
   if (position.size() == 1) return {0, 0, at != position[0]};
   const std::size_t last = position.size() - 1;
-  if (at <= position[0]) return {0, 0, at < position[0] - kEndShare * (position[1] - position[0])};
+  if (at <= position[0])
+    return {0, 0, at < position[0] - kEndTolerance * (position[1] - position[0])};
   if (at >= position[last])
-    return {last - 1, 1, at > position[last] + kEndShare * (position[last] - position[last - 1])};
+    return {last - 1, 1,
+            at > position[last] + kEndTolerance * (position[last] - position[last - 1])};
   const auto above = std::upper_bound(position.begin(), position.end(), at);
   const auto cell = static_cast<std::size_t>(above - position.begin()) - 1;
   return {cell, (at - position[cell]) / (position[cell + 1] - position[cell])};

@@ -38,14 +38,14 @@ std::vector<FrameValues> values_at(const Machine& machine, const Command& comman
 
 // A position outside a table by less than this part of the last interval counts as its end, because
 // a stop deviates as much from its target.
-constexpr double kEndShare = 0.02;
+constexpr double kEndTolerance = 0.02;
 
 // Place of a command in a table of an error: the position below it, and the part of the way to the
 // next one.
 struct TablePlace {
   std::size_t cell = 0;
   double part = 0;
-  bool beyond = false;  // outside by more than kEndShare
+  bool beyond = false;  // outside by more than kEndTolerance
 };
 TablePlace place_of(const std::vector<double>& position, double at);
 // Linear interpolation between two values; 0 without values.

@@ -156,23 +156,23 @@ GridVariances::GridVariances(const Machine& machine, const GridPlan& plan)
   for (const MachineFrame& frame : machine.frames)
     shared_ = std::max(shared_, frame.covariance.shared.size());
   for (std::size_t i = 0; i < plan.first_m.size(); ++i) {
-    of_first_.push_back(parabola(plan.command(i, 0), plan.second, plan.second_m, true));
-    shared_of_first_.push_back(lines(plan.command(i, 0), plan.second, plan.second_m, true));
+    first_axis_variances_.push_back(parabola(plan.command(i, 0), plan.second, plan.second_m, true));
+    first_axis_shared_.push_back(lines(plan.command(i, 0), plan.second, plan.second_m, true));
   }
 }
 
 void GridVariances::begin_line(std::size_t j) {
-  of_line_ = parabola(plan_.command(0, j), plan_.first, plan_.first_m, false);
-  shared_of_line_ = lines(plan_.command(0, j), plan_.first, plan_.first_m, false);
+  line_variance_ = parabola(plan_.command(0, j), plan_.first, plan_.first_m, false);
+  line_shared_ = lines(plan_.command(0, j), plan_.first, plan_.first_m, false);
 }
 
 Eigen::Vector3d GridVariances::u_at(std::size_t i, std::size_t j) const {
-  const Parabola& column = of_first_[i];
-  Eigen::Vector3d sum = of_line_.at(first_part_[i]) + column.at(second_part_[j]);
+  const Parabola& column = first_axis_variances_[i];
+  Eigen::Vector3d sum = line_variance_.at(first_part_[i]) + column.at(second_part_[j]);
   for (std::size_t p = 0; p < shared_; ++p)
-    sum += (shared_of_line_[p].at(first_part_[i]) + shared_of_first_[i][p].at(second_part_[j]))
+    sum += (line_shared_[p].at(first_part_[i]) + first_axis_shared_[i][p].at(second_part_[j]))
                .cwiseAbs2();
-  const double rounding = of_line_.rounding + column.rounding;
+  const double rounding = line_variance_.rounding + column.rounding;
   Eigen::Vector3d u;
   for (Eigen::Index k = 0; k < 3; ++k) u[k] = sum[k] > rounding ? std::sqrt(sum[k]) : kNaN;
   return u;

@@ -91,11 +91,12 @@ class GridVariances {
   const Machine& machine_;
   const GridPlan& plan_;
   std::vector<double> first_part_, second_part_;
-  std::vector<Parabola> of_first_;  // by frames that move with the first axis, along the second
-  Parabola of_line_;                // by all others, along the first axis
-  std::size_t shared_ = 0;          // number of parts that frames share
-  std::vector<std::vector<Line>> shared_of_first_;
-  std::vector<Line> shared_of_line_;
+  std::vector<Parabola>
+      first_axis_variances_;  // by frames that move with the first axis, along the second
+  Parabola line_variance_;    // by all others, along the first axis
+  std::size_t shared_ = 0;    // number of parts that frames share
+  std::vector<std::vector<Line>> first_axis_shared_;
+  std::vector<Line> line_shared_;
 };
 
 }  // namespace mdof::algo

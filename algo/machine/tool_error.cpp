@@ -102,10 +102,10 @@ bool has_u(const MachineFrame& frame, const ErrorDerivative& d) {
 }
 
 // One of the two errors of a squareness is sufficient.
-bool stands_for_another(const Machine& machine, const ErrorDerivative& d) {
+bool is_implied_by_other_squareness(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
   if (!d.of_line || frame.kind != FrameKind::linear || is_known(frame, d)) return false;
-  const MachineFrame* axis = other_of_square(machine, d);
+  const MachineFrame* axis = squareness_partner(machine, d);
   if (!axis) return true;  // the squareness does not exist
   return axis->location[d.k].value.has_value() || frame.direction < axis->direction;
 }
@@ -118,7 +118,8 @@ std::string name_of(const Machine& machine, const ErrorDerivative& d) {
 // For a fixed frame only the given errors count; no other error is missing.
 bool counts_as_missing(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
-  return frame.kind != FrameKind::fixed && !is_known(frame, d) && !stands_for_another(machine, d);
+  return frame.kind != FrameKind::fixed && !is_known(frame, d) &&
+         !is_implied_by_other_squareness(machine, d);
 }
 
 void name_missing_errors(const Machine& machine, const std::vector<ErrorDerivative>& all,
@@ -141,7 +142,7 @@ void add_new(const std::vector<std::string>& names, std::vector<std::string>& to
     if (std::find(to.begin(), to.end(), name) == to.end()) to.push_back(name);
 }
 
-const MachineFrame* other_of_square(const Machine& machine, const ErrorDerivative& d) {
+const MachineFrame* squareness_partner(const Machine& machine, const ErrorDerivative& d) {
   const MachineFrame& frame = machine.frames[d.frame];
   if (!d.of_line || frame.kind != FrameKind::linear) return nullptr;
   const std::size_t other = 3 - frame.direction - d.k % 3;  // rotation k is about the third

@@ -37,7 +37,7 @@ std::vector<Vector6> shared_effects(const std::vector<ErrorDerivative>& derivati
 
 // The other linear axis of a squareness: a rotation of one line is equivalent to the opposite
 // rotation of the other line (EC0X and EC0Y). nullptr: no squareness, or no such axis.
-const MachineFrame* other_of_square(const Machine& machine, const ErrorDerivative& d);
+const MachineFrame* squareness_partner(const Machine& machine, const ErrorDerivative& d);
 
 // Sum of derivative times error.
 Vector6 linear_error(const std::vector<ErrorDerivative>& derivatives,

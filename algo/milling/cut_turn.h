@@ -11,9 +11,8 @@
 namespace mdof::algo {
 
 struct CutTurn {
-  std::vector<double>
-      // Angle of tooth 0 at the tip; steps_per_turn angles, rounded up to a multiple of the teeth.
-      turned_rad;
+  // Angles of tooth 0 at the tip: steps_per_turn, rounded up to a multiple of the teeth.
+  std::vector<double> turned_rad;
   std::vector<double> height_m;  // heights of the elements from the tip
   Eigen::MatrixXd fx_N, fy_N;    // on the tool; a row for each angle, a column for each element
   std::vector<double> power_W;   // cutting power, by angle

@@ -23,9 +23,8 @@ struct MillingResult {
   // On the tool: x against the feed, y towards the wall of an up cut. Largest magnitudes of a turn.
   double x_max_N = 0, y_max_N = 0, x_max_rigid_N = 0, y_max_rigid_N = 0;
   double x_mean_N = 0, y_mean_N = 0;
-  double deflection_m = 0,
-         // Largest, at the tip; `rigid`: by the force on a rigid tool.
-      deflection_rigid_m = 0;
+  // Largest, at the tip; `rigid`: by the force on a rigid tool.
+  double deflection_m = 0, deflection_rigid_m = 0;
   double entry_rad = 0, exit_rad = 0;  // NaN: tooth 0 does not cut
   double power_W = 0;                  // mean
   WallFigures wall;

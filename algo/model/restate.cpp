@@ -7,8 +7,8 @@ namespace mdof::algo {
 namespace {
 
 // (R - I) arm.
-Eigen::Vector3d turned_away(Model model, Axis axis, const Errors5& local,
-                            const Eigen::Vector3d& arm) {
+Eigen::Vector3d rotation_shift(Model model, Axis axis, const Errors5& local,
+                               const Eigen::Vector3d& arm) {
   if (model == Model::rigid) return local_rotation(axis, local).R_MC * arm - arm;
   const double ex = local[kEx], ey = local[kEy], ez = local[kEz];
   return {ey * arm.z() - ez * arm.y(), ez * arm.x() - ex * arm.z(), ex * arm.y() - ey * arm.x()};
@@ -41,7 +41,7 @@ AxisErrors restate(const AxisErrors& errors, Model model, Axis axis, double trav
   if (!errors.valid || from == to) return errors;
   const Eigen::Vector3d arm =
       reference_point(to, axis, travel_m) - reference_point(from, axis, travel_m);
-  const Eigen::Vector3d change = turned_away(model, axis, errors.local, arm);
+  const Eigen::Vector3d change = rotation_shift(model, axis, errors.local, arm);
   AxisErrors out = errors;
   out.local[kDy] += change.y();
   out.local[kDz] += change.z();

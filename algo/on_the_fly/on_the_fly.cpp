@@ -54,7 +54,7 @@ Status OnTheFly::push(const FrameBlock& frames) {
   if (!begun_) begin(frames);
   const auto take = [this](const AxisPass& pass) { take_pass(pass); };
   for (std::size_t from = 0; from < frames.size();) {
-    const std::size_t to = places_.end_of_placed(frames, from);
+    const std::size_t to = places_.find_placed_end(frames, from);
     for (std::size_t i = from; i < to; ++i) {
       summary_.encoder_min_m = std::min(summary_.encoder_min_m, frames.encoder_m[i]);
       summary_.encoder_max_m = std::max(summary_.encoder_max_m, frames.encoder_m[i]);
@@ -63,7 +63,7 @@ Status OnTheFly::push(const FrameBlock& frames) {
     }
     summary_.scans += to - from;
     MDOF_CHECK(finder_.push(frames, from, to, take));
-    from = places_.end_of_unplaced(frames, to);
+    from = places_.find_unplaced_end(frames, to);
     summary_.unplaced = places_.left_out();
   }
   return {};

@@ -37,7 +37,7 @@ class OnTheFly {
   // over it at a steady speed.
   Sequence sequence() const;
   // Error: there is no point, with figures and a remedy.
-  Status explain_nothing() const;
+  Status check_has_points() const;
   // Notices about the log in addition to the points.
   Notices notices() const;
   // Notices about the method: what a run in motion is, omitted bins, speeds, and the effects of

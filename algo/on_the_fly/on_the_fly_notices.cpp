@@ -118,7 +118,7 @@ std::size_t count_left_out(const std::vector<PassBins>& passes, BinFault fault) 
 
 }  // namespace
 
-Status OnTheFly::explain_nothing() const {
+Status OnTheFly::check_has_points() const {
   const bool any = std::any_of(passes_.begin(), passes_.end(),
                                [](const PassBins& pass) { return !pass.bins.empty(); });
   if (any) return {};

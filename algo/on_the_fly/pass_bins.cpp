@@ -137,7 +137,7 @@ class Binning {
   // Fits the probe's own samples, each once, because interpolated values contain nothing new.
   void fit(std::size_t probe, const Rows& rows, BinPoint& bin) {
     const std::string& id = probes_.ids[probe];
-    const auto& fresh = frames_.probe_fresh[probe];
+    const auto& fresh = frames_.probe_is_new[probe];
     std::size_t usable_rows = 0;
     OverRange over_range;
     place_.clear(), reading_.clear();

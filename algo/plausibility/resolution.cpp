@@ -39,8 +39,8 @@ void Resolution::keep(double step) {
 void ProbeResolution::add(const FrameBlock& frames, std::size_t first, std::size_t last) {
   for (std::size_t k = 0; k < found_.size(); ++k) {
     Found& probe = found_[k];
-    if (k < frames.probe_fresh.size() && !frames.probe_fresh[k].empty()) {
-      const auto fresh = std::span(frames.probe_fresh[k]).subspan(first, last - first);
+    if (k < frames.probe_is_new.size() && !frames.probe_is_new[k].empty()) {
+      const auto fresh = std::span(frames.probe_is_new[k]).subspan(first, last - first);
       probe.is_slow = probe.is_slow || std::find(fresh.begin(), fresh.end(), 0) != fresh.end();
     }
     if (!probe.is_slow)

@@ -40,7 +40,7 @@ void clear_columns(FrameBlock& frames) {
   frames.encoder_m.clear();
   for (auto& column : frames.probe_m) column.clear();
   for (auto& column : frames.probe_quality) column.clear();
-  for (auto& column : frames.probe_fresh) column.clear();
+  for (auto& column : frames.probe_is_new) column.clear();
 }
 
 // The quality of a reading is at most that of its position.
@@ -103,7 +103,7 @@ void Aligner::take_whole(SampleBlock& block, FrameBlock& out) {
     append_quality(out.probe_quality[k], before,
                    block.quality.empty() ? nullptr : &block.quality[c], n);
   }
-  for (auto& column : out.probe_fresh) {
+  for (auto& column : out.probe_is_new) {
     if (before == 0) column.clear();
     if (!column.empty()) column.resize(before + n, 1);
   }
@@ -205,8 +205,8 @@ bool Aligner::has_fresh(Track& track, std::int64_t time_ns) {
 
 // A column appears with the first 0; a probe as fast as the encoder has no column.
 void Aligner::mark_fresh(FrameBlock& out, std::size_t row, std::size_t probe, bool fresh) const {
-  if (out.probe_fresh.size() < probes_.size()) out.probe_fresh.resize(probes_.size());
-  auto& column = out.probe_fresh[probe];
+  if (out.probe_is_new.size() < probes_.size()) out.probe_is_new.resize(probes_.size());
+  auto& column = out.probe_is_new[probe];
   if (fresh && column.empty()) return;
   column.resize(row, 1);
   column.push_back(fresh);

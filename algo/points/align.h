@@ -38,7 +38,7 @@ struct AlignOptions {
 // has a delay, its scans are the frames, bit for bit. Otherwise each probe is interpolated linearly
 // between its two samples around the time of the encoder; the quality is the worst of the two and
 // the encoder's. If a probe is slower than the encoder, frames mark the times with a new sample of
-// the probe (probe_fresh); other times repeat known values. While the encoder is silent, probe
+// the probe (probe_is_new); other times repeat known values. While the encoder is silent, probe
 // samples are kept for twice the lag bound plus one second; later samples of the encoder are newer.
 // Thread-bound.
 class Aligner {

@@ -76,10 +76,10 @@ void DwellDetector::push(const FrameBlock& frames, std::vector<Point>& out) {
 std::size_t DwellDetector::gather_early(const FrameBlock& frames) {
   std::size_t from = 0;
   while (from < frames.size() && early_.size() < kRowsForPeriod) {
-    const std::size_t placed = places_.end_of_placed(frames, from);
+    const std::size_t placed = places_.find_placed_end(frames, from);
     const std::size_t to = std::min(placed, from + kRowsForPeriod - early_.size());
     append_rows(early_, frames, from, to);
-    from = early_.size() < kRowsForPeriod ? places_.end_of_unplaced(frames, to) : to;
+    from = early_.size() < kRowsForPeriod ? places_.find_unplaced_end(frames, to) : to;
   }
   summary_.unplaced = places_.left_out();
   return from;
@@ -99,9 +99,9 @@ void DwellDetector::start(std::vector<Point>& out) {
 
 void DwellDetector::push_from(const FrameBlock& frames, std::size_t from, std::vector<Point>& out) {
   while (from < frames.size()) {
-    const std::size_t to = places_.end_of_placed(frames, from);
+    const std::size_t to = places_.find_placed_end(frames, from);
     if (to > from) push_rows(frames, from, to, out);
-    from = places_.end_of_unplaced(frames, to);
+    from = places_.find_unplaced_end(frames, to);
     summary_.unplaced = places_.left_out();
   }
 }
@@ -230,7 +230,7 @@ void DwellDetector::close_slot(std::vector<Point>& out) {
                              : std::max(kAutoTolerance_m, kAutoNoiseFactor * encoder_noise_.sd());
   remember_path(open_.middle());
   const bool still = window_still();
-  look_at_window(still);
+  examine_window(still);
   if (still && !dwelling_) begin_dwell();
   if (!still && dwelling_) end_dwell(out);
   if (!dwelling_) remember_way(slots_.back());
@@ -269,7 +269,7 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
   left_ns_ = slots_.back().begin_ns;
   left_m_ = slots_[slots_.size() - 3].middle();
   since_left_ = {left_m_, left_m_};
-  const std::size_t end_row = std::min(end_of_rest(slots_[slots_.size() - 2]), cut_row_);
+  const std::size_t end_row = std::min(find_rest_end(slots_[slots_.size() - 2]), cut_row_);
   const double still_s = ns_to_s(slots_[slots_.size() - 2].begin_ns - still_since_ns_);
   summary_.longest_still_s = std::max(summary_.longest_still_s, still_s);
   const auto settled_ns = still_since_ns_ + static_cast<std::int64_t>(options_.settle_s * 1e9);
@@ -294,7 +294,7 @@ void DwellDetector::end_dwell(std::vector<Point>& out) {
 }
 
 // The first row of a stop whose reading may contain the next motion; `last` may contain its start.
-std::size_t DwellDetector::end_of_rest(const Slot& last) const {
+std::size_t DwellDetector::find_rest_end(const Slot& last) const {
   if (!(options_.leave_s > 0)) return last.first_row;
   const auto until_ns = last.begin_ns - std::llround(options_.leave_s * 1e9);
   const auto end = std::lower_bound(buffer_.time_ns.begin(), buffer_.time_ns.end(), until_ns);
@@ -317,7 +317,7 @@ bool DwellDetector::keep_or_report(Point point, std::size_t first_row, std::size
     if (!kept) return false;
     add_flag(point, Flag::creep);
   }
-  if (way_seen_) point.way_min_m = way_in_.min_m, point.way_max_m = way_in_.max_m;
+  if (way_seen_) point.travel_min_m = way_in_.min_m, point.travel_max_m = way_in_.max_m;
   out.push_back(std::move(point));
   return true;
 }
@@ -360,7 +360,7 @@ void DwellDetector::pass_hole() {
 
 void DwellDetector::pass_break(std::vector<Point>& out) {
   breaks_.pop_front();
-  end_of_visible_rows(out);
+  end_visible_rows(out);
   slots_.clear();
   path_.clear();
   left_ns_ = 0;
@@ -370,11 +370,11 @@ void DwellDetector::pass_break(std::vector<Point>& out) {
 
 void DwellDetector::flush(std::vector<Point>& out) {
   if (period_ns_ == 0 && early_.size() >= 2) start(out);
-  end_of_visible_rows(out);
+  end_visible_rows(out);
 }
 
 // The axis may still be at rest. Empty slots replace those that would leave the window.
-void DwellDetector::end_of_visible_rows(std::vector<Point>& out) {
+void DwellDetector::end_visible_rows(std::vector<Point>& out) {
   if (slot_open_) close_slot(out);
   if (!dwelling_) return;
   Slot after = slots_.back();

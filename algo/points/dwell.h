@@ -120,8 +120,8 @@ class DwellDetector {
   double window_range() const;
   bool window_still() const { return slots_.size() == 4 && window_range() <= summary_.tolerance_m; }
   void pass_hole();
-  void look_at_window(bool still);
-  void look_for_jump();
+  void examine_window(bool still);
+  void find_encoder_jump();
   void note(const DwellEvent& event);
   // Returns whether the stop has become a point.
   bool keep_or_report(Point point, std::size_t first_row, std::size_t end_row,
@@ -131,8 +131,8 @@ class DwellDetector {
   int direction_to(double position_m) const;
   void begin_dwell();
   void end_dwell(std::vector<Point>& out);
-  std::size_t end_of_rest(const Slot& last) const;
-  void end_of_visible_rows(std::vector<Point>& out);
+  std::size_t find_rest_end(const Slot& last) const;
+  void end_visible_rows(std::vector<Point>& out);
   void pass_break(std::vector<Point>& out);
   Point average(std::size_t from, std::size_t to);
   std::span<const double> own_readings(std::size_t probe, std::size_t from, std::size_t to,

@@ -50,7 +50,7 @@ std::span<const double> DwellDetector::own_readings(std::size_t probe, std::size
                                                     OverRange& over_range) {
   const auto& column = buffer_.probe_m[probe];
   const auto& quality = buffer_.probe_quality[probe];
-  const auto& fresh = buffer_.probe_fresh[probe];
+  const auto& fresh = buffer_.probe_is_new[probe];
   const std::span<const double> all(&column[from], to - from);
   if (quality.empty() && fresh.empty() && all_finite(all)) return all;
   finite_.clear();

@@ -22,7 +22,7 @@ void DwellDetector::note(const DwellEvent& event) {
 }
 
 // Examines the window that ends with the slot just closed.
-void DwellDetector::look_at_window(bool still) {
+void DwellDetector::examine_window(bool still) {
   const Slot& newest = slots_.back();
   resolution_.add(buffer_, newest.first_row, newest.first_row + newest.rows);
   watch_.take_newest(buffer_, newest.first_row, newest.first_row + newest.rows, newest.min_m,
@@ -39,11 +39,11 @@ void DwellDetector::look_at_window(bool still) {
   if (buffer_.time_ns[end - 1] - slots_.front().begin_ns > 8 * slot_ns_) return;  // a gap
   watch_.look_for_steps(
       {buffer_, slots_[0].first_row, slots_[1].first_row, slots_[2].first_row, end});
-  look_for_jump();
+  find_encoder_jump();
 }
 
 // A count that returns within a second is a glitch: the positions after it are correct.
-void DwellDetector::look_for_jump() {
+void DwellDetector::find_encoder_jump() {
   const std::size_t begin = slots_.front().first_row;
   const std::size_t rows = slots_.back().first_row + slots_.back().rows - begin;
   if (rows <= 2 * kReach) return;

@@ -22,7 +22,7 @@ FrameBlock empty_frames(std::size_t probes) {
   FrameBlock frames;
   frames.probe_m.resize(probes);
   frames.probe_quality.resize(probes);
-  frames.probe_fresh.resize(probes);
+  frames.probe_is_new.resize(probes);
   return frames;
 }
 
@@ -39,7 +39,7 @@ void append_rows(FrameBlock& to, const FrameBlock& from, std::size_t first, std:
     append_marks(to.probe_quality[k],
                  k < from.probe_quality.size() ? &from.probe_quality[k] : nullptr, before, first,
                  last, Quality::good);
-    append_marks(to.probe_fresh[k], k < from.probe_fresh.size() ? &from.probe_fresh[k] : nullptr,
+    append_marks(to.probe_is_new[k], k < from.probe_is_new.size() ? &from.probe_is_new[k] : nullptr,
                  before, first, last, std::uint8_t{1});
   }
 }
@@ -54,7 +54,7 @@ void erase_rows(FrameBlock& frames, std::size_t first, std::size_t last) {
   erase(frames.encoder_m);
   for (auto& column : frames.probe_m) erase(column);
   for (auto& column : frames.probe_quality) erase(column);
-  for (auto& column : frames.probe_fresh) erase(column);
+  for (auto& column : frames.probe_is_new) erase(column);
 }
 
 }  // namespace mdof::algo

@@ -25,8 +25,8 @@ double tilt_excess_m(const ProbePhysics& physics, double tilt_square, double gap
 }
 
 // d - a/d = g  =>  d = (g + sqrt(g² + 4 a))/2, the root that is g if a = 0.
-double gap_of_shown_m(const ProbePhysics& physics, double shown_m, double tilt_square,
-                      double permittivity_ratio) {
+double true_gap_m(const ProbePhysics& physics, double shown_m, double tilt_square,
+                  double permittivity_ratio) {
   const double g = shown_m * permittivity_ratio;
   return (g + std::sqrt(g * g + 4 * tilt_area(physics, tilt_square))) / 2;
 }

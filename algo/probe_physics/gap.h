@@ -22,8 +22,8 @@ Eigen::Vector3d tilt_of(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC);
 double tilt_excess_m(const ProbePhysics& physics, double tilt_square, double gap_m);
 
 // The gap d of a shown gap; `permittivity_ratio` = ε/ε_cal. The inverse of the formula above.
-double gap_of_shown_m(const ProbePhysics& physics, double shown_m, double tilt_square,
-                      double permittivity_ratio);
+double true_gap_m(const ProbePhysics& physics, double shown_m, double tilt_square,
+                  double permittivity_ratio);
 
 // Whether the edge of the electrode touches the target, or the gap is closed.
 bool touches(const ProbePhysics& physics, double tilt_square, double gap_m);

@@ -48,7 +48,7 @@ ReadingCorrection::ReadingCorrection(const Rig& rig, const Solver& solver, Which
 bool ReadingCorrection::correct_probe(std::size_t k, double shown_m, double tilt_square,
                                       double ratio, CorrectedReadings& out) const {
   const double shown_gap_m = zero_shown_m_[k] - shown_m;
-  const double gap_m = gap_of_shown_m(physics_[k], shown_gap_m, tilt_square, ratio);
+  const double gap_m = true_gap_m(physics_[k], shown_gap_m, tilt_square, ratio);
   // Check with the shown gap: the gap of the formula increases with k θ and is never too small.
   if (touches(physics_[k], tilt_square, shown_gap_m)) {
     out.closed = k;

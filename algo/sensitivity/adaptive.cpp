@@ -93,7 +93,7 @@ std::vector<AdaptiveRule::Progress> AdaptiveRule::progress() const {
   return progress;
 }
 
-std::optional<std::size_t> AdaptiveRule::output_that_never_settles() const {
+std::optional<std::size_t> AdaptiveRule::unsettled_output() const {
   for (std::size_t k = 0; k < outputs_.size(); ++k)
     if (outputs_[k].never_settles) return k;
   return std::nullopt;

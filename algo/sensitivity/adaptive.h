@@ -48,7 +48,7 @@ class AdaptiveRule {
   // True after at least two blocks, if every 2 s (§7.9.4 j) is below its tolerance.
   bool settled() const;
   // The first output that has fewer than two values in a block: it never settles.
-  std::optional<std::size_t> output_that_never_settles() const;
+  std::optional<std::size_t> unsettled_output() const;
   std::uint64_t blocks() const { return blocks_; }
 
   struct Progress {

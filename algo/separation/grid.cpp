@@ -41,7 +41,7 @@ Clusters clusters_of(const std::vector<double>& values, double match_m) {
 }
 
 // Moves the positions onto equal steps and returns the step.
-Result<double> put_on_steps(std::vector<double>& position_m, double match_m) {
+Result<double> snap_to_steps(std::vector<double>& position_m, double match_m) {
   double least = position_m[1] - position_m[0];
   for (std::size_t i = 1; i < position_m.size(); ++i)
     least = std::min(least, position_m[i] - position_m[i - 1]);
@@ -127,7 +127,7 @@ Result<Grid> grid_of(const ReadAt& at, const std::vector<SetUp>& set_ups, double
     add_unshifted_places(at, grid);
     return grid;
   }
-  MDOF_TRY(grid.step_m, put_on_steps(grid.position_m, match_m));
+  MDOF_TRY(grid.step_m, snap_to_steps(grid.position_m, match_m));
   MDOF_CHECK(add_shifted_places(at, set_ups, match_m, grid));
   return grid;
 }

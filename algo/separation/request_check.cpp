@@ -27,7 +27,7 @@ Status check_set_up(const SetUp& set_up, std::size_t number) {
 }
 
 // True: all set-ups are the same, so nothing distinguishes them.
-bool all_alike(const SeparationRequest& request) {
+bool are_set_ups_identical(const SeparationRequest& request) {
   return std::all_of(request.set_ups.begin(), request.set_ups.end(), [&](const SetUp& s) {
     return std::abs(s.shift_m) <= request.match_m && !s.turn.end_for_end && s.turn.height_sign > 0;
   });
@@ -49,7 +49,7 @@ Status check_request(const SeparationRequest& request) {
     return bad_input("these set-ups have " + std::to_string(readings) + " readings, but at most " +
                      std::to_string(kMostReadings) +
                      " can be separated at once; leave some set-ups out");
-  if (!all_alike(request)) return {};
+  if (!are_set_ups_identical(request)) return {};
   return bad_input(
       "the target has the same position and orientation in all set-ups, so the machine cannot be "
       "separated from the target; state in which set-up the target was turned or how far the "

@@ -57,8 +57,8 @@ std::string name_of_part(const Contributor& contributor, std::size_t part) {
 }
 
 // Declared uncertainties of the readings themselves, as in with_reading().
-Result<std::vector<DeclaredShift>> declared_of_probe(const Run& run, const Rig& rig,
-                                                     std::size_t probe, double along) {
+Result<std::vector<DeclaredShift>> declared_probe_shifts(const Run& run, const Rig& rig,
+                                                         std::size_t probe, double along) {
   MDOF_TRY(const auto declared, contributors(rig, run));
   const std::vector<MeasuredPoint> points = with_reading(run, probe, along);
   const TargetChanges changes(run.header.moving(), points);
@@ -123,7 +123,7 @@ Result<ProbeSeries> probe_series(const Run& run, const Rig& rig, const std::stri
                      Remedy::take_other_surface);
   const double sense = along > 0 ? 1.0 : -1.0;
   ProbeSeries series{series_of(run, with_reading(run, *index, sense), 0), found.position_m};
-  MDOF_TRY(series.set_up.declared, declared_of_probe(run, rig, *index, sense));
+  MDOF_TRY(series.set_up.declared, declared_probe_shifts(run, rig, *index, sense));
   return series;
 }
 

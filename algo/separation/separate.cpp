@@ -44,7 +44,7 @@ struct Equations {
   Index target() const { return in(grid.place_m.size()); }
 };
 
-bool knows_u(const SeparationRequest& request) {
+bool has_u_for_all_readings(const SeparationRequest& request) {
   return std::all_of(request.set_ups.begin(), request.set_ups.end(), [](const SetUp& s) {
     return s.u_m.size() == s.position_m.size() &&
            std::all_of(s.u_m.begin(), s.u_m.end(), [](double u) { return u > 0; });
@@ -79,7 +79,7 @@ Equations equations_of(const SeparationRequest& request, Grid grid) {
   e.errors.resize(readings);
   e.u.setConstant(readings, std::numeric_limits<double>::quiet_NaN());
   const double first = e.grid.position_m.front(), last = e.grid.position_m.back();
-  const bool with_u = knows_u(request);
+  const bool with_u = has_u_for_all_readings(request);
   Index row = 0, clamp = e.machine() + e.target();
   for (const SetUp& set_up : request.set_ups) {
     for (std::size_t i = 0; i < set_up.position_m.size(); ++i, ++row) {
@@ -131,9 +131,9 @@ struct ReadingUncertainty {
   double freedom = std::numeric_limits<double>::infinity();
 };
 
-SeenSeries seen_part(const Equations& e, const Solution& solution, Index from,
-                     const std::vector<double>& places_m, const ReadingUncertainty& reading,
-                     const std::vector<double>& periods_m) {
+DeterminedSeries seen_part(const Equations& e, const Solution& solution, Index from,
+                           const std::vector<double>& places_m, const ReadingUncertainty& reading,
+                           const std::vector<double>& periods_m) {
   const Index count = in(places_m.size());
   const MatrixXd unseen = unseen_part(solution.null, from, count);
   const MatrixXd all = solution.from_readings.middleRows(from, count);
@@ -142,7 +142,7 @@ SeenSeries seen_part(const Equations& e, const Solution& solution, Index from,
   const VectorXd scatter = (from_readings * reading.u.asDiagonal()).rowwise().squaredNorm();
   const VectorXd square = scatter + (from_readings * e.declared).rowwise().squaredNorm();
   const VectorXd u = square.cwiseSqrt();
-  SeenSeries series;
+  DeterminedSeries series;
   series.place_m = places_m;
   series.seen_m.assign(seen.begin(), seen.end());
   series.u_m.assign(u.begin(), u.end());
@@ -201,7 +201,7 @@ ReadingUncertainty judge(const Equations& e, const Solution& solution, Separatio
 // Shifts between two set-ups with the same height sign: a shape that repeats after such a shift is
 // hidden. If there are no such set-ups, a shape that changes its sign over the shift is hidden; it
 // repeats after twice the shift.
-std::vector<double> returns_of(const std::vector<SetUp>& set_ups, double step_m) {
+std::vector<double> hidden_shifts(const std::vector<SetUp>& set_ups, double step_m) {
   std::vector<double> alike, turned;
   for (const SetUp& a : set_ups)
     for (const SetUp& b : set_ups) {
@@ -234,7 +234,7 @@ Result<Separation> separate(const SeparationRequest& request) {
   result.noise_only = request.u_is_noise && e.declared.cols() == 0;
   const ReadingUncertainty u = judge(e, solution, result);
   const auto periods =
-      hidden_periods(returns_of(request.set_ups, e.grid.step_m), e.grid.step_m, request.match_m);
+      hidden_periods(hidden_shifts(request.set_ups, e.grid.step_m), e.grid.step_m, request.match_m);
   result.machine = seen_part(e, solution, 0, e.grid.position_m, u, periods);
   result.target = seen_part(e, solution, e.machine(), e.grid.place_m, u, periods);
   return result;

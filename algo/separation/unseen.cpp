@@ -70,7 +70,7 @@ VectorXd scaled(const std::vector<double>& places_m) {
   return t;
 }
 
-std::vector<VectorXd> of_period(const std::vector<double>& places_m, double period_m) {
+std::vector<VectorXd> period_shapes(const std::vector<double>& places_m, double period_m) {
   VectorXd sine(static_cast<Index>(places_m.size())), cosine = sine;
   for (Index i = 0; i < sine.size(); ++i) {
     const double turns = (places_m[static_cast<std::size_t>(i)] - places_m.front()) / period_m;
@@ -97,7 +97,7 @@ int symmetry(const std::vector<double>& places_m, const MatrixXd& shapes) {
   return (mirrored + shapes).norm() < kNothing * static_cast<double>(n) ? -1 : 0;
 }
 
-std::string name_of_rest(const std::vector<double>& places_m, const MatrixXd& rest) {
+std::string rest_name(const std::vector<double>& places_m, const MatrixXd& rest) {
   const std::string count =
       std::to_string(rest.cols()) + (rest.cols() == 1 ? " more shape" : " more shapes");
   const std::string middle = mm_text((places_m.front() + places_m.back()) / 2);
@@ -116,9 +116,10 @@ std::string name_of_rest(const std::vector<double>& places_m, const MatrixXd& re
 
 }  // namespace
 
-std::vector<UnseenShape> named_shapes(const std::vector<double>& places_m, const MatrixXd& unseen,
-                                      const std::vector<double>& periods_m) {
-  std::vector<UnseenShape> names;
+std::vector<UndeterminedShape> named_shapes(const std::vector<double>& places_m,
+                                            const MatrixXd& unseen,
+                                            const std::vector<double>& periods_m) {
+  std::vector<UndeterminedShape> names;
   Named named(unseen);
   const auto try_name = [&](const std::string& name, const std::vector<VectorXd>& shapes) {
     if (const std::size_t dimensions = named.take(shapes)) names.push_back({name, dimensions});
@@ -128,10 +129,10 @@ std::vector<UnseenShape> named_shapes(const std::vector<double>& places_m, const
   try_name("slope", {t});
   try_name("parabola", {t.cwiseProduct(t)});
   for (const double period_m : periods_m)
-    try_name("period " + mm_text(period_m), of_period(places_m, period_m));
+    try_name("period " + mm_text(period_m), period_shapes(places_m, period_m));
   const MatrixXd rest = named.rest();
   if (rest.cols() > 0)
-    names.push_back({name_of_rest(places_m, rest), static_cast<std::size_t>(rest.cols())});
+    names.push_back({rest_name(places_m, rest), static_cast<std::size_t>(rest.cols())});
   return names;
 }
 

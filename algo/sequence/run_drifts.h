@@ -22,7 +22,7 @@ class RunDrifts {
   // order of the run numbers. The drifts of runs that are linked by visits sum to 0.
   std::vector<Errors5> of(const std::vector<Errors5>& errors) const;
   // The index of each point's run.
-  const std::vector<std::size_t>& run_of_points() const { return run_of_; }
+  const std::vector<std::size_t>& point_runs() const { return run_of_; }
 
  private:
   struct Entry {

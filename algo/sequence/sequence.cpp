@@ -32,7 +32,7 @@ NoticeCode reason_off_targets(const std::vector<Point>& points, const Point& sto
 
 void place(const std::vector<Point>& points, const SequenceOptions& options, Sequence& sequence) {
   const bool nominal = !options.targets_m.empty();
-  sequence.targets_m = nominal ? options.targets_m : targets_of_stops(points);
+  sequence.targets_m = nominal ? options.targets_m : stop_targets(points);
   for (const Point& p : points) {
     const std::size_t t = nearest_target(sequence.targets_m, p.position_m);
     if (nominal && std::abs(sequence.targets_m[t] - p.position_m) > options.target_window_m) {

@@ -46,7 +46,7 @@ int out_of_order(const std::vector<Visit>& visits, const RunNumbers& runs) {
 }
 
 // Whether a pass has on average at least half of the targets.
-bool go_over_the_targets(const std::vector<Visit>& visits, const RunNumbers& runs, int targets) {
+bool cover_targets(const std::vector<Visit>& visits, const RunNumbers& runs, int targets) {
   std::set<std::pair<int, int>> passes;
   for (std::size_t i = 0; i < visits.size(); ++i) passes.insert({visits[i].direction, runs[i]});
   return 2 * visits.size() >= passes.size() * static_cast<std::size_t>(targets);
@@ -167,7 +167,7 @@ CycleFound recognise_cycle(const std::vector<Visit>& visits, int targets) {
   RunNumbers passes = runs_by_passes(visits, targets);
   const int wrong = out_of_order(visits, passes);
   const bool ordered = wrong <= kAlwaysForgiven || few(wrong, visits.size());
-  if (ordered && go_over_the_targets(visits, passes, targets))
+  if (ordered && cover_targets(visits, passes, targets))
     return {by_turns(visits, targets), true, std::move(passes)};
   const bool regular = is_balanced(visits, by_visits, targets) && turns_often(visits, targets);
   return {regular ? Cycle::quasi_pilgrim : Cycle::none, false, std::move(by_visits)};

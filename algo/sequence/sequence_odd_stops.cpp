@@ -62,7 +62,7 @@ double typical_visits(const std::vector<Place>& places) {
   return of_stops[(3 * of_stops.size() - 1) / 4];
 }
 
-bool surely_a_target(const Place& p, const Typical& typical) {
+bool is_certain_target(const Place& p, const Typical& typical) {
   const double enough = kEnough * typical.visits;
   if (typical.both_sides) return p.visits() >= enough && p.forward > 0 && p.reverse > 0;
   return (typical.direction > 0 ? p.forward : p.reverse) >= enough;
@@ -87,7 +87,7 @@ Typical typical_of(std::vector<Place>& places) {
   std::vector<double> intervals;
   const Place* before = nullptr;
   for (Place& p : places) {
-    p.kept = surely_a_target(p, typical);
+    p.kept = is_certain_target(p, typical);
     if (p.kept && before) intervals.push_back(p.position_m - before->position_m);
     if (p.kept) before = &p;
   }

@@ -34,13 +34,14 @@ double scatter_limit(const std::vector<double>& sorted) {
 
 // Whether between the point before `p` and `p` the axis was farther from `p` than a merged stop
 // allows.
-bool went_away(const Point& p) {
-  return p.way_max_m - p.position_m > kMaxScatter_m || p.position_m - p.way_min_m > kMaxScatter_m;
+bool has_left_stop(const Point& p) {
+  return p.travel_max_m - p.position_m > kMaxScatter_m ||
+         p.position_m - p.travel_min_m > kMaxScatter_m;
 }
 
 }  // namespace
 
-std::vector<double> targets_of_stops(const std::vector<Point>& points) {
+std::vector<double> stop_targets(const std::vector<Point>& points) {
   std::vector<double> sorted;
   for (const Point& p : points) sorted.push_back(p.position_m);
   std::sort(sorted.begin(), sorted.end());
@@ -69,7 +70,7 @@ std::size_t nearest_target(const std::vector<double>& targets_m, double position
 }
 
 bool correct_overshot(Point& p) {
-  const double above_m = p.way_max_m - p.position_m, below_m = p.position_m - p.way_min_m;
+  const double above_m = p.travel_max_m - p.position_m, below_m = p.position_m - p.travel_min_m;
   // The last motion came from one side, the whole path from the other.
   const double overshot_m = p.direction < 0 ? above_m : below_m;
   const double came_m = p.direction < 0 ? below_m : above_m;
@@ -99,12 +100,12 @@ void assume_approaches(std::vector<MeasuredPoint>& points) {
 
 bool merge_into(MeasuredPoint& stop, MeasuredPoint& part) {
   if (stop.target != part.target || stop.point.direction != part.point.direction ||
-      went_away(part.point))
+      has_left_stop(part.point))
     return false;
   if (part.point.samples > stop.point.samples) {
     // The path to the stop is the path to its first part.
-    part.point.way_min_m = stop.point.way_min_m;
-    part.point.way_max_m = stop.point.way_max_m;
+    part.point.travel_min_m = stop.point.travel_min_m;
+    part.point.travel_max_m = stop.point.travel_max_m;
     stop = std::move(part);
   }
   add_flag(stop.point, Flag::interrupted);
@@ -122,7 +123,7 @@ std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& poin
   if (points.size() < 2) return {};
   const MeasuredPoint &parked = points[0], &next = points[1];
   const bool again = next.target == parked.target && next.point.direction == parked.point.direction;
-  if (!has_flag(parked.point, Flag::approach_assumed) || !again || !went_away(next.point))
+  if (!has_flag(parked.point, Flag::approach_assumed) || !again || !has_left_stop(next.point))
     return {};
   std::vector<StopLeftOut> left_out = {{parked.point.position_m, parked.point.begin_ns,
                                         to_string(NoticeCode::stop_parked_at_start)}};

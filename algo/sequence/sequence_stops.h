@@ -19,7 +19,7 @@ inline constexpr double kMostOvershoot_m = 0.25e-3;
 // Targets from the stops of the axis: the sorted positions are divided where the distance to the
 // next is at least ten times the scatter within a target (and above 2 µm). The position of each
 // target is its first stop, so that it does not change with later stops. Ascending.
-std::vector<double> targets_of_stops(const std::vector<Point>& points);
+std::vector<double> stop_targets(const std::vector<Point>& points);
 std::size_t nearest_target(const std::vector<double>& targets_m, double position_m);
 
 // If a stop was overshot by at most kMostOvershoot_m and the axis came back, its direction becomes

@@ -22,7 +22,7 @@ SequenceTail::SequenceTail(const Sequence& sequence, SequenceOptions options)
   const std::size_t n = sequence.points.size();
   if (n == 0) return;
   const bool stayed = n > 1 && sequence.points[n - 2].target == sequence.points[n - 1].target;
-  awaits_ = has_flag(sequence.points.back().point, Flag::approach_assumed) && !stayed;
+  awaits_direction_ = has_flag(sequence.points.back().point, Flag::approach_assumed) && !stayed;
 }
 
 int SequenceTail::number(const MeasuredPoint& p) {
@@ -55,7 +55,7 @@ bool SequenceTail::place(MeasuredPoint& p, Sequence& sequence) const {
 
 // The last point gets the approach of the motion that followed.
 void SequenceTail::settle_last(const MeasuredPoint& next, Sequence& sequence) {
-  awaits_ = false;
+  awaits_direction_ = false;
   MeasuredPoint& last = sequence.points.back();
   const int direction = next.target < last.target ? -1 : 1;
   if (direction == last.point.direction) return;
@@ -75,12 +75,12 @@ std::size_t SequenceTail::append(Point stop, Sequence& sequence) {
         {p.point.position_m, p.point.begin_ns, to_string(NoticeCode::stop_near_no_target)});
     return points.size();
   }
-  const std::size_t first_changed = points.size() - (awaits_ ? 1 : 0);
-  if (awaits_) settle_last(p, sequence);
+  const std::size_t first_changed = points.size() - (awaits_direction_ ? 1 : 0);
+  if (awaits_direction_) settle_last(p, sequence);
   if (p.point.direction == 0) {
     const bool stayed = !points.empty() && points.back().target == p.target;
     p.point.direction = stayed ? points.back().point.direction : 1;
-    awaits_ = !stayed;
+    awaits_direction_ = !stayed;
     add_flag(p.point, Flag::approach_assumed);
   }
   if (!points.empty()) {

@@ -29,7 +29,7 @@ class SequenceTail {
 
   SequenceOptions options_;
   bool by_passes_ = false;
-  bool awaits_ = false;            // the last point has the approach of the next motion
+  bool awaits_direction_ = false;  // the last point has the approach of the next motion
   Passes passes_, passes_before_;  // passes_before_: before the last visit
   std::map<Visited, int> visits_;
 };

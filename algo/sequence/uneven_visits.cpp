@@ -18,14 +18,14 @@ Cell cell_of(const MeasuredPoint& p) {
   return {p.target, p.point.direction};
 }
 
-std::vector<MeasuredPoint> that_count(const std::vector<MeasuredPoint>& points) {
+std::vector<MeasuredPoint> counted_points(const std::vector<MeasuredPoint>& points) {
   std::vector<MeasuredPoint> out;
   std::copy_if(points.begin(), points.end(), std::back_inserter(out), counts_in_means);
   return out;
 }
 
 // Ascending.
-std::vector<int> runs_that_lack_visits(const std::vector<MeasuredPoint>& points) {
+std::vector<int> find_incomplete_runs(const std::vector<MeasuredPoint>& points) {
   std::set<Cell> of_all;
   std::map<int, std::set<Cell>> of_run;
   for (const MeasuredPoint& p : points) {
@@ -64,11 +64,11 @@ bool counts_in_means(const MeasuredPoint& p) {
 }
 
 bool any_run_lacks_visits(const std::vector<MeasuredPoint>& counted) {
-  return !runs_that_lack_visits(counted).empty();
+  return !find_incomplete_runs(counted).empty();
 }
 
-WithoutDrift without_drift_of_runs(const std::vector<MeasuredPoint>& points) {
-  WithoutDrift out{that_count(points), {}};
+WithoutDrift subtract_run_drifts(const std::vector<MeasuredPoint>& points) {
+  WithoutDrift out{counted_points(points), {}};
   if (!any_run_lacks_visits(out.points)) return out;
   const RunDrifts run_drifts(out.points);
   std::vector<Errors5> errors;
@@ -76,7 +76,7 @@ WithoutDrift without_drift_of_runs(const std::vector<MeasuredPoint>& points) {
   const std::vector<Errors5> drifts = run_drifts.of(errors);
   for (std::size_t j = 0; j < out.points.size(); ++j)
     for (std::size_t k = 0; k < 5; ++k)
-      out.points[j].errors.local[k] -= drifts[run_drifts.run_of_points()[j]][k];
+      out.points[j].errors.local[k] -= drifts[run_drifts.point_runs()[j]][k];
   const auto n = static_cast<double>(drifts.size());
   for (std::size_t k = 0; k < 5; ++k) {
     double square = 0;  // the drifts sum to 0
@@ -87,8 +87,8 @@ WithoutDrift without_drift_of_runs(const std::vector<MeasuredPoint>& points) {
 }
 
 Notices uneven_visits(const std::vector<MeasuredPoint>& points) {
-  const auto counted = that_count(points);
-  const auto lacking = runs_that_lack_visits(counted);
+  const auto counted = counted_points(points);
+  const auto lacking = find_incomplete_runs(counted);
   const Approached from = approached(counted);
   const auto& one_sided = from.targets_from_one;
   Notices found;

@@ -25,7 +25,7 @@ struct WithoutDrift {
 // are from the least-squares fit error = effect of the visit + effect of the run; they sum to 0.
 // u_level is their scatter, s/√n: the uncertainty of the common level of all targets, for any
 // number of runs that visited them; 0 if nothing was subtracted.
-WithoutDrift without_drift_of_runs(const std::vector<MeasuredPoint>& points);
+WithoutDrift subtract_run_drifts(const std::vector<MeasuredPoint>& points);
 
 // Notices of what the means take into account, and of what they cannot.
 Notices uneven_visits(const std::vector<MeasuredPoint>& points);

@@ -17,9 +17,8 @@ struct Chart {
   double centre = 0, sigma = 0;      // mean of the baseline; mean moving range / 1.128
   std::vector<double> low, high;     // limits of each value: centre ± 3 max(sigma, its own u)
   std::vector<std::size_t> outside;  // indices beyond these limits
-  std::vector<std::size_t>
-      // Indices of the eighth, ninth ... consecutive value on one side of the centre.
-      one_side;
+  // Indices of the eighth, ninth ... consecutive value on one side of the centre.
+  std::vector<std::size_t> one_side;
 
   // Set if the last value is in one of the two lists above: the index from which the values differ
   // from those before, and by how much. The index is the least-squares division into two means.

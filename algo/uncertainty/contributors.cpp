@@ -151,7 +151,7 @@ std::vector<PointShifts> of_encoder(const Basis& basis) {
   return parts;
 }
 
-PointShifts of_calibration(const Basis& basis, std::size_t probe, double size_m) {
+PointShifts calibration_shifts(const Basis& basis, std::size_t probe, double size_m) {
   return by_one_probe(basis, probe, [&](std::size_t) { return size_m; });
 }
 
@@ -179,8 +179,8 @@ PointShifts of_direction(const Basis& basis, std::size_t probe, std::size_t axis
 }
 
 // Positions, directions and zeros of probes that one calibration determined together.
-std::vector<PointShifts> of_covariance(const Basis& basis,
-                                       const CalibrationCovariance& covariance) {
+std::vector<PointShifts> covariance_shifts(const Basis& basis,
+                                           const CalibrationCovariance& covariance) {
   std::vector<PointShifts> alone;  // by one standard uncertainty of each
   std::vector<double> u_m;
   for (std::size_t i = 0; i < covariance.of.size(); ++i) {
@@ -188,7 +188,7 @@ std::vector<PointShifts> of_covariance(const Basis& basis,
     PointShifts& shifts = alone.emplace_back(basis.points.size());
     for (std::size_t k = 0; k < basis.probes() && u_m[i] > 0; ++k) {
       const std::string& id = basis.rig.probes[k].id;
-      if (covariance.of[i] == zero_name(id)) shifts = of_calibration(basis, k, u_m[i]);
+      if (covariance.of[i] == zero_name(id)) shifts = calibration_shifts(basis, k, u_m[i]);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (covariance.of[i] == place_name(id, axis)) shifts = of_position(basis, k, axis, u_m[i]);
         if (covariance.of[i] == direction_name(id, axis))
@@ -234,7 +234,7 @@ class List {
         largest.u = std::max(largest.u, std::sqrt(covariance.m2[i][i]));
     together_.insert(covariance.of.begin(), covariance.of.end());
     add({ContributorKind::calibration_record, record.id}, "calibration", largest, 1e6, "µm",
-        [covariance](const Basis& b) { return of_covariance(b, covariance); });
+        [covariance](const Basis& b) { return covariance_shifts(b, covariance); });
   }
 
   void add_probe(std::size_t k) {
@@ -244,7 +244,7 @@ class List {
     if (!together_.contains(zero_name(probe.id)))
       add(of_probe(ContributorKind::probe_calibration), "u_calibration_um", u.calibration, 1e6,
           "µm", [k, size = u.calibration.u](const Basis& b) {
-            return std::vector<PointShifts>{of_calibration(b, k, size)};
+            return std::vector<PointShifts>{calibration_shifts(b, k, size)};
           });
     add(of_probe(ContributorKind::probe_sensitivity), "u_sensitivity_ppm", u.sensitivity, 1e6,
         "ppm", [k, size = u.sensitivity.u](const Basis& b) {

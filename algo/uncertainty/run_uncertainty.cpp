@@ -11,7 +11,7 @@ namespace mdof::algo {
 namespace {
 
 // 99.9 % point of χ² with one degree of freedom.
-constexpr double kMostOfDrift = 10.83;
+constexpr double kDriftChiSquareLimit = 10.83;
 
 ErrorsUncertainty not_known() {
   Errors5 nothing;
@@ -30,13 +30,13 @@ PointUncertainties::PointUncertainties(const Run& run)
     const Covariance5 covariance = named_from_local(run.header.axis, errors.covariance);
     for (std::size_t k = 0; k < kErrorCount; ++k) sums_[j].noise[k] = covariance[6 * k];
     named[j] = named_from_local(run.header.moving(), errors.local);
-    time_s.push_back(time_of_s(run.points[j]));
+    time_s.push_back(middle_time_s(run.points[j]));
   }
   seen_ = visits_.of(named);
   steady_ = visits_.of_steady(named, time_s);
   repeatability_.fill(visits_.has_repeats());
   if (visits_.has_repeats()) covered_ = VisitsCovered::repeated;
-  if (sums_.size() > kMostPointsOfRepeatability) leave_out_repeatability();
+  if (sums_.size() > kRepeatabilityPointLimit) leave_out_repeatability();
 }
 
 void PointUncertainties::leave_out_repeatability() {
@@ -81,7 +81,7 @@ std::vector<ErrorsUncertainty> PointUncertainties::stated() const {
     for (std::size_t k = 0; k < kErrorCount; ++k) {
       double random = sums.noise[k], fourth = fourth_by(random, std::max(1.0, scans - 1));
       const double by_time = seen_.variance[k] - steady_.variance[k];
-      const bool is_declared = explained_[k] > 0 && by_time <= kMostOfDrift * explained_[k];
+      const bool is_declared = explained_[k] > 0 && by_time <= kDriftChiSquareLimit * explained_[k];
       const VisitScatter::Pooled& scatter = is_declared ? steady_ : seen_;
       const double repeatability =
           is_declared ? steady_.variance[k] : seen_.variance[k] - explained_[k];
@@ -116,14 +116,14 @@ RunUncertainty uncertainty(const Rig& rig, const Run& run, bool is_whole) {
   }
   out.points = points.stated();
   out.visits = points.visits();
-  take_zero_as_unknown(out);
+  set_zeros_to_unknown(out);
   out.noise_only = is_noise_only(out);
   return out;
 }
 
 }  // namespace
 
-void take_zero_as_unknown(RunUncertainty& uncertainty) {
+void set_zeros_to_unknown(RunUncertainty& uncertainty) {
   if (uncertainty.not_declared.empty() && uncertainty.why.empty()) return;
   for (ErrorsUncertainty& point : uncertainty.points)
     for (std::size_t k = 0; k < kErrorCount; ++k)
@@ -134,7 +134,7 @@ RunUncertainty run_uncertainty(const Rig& rig, const Run& run) {
   return uncertainty(rig, run, true);
 }
 
-RunUncertainty uncertainty_of_stops(const Rig& rig, const Run& part) {
+RunUncertainty stop_uncertainty(const Rig& rig, const Run& part) {
   return uncertainty(rig, part, false);
 }
 

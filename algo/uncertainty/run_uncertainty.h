@@ -24,14 +24,14 @@ namespace mdof::algo {
 // left, and `why` contains the reason.
 RunUncertainty run_uncertainty(const Rig& rig, const Run& run);
 // Runs with more points omit the repeatability: their pages would take seconds.
-inline constexpr std::size_t kMostPointsOfRepeatability = 20'000;
+inline constexpr std::size_t kRepeatabilityPointLimit = 20'000;
 
 // Without the repeatability. `part`: some points of a run, including its first, where the drift
 // begins.
-RunUncertainty uncertainty_of_stops(const Rig& rig, const Run& part);
+RunUncertainty stop_uncertainty(const Rig& rig, const Run& part);
 
 // Sets u and U from 0 to NaN (unknown), unless all uncertainties are declared and calculated.
-void take_zero_as_unknown(RunUncertainty& uncertainty);
+void set_zeros_to_unknown(RunUncertainty& uncertainty);
 
 // The same step by step, for callers that have the contributors.
 class PointUncertainties {

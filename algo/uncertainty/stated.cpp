@@ -20,7 +20,7 @@ StatedUncertainty stated_uncertainty(const Rig& rig, const Run& run) {
     }
   points.points = of_points.stated();
   points.visits = of_points.visits();
-  take_zero_as_unknown(points);
+  set_zeros_to_unknown(points);
   points.noise_only = is_noise_only(points);
   if (!declared) return {std::move(points), tl::unexpected(declared.error())};
   return {std::move(points), std::move(figures)};

@@ -90,9 +90,9 @@ RunUncertainty uncertainty_of(const Run& run) {
   return rig ? algo::run_uncertainty(*rig, run) : noise_of(run, rig.error());
 }
 
-RunUncertainty uncertainty_of_stops(const Run& part) {
+RunUncertainty stop_uncertainty(const Run& part) {
   const auto rig = rig_of(part.header);
-  return rig ? algo::uncertainty_of_stops(*rig, part) : noise_of(part, rig.error());
+  return rig ? algo::stop_uncertainty(*rig, part) : noise_of(part, rig.error());
 }
 
 StatedFigures figure_budgets(const Run& run) {
@@ -109,7 +109,7 @@ StatedRun stated_run(const Run& run) {
 }
 
 Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& request) {
-  MDOF_TRY(const Run run, run_stated_at(store, request.run, request.reference));
+  MDOF_TRY(const Run run, restated_run(store, request.run, request.reference));
   MDOF_TRY(const Rig rig, rig_of(run.header));
   MDOF_TRY(const auto of_run, algo::RunBudgets::create(rig, run));
   FoundBudgets found{run.header.stated, {}, {}, run.header.notices, run.header.simulated};
@@ -141,7 +141,7 @@ Result<FoundBudgets> run_budgets(store::Store& store, const RunBudgetsRequest& r
 
 Result<FoundBudgets> squareness_budgets(store::Store& store, const SquarenessRequest& request,
                                         const algo::TrialsRequest& trials) {
-  MDOF_TRY(const RunsOfSquareness of, runs_of_squareness(store, request));
+  MDOF_TRY(const SquarenessRuns of, squareness_runs(store, request));
   MDOF_TRY(Budget budget,
            algo::squareness_budget(of.rig_a, of.a, of.rig_b, of.b, of.fitted.artefact, trials));
   FoundBudgets found{
@@ -161,7 +161,7 @@ struct FoundSetUp {
 // The set-up with the assumption that the square has no angle error.
 Result<FoundSetUp> square_set_up(store::Store& store, SquarenessRequest request) {
   request.given = {0.0, 0.0};
-  MDOF_TRY(const RunsOfSquareness of, runs_of_squareness(store, request));
+  MDOF_TRY(const SquarenessRuns of, squareness_runs(store, request));
   MDOF_TRY(Budget budget,
            algo::squareness_budget(of.rig_a, of.a, of.rig_b, of.b, of.fitted.artefact));
   return FoundSetUp{{of.fitted.artefact.corner, std::move(budget)},

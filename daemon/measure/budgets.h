@@ -24,7 +24,7 @@ namespace mdof::daemon {
 RunUncertainty uncertainty_of(const Run& run);
 // Uncertainty of some points of a run. `part` must contain the first point. Repeatability of the
 // run is not included.
-RunUncertainty uncertainty_of_stops(const Run& part);
+RunUncertainty stop_uncertainty(const Run& part);
 
 // Budgets of the figures of the run. The result is empty and gives the reason if the budgets cannot
 // be calculated or would take long; `mdof budget RUN` calculates them in any case.

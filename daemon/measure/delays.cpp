@@ -23,7 +23,7 @@ std::string delay_problem(const std::string& id, const Rig& rig) {
   std::vector<std::string> known = {kEncoderChannel};
   for (const Probe& probe : rig.probes) known.push_back(probe.id);
   if (std::find(known.begin(), known.end(), id) != known.end()) return "";
-  const std::string near = nearest_of(id, known);
+  const std::string near = nearest_candidate(id, known);
   return "\"" + id + "\" is neither a probe of " + rig.source + " nor \"" + kEncoderChannel + "\"" +
          (near.empty() ? "" : "; did you mean \"" + near + "\"?");
 }

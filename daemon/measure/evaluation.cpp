@@ -46,13 +46,13 @@ Result<Run> stated_anew(Run stored, Reference reference) {
 
 }  // namespace
 
-Result<Run> run_stated_at(store::Store& store, std::int64_t run, Reference reference) {
+Result<Run> restated_run(store::Store& store, std::int64_t run, Reference reference) {
   MDOF_TRY(Run stored, store.run(run));
   return stated_anew(std::move(stored), reference);
 }
 
-Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t offset,
-                             std::int64_t count, Reference reference) {
+Result<Run> restated_points(store::Store& store, std::int64_t run, std::int64_t offset,
+                            std::int64_t count, Reference reference) {
   Run page;
   MDOF_TRY(page.header, store.run_header(run));
   MDOF_TRY(page.points, store.points(run, 0, 1));
@@ -67,7 +67,7 @@ namespace {
 Result<Notices> table_notices(const std::vector<Run>& runs) {
   Notices notices = algo::inherited_notices(algo::all_of(runs));
   if (runs.size() < 2) return notices;
-  MDOF_TRY(Notices uneven, algo::uneven_visits_of(runs));
+  MDOF_TRY(Notices uneven, algo::uneven_visit_notices(runs));
   append(notices, std::move(uneven));
   return notices;
 }
@@ -307,21 +307,21 @@ Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessReq
   return fitted;
 }
 
-Result<RunsOfSquareness> runs_of_squareness(store::Store& store, const SquarenessRequest& request) {
+Result<SquarenessRuns> squareness_runs(store::Store& store, const SquarenessRequest& request) {
   MDOF_TRY(Run a, store.run(request.run_a));
   MDOF_TRY(Run b, store.run(request.run_b));
   MDOF_CHECK(check_axes(request, a, b));
   MDOF_TRY(Rig rig_a, rig_of(a.header));
   MDOF_TRY(Rig rig_b, rig_of(b.header));
-  MDOF_TRY(const SquareArtefact artefact, algo::artefact_of(rig_a, rig_b, request.given));
+  MDOF_TRY(const SquareArtefact artefact, algo::combined_artefact(rig_a, rig_b, request.given));
   MDOF_TRY(Squareness fitted, algo::squareness(a, b, artefact, request.partial));
-  return RunsOfSquareness{std::move(a), std::move(b), std::move(rig_a), std::move(rig_b),
-                          std::move(fitted)};
+  return SquarenessRuns{std::move(a), std::move(b), std::move(rig_a), std::move(rig_b),
+                        std::move(fitted)};
 }
 
 Result<FittedSquareness> calculate_squareness(store::Store& store,
                                               const SquarenessRequest& request) {
-  MDOF_TRY(RunsOfSquareness of, runs_of_squareness(store, request));
+  MDOF_TRY(SquarenessRuns of, squareness_runs(store, request));
   MDOF_TRY(auto budgets, state_uncertainty(of.fitted, of.a, of.rig_a, of.b, of.rig_b));
   MDOF_TRY(Notices notices, squareness_notices(store, of.a, of.b));
   return FittedSquareness{std::move(of.fitted), std::move(budgets), std::move(notices)};

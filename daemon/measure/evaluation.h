@@ -32,12 +32,12 @@ Result<Rig> rig_of(const RunHeader& run);
 
 // The run at another reference point. Error: the tool is requested and the rig has no
 // tool_point_mm.
-Result<Run> run_stated_at(store::Store& store, std::int64_t run, Reference reference);
+Result<Run> restated_run(store::Store& store, std::int64_t run, Reference reference);
 
 // The first point of the run (needed as the start of its drift), followed by `count` points from
 // `offset`; without figures.
-Result<Run> points_stated_at(store::Store& store, std::int64_t run, std::int64_t offset,
-                             std::int64_t count, Reference reference);
+Result<Run> restated_points(store::Store& store, std::int64_t run, std::int64_t offset,
+                            std::int64_t count, Reference reference);
 
 struct TableRequest {
   std::vector<std::int64_t> runs;
@@ -95,21 +95,21 @@ struct SquarenessRequest {
   std::optional<AxisPair> axes = std::nullopt;        // required axes of the runs
 };
 // Two runs with their rigs, and the fit without the uncertainties that the rigs declare.
-struct RunsOfSquareness {
+struct SquarenessRuns {
   Run a, b;
   Rig rig_a, rig_b;
   Squareness fitted;
 };
-// Errors: unknown run; run of an axis that was not requested; those of algo::artefact_of() and
-// algo::squareness().
-Result<RunsOfSquareness> runs_of_squareness(store::Store& store, const SquarenessRequest& request);
+// Errors: unknown run; run of an axis that was not requested; those of algo::combined_artefact()
+// and algo::squareness().
+Result<SquarenessRuns> squareness_runs(store::Store& store, const SquarenessRequest& request);
 struct FittedSquareness {
   Squareness squareness;
   std::vector<Budget> budgets;  // EC0Y, then EYX_slope_urad and EXY_slope_urad; with Z alike
   Notices notices;
 };
 // Fits the squareness and stores it, unless the same fit is stored already. Errors: those of
-// algo::artefact_of(), algo::squareness() and algo::squareness_budget().
+// algo::combined_artefact(), algo::squareness() and algo::squareness_budget().
 Result<FittedSquareness> fit_squareness(store::Store& store, const SquarenessRequest& request);
 // The two parts of fit_squareness(): the long calculation, for which a read-only store is enough,
 // and the storing.

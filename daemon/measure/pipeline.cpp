@@ -16,8 +16,8 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::size_t kAlwaysWhole = 256;  // with fewer stops every new stop restarts the
-                                           // recognition
+constexpr std::size_t kFullRecognitionLimit = 256;  // with fewer stops every new stop restarts the
+                                                    // recognition
 
 // Copies the last instant of `frames` into `newest`.
 void keep_last(const FrameBlock& frames, FrameBlock& newest) {
@@ -44,7 +44,7 @@ Pipeline::Pipeline(Rig rig, PipelineOptions options, algo::Solver solver)
       dwell_(options_.dwell, probe_ids(rig_), probe_ranges_m(rig_)) {}
 
 Status Pipeline::push(SampleBlock& raw) {
-  note_break(raw);
+  note_scan_loss(raw);
   MDOF_CHECK(take(raw));
   if (frames_.size() == 0) return {};
   keep_last(frames_, newest_);
@@ -57,16 +57,16 @@ Status Pipeline::push(SampleBlock& raw) {
 void Pipeline::find_stops() {
   dwell_.push(frames_, found_);
   frames_.time_ns.clear();
-  leave_out_beyond();
+  drop_excess_stops();
 }
 
-void Pipeline::leave_out_beyond() {
-  if (found_.size() <= options_.most_stops) return;
-  beyond_ += found_.size() - options_.most_stops;
-  found_.resize(options_.most_stops);
+void Pipeline::drop_excess_stops() {
+  if (found_.size() <= options_.max_stops) return;
+  beyond_ += found_.size() - options_.max_stops;
+  found_.resize(options_.max_stops);
 }
 
-Notice Pipeline::beyond_limit() const {
+Notice Pipeline::excess_stops_notice() const {
   return notice(NoticeCode::stops_over_limit, "",
                 {{"stops", found_.size()}, {"left_out", beyond_}});
 }
@@ -74,10 +74,10 @@ Notice Pipeline::beyond_limit() const {
 Notice Pipeline::not_placed() const {
   const auto first = std::find_if(found_.begin(), found_.end(),
                                   [this](const Point& stop) { return suspect_.covers(stop); });
-  return suspect_.left_out(unplaced_, ns_to_s(first->begin_ns - *begin_ns_));
+  return suspect_.left_out(stops_without_position_, ns_to_s(first->begin_ns - *begin_ns_));
 }
 
-void Pipeline::note_break(const SampleBlock& raw) {
+void Pipeline::note_scan_loss(const SampleBlock& raw) {
   const auto is_encoder = [](const Channel& channel) { return channel.id == kEncoderChannel; };
   if (raw.scans() == 0 || std::none_of(raw.channels.begin(), raw.channels.end(), is_encoder))
     return;
@@ -90,12 +90,12 @@ void Pipeline::note_break(const SampleBlock& raw) {
 
 const std::vector<MeasuredPoint>& Pipeline::points() {
   if (taken_ == found_.size()) return sequence_.points;
-  if (tail_ && found_.size() < whole_at_) {
+  if (tail_ && found_.size() < next_full_recognition_) {
     take_new_points();
   } else {
     take_points();
-    whole_at_ = found_.size() + found_.size() / 4;
-    if (found_.size() >= kAlwaysWhole) tail_.emplace(sequence_, options_.sequence);
+    next_full_recognition_ = found_.size() + found_.size() / 4;
+    if (found_.size() >= kFullRecognitionLimit) tail_.emplace(sequence_, options_.sequence);
   }
   return sequence_.points;
 }
@@ -116,7 +116,7 @@ void Pipeline::take_new_points() {
   for (Point& stop : fresh) {
     ++taken_;
     if (suspect_.covers(stop)) {
-      ++unplaced_;
+      ++stops_without_position_;
       continue;
     }
     for (std::size_t i = tail_->append(std::move(stop), sequence_); i < sequence_.points.size();
@@ -133,7 +133,7 @@ void Pipeline::take_points() {
   std::vector<Point> placed;
   std::copy_if(found_.begin(), found_.end(), std::back_inserter(placed),
                [this](const Point& stop) { return !suspect_.covers(stop); });
-  unplaced_ = found_.size() - placed.size();
+  stops_without_position_ = found_.size() - placed.size();
   corrections_.apply(solver_, placed);
   sequence_ = algo::recognise_sequence(placed, options_.sequence);
   const algo::Residuals residuals = this->residuals();
@@ -152,7 +152,7 @@ bool Pipeline::moved() const {
   return s.encoder_max_m - s.encoder_min_m >= options_.dwell.approach_m;
 }
 
-Status Pipeline::explain_nothing() const {
+Status Pipeline::check_has_points() const {
   const auto& s = dwell_.summary();
   if (s.scans == 0 && s.unplaced > 0)
     return bad_input(
@@ -169,7 +169,8 @@ Status Pipeline::explain_nothing() const {
                      "): the axis did not move, or encoder_mm is not the axis position; check the "
                      "encoder's channel and unit");
   }
-  if (unplaced_ > 0 && unplaced_ == found_.size()) return bad_input(words::text(not_placed()));
+  if (stops_without_position_ > 0 && stops_without_position_ == found_.size())
+    return bad_input(words::text(not_placed()));
   const auto problem = algo::encoder_unit_notice(s.encoder_max_m - s.encoder_min_m);
   if (!found_.empty()) {
     return bad_input("none of the " + std::to_string(found_.size()) +
@@ -186,7 +187,7 @@ Status Pipeline::explain_nothing() const {
 }
 
 // A probe without values is an error if the other probes are too few to solve a point.
-Status Pipeline::judge_dead_probes(Notices& notices) const {
+Status Pipeline::check_dead_probes(Notices& notices) const {
   const bool needed = std::none_of(sequence_.points.begin(), sequence_.points.end(),
                                    [](const MeasuredPoint& p) { return p.errors.valid; });
   const auto too_slow = aligner_.too_slow();
@@ -234,14 +235,14 @@ Result<Run> Pipeline::finish() {
   aligner_.flush(frames_);
   find_stops();
   dwell_.flush(found_);
-  leave_out_beyond();
+  drop_excess_stops();
   take_points();
-  if (sequence_.points.empty() || !moved()) MDOF_CHECK(explain_nothing());
+  if (sequence_.points.empty() || !moved()) MDOF_CHECK(check_has_points());
   Notices first;
-  MDOF_CHECK(judge_dead_probes(first));
+  MDOF_CHECK(check_dead_probes(first));
   append(first, sequence_.notices);
-  if (unplaced_ > 0) first.push_back(not_placed());
-  if (is_full()) first.push_back(beyond_limit());
+  if (stops_without_position_ > 0) first.push_back(not_placed());
+  if (is_full()) first.push_back(excess_stops_notice());
   Notices partial;
   if (auto why = never_stops()) partial.push_back(std::move(*why));
   const algo::Residuals residuals = this->residuals();

@@ -38,7 +38,7 @@ class Pipeline : RunBuilder {
   // Called with the calibrated instants of each push, before dwells are searched.
   void watch(std::function<void(const FrameBlock&)> watcher) { watcher_ = std::move(watcher); }
   bool still() const { return dwell_.still(); }
-  bool is_full() const { return found_.size() >= options_.most_stops; }
+  bool is_full() const { return found_.size() >= options_.max_stops; }
   std::optional<std::string> waiting_for() const { return aligner_.waiting_for(); }
   // The target's errors at one instant, stated at the fixture.
   AxisErrors solve_at(double encoder_m, const std::vector<double>& readings_m,
@@ -54,29 +54,30 @@ class Pipeline : RunBuilder {
  private:
   Pipeline(Rig rig, PipelineOptions options, algo::Solver solver);
   void find_stops();
-  void leave_out_beyond();
-  Notice beyond_limit() const;
-  void note_break(const SampleBlock& raw);
+  void drop_excess_stops();
+  Notice excess_stops_notice() const;
+  void note_scan_loss(const SampleBlock& raw);
   Notice not_placed() const;
   std::optional<Notice> never_stops() const;
   void take_points();
   void take_new_points();
   algo::Residuals residuals() const;
   bool moved() const;
-  Status explain_nothing() const;
-  Status judge_dead_probes(Notices& notices) const;
+  Status check_has_points() const;
+  Status check_dead_probes(Notices& notices) const;
 
   algo::DwellDetector dwell_;
   FrameBlock newest_;
   std::function<void(const FrameBlock&)> watcher_;
   std::vector<Point> found_;  // averaged, not corrected
-  std::size_t beyond_ = 0;    // stops after most_stops
+  std::size_t beyond_ = 0;    // stops after max_stops
   std::size_t taken_ = 0;     // number of stops of found_ in sequence_
   algo::Sequence sequence_;
   std::optional<algo::SequenceTail> tail_;  // continues sequence_ by single points
-  std::size_t whole_at_ = 0;  // size of found_ at which the whole sequence is recognised again
+  std::size_t next_full_recognition_ =
+      0;  // size of found_ at which the whole sequence is recognised again
   std::optional<std::int64_t> begin_ns_, encoder_ns_;  // first and last scan of the encoder
-  std::size_t unplaced_ = 0;  // number of stops of found_ without a position
+  std::size_t stops_without_position_ = 0;  // number of stops of found_ without a position
 };
 
 }  // namespace mdof::daemon

@@ -27,8 +27,8 @@ struct PipelineOptions {
   int repeats = 0;            // requested repeats from both sides; 0: until stopped
   bool remove_drift = false;  // remove significant drift from the errors (algo/drift)
   std::optional<algo::OnTheFlyOptions> on_the_fly;  // for replays; dwells are then not searched
-  EncoderDatum datum;                   // datum that the pushed positions already contain
-  std::size_t most_stops = kMostStops;  // further stops are counted and left out
+  EncoderDatum datum;                  // datum that the pushed positions already contain
+  std::size_t max_stops = kMostStops;  // further stops are counted and left out
 
   std::string json() const;  // for the provenance
   // The part of json() that the configuration gives: without the devices' rates, targets and datum.

@@ -33,7 +33,7 @@ Result<QueryThread::Work> analyse_run(Methods&, const Params& params) {
       return bad_input("run " + std::to_string(id) + " has " + std::to_string(points) +
                            " points (limit of one call: " + std::to_string(kMostPoints) + ")",
                        Remedy::analyse_run);
-    MDOF_TRY(const Run run, run_stated_at(store, id, reference));
+    MDOF_TRY(const Run run, restated_run(store, id, reference));
     return analysis_document(store, run);
   };
 }

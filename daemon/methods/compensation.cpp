@@ -57,15 +57,16 @@ Result<TableRequest> read_table_request(const Params& params) {
 void build(Methods& m, const Params& params, Reply reply) {
   auto request = read_table_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
-  request->action = action_of(params, "compensation.build");
+  request->action = caller_action(params, "compensation.build");
   answer_with_change(
       m, std::move(reply), [request = *request](store::Store& reader) -> Result<Change> {
         MDOF_TRY(auto calculated, calculate_table(reader, request));
         return [built = std::move(calculated),
                 action = request.action](store::Store& store) mutable -> Result<std::string> {
           MDOF_CHECK(store_table(store, built.table, action));
-          const std::string document = table_document(built.table, 0, !built.doubtful.empty(),
-                                                      page_beside(built.notices, kMaxGridPage));
+          const std::string document =
+              table_document(built.table, 0, !built.doubtful.empty(),
+                             page_with_notices(built.notices, kMaxGridPage));
           return with_notices(document, built.notices, words::text);
         };
       });

@@ -29,10 +29,10 @@ std::string datum_reply(Axis axis, double position_mm, const EncoderDatum& datum
 void set_encoder(Methods& m, const Params& params, Reply reply) {
   const auto axis = axis_param(params);
   if (!axis) return reply(tl::unexpected(axis.error()));
-  const auto station = station_of(m, *axis);
+  const auto station = find_station(m, *axis);
   if (!station) return reply(tl::unexpected(station.error()));
   const double position_mm = params.number("position_mm");
-  const HistoryEntry action = action_of(params, "encoder.set");
+  const HistoryEntry action = caller_action(params, "encoder.set");
   auto shared = std::make_shared<Reply>(std::move(reply));
   (*station)->set_encoder(from_mm(position_mm), action, [=](const Result<EncoderDatum>& set) {
     if (!set) return (*shared)(tl::unexpected(set.error()));

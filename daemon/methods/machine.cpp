@@ -20,7 +20,7 @@ constexpr const char* kComponents[] = {"x_um", "y_um", "z_um", "a_urad", "b_urad
 
 // Rejects machines with files, because this method is called at each command and reads no files.
 Status check_no_files(const Machine& machine) {
-  if (!names_files(machine)) return {};
+  if (!has_table_files(machine)) return {};
   return bad_input(
       "the machine file refers to other files, but machine.at does not read files; write the "
       "tables into the machine file (EXX_um = [[…]]), or refer to runs and tables of the database");

@@ -68,9 +68,9 @@ inline void add_all_methods(rpc::MethodTable& table, Methods& m) {
 }
 
 // Shared by all nouns.
-HistoryEntry action_of(const rpc::Params& params, std::string name);  // by the caller, at the
-                                                                      // present time
-// As action_of(), with the parameter "reason".
+HistoryEntry caller_action(const rpc::Params& params, std::string name);  // by the caller, at the
+                                                                          // present time
+// As caller_action(), with the parameter "reason".
 HistoryEntry action_with_reason(const rpc::Params& params, std::string name);
 Result<Axis> axis_param(const rpc::Params& params);
 // Parameters for the limits of a deviation or correction.
@@ -87,7 +87,7 @@ Result<algo::Command> command_of(const rpc::Params& params, const Machine& machi
 // The runs along two axes: two of run_x, run_y and run_z.
 std::vector<rpc::Param> squareness_params(std::vector<rpc::Param> more = {});
 Result<SquarenessRequest> squareness_param(const rpc::Params& params);
-Result<Station*> station_of(Methods& m, Axis axis);
+Result<Station*> find_station(Methods& m, Axis axis);
 // A handler in two steps: `read`(m, params) takes the parameters on the event loop and returns the
 // work, which makes the answer on the thread "query".
 template <class Read>

@@ -69,7 +69,7 @@ std::string rig_json(const Rig& rig) {
 
 Result<std::string> get_rig(Methods& m, const Params& params) {
   MDOF_TRY(const Axis axis, axis_param(params));
-  MDOF_TRY(const Station* station, station_of(m, axis));
+  MDOF_TRY(const Station* station, find_station(m, axis));
   return rig_json(station->config().rig);
 }
 

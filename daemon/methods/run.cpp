@@ -92,7 +92,7 @@ Result<RunRequest> read_run_request(const Params& params) {
 }
 
 // Notices on devices whose clock drift is not yet known, if there are several clocks.
-Notices unsettled_clocks(const Station& station) {
+Notices unsettled_clock_notices(const Station& station) {
   const auto devices = station.devices();
   Notices found;
   if (devices.size() < 2) return found;
@@ -103,7 +103,7 @@ Notices unsettled_clocks(const Station& station) {
 }
 
 // Notices on trouble before the start of the run. Trouble during the run is added at its end.
-Notices standing_trouble(const Station& station) {
+Notices present_troubles(const Station& station) {
   Notices found;
   for (const auto& device : station.devices())
     for (const auto& trouble : device.standing)
@@ -113,7 +113,7 @@ Notices standing_trouble(const Station& station) {
 }
 
 // Notices on settings of devices that change their readings, such as filters.
-Notices settings_of_devices(const Station& station) {
+Notices device_setting_notices(const Station& station) {
   Notices found;
   for (const auto& device : station.devices())
     for (const Notice& of_device : device.info.notices)
@@ -123,7 +123,7 @@ Notices settings_of_devices(const Station& station) {
 
 // Error: the run has ended, but its end is not yet stored.
 Status check_end_is_stored(const Methods& m, std::int64_t run) {
-  const std::string why = m.keeper.why_open(run);
+  const std::string why = m.keeper.still_open_reason(run);
   if (why.empty()) return {};
   return fail(ErrorCode::conflict, "run " + std::to_string(run) + " has ended; " + why);
 }
@@ -149,9 +149,9 @@ Status check_probes_free(const Methods& m, const Station& station) {
 void begin_run(const Methods& m, Station& station, RunRequest request, Reply reply) {
   if (auto free = check_probes_free(m, station); !free) return reply(tl::unexpected(free.error()));
   // A resumed run has some of these notices already.
-  append_new(request.notices, standing_trouble(station));
-  append_new(request.notices, unsettled_clocks(station));
-  append_new(request.notices, settings_of_devices(station));
+  append_new(request.notices, present_troubles(station));
+  append_new(request.notices, unsettled_clock_notices(station));
+  append_new(request.notices, device_setting_notices(station));
   // The stored run has its datum among its options, so that it does not need this notice.
   RunRequest told = request;
   if (auto missing = station.encoder().notice) told.notices.push_back(std::move(*missing));
@@ -162,11 +162,11 @@ void begin_run(const Methods& m, Station& station, RunRequest request, Reply rep
 void start_run(Methods& m, const Params& params, Reply reply) {
   const auto axis = axis_param(params);
   if (!axis) return reply(tl::unexpected(axis.error()));
-  const auto station = station_of(m, *axis);
+  const auto station = find_station(m, *axis);
   if (!station) return reply(tl::unexpected(station.error()));
   auto request = read_run_request(params);
   if (!request) return reply(tl::unexpected(request.error()));
-  request->action = action_of(params, "run.start");
+  request->action = caller_action(params, "run.start");
   begin_run(m, **station, *request, std::move(reply));
 }
 
@@ -175,11 +175,11 @@ void resume_run(Methods& m, const Params& params, Reply reply) {
   if (auto free = check_end_is_stored(m, run); !free) return reply(tl::unexpected(free.error()));
   const auto header = m.reader.run_header(run);
   if (!header) return reply(tl::unexpected(header.error()));
-  const auto station = station_of(m, header->axis);
+  const auto station = find_station(m, header->axis);
   if (!station) return reply(tl::unexpected(station.error()));
   auto request = request_to_resume(m.reader, run, (*station)->config());
   if (!request) return reply(tl::unexpected(request.error()));
-  request->action = action_of(params, "run.resume");
+  request->action = caller_action(params, "run.resume");
   begin_run(m, **station, *request, std::move(reply));
 }
 
@@ -189,7 +189,7 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
   for (auto& station : m.stations) {
     if (id < 1 || station->run() != id) continue;  // 0: no run; -1: a run is about to begin
     const bool abort = params.boolean("abort");
-    return station->stop_run(abort, action_of(params, abort ? "run.abort" : "run.stop"),
+    return station->stop_run(abort, caller_action(params, abort ? "run.abort" : "run.stop"),
                              answer_with_end(m, std::move(reply), station->config().rig.axis));
   }
   reply(fail(ErrorCode::not_found, "run " + std::to_string(id) +
@@ -199,7 +199,7 @@ void stop_run(Methods& m, const Params& params, Reply reply) {
 // A run that is stored as open although it is not measured gets the state `ended` and the reason.
 void explain(const Methods& m, RunHeader& header) {
   if (header.state != RunState::open) return;
-  std::string why = m.keeper.why_open(header.id);
+  std::string why = m.keeper.still_open_reason(header.id);
   if (why.empty()) return;
   header.state = RunState::ended;
   header.notices.push_back(notice(NoticeCode::run_still_open, "", {{"reason", why}}));
@@ -220,7 +220,7 @@ Result<QueryThread::Work> list_runs(Methods& m, const Params& params) {
 
 // Limits the time of a call, because other clients wait: a long run has no figures with
 // uncertainty.
-StatedRun stated_in_a_call(const Run& run) {
+StatedRun limited_stated_run(const Run& run) {
   constexpr std::size_t kMostStated = 5'000;  // some 0.2 s; 110 points: 0.02 s
   if (run.points.size() <= kMostStated) return stated_run(run);
   Run beginning = run;
@@ -238,7 +238,7 @@ Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::i
     return bad_input("run " + std::to_string(id) + " has " + std::to_string(points) +
                          " points (limit of one call: " + std::to_string(kMaxRunPoints) + ")",
                      Remedy::show_run, std::to_string(id));
-  MDOF_TRY(auto run, run_stated_at(store, id, reference));
+  MDOF_TRY(auto run, restated_run(store, id, reference));
   explain(m, run.header);
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
   MDOF_TRY(const auto actions, store.actions_of_run(id));
@@ -249,9 +249,9 @@ Result<std::string> whole_run_json(const Methods& m, store::Store& store, std::i
     if (whole.size() <= kPageBytes) return whole;
     return imported_document(run, shortened(run.header), figures, sha256, actions, false);
   }
-  const StatedRun stated = stated_in_a_call(run);
-  const auto document = [&](const RunHeader& header, std::size_t most_visits) {
-    return run_document({run, header, stated.points, stated.figures, false, most_visits}, sha256,
+  const StatedRun stated = limited_stated_run(run);
+  const auto document = [&](const RunHeader& header, std::size_t visit_limit) {
+    return run_document({run, header, stated.points, stated.figures, false, visit_limit}, sha256,
                         actions);
   };
   std::string whole = document(run.header, kMaxVisits);

@@ -14,22 +14,22 @@ namespace mdof::daemon {
 
 namespace {
 
-constexpr std::size_t kAfterFirst = 1;  // points_stated_at() returns the run's first point before
+constexpr std::size_t kAfterFirst = 1;  // restated_points() returns the run's first point before
                                         // the page
 
-// `run`: as from points_stated_at().
+// `run`: as from restated_points().
 std::string imported_page(const Run& run, std::int64_t total, std::int64_t offset) {
-  const std::string key = error_of_imported(run.header).key();
+  const std::string key = imported_run_error(run.header).key();
   JsonWriter json;
   json.begin_object()
       .field("run", run.header.id)
       .field("axis", std::string(1, letter(run.header.axis)))
       .field("total", total)
       .field("offset", offset);
-  const Covers covers = covers_of_readings(run);
+  const Covers covers = readings_coverage(run);
   write_covers(json, covers_text(covers), {});
   json.key("points").begin_array();
-  append_page_of(json, kAfterFirst, run.points.size(), [&](std::size_t j) {
+  append_page_by_index(json, kAfterFirst, run.points.size(), [&](std::size_t j) {
     JsonWriter item;
     write_imported_point(item, run.points[j], key);
     return item.take();
@@ -52,7 +52,7 @@ Status RunPages::look_at(store::Store& store, std::int64_t id, std::int64_t poin
   if (known_ && known_->points == points && known_->reference == reference &&
       is_same(known_->header))
     return {};
-  MDOF_TRY(const Run whole, run_stated_at(store, id, reference));
+  MDOF_TRY(const Run whole, restated_run(store, id, reference));
   known_ = Known{points, reference, std::move(header), uncertainty_of(whole)};
   return {};
 }
@@ -60,12 +60,12 @@ Status RunPages::look_at(store::Store& store, std::int64_t id, std::int64_t poin
 Result<std::string> RunPages::points(store::Store& store, std::int64_t id, rpc::ListPage page,
                                      Reference reference) {
   MDOF_TRY(const auto total, store.count_points(id));
-  MDOF_TRY(const Run run, points_stated_at(store, id, page.offset, page.count, reference));
+  MDOF_TRY(const Run run, restated_points(store, id, page.offset, page.count, reference));
   if (is_imported(run.header)) return imported_page(run, total, page.offset);
-  const bool is_long = total > static_cast<std::int64_t>(algo::kMostPointsOfRepeatability);
+  const bool is_long = total > static_cast<std::int64_t>(algo::kRepeatabilityPointLimit);
   RunUncertainty of_page;
   if (is_long)
-    of_page = uncertainty_of_stops(run);
+    of_page = stop_uncertainty(run);
   else
     MDOF_CHECK(look_at(store, id, total, reference));
   const RunUncertainty& uncertainty = is_long ? of_page : known_->uncertainty;
@@ -79,7 +79,7 @@ Result<std::string> RunPages::points(store::Store& store, std::int64_t id, rpc::
   write_reference(json, run.header.stated);
   write_covers(json, uncertainty);
   json.key("points").begin_array();
-  append_page_of(json, kAfterFirst, run.points.size(), [&](std::size_t j) {
+  append_page_by_index(json, kAfterFirst, run.points.size(), [&](std::size_t j) {
     JsonWriter item;
     write_point(item, run.header.moving(), run.points[j], uncertainty.points[row + j]);
     return item.take();

@@ -68,7 +68,7 @@ std::string server_info(const Methods& m) {
     for (const auto& device : station->config().devices) json.value(device.name);
     json.end_array();
     const std::int64_t run = station->run();
-    const bool ended = run > 0 && !m.keeper.why_open(run).empty();
+    const bool ended = run > 0 && !m.keeper.still_open_reason(run).empty();
     json.key("run");
     run > 0 && !ended ? json.value(run) : json.null();
     json.key("unstored_run");
@@ -111,15 +111,15 @@ Result<std::string> subscribe(const Params& params) {
 
 }  // namespace
 
-HistoryEntry action_of(const Params& params, std::string name) {
+HistoryEntry caller_action(const Params& params, std::string name) {
   const auto who = params.caller().credentials();
   if (!who)
     return action_now(std::move(name), {-1, -1, -1, params.caller().over_http() ? "web" : "tcp"});
-  return action_now(std::move(name), actor_of(who->uid, who->gid, who->pid));
+  return action_now(std::move(name), actor_from_ids(who->uid, who->gid, who->pid));
 }
 
 HistoryEntry action_with_reason(const Params& params, std::string name) {
-  HistoryEntry action = action_of(params, std::move(name));
+  HistoryEntry action = caller_action(params, std::move(name));
   action.detail = params.string("reason");
   return action;
 }
@@ -156,7 +156,7 @@ Result<Reference> reference_param(const Params& params) {
               "reference \"" + name + "\" must be \"fixture\", \"carriage\" or \"tool\"");
 }
 
-Result<Station*> station_of(Methods& m, Axis axis) {
+Result<Station*> find_station(Methods& m, Axis axis) {
   for (auto& station : m.stations) {
     if (station->config().rig.axis == axis) return station.get();
   }

@@ -19,7 +19,7 @@ void squareness(Methods& m, const Params& params, Reply reply) {
   // Earlier versions used the second name.
   for (const char* key : {"u_artefact_angle_urad", "u_artefact_urad"})
     if (params.has(key)) request.given.u_rad = from_urad(params.number(key));
-  request.action = action_of(params, "squareness.fit");
+  request.action = caller_action(params, "squareness.fit");
   answer_with_change(m, std::move(reply), [request](store::Store& reader) -> Result<Change> {
     MDOF_TRY(auto found, calculate_squareness(reader, request));
     MDOF_TRY(const auto by_line, lines_of_squareness(reader, found.squareness));

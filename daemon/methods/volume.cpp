@@ -72,7 +72,7 @@ Result<VolumetricTableRequest> read_request(const Params& params) {
 
 std::string built_json(const BuiltVolumetric& built) {
   const std::string document = volumetric_document(built.table, 0, !built.doubtful.empty(),
-                                                   page_beside(built.notices, kMaxNodesPage));
+                                                   page_with_notices(built.notices, kMaxNodesPage));
   return with_notices(document, built.notices, words::text);
 }
 
@@ -82,7 +82,7 @@ struct ClientFiles {
   std::optional<FileUser> user;  // nullopt: the client is not on the Unix socket
 
   Status read(VolumetricTableRequest& request) const {
-    if (!names_files(request.machine)) return {};
+    if (!has_table_files(request.machine)) return {};
     if (!user || !source.starts_with('/'))
       return fail(ErrorCode::usage, source +
                                         ": the machine file refers to other files; connect to the "
@@ -90,7 +90,7 @@ struct ClientFiles {
                                         "of the machine file, or write the tables into the "
                                         "machine file");
     std::vector<ClientFile> open;
-    const FindFile beside = files_beside(source);
+    const FindFile beside = files_in_same_folder(source);
     MDOF_TRY(
         const std::string hashes,
         read_machine_files(request.machine, [&](const std::string& name) -> Result<std::string> {
@@ -116,7 +116,7 @@ void build_volume(Methods& m, const Params& params, Reply reply) {
   if (!request) return reply(tl::unexpected(request.error()));
   answer_with_change(m, std::move(reply),
                      [request = std::move(*request), files = client_files(params),
-                      action = action_of(params, "compensation.build_volume")](
+                      action = caller_action(params, "compensation.build_volume")](
                          store::Store& reader) mutable -> Result<Change> {
                        MDOF_CHECK(files.read(request));
                        MDOF_TRY(auto calculated, calculate_volumetric(reader, request));
@@ -180,12 +180,13 @@ Result<std::string> volume_grid(const Methods& m, const Params& params) {
   json.field("offset", offset).key("points").begin_array();
   const auto total = static_cast<std::int64_t>(table.nodes());
   const std::int64_t end = std::min(total, offset + count);
-  append_page_of(json, static_cast<std::size_t>(std::min(offset, total)),
-                 static_cast<std::size_t>(std::max<std::int64_t>(end, 0)), [&](std::size_t node) {
-                   JsonWriter row;
-                   write_volumetric_node(row, table, node, with_parts);
-                   return row.take();
-                 });
+  append_page_by_index(json, static_cast<std::size_t>(std::min(offset, total)),
+                       static_cast<std::size_t>(std::max<std::int64_t>(end, 0)),
+                       [&](std::size_t node) {
+                         JsonWriter row;
+                         write_volumetric_node(row, table, node, with_parts);
+                         return row.take();
+                       });
   json.end_array().end_object();
   return json.take();
 }

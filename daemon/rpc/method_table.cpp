@@ -128,7 +128,7 @@ std::string MethodTable::nearest(std::string_view name) const {
   if (name.size() > 64) return {};  // the distance of long texts takes long and is useless
   std::vector<std::string> names;
   for (const auto& [known, method] : methods_) names.push_back(known);
-  return nearest_of(name, names);
+  return nearest_candidate(name, names);
 }
 
 const std::string& MethodTable::schema_of(const Method& method) const {

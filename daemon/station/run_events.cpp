@@ -39,7 +39,7 @@ std::string points_json(const Run& part, const RunUncertainty& uncertainty, std:
       .field("reference", to_string(part.header.stated.reference));
   write_covers(json, uncertainty);
   json.key("points").begin_array();
-  next += append_page_of(json, next, part.points.size(), [&](std::size_t j) {
+  next += append_page_by_index(json, next, part.points.size(), [&](std::size_t j) {
     JsonWriter item;
     write_point(item, part.header.moving(), part.points[j], uncertainty.points[j]);
     return item.take();
@@ -56,7 +56,7 @@ std::vector<std::string> points_messages(std::int64_t run, const Rig& rig, Model
   std::vector<std::string> messages;
   if (first_row >= points.size()) return messages;
   const Run part = first_and_new(run, rig, model, points, first_row);
-  const RunUncertainty uncertainty = algo::uncertainty_of_stops(rig, part);
+  const RunUncertainty uncertainty = algo::stop_uncertainty(rig, part);
   for (std::size_t next = 1; next < part.points.size();)
     messages.push_back(points_json(part, uncertainty, first_row, next));
   return messages;

@@ -53,7 +53,7 @@ Station::Station(AxisConfig config, PipelineOptions options, std::string configu
 void Station::begin_stopping() {
   resuming_ = false;
   if (!config_.live()) return;
-  for (auto& acquisition : acquisitions_) acquisition->cease();
+  for (auto& acquisition : acquisitions_) acquisition->request_stop();
 }
 
 Station::~Station() {
@@ -152,10 +152,10 @@ NewRun Station::describe_run(const RunRequest& request, const PipelineOptions& o
   return run;
 }
 
-std::string Station::why_occupied(std::int64_t run) const {
+std::string Station::occupied_reason(std::int64_t run) const {
   const std::string of = std::string("a run of axis ") + letter(config_.rig.axis);
   if (run < 0) return of + " is about to begin, or the axis position is being stored; try again";
-  if (const std::string why = keeper_.why_open(run); !why.empty())
+  if (const std::string why = keeper_.still_open_reason(run); !why.empty())
     return of + " (run " + std::to_string(run) + ") has ended; " + why;
   return of + " is under way; stop this run first";
 }
@@ -170,7 +170,7 @@ void Station::start_run(const RunRequest& request, const RunDone& done) {
   }
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1)) {
-    return done(fail(ErrorCode::conflict, why_occupied(none)));
+    return done(fail(ErrorCode::conflict, occupied_reason(none)));
   }
   const auto options = std::make_shared<const PipelineOptions>(options_for(request));
   NewRun description = describe_run(request, *options);

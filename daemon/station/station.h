@@ -102,7 +102,7 @@ class Station {
   static constexpr std::size_t kQueuedBlocks = 1024;
 
   // Why nothing can begin on the axis, for a value of shared_->run that is not 0.
-  std::string why_occupied(std::int64_t run) const;
+  std::string occupied_reason(std::int64_t run) const;
   DeviceSink sink();
   NewRun describe_run(const RunRequest& request, const PipelineOptions& options) const;
   PipelineOptions options_for(const RunRequest& request) const;
@@ -145,7 +145,7 @@ class Station {
   void note_newest();
   void show_live();
   void watch_range(Pipeline& pipeline);
-  std::vector<std::string> standing_trouble() const;
+  std::vector<std::string> present_troubles() const;
 
   const AxisConfig config_;
   const PipelineOptions options_;

@@ -16,7 +16,7 @@ void Station::set_encoder(double position_m, const HistoryEntry& action, DatumDo
                      "axis " + axis + " is read from a log, so its position cannot be set"));
   std::int64_t none = 0;
   if (!shared_->run.compare_exchange_strong(none, -1))
-    return done(fail(ErrorCode::conflict, why_occupied(none)));
+    return done(fail(ErrorCode::conflict, occupied_reason(none)));
   shared_->post([position_m, action, done = std::move(done)](Station& s) {
     s.take_datum(position_m, action, done);
   });

@@ -304,7 +304,7 @@ void Station::keep_new_points(const std::vector<MeasuredPoint>& points) {
 void Station::finish(RunState state, Notices why, const drivers::SourceInfo& source, RunDone done,
                      const std::optional<HistoryEntry>& action) {
   if (!config_.live())
-    acquisitions_.front()->cease();  // samples that still arrive belong to this pass
+    acquisitions_.front()->request_stop();  // samples that still arrive belong to this pass
   auto result = open_->pipeline.finish();
   // The stop at which the run ended becomes a point only now.
   record();
@@ -363,7 +363,7 @@ void Station::note_newest() {
   newest_since_ = steady_clock::now();
 }
 
-std::vector<std::string> Station::standing_trouble() const {
+std::vector<std::string> Station::present_troubles() const {
   std::vector<std::string> lines;
   for (const auto& device : devices())
     for (const auto& trouble : device.standing) lines.push_back(trouble_line(trouble));
@@ -382,7 +382,7 @@ void Station::show_live() {
   if (now - last_live_ < every) return;
   last_live_ = now;
   const bool stale = now - newest_since_ > std::chrono::duration<double>(options_.stale_s);
-  const LiveState state{config_.simulated(), stale, open_ ? open_->id : 0, standing_trouble()};
+  const LiveState state{config_.simulated(), stale, open_ ? open_->id : 0, present_troubles()};
   shared_->events.live(live_json(config_.rig, *from, recent_, state));
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kActions =
     "SELECT id, name, subject, row, uid, gid, pid, user, utc FROM deed ";
 
-HistoryEntry action_of(const Statement& row) {
+HistoryEntry caller_action(const Statement& row) {
   HistoryEntry action;
   action.id = row.integer(0);
   action.name = row.text(1);
@@ -52,7 +52,7 @@ Result<std::vector<HistoryEntry>> Store::read_actions(Statement& rows) {
   for (;;) {
     MDOF_TRY(const bool row, rows.step());
     if (!row) return list;
-    list.push_back(action_of(rows));
+    list.push_back(caller_action(rows));
     MDOF_CHECK(check_link(connection_, Fact::action, list.back().id));
     MDOF_CHECK(add_detail(list.back()));
   }

@@ -48,14 +48,14 @@ Status check_one_name(const fs::path& file) {
 
 // A database of another user that no mdof writes is opened as a snapshot, because creating our own
 // -shm would write to that user's folder.
-OpenMode way_to_read(const fs::path& file) {
+OpenMode read_open_mode(const fs::path& file) {
   struct stat now {};
   const bool foreign = ::stat(file.c_str(), &now) == 0 && now.st_uid != ::geteuid();
   return foreign && !WriterLock::held(file) ? OpenMode::snapshot : OpenMode::read_only;
 }
 
 Result<Connection> open_reader(const fs::path& file, int busy_timeout_ms) {
-  MDOF_TRY(Connection connection, Connection::open(file, way_to_read(file), busy_timeout_ms));
+  MDOF_TRY(Connection connection, Connection::open(file, read_open_mode(file), busy_timeout_ms));
   MDOF_CHECK(check_kind(connection, known_version()));
   MDOF_CHECK(check_one_name(file));
   return connection;

@@ -91,7 +91,7 @@ void set_series(CompensationTable& table, const Parts& parts, const std::vector<
 
 // Binds the reference point, set-up and machine for which the table holds.
 void bind_statement(Statement& insert, const CompensationTable& t) {
-  const std::string travels = travels_of(t.machine);
+  const std::string travels = chain_travels_text(t.machine);
   insert.bind(std::string_view(t.sides.moves())).bind(std::string_view(t.sides.travel()));
   insert.bind(std::string_view(to_string(t.stated.reference)));
   insert.bind_bytes(bytes_of(t.stated.point_m));

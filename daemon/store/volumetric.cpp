@@ -100,7 +100,7 @@ Result<std::int64_t> Store::add_volumetric(const VolumetricTable& table,
                "not_measured, u_not_declared, beyond_tables, u_independent_m, noise, "
                "reversal_m, doubtful, noise_only_all) VALUES "
                "(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
-  const std::string travels = travels_of(table.machine);
+  const std::string travels = chain_travels_text(table.machine);
   insert.bind(id).bind(std::string_view(table.name)).bind(description);
   insert.bind(std::string_view(table.machine.text)).bind(std::string_view(travels));
   insert.bind(std::int64_t{table.simulated});

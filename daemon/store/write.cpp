@@ -236,7 +236,7 @@ Status Store::insert_points(std::int64_t run, std::int64_t first_row,
                                "((?1 << 32) + ?2, ?1, ?2, "
                                "?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)"));
   for (const MeasuredPoint& point : points) {
-    const std::string flags = json_array(texts_of(point.point.flags));
+    const std::string flags = json_array(flag_texts(point.point.flags));
     insert.bind(run).bind(first_row++);
     bind_point(insert, point, flags);
     bind_errors(insert, point.errors);

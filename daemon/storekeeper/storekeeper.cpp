@@ -13,9 +13,9 @@
 namespace mdof::daemon {
 namespace {
 
-constexpr std::chrono::milliseconds kLongestPop{500};    // the thread must report to the watchdog
-constexpr std::chrono::milliseconds kBetweenLooks{200};  // between checks of the files
-constexpr std::chrono::seconds kBetweenTries{1};         // between attempts to open the database
+constexpr std::chrono::milliseconds kLongestPop{500};  // the thread must report to the watchdog
+constexpr std::chrono::milliseconds kFileCheckInterval{200};  // between checks of the files
+constexpr std::chrono::seconds kOpenRetryInterval{1};  // between attempts to open the database
 constexpr std::size_t kQueueLength = 4096;  // jobs: blocks of samples, points, calls of clients
 
 Result<store::Store> open_database(const Storekeeper::Options& options) {
@@ -46,7 +46,7 @@ StorageState not_writable(const Storekeeper::Options& options, const Error& erro
 }
 
 // Whether existing data can be served although nothing can be stored.
-bool can_only_be_read(const Storekeeper::Options& options, const Error& why) {
+bool is_only_readable(const Storekeeper::Options& options, const Error& why) {
   if (why.code != ErrorCode::io) return false;
   const store::StoreOptions how{options.durability, static_cast<int>(options.busy_timeout.count())};
   return store::Store::open(options.database, store::Access::read_only, how).has_value();
@@ -60,7 +60,7 @@ Error not_readable(const Storekeeper::Options& options, Error why) {
 }
 
 // An ending mdofd may still lock the database for a short time.
-Result<store::Store> open_patiently(const Storekeeper::Options& options) {
+Result<store::Store> open_with_retries(const Storekeeper::Options& options) {
   constexpr std::chrono::seconds kPatience{5};
   const auto end = std::chrono::steady_clock::now() + kPatience;
   for (;;) {
@@ -73,8 +73,8 @@ Result<store::Store> open_patiently(const Storekeeper::Options& options) {
 }  // namespace
 
 Result<std::unique_ptr<Storekeeper>> Storekeeper::start(const Options& options, Events events) {
-  auto database = open_patiently(options);
-  if (!database && !can_only_be_read(options, database.error()))
+  auto database = open_with_retries(options);
+  if (!database && !is_only_readable(options, database.error()))
     return tl::unexpected(not_readable(options, std::move(database.error())));
   std::unique_ptr<Storekeeper> keeper(new Storekeeper(options, std::move(events)));
   if (database)
@@ -134,7 +134,7 @@ void Storekeeper::commit_recordings() {
 
 void Storekeeper::open_again() {
   const auto now = std::chrono::steady_clock::now();
-  if (now - tried_ < kBetweenTries) return;
+  if (now - tried_ < kOpenRetryInterval) return;
   tried_ = now;
   auto opened = open_database(options_);
   if (!opened) return set_unopened(not_writable(options_, opened.error()));
@@ -186,7 +186,7 @@ StorageState Storekeeper::storage() const {
   return {};
 }
 
-std::string Storekeeper::why_open(std::int64_t run) const {
+std::string Storekeeper::still_open_reason(std::int64_t run) const {
   const std::lock_guard guard(fault_mutex_);
   const auto found = open_because_.find(run);
   return found == open_because_.end() ? "" : found->second;
@@ -194,7 +194,7 @@ std::string Storekeeper::why_open(std::int64_t run) const {
 
 void Storekeeper::watch_files() {
   const auto now = std::chrono::steady_clock::now();
-  if (now - files_watched_ < kBetweenLooks) return;
+  if (now - files_watched_ < kFileCheckInterval) return;
   files_watched_ = now;
   watch_database();
   announce_head();
@@ -335,7 +335,7 @@ Result<std::int64_t> Storekeeper::begin(NewRun& run) {
 }
 
 // Removes all data of a run that could not begin.
-Result<std::int64_t> Storekeeper::begin_or_clear(NewRun& run) {
+Result<std::int64_t> Storekeeper::begin_or_remove(NewRun& run) {
   const bool made =
       !run.recording.empty() && (run.begun || !std::filesystem::exists(run.recording));
   auto id = begin(run);
@@ -348,7 +348,7 @@ Result<std::int64_t> Storekeeper::begin_or_clear(NewRun& run) {
 bool Storekeeper::begin_run(NewRun run, std::function<void(Result<std::int64_t>)> done) {
   auto shared = std::make_shared<NewRun>(std::move(run));
   const bool posted =
-      queue_.try_push([this, shared, done = std::move(done)] { done(begin_or_clear(*shared)); });
+      queue_.try_push([this, shared, done = std::move(done)] { done(begin_or_remove(*shared)); });
   if (posted || !shared->begun) return posted;
   shared->begun.reset();
   store::RecordingWriter::remove(shared->recording);

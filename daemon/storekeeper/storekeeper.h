@@ -112,7 +112,7 @@ class Storekeeper {
   // it can be stored.
   std::string fault() const;
   // Why a run whose measurement has ended is still stored as open; empty: it is not.
-  std::string why_open(std::int64_t run) const;
+  std::string still_open_reason(std::int64_t run) const;
   // The last announced head of the chain of hashes.
   store::ChainHead chain_head() const;
   // Thread-safe. Reports damage that a reader found; the state stays until mdofd ends.
@@ -139,7 +139,7 @@ class Storekeeper {
   void announce_head();
   void end_finished_runs();
   Result<std::int64_t> begin(NewRun& run);
-  Result<std::int64_t> begin_or_clear(NewRun& run);
+  Result<std::int64_t> begin_or_remove(NewRun& run);
   struct Points;
   struct Ending;
   struct Unended;

@@ -31,7 +31,7 @@ store::RunEnd end_of(const Run& run) {
 }
 
 // The end of a run whose targets were renumbered; `why` states what happened to its points.
-store::RunEnd provisional_of(store::RunEnd whole, NoticeCode why) {
+store::RunEnd renumbered_run_end(store::RunEnd whole, NoticeCode why) {
   whole.state = RunState::failed;
   whole.straightness.clear();
   whole.angles.clear();
@@ -41,7 +41,7 @@ store::RunEnd provisional_of(store::RunEnd whole, NoticeCode why) {
 }
 
 // A run whose end was reported to the client as failed.
-store::RunEnd refused_at_first(store::RunEnd whole, const Error& error) {
+store::RunEnd with_rejection_notice(store::RunEnd whole, const Error& error) {
   whole.notices.push_back(notice(NoticeCode::end_refused, "", {{"reason", words::text(error)}}));
   return whole;
 }
@@ -195,11 +195,12 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
   if (ending.dropped > 0)
     whole.notices.push_back(
         notice(NoticeCode::points_not_stored, "", {{"points", ending.dropped}}));
-  auto superseded =
-      store_->end_and_supersede(run, provisional_of(whole, NoticeCode::superseded_by_renumbering),
-                                ending.result, ending.how.uncertainty);
+  auto superseded = store_->end_and_supersede(
+      run, renumbered_run_end(whole, NoticeCode::superseded_by_renumbering), ending.result,
+      ending.how.uncertainty);
   if (!superseded && !is_busy(superseded))
-    refused_end({run, provisional_of(whole, NoticeCode::renumbering_refused)}, superseded.error());
+    refused_end({run, renumbered_run_end(whole, NoticeCode::renumbering_refused)},
+                superseded.error());
   return superseded;
 }
 
@@ -207,7 +208,7 @@ Result<std::int64_t> Storekeeper::end(Ending& ending) {
 Status Storekeeper::end_or_wait(std::int64_t run, const store::RunEnd& end) {
   Status ended = store_->end_run(run, end);
   if (!ended && !is_busy(ended))
-    refused_end({run, refused_at_first(end, ended.error())}, ended.error());
+    refused_end({run, with_rejection_notice(end, ended.error())}, ended.error());
   return ended;
 }
 

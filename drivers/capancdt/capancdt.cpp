@@ -48,9 +48,9 @@ const DeviceClock* Capancdt::clock() const {
 Status Capancdt::open() {
   session_.reset();
   auto setup = set_up_controller(options_);
-  if (!setup) return naming_device(setup.error());
+  if (!setup) return with_device_name(setup.error());
   auto data = connect_tcp({options_.command.host, setup->data_port}, kConnect);
-  if (!data) return naming_device(data.error());
+  if (!data) return with_device_name(data.error());
   const double frame_ns = setup->frame_ns();
   const int averaged = setup->averaged;
   const auto most_lost = static_cast<std::uint64_t>(std::max(16.0, kMostLost_ns / frame_ns));
@@ -72,12 +72,12 @@ Status Capancdt::open() {
 
 Result<ReadState> Capancdt::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, options_.name, channels_);
-  if (!session_) return naming_device({ErrorCode::io, "is not open; call open() before read()"});
+  if (!session_) return with_device_name({ErrorCode::io, "is not open; call open() before read()"});
   Session& s = *session_;
   if ((s.waiting.empty() || !s.warm) && !s.failed)
     if (auto received = receive(timeout); !received) s.failed = std::move(received.error());
   if (s.warm || s.failed) fill_block(block);
-  if (block.scans() == 0 && s.failed) return naming_device(*s.failed);
+  if (block.scans() == 0 && s.failed) return with_device_name(*s.failed);
   return ReadState::more;
 }
 
@@ -160,7 +160,7 @@ Status Capancdt::check_silence() const {
                   "end the other client, or set the trigger to continuous");
 }
 
-tl::unexpected<Error> Capancdt::naming_device(const Error& error) const {
+tl::unexpected<Error> Capancdt::with_device_name(const Error& error) const {
   const std::string place = options_.command.text();
   const bool named = error.message.find(place) != std::string::npos;
   return in_context("device \"" + options_.name + "\"" + (named ? "" : " at " + place), error);

@@ -61,7 +61,7 @@ class Capancdt final : public Driver {
   Status place_packets(std::chrono::steady_clock::time_point received);
   Status update_clock(std::int64_t received_ns, bool all);
   Status check_silence() const;
-  tl::unexpected<Error> naming_device(const Error& error) const;
+  tl::unexpected<Error> with_device_name(const Error& error) const;
   void fill_block(SampleBlock& block);
   void append(SampleBlock& block, const PlacedPacket& placed);
   void append_value(SampleBlock& block, std::size_t channel, std::optional<std::int32_t> raw) const;

@@ -38,7 +38,7 @@ std::optional<Averaging> read_averaging(TomlTable& table) {
     names.emplace_back(to_string(averaging));
     if (word == names.back()) return given ? std::optional(averaging) : std::nullopt;
   }
-  const std::string near = nearest_of(word, names);
+  const std::string near = nearest_candidate(word, names);
   table.reject("averaging", "must be \"none\", \"moving\", \"arithmetic\", \"median\" or " +
                                 std::string("\"dynamic\"") +
                                 (near.empty() ? "" : "; did you mean \"" + near + "\"?"));

@@ -31,10 +31,10 @@ FrameCounter::FrameCounter(int averaged, std::uint64_t most_lost)
 
 Status FrameCounter::add(Packet packet, std::deque<PlacedPacket>& placed) {
   if (!held_.empty()) {
-    if (came_before(held_.back(), packet)) return drop_duplicate(held_.back(), packet);
+    if (is_duplicate(held_.back(), packet)) return drop_duplicate(held_.back(), packet);
   } else if (last_) {
     const Packet& last = last_->packet;
-    if (came_before(last, packet)) return drop_duplicate(last, packet);
+    if (is_duplicate(last, packet)) return drop_duplicate(last, packet);
     const auto counted = static_cast<std::uint32_t>(moved(last, packet));
     if (last.channel_bits != packet.channel_bits || (unit_ && counted < step(last, *unit_)))
       unit_.reset();
@@ -109,7 +109,7 @@ Status FrameCounter::place(Packet packet, std::deque<PlacedPacket>& placed) {
   return {};
 }
 
-bool FrameCounter::came_before(const Packet& last, const Packet& packet) const {
+bool FrameCounter::is_duplicate(const Packet& last, const Packet& packet) const {
   return moved(last, packet) <= 0;
 }
 

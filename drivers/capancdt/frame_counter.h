@@ -57,7 +57,7 @@ class FrameCounter {
   Status hold(Packet packet, std::deque<PlacedPacket>& placed);
   void vote(const Packet& before, const Packet& packet);
   Status place(Packet packet, std::deque<PlacedPacket>& placed);
-  bool came_before(const Packet& last, const Packet& packet) const;
+  bool is_duplicate(const Packet& last, const Packet& packet) const;
   Status drop_duplicate(const Packet& last, const Packet& packet);
 
   int averaged_;

@@ -129,8 +129,8 @@ std::string SimulatedCapancdt::query(std::string_view command) const {
   if (command == "$TRG?") return std::to_string(o.trigger);
   if (command == "$AVT?") return std::to_string(o.averaging);
   if (command == "$AVN?") return std::to_string(o.averaged_values);
-  if (command == "$ALP?" && o.knows_corrections) return std::to_string(o.low_pass);
-  if (command == "$LIN?" && o.knows_corrections) return joined(o.linearisation);
+  if (command == "$ALP?" && o.supports_corrections) return std::to_string(o.low_pass);
+  if (command == "$LIN?" && o.supports_corrections) return joined(o.linearisation);
   if (command == "$GDP") return std::to_string(o.data_port);
   if (command == "$COI")
     return "ANO" + std::to_string(o.article) + ",NAM" + o.name + ",SNO" + o.serial + ",OPT0,VER" +

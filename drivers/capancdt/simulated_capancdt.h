@@ -64,7 +64,7 @@ class SimulatedCapancdt final : public SimulatedDevice {
     int sample_time_us = 960, trigger = 0, averaging = 0, averaged_values = 2;
     std::vector<int> linearisation = std::vector<int>(4);  // of each input
     int low_pass = 0;
-    bool knows_corrections = true;  // supports $LIN? and $ALP?
+    bool supports_corrections = true;  // supports $LIN? and $ALP?
     Faults faults = {};
   };
 

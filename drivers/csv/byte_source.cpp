@@ -49,7 +49,7 @@ Result<std::unique_ptr<ByteSource>> ByteSource::open(const std::string& path, bo
   std::unique_ptr<ByteSource> source(new ByteSource(descriptor, name, size));
   if (known && S_ISDIR(state.st_mode)) return bad_input(name + ": is a folder; give a CSV file");
   ::posix_fadvise(descriptor, 0, 0, POSIX_FADV_SEQUENTIAL);
-  MDOF_CHECK(source->look_for_gzip(hash));
+  MDOF_CHECK(source->detect_gzip(hash));
   return source;
 }
 
@@ -63,7 +63,7 @@ ByteSource::~ByteSource() {
   ::close(descriptor_);
 }
 
-Status ByteSource::look_for_gzip(bool hash) {
+Status ByteSource::detect_gzip(bool hash) {
   MDOF_CHECK(refill());
   if (!Gunzip::recognises(pending_)) return {};
   gunzip_ = std::make_unique<Gunzip>();

@@ -45,7 +45,7 @@ class ByteSource {
   Result<std::size_t> read_stored(char* to, std::size_t capacity);
   Result<std::size_t> read_unpacked(char* to, std::size_t capacity);
   Status refill();
-  Status look_for_gzip(bool hash);
+  Status detect_gzip(bool hash);
 
   int descriptor_;
   std::string name_;

@@ -16,7 +16,7 @@ DeviceInfo CsvLog::info() const {
   if (!rows_) return info;
   const CsvHeader& header = rows_->header();
   info.channels = header.channels;
-  info.simulated = header.says_simulated();
+  info.simulated = header.is_marked_simulated();
   return info;
 }
 

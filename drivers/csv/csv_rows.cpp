@@ -38,7 +38,7 @@ class CsvRows::Reading {
   std::string sha256() const;
 
  private:
-  void go_along();
+  void read_ahead();
   Result<bool> fill(SampleBlock& block, std::chrono::milliseconds timeout);
   Result<bool> finish(SampleBlock& block);
 
@@ -55,7 +55,7 @@ class CsvRows::Reading {
 
 Status CsvRows::Reading::start(const CsvRowsOptions& options) {
   if (companion_) {
-    thread_ = std::thread([this] { go_along(); });
+    thread_ = std::thread([this] { read_ahead(); });
   }
   const LineChunk* const first = chunks_.next(Role::parser, kForever);
   if (!first) MDOF_CHECK(chunks_.status());
@@ -69,7 +69,7 @@ Status CsvRows::Reading::start(const CsvRowsOptions& options) {
 }
 
 // Thread "csv read": reads ahead of the parser and hashes plain text.
-void CsvRows::Reading::go_along() {
+void CsvRows::Reading::read_ahead() {
   start_thread_as("csv read");
   while (const LineChunk* const chunk = chunks_.next(Role::companion, kForever)) {
     if (hash_) hash_->update(chunk->read());

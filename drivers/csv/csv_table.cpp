@@ -43,7 +43,7 @@ Result<std::vector<std::size_t>> channels_of(const CsvHeader& header,
 }
 
 // A column with the same stem but another unit is requested too, so that channels_of() reports it.
-std::vector<std::string> with_those_there(const CsvHeader& header, std::vector<std::string> names,
+std::vector<std::string> existing_columns(const CsvHeader& header, std::vector<std::string> names,
                                           const std::vector<std::string>& optional) {
   for (const std::string& name : optional)
     if (std::any_of(header.columns.begin(), header.columns.end(),
@@ -62,7 +62,7 @@ std::string folded(const std::string& name) {
 
 // Whether `column` is a misspelt `name`: "Direction", "runs", "dirction". For short names and names
 // with a capital letter (EYX_um), a name that differs by one letter can be another quantity.
-bool is_meant(const std::string& column, const std::string& name) {
+bool is_misspelling(const std::string& column, const std::string& name) {
   constexpr std::size_t kLongName = 5;
   const std::string is = folded(column), wanted = folded(name);
   if (is == wanted || is == wanted + "s") return true;
@@ -72,8 +72,8 @@ bool is_meant(const std::string& column, const std::string& name) {
 }
 
 // Without this check, an optional column with a misspelt name would be ignored without a message.
-Status check_not_misspelt(const CsvHeader& header, const std::vector<std::string>& names,
-                          const std::vector<std::string>& optional) {
+Status check_misspelt_columns(const CsvHeader& header, const std::vector<std::string>& names,
+                              const std::vector<std::string>& optional) {
   const auto is_read = [&](const std::string& column) {
     return std::find(names.begin(), names.end(), column) != names.end() ||
            std::find(optional.begin(), optional.end(), column) != optional.end();
@@ -82,7 +82,7 @@ Status check_not_misspelt(const CsvHeader& header, const std::vector<std::string
     if (std::find(header.columns.begin(), header.columns.end(), name) != header.columns.end())
       continue;
     for (const std::string& column : header.columns)
-      if (!is_read(column) && is_meant(column, name))
+      if (!is_read(column) && is_misspelling(column, name))
         return bad_input(header.source + ":" + std::to_string(header.lines) + ": column " + column +
                          " is not read. If this column is meant as " + name +
                          ", rename the column to " + name + "; if not, delete the column");
@@ -90,8 +90,8 @@ Status check_not_misspelt(const CsvHeader& header, const std::vector<std::string
   return {};
 }
 
-void put_optional_in_order(CsvTable& table, const std::vector<std::string>& wanted,
-                           std::size_t required, const std::vector<std::string>& optional) {
+void place_optional_columns(CsvTable& table, const std::vector<std::string>& wanted,
+                            std::size_t required, const std::vector<std::string>& optional) {
   std::size_t there = required;
   for (std::size_t i = 0; i < optional.size(); ++i) {
     if (there < wanted.size() && wanted[there] == optional[i])
@@ -101,7 +101,7 @@ void put_optional_in_order(CsvTable& table, const std::vector<std::string>& want
   }
 }
 
-bool has_no_value(double x) {
+bool is_missing(double x) {
   return std::isnan(x);
 }
 
@@ -109,9 +109,9 @@ bool has_no_value(double x) {
 Status check_values(CsvTable& table, const std::vector<std::string>& names, std::size_t required) {
   for (std::size_t k = 0; k < names.size(); ++k) {
     std::vector<double>& value = table.columns[k];
-    const auto missing = std::find_if(value.begin(), value.end(), has_no_value);
+    const auto missing = std::find_if(value.begin(), value.end(), is_missing);
     if (missing == value.end()) continue;
-    if (k < required || !std::all_of(value.begin(), value.end(), has_no_value))
+    if (k < required || !std::all_of(value.begin(), value.end(), is_missing))
       return bad_input(table.where(static_cast<std::size_t>(missing - value.begin())) + "column " +
                        names[k] + ": no value (empty or nan); add the value or delete the line");
     value.clear();
@@ -150,10 +150,10 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
   CsvTable table;
   table.source = header.source;
   table.header_line = header.lines;
-  table.simulated = header.says_simulated();
-  table.noise_only = header.says_noise_only();
-  MDOF_CHECK(check_not_misspelt(header, names, optional));
-  const auto wanted = with_those_there(header, names, optional);
+  table.simulated = header.is_marked_simulated();
+  table.noise_only = header.is_marked_noise_only();
+  MDOF_CHECK(check_misspelt_columns(header, names, optional));
+  const auto wanted = existing_columns(header, names, optional);
   MDOF_TRY(const auto channels, channels_of(header, wanted));
   table.columns.resize(wanted.size());
   SampleBlock block;
@@ -163,7 +163,7 @@ Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::
     MDOF_CHECK(append(table, block, channels, most_rows));
   }
   MDOF_CHECK(check_values(table, wanted, names.size()));
-  put_optional_in_order(table, wanted, names.size(), optional);
+  place_optional_columns(table, wanted, names.size(), optional);
   return table;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kGzipOnly = 16 + MAX_WBITS;
 
-std::string so_far(std::uint64_t unpacked) {
+std::string position_text(std::uint64_t unpacked) {
   return " after " + std::to_string(unpacked) + " bytes of unpacked text; ";
 }
 
@@ -30,7 +30,7 @@ Status Gunzip::next_member(std::string_view& input) {
     const std::size_t rest = input.find_first_not_of('\0');
     input.remove_prefix(rest == input.npos ? input.size() : rest);
     if (input.empty()) return {};
-    return bad_input("the gzip data end and other data follow" + so_far(unpacked_) +
+    return bad_input("the gzip data end and other data follow" + position_text(unpacked_) +
                      "copy the file again");
   }
   inflateReset(stream_.get());
@@ -53,15 +53,15 @@ Result<std::size_t> Gunzip::unpack(std::string_view& input, char* to, std::size_
     between_members_ = true;
   } else if (state != Z_OK && state != Z_BUF_ERROR) {
     return bad_input(std::string("the gzip data are damaged (") +
-                     (stream_->msg ? stream_->msg : "invalid stream") + ")" + so_far(unpacked_) +
-                     "copy the file again");
+                     (stream_->msg ? stream_->msg : "invalid stream") + ")" +
+                     position_text(unpacked_) + "copy the file again");
   }
   return count;
 }
 
 Status Gunzip::check_end() const {
   if (between_members_) return {};
-  return bad_input("the gzip file is truncated: it ends" + so_far(unpacked_) +
+  return bad_input("the gzip file is truncated: it ends" + position_text(unpacked_) +
                    "copy the file again");
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 enum Column { kTarget, kDirection, kRun, kDeviation };
 constexpr double kMostRuns = 1e6;
-constexpr const char* kWhatDirectionIs =
+constexpr const char* kDirectionValues =
     "1 if the target was approached in the + direction (forward), -1 if it was approached in the "
     "- direction";
 
@@ -28,7 +28,7 @@ Result<PositioningReading> reading_of(const CsvTable& table, std::size_t row) {
   const double direction = at(kDirection), run = at(kRun);
   if (direction != 1 && direction != -1)
     return bad_input(table.where(row) + "column direction: " + plain_number(direction) + "; give " +
-                     kWhatDirectionIs);
+                     kDirectionValues);
   if (run != std::floor(run) || !(std::abs(run) <= kMostRuns))
     return bad_input(table.where(row) + "column run: " + plain_number(run) +
                      "; use the run numbers 1, 2, 3 ...");
@@ -53,7 +53,7 @@ std::vector<double> targets_of(const CsvTable& table) {
 // Adds the valid values to the error of a direction that is not a number.
 Error with_remedy(Error error) {
   if (error.message.find(": column direction: \"") != std::string::npos)
-    error.message += std::string("; the direction is ") + kWhatDirectionIs;
+    error.message += std::string("; the direction is ") + kDirectionValues;
   return error;
 }
 

@@ -15,9 +15,9 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
 constexpr milliseconds kConnect{2000};
-constexpr std::int64_t kTogether_ns = 50'000'000;     // after a longer pause, rows are suspect
-constexpr std::int64_t kPaceOver_ns = 2'000'000'000;  // period of checking time_s
-constexpr std::size_t kMostScans = 4096;              // in a block
+constexpr std::int64_t kBurstGap_ns = 50'000'000;       // after a longer pause, rows are suspect
+constexpr std::int64_t kPaceWindow_ns = 2'000'000'000;  // period of checking time_s
+constexpr std::size_t kMostScans = 4096;                // in a block
 
 constexpr const char* kDatumLost =
     "the source was started or connected again, so the zero of its positions may have changed (if "
@@ -48,7 +48,7 @@ DeviceInfo CsvStream::info() const {
   if (datum_lost_) info.datum_lost = kDatumLost;
   if (!protocol_ || !protocol_->header()) return info;
   info.channels = protocol_->header()->channels;
-  info.simulated = protocol_->header()->says_simulated();
+  info.simulated = protocol_->header()->is_marked_simulated();
   if (clock()) info.clock = clock_.state();
   return info;
 }
@@ -72,7 +72,7 @@ void CsvStream::trust_count() {
 }
 
 Status CsvStream::open() {
-  start_again();
+  note_restart();
   rows_.clear();
   status_ = {};
   clock_.reset();
@@ -117,7 +117,7 @@ Status CsvStream::wait_for_header() {
     if (left.count() <= 0)
       return no_header({ErrorCode::io, source_ + ": no header line within " +
                                            seconds(nanoseconds(options_.start).count())});
-    if (waits_for_writer_ && !wait_for_bytes(*stream_, left)) continue;
+    if (waits_for_writer_ && !bytes_or_end_pending(*stream_, left)) continue;
     waits_for_writer_ = false;
     if (status_ = fetch(left); !status_ && !protocol_->header()) return no_header(status_.error());
   }
@@ -173,21 +173,21 @@ Result<ReadState> CsvStream::read(SampleBlock& block, milliseconds timeout) {
     MDOF_CHECK(check_silence());
     return ReadState::more;
   }
-  const Quality good = header.says_simulated() ? Quality::simulated : Quality::good;
+  const Quality good = header.is_marked_simulated() ? Quality::simulated : Quality::good;
   // Lost lines are counted in the block that follows them, so a loss starts a new block.
   while (!rows_.empty() && block.scans() < kMostScans &&
          (block.scans() == 0 || rows_.front().lost == 0)) {
     const Row& row = rows_.front();
     block.lost += row.lost;
     add_scan(block, row.time_ns, row.values, row.suspect ? Quality::suspect : good);
-    if (row.unplaced) mark_unplaced(block);
+    if (row.unplaced) mark_encoder_suspect(block);
     rows_.pop_front();
   }
   return ReadState::more;
 }
 
 // Marks the encoder's value of the last scan as suspect.
-void CsvStream::mark_unplaced(SampleBlock& block) {
+void CsvStream::mark_encoder_suspect(SampleBlock& block) {
   for (std::size_t c = 0; c < block.channels.size(); ++c)
     if (block.channels[c].id == kEncoderChannel)
       block.quality[c].back() = std::max(block.quality[c].back(), Quality::suspect);
@@ -218,7 +218,7 @@ Status CsvStream::fetch(milliseconds timeout) {
 }
 
 tl::unexpected<Error> CsvStream::ended(const Error& why) {
-  if (child_) return io_error(source_ + " " + child_->how_it_ended());
+  if (child_) return io_error(source_ + " " + child_->exit_description());
   if (!options_.fifo.empty()) {
     // The FIFO is opened again before the old descriptor is closed, so that no bytes of the next
     // writer are lost.
@@ -236,15 +236,15 @@ tl::unexpected<Error> CsvStream::ended(const Error& why) {
 
 void CsvStream::take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns) {
   const bool own_times = clock() != nullptr;
-  const std::int64_t since_ns = std::max(last_received_ns_, received_ns - kTogether_ns);
+  const std::int64_t since_ns = std::max(last_received_ns_, received_ns - kBurstGap_ns);
   own_times ? take_device_times(rows, received_ns) : spread(rows, since_ns, received_ns);
   const bool old = !own_times && rows.size() > 1 && last_received_ns_ > 0 &&
-                   received_ns - last_received_ns_ > kTogether_ns;
+                   received_ns - last_received_ns_ > kBurstGap_ns;
   last_received_ns_ = received_ns;
   for (auto& row : rows) {
     last_time_ns_ = std::max(row.time_ns, last_time_ns_ + 1);
     const bool newest = &row == &rows.back();
-    if (row.restarted) start_again();
+    if (row.restarted) note_restart();
     rows_.push_back({last_time_ns_, std::move(row.values), row.lost, old && !newest, datum_lost_});
   }
 }
@@ -278,13 +278,13 @@ Status CsvStream::check_pace(const std::vector<CsvStreamRow>& rows, std::int64_t
   if (!pace_from_) pace_from_ = {rows.front().time_ns, received_ns};
   const std::int64_t host_ns = received_ns - pace_from_->host_ns;
   const std::int64_t device_ns = rows.back().time_ns - pace_from_->device_ns;
-  const bool fast = device_ns > 2 * host_ns + kPaceOver_ns;
-  const bool slow = host_ns > kPaceOver_ns && device_ns < host_ns / 2;
+  const bool fast = device_ns > 2 * host_ns + kPaceWindow_ns;
+  const bool slow = host_ns > kPaceWindow_ns && device_ns < host_ns / 2;
   if (fast || slow)
     return bad_input(source_ + ": column time_s advanced by " + seconds(device_ns) + " in " +
                      seconds(host_ns) +
                      " of real time; time_s must be in seconds and increase as fast as real time");
-  if (host_ns > kPaceOver_ns) pace_from_ = {rows.back().time_ns, received_ns};
+  if (host_ns > kPaceWindow_ns) pace_from_ = {rows.back().time_ns, received_ns};
   return {};
 }
 

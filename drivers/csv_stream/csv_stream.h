@@ -78,8 +78,8 @@ class CsvStream final : public Driver {
   Status fetch(std::chrono::milliseconds timeout);
   tl::unexpected<Error> ended(const Error& why);
   void take(std::vector<CsvStreamRow>& rows, std::int64_t received_ns);
-  static void mark_unplaced(SampleBlock& block);
-  void start_again() { datum_lost_ = datum_lost_ || (datum_set_ && !options_.absolute); }
+  static void mark_encoder_suspect(SampleBlock& block);
+  void note_restart() { datum_lost_ = datum_lost_ || (datum_set_ && !options_.absolute); }
   static void spread(std::vector<CsvStreamRow>& rows, std::int64_t since_ns,
                      std::int64_t received_ns);
   void take_device_times(std::vector<CsvStreamRow>& rows, std::int64_t received_ns);

@@ -21,7 +21,7 @@ std::string format_of(const std::string& text) {
   return text.find("target_mm") != text.npos ? "iso230-2" : "csv";
 }
 
-Result<ImportedSeries> series_of_positioning(const std::string& path, int descriptor) {
+Result<ImportedSeries> read_positioning_series(const std::string& path, int descriptor) {
   MDOF_TRY(const PositioningCsv csv, read_positioning_csv(path, kMostImportedReadings, descriptor));
   ImportedSeries series;
   series.simulated = csv.simulated;
@@ -30,7 +30,7 @@ Result<ImportedSeries> series_of_positioning(const std::string& path, int descri
   return series;
 }
 
-Result<ImportedSeries> series_of_csv(const std::string& path, bool angle, int descriptor) {
+Result<ImportedSeries> read_csv_series(const std::string& path, bool angle, int descriptor) {
   const std::string deviation = angle ? "deviation_urad" : "deviation_um";
   MDOF_TRY(const CsvTable table,
            read_csv_table(path, {"position_mm", deviation}, {"direction", "run"},
@@ -59,20 +59,20 @@ Result<ImportedSeries> series_of_csv(const std::string& path, bool angle, int de
 
 Result<ImportedSeries> read(const std::string& path, const std::string& text,
                             const std::string& format, const std::string& source,
-                            const AskedError& error, int descriptor) {
+                            const ExpectedError& error, int descriptor) {
   if (error.angle && format != "csv")
     return fail(ErrorCode::usage,
                 "angles can be imported only from a CSV file with the columns position_mm and "
                 "deviation_urad");
   if (format == "rtl") return parse_rtl(text, source, error.is_stated);
-  return format == "iso230-2" ? series_of_positioning(path, descriptor)
-                              : series_of_csv(path, error.angle, descriptor);
+  return format == "iso230-2" ? read_positioning_series(path, descriptor)
+                              : read_csv_series(path, error.angle, descriptor);
 }
 
 }  // namespace
 
 Result<ImportedSeries> read_imported_file(const std::string& path, const std::string& asked,
-                                          const AskedError& error, int descriptor) {
+                                          const ExpectedError& error, int descriptor) {
   MDOF_TRY(const std::string text,
            read_text_file(descriptor < 0 ? path : "/proc/self/fd/" + std::to_string(descriptor)));
   const std::string format = asked.empty() ? format_of(text) : asked;

@@ -8,7 +8,7 @@
 
 namespace mdof::drivers {
 
-struct AskedError {
+struct ExpectedError {
   bool angle = false;
   bool is_stated = false;  // the user named the error; false: positioning by default
 };
@@ -19,6 +19,6 @@ struct AskedError {
 // checked (rtl.h). `descriptor`: of the open file, or -1. Errors name file, line, column and
 // remedy.
 Result<ImportedSeries> read_imported_file(const std::string& path, const std::string& format,
-                                          const AskedError& error, int descriptor = -1);
+                                          const ExpectedError& error, int descriptor = -1);
 
 }  // namespace mdof::drivers

@@ -85,7 +85,7 @@ class Rtl {
       in_targets_ = in_deviations_ = false;
       return {};
     }
-    if (section_ == "HEADER" || section_ == "USER-TEXT") return take_about(line);
+    if (section_ == "HEADER" || section_ == "USER-TEXT") return take_description(line);
     if (section_ == "TARGET DATA") return take_target_line(line);
     if (section_ == "RUNS") return take_run_count(line);
     if (section_ == "DEVIATIONS") return take_deviation_line(line);
@@ -111,7 +111,7 @@ class Rtl {
                        " deviations instead of " + std::to_string(run_count_ * target_count_) +
                        " (Run-count " + std::to_string(run_count_) + " times Target-count " +
                        std::to_string(target_count_) + ")");
-    MDOF_CHECK(leave_out_filled(descending));
+    MDOF_CHECK(drop_unmeasured_runs(descending));
     for (ImportedReading& reading : series_.readings) {
       reading.position_m = from_mm(targets_[static_cast<std::size_t>(reading.position_m)]);
       if (descending) reading.direction = -reading.direction;
@@ -125,7 +125,7 @@ class Rtl {
     return bad_input(source_ + ":" + std::to_string(line_) + ": " + what);
   }
 
-  Status take_about(std::string_view line) {
+  Status take_description(std::string_view line) {
     const auto [key, value] = key_and_value(line);
     // Type written by the program: "Linear", "Angular", "Rotary", "Straightness".
     if (key == "File type" || key == "Owner") MDOF_CHECK(check_linear(key, value));
@@ -203,7 +203,7 @@ class Rtl {
       return wrong("the line must contain a run from 1 to " + std::to_string(run_count_) +
                    ", a target from 1 to " + std::to_string(target_count_) +
                    " and a deviation in µm");
-    MDOF_CHECK(check_way(run, target));
+    MDOF_CHECK(check_run_direction(run, target));
     if (seen_.size() == kMostImportedReadings)
       return wrong("more than " + std::to_string(kMostImportedReadings) + " deviations");
     if (!seen_.insert({run, target}).second)
@@ -217,7 +217,7 @@ class Rtl {
 
   // Only the run number distinguishes forward from reverse, so the order of the targets must agree
   // with it.
-  Status check_way(std::size_t run, std::size_t target) {
+  Status check_run_direction(std::size_t run, std::size_t target) {
     const bool same = run == last_run_;
     const bool right = run % 2 == 1 ? target > last_target_ : target < last_target_;
     last_run_ = run;
@@ -231,7 +231,7 @@ class Rtl {
 
   // Programs write runs that were not measured, such as the reverse runs of a unidirectional test,
   // with zeros. If these are all runs of one direction, the other direction is the complete test.
-  Status leave_out_filled(bool descending) {
+  Status drop_unmeasured_runs(bool descending) {
     std::vector<bool> measured(run_count_ + 1, target_count_ < 2);
     for (const ImportedReading& r : series_.readings)
       if (r.deviation != 0) measured[number_of(r)] = true;

@@ -39,9 +39,9 @@ Result<Pipe> make_pipe(const std::string& name) {
 }
 
 // Descriptors, folder and signals of the program when it starts.
-class Surroundings {
+class SpawnSettings {
  public:
-  Surroundings(const std::string& folder, int output, int errors) {
+  SpawnSettings(const std::string& folder, int output, int errors) {
     ::posix_spawn_file_actions_init(&actions_);
     ::posix_spawn_file_actions_addopen(&actions_, 0, "/dev/null", O_RDONLY, 0);
     ::posix_spawn_file_actions_adddup2(&actions_, output, 1);
@@ -58,12 +58,12 @@ class Surroundings {
     ::posix_spawnattr_setflags(
         &attributes_, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   }
-  ~Surroundings() {
+  ~SpawnSettings() {
     ::posix_spawn_file_actions_destroy(&actions_);
     ::posix_spawnattr_destroy(&attributes_);
   }
-  Surroundings(const Surroundings&) = delete;
-  Surroundings& operator=(const Surroundings&) = delete;
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
 
   int start(const std::vector<std::string>& command, pid_t& pid) {
     std::vector<std::string> words = command;
@@ -89,7 +89,7 @@ Result<std::unique_ptr<ChildProcess>> ChildProcess::start(const std::vector<std:
   const std::string name = "command \"" + command[0] + "\"";
   MDOF_TRY(Pipe output, make_pipe(name));
   MDOF_TRY(Pipe errors, make_pipe(name));
-  Surroundings surroundings(folder, output.write.fd(), errors.write.fd());
+  SpawnSettings surroundings(folder, output.write.fd(), errors.write.fd());
   pid_t pid = 0;
   if (const int error = surroundings.start(command, pid); error != 0)
     return io_error(name + ": cannot be started: " + std::strerror(error) +
@@ -131,7 +131,7 @@ void ChildProcess::take_errors() {
   }
 }
 
-std::string ChildProcess::how_it_ended() {
+std::string ChildProcess::exit_description() {
   const auto exit = exited(kExit);
   take_errors();
   std::string text = "has closed its standard output, but still runs";
@@ -157,7 +157,7 @@ Result<ByteStream> open_fifo(const std::string& path) {
   return stream;
 }
 
-bool wait_for_bytes(const ByteStream& stream, milliseconds timeout) {
+bool bytes_or_end_pending(const ByteStream& stream, milliseconds timeout) {
   pollfd p{stream.fd(), POLLIN, 0};
   return ::poll(&p, 1, static_cast<int>(timeout.count())) > 0;
 }

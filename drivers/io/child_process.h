@@ -34,7 +34,7 @@ class ChildProcess {
   void take_errors();
   // How the program ended, after its output has ended: "has exited with status 3; its last line of
   // standard error: ...". Waits briefly for the exit.
-  std::string how_it_ended();
+  std::string exit_description();
 
  private:
   ChildProcess(pid_t pid, ByteStream output, ByteStream errors);
@@ -50,6 +50,6 @@ class ChildProcess {
 Result<ByteStream> open_fifo(const std::string& path);
 // Returns true if bytes have arrived or the writer has closed the FIFO. Do not read a FIFO before a
 // writer has opened it: read() would report its end.
-bool wait_for_bytes(const ByteStream& stream, std::chrono::milliseconds timeout);
+bool bytes_or_end_pending(const ByteStream& stream, std::chrono::milliseconds timeout);
 
 }  // namespace mdof::drivers

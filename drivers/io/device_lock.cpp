@@ -20,7 +20,7 @@
 namespace mdof::drivers {
 namespace {
 
-constexpr int kAskers = 64;  // pending connections before answer_inquiries()
+constexpr int kPendingInquiries = 64;  // pending connections before answer_inquiries()
 constexpr int kKind = SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK;
 
 struct Name {
@@ -41,7 +41,7 @@ Name name_of(const std::string& identity) {
 }
 
 // The process that holds the lock; 0: not known.
-pid_t holder_of(Name& name) {
+pid_t lock_holder(Name& name) {
   const int fd = ::socket(AF_UNIX, kKind, 0);
   if (fd < 0) return 0;
   ucred peer{};
@@ -92,11 +92,11 @@ Result<DeviceLock> DeviceLock::take(const std::string& identity, bool shared) {
   DeviceLock lock(::socket(AF_UNIX, kKind, 0));
   if (lock.fd_ < 0) return lock;
   if (::bind(lock.fd_, name.get(), name.size) == 0) {
-    (void)::listen(lock.fd_, kAskers);
+    (void)::listen(lock.fd_, kPendingInquiries);
     return lock;
   }
   if (errno != EADDRINUSE) return lock;
-  const pid_t holder = holder_of(name);
+  const pid_t holder = lock_holder(name);
   if (shared && holder == ::getpid()) return DeviceLock(-1);
   return in_use_by(holder);
 }

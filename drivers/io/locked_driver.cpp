@@ -11,7 +11,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kDismissEvery{1};
+constexpr std::chrono::seconds kAnswerPeriod{1};
 
 class LockedDriver final : public Driver {
  public:
@@ -42,8 +42,8 @@ class LockedDriver final : public Driver {
   }
 
   Result<ReadState> read(SampleBlock& block, milliseconds timeout) override {
-    if (const auto now = steady_clock::now(); lock_ && now >= dismiss_at_) {
-      dismiss_at_ = now + kDismissEvery;
+    if (const auto now = steady_clock::now(); lock_ && now >= next_answer_) {
+      next_answer_ = now + kAnswerPeriod;
       lock_->answer_inquiries();
     }
     return driver_->read(block, timeout);
@@ -55,7 +55,7 @@ class LockedDriver final : public Driver {
   const bool shared_;
   std::optional<DeviceLock> lock_;  // destroyed after the driver, which then has closed the device
   std::unique_ptr<Driver> driver_;
-  steady_clock::time_point dismiss_at_{};
+  steady_clock::time_point next_answer_{};
 };
 
 }  // namespace

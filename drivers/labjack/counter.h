@@ -16,11 +16,11 @@ class Counter {
   // 0: no limit of the counting rate.
   explicit Counter(double most_counts_per_s = 0) : guard_(most_counts_per_s) {}
 
-  // The device was opened. `went_on`: the counter kept its count since the device was last open.
-  void take_up(bool went_on) {
-    zero_lost_ = zero_lost_ || (used_ && !went_on);
+  // The device was opened. `kept_count`: the counter kept its count since the device was last open.
+  void resume_count(bool kept_count) {
+    zero_lost_ = zero_lost_ || (used_ && !kept_count);
     used_ = true;
-    if (!went_on) count_.reset();
+    if (!kept_count) count_.reset();
   }
   bool used() const { return used_; }
   void interrupt() { guard_.interrupt(); }  // the device was closed
@@ -32,7 +32,7 @@ class Counter {
   }
   bool sure() const { return guard_.sure() && !zero_lost_; }
   // "": the zero is valid. `without_power`: text for a count that has started again from 0.
-  std::string why_unsure(const char* without_power) const {
+  std::string invalid_reason(const char* without_power) const {
     return zero_lost_ ? without_power : guard_.sure() ? "" : kCountsLost;
   }
   void trust() {

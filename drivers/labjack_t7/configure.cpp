@@ -131,7 +131,7 @@ Result<Settings> read_labjack_t7(TomlTable& table, const DriverContext& context)
     uses.push_back({input.ain, input.negative});
   }
   MDOF_CHECK(labjack::check_uses(channels, uses));
-  settings.encoder = encoder_origin(channels, counts_at(channels, counters()));
+  settings.encoder = encoder_origin(channels, is_at_counter(channels, counters()));
   settings.further_encoders = further_encoders(channels, context.further, counters());
   read_endpoints(table, settings);
   read_converter(table, settings);

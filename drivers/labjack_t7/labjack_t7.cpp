@@ -70,7 +70,7 @@ DeviceInfo LabjackT7::info() const {
   DeviceInfo info{settings_.name, "labjack_t7", description_,  channels_,
                   rate_hz_,       false,        clock_.state()};
   for (std::size_t i = 0; i < counters_.size(); ++i) {
-    const std::string why = counters_[i].why_unsure(kZeroLost);
+    const std::string why = counters_[i].invalid_reason(kZeroLost);
     if (channels_[i].id == kEncoderChannel) {
       info.datum_lost = why;
     } else if (!why.empty()) {
@@ -110,7 +110,7 @@ void LabjackT7::close() {
   reader_ = {};
   line_ = PacketLine(words_per_scan(settings_));
   scans_.clear();
-  handed_out_ = 0;
+  returned_ = 0;
   broken_ = {};
   clock_.reset();
   for (auto& counter : counters_) counter.interrupt();
@@ -124,18 +124,18 @@ Status LabjackT7::start() {
   description_ = describe(identity, settings_);
   MDOF_CHECK(stop_stream(*registers_));
   MDOF_TRY(calibrations_, set_up_ains(*registers_, settings_));
-  MDOF_CHECK(take_up_counters());
+  MDOF_CHECK(start_counters());
   MDOF_TRY(rate_hz_, set_up_stream(*registers_, settings_));
   ticks_per_scan_ = kCore_Hz / rate_hz_;
   MDOF_TRY(stream_, connect_tcp(settings_.stream, kConnect));
   return start_clock();
 }
 
-Status LabjackT7::take_up_counters() {
+Status LabjackT7::start_counters() {
   for (std::size_t i = 0; i < counters_.size(); ++i) {
     if (!counts(settings_.inputs[i])) continue;
-    MDOF_TRY(const bool went_on, start_counter(*registers_, settings_.inputs[i].dio));
-    counters_[i].take_up(went_on);
+    MDOF_TRY(const bool kept_count, start_counter(*registers_, settings_.inputs[i].dio));
+    counters_[i].resume_count(kept_count);
   }
   return {};
 }
@@ -154,7 +154,7 @@ Status LabjackT7::start_clock() {
 }
 
 // The first scan begins one period after STREAM_ENABLE, which takes at most kEnable_s.
-Status LabjackT7::take_start() {
+Status LabjackT7::read_start_stamp() {
   MDOF_TRY(const std::uint32_t stamp, registers_->u32(reg::stream_start_time));
   const std::int64_t start = core_(stamp);
   const double since = static_cast<double>(start - enabled_ticks_);
@@ -170,7 +170,7 @@ Status LabjackT7::take_start() {
 Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
   if (!stream_) return io_error(place() + " is not open; call open() before read()");
-  if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
+  if (returned_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
   fill_block(block);
   return ReadState::more;
 }
@@ -178,7 +178,7 @@ Result<ReadState> LabjackT7::read(SampleBlock& block, milliseconds timeout) {
 // Scans received before an error are returned first.
 Status LabjackT7::next_scans(milliseconds timeout) {
   scans_.clear();
-  handed_out_ = 0;
+  returned_ = 0;
   if (!broken_) return broken_;
   auto received = receive(timeout);
   if (received) return {};
@@ -211,7 +211,7 @@ Status LabjackT7::take_packets(std::int64_t received_ns) {
     if (!complete) return {};
     last_packet_ns_ = received_ns;
     const std::size_t before = scans_.size();
-    if (!start_ticks_) MDOF_CHECK(take_start());
+    if (!start_ticks_) MDOF_CHECK(read_start_stamp());
     MDOF_CHECK(line_.take(packet, scans_));
     if (scans_.size() > before) clock_.add(ticks_of(scans_.back().index), received_ns);
   }
@@ -223,12 +223,12 @@ std::int64_t LabjackT7::ticks_of(std::uint64_t scan) const {
 
 // A block ends before lost scans; the next block counts them as lost.
 void LabjackT7::fill_block(SampleBlock& block) {
-  reserve_scans(block, scans_.size() - handed_out_);
-  while (handed_out_ < scans_.size()) {
-    const Scan& scan = scans_[handed_out_];
+  reserve_scans(block, scans_.size() - returned_);
+  while (returned_ < scans_.size()) {
+    const Scan& scan = scans_[returned_];
     if (scan.lost > 0 && block.scans() > 0) return;
     append(block, scan);
-    ++handed_out_;
+    ++returned_;
   }
 }
 

@@ -45,9 +45,9 @@ class LabjackT7 final : public Driver {
  private:
   void close();
   Status start();
-  Status take_up_counters();
+  Status start_counters();
   Status start_clock();
-  Status take_start();
+  Status read_start_stamp();
   Status next_scans(std::chrono::milliseconds timeout);
   Status receive(std::chrono::milliseconds timeout);
   Status take_packets(std::int64_t received_ns);
@@ -76,7 +76,7 @@ class LabjackT7 final : public Driver {
   std::int64_t last_packet_ns_ = 0;          // host time; initially the time of the start
   std::vector<Scan> scans_;                  // received
   Status broken_;                            // the error that ended the stream
-  std::size_t handed_out_ = 0;               // number of scans_ already returned
+  std::size_t returned_ = 0;                 // number of scans_ already returned
   std::vector<char> buffer_;
 
   std::vector<labjack::Counter> counters_;  // one for each input; unused for an AIN

@@ -114,7 +114,7 @@ Status read_inputs(TomlTable& table, const DriverContext& context, Settings& set
   MDOF_TRY(const auto channels, read_channels(table, context.rig, [&](TomlTable& channel) {
              keys.push_back(labjack::read_input_keys(channel));
            }));
-  settings.encoder = encoder_origin(channels, counts_at(channels, counters()));
+  settings.encoder = encoder_origin(channels, is_at_counter(channels, counters()));
   for (std::size_t i = 0; i < channels.size(); ++i) {
     MDOF_TRY(const Input input, input_of(channels[i], keys[i], gain));
     inputs.push_back(input);

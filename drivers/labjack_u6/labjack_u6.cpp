@@ -20,7 +20,7 @@ bool counts(const Input& input) {
   return input.ain < 0;
 }
 
-Result<std::string> ask_serial(usb::Handle& handle) {
+Result<std::string> query_serial(usb::Handle& handle) {
   MDOF_TRY(const Identity identity, identify(handle));
   return std::to_string(identity.serial);
 }
@@ -97,7 +97,7 @@ void LabjackU6::close() {
   handle_.reset();
   line_ = PacketLine(list_.size());
   scans_.clear();
-  handed_out_ = 0;
+  returned_ = 0;
   broken_ = {};
   clock_.reset();
   guard_.interrupt();
@@ -106,12 +106,12 @@ void LabjackU6::close() {
 
 Status LabjackU6::start() {
   MDOF_TRY(handle_,
-           usb::Handle::open({"LabJack U6", kVendor, kProduct, settings_.serial, 0, ask_serial}));
+           usb::Handle::open({"LabJack U6", kVendor, kProduct, settings_.serial, 0, query_serial}));
   MDOF_TRY(const Identity identity, identify(*handle_));
   description_ = describe(identity, handle_->where()) + speed_of(settings_);
   MDOF_CHECK(stop_stream(*handle_));
   MDOF_TRY(calibrations_, read_ain_calibrations(*handle_));
-  MDOF_CHECK(take_up_counter());
+  MDOF_CHECK(start_or_keep_counter());
   const StreamSetup setup{static_cast<int>(samples_), settings_.resolution_index,
                           settings_.settling_10us, list_};
   MDOF_TRY(const std::string configured, ask(*handle_, stream_config(setup, scan_clock_)));
@@ -125,7 +125,7 @@ Status LabjackU6::start() {
 
 // The U6 does not report in which mode another program has left the timers, so only a counter that
 // this object started is known to count.
-Status LabjackU6::take_up_counter() {
+Status LabjackU6::start_or_keep_counter() {
   const Input* counter = counter_of(settings_);
   if (!counter) return {};
   if (counted_) {
@@ -142,7 +142,7 @@ Status LabjackU6::take_up_counter() {
 Result<ReadState> LabjackU6::read(SampleBlock& block, milliseconds timeout) {
   start_block(block, settings_.name, channels_);
   if (!stream_) return io_error(place() + " is not open; call open() before read()");
-  if (handed_out_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
+  if (returned_ == scans_.size()) MDOF_CHECK(next_scans(timeout));
   fill_block(block);
   return ReadState::more;
 }
@@ -150,7 +150,7 @@ Result<ReadState> LabjackU6::read(SampleBlock& block, milliseconds timeout) {
 // Scans received before an error are returned first.
 Status LabjackU6::next_scans(milliseconds timeout) {
   scans_.clear();
-  handed_out_ = 0;
+  returned_ = 0;
   if (!broken_) return broken_;
   auto received = receive(timeout);
   if (received) return {};
@@ -167,13 +167,13 @@ Status LabjackU6::receive(milliseconds timeout) {
     MDOF_TRY(const usb::InStream::Chunk chunk, stream_->next(until));
     if (chunk.any) MDOF_CHECK(take(chunk));
     if (static_cast<double>(monotonic_ns() - last_chunk_ns_) * 1e-9 > kSilence_s + packet_s)
-      return why_silent();
+      return silence_error();
   } while (scans_.empty() && steady_clock::now() < until);
   return {};
 }
 
 // The packet with the reason may lie in a transfer that is not full.
-Status LabjackU6::why_silent() {
+Status LabjackU6::silence_error() {
   stream_->cancel();
   if (const auto last = stream_->next(steady_clock::now())) MDOF_CHECK(take(*last));
   return io_error(
@@ -196,11 +196,11 @@ Status LabjackU6::take(const usb::InStream::Chunk& chunk) {
 
 // A block ends before lost scans; the next block counts them as lost.
 void LabjackU6::fill_block(SampleBlock& block) {
-  while (handed_out_ < scans_.size()) {
-    const Scan& scan = scans_[handed_out_];
+  while (returned_ < scans_.size()) {
+    const Scan& scan = scans_[returned_];
     if (scan.lost > 0 && block.scans() > 0) return;
     append(block, scan);
-    ++handed_out_;
+    ++returned_;
   }
 }
 

@@ -40,10 +40,10 @@ class LabjackU6 final : public Driver {
  private:
   void close();
   Status start();
-  Status take_up_counter();
+  Status start_or_keep_counter();
   Status next_scans(std::chrono::milliseconds timeout);
   Status receive(std::chrono::milliseconds timeout);
-  Status why_silent();
+  Status silence_error();
   Status take(const usb::InStream::Chunk& chunk);
   void fill_block(SampleBlock& block);
   void append(SampleBlock& block, const Scan& scan);
@@ -64,7 +64,7 @@ class LabjackU6 final : public Driver {
   DeviceClock clock_;               // a tick is a scan
   std::int64_t last_chunk_ns_ = 0;  // host time; initially the time of the start
   std::vector<Scan> scans_;         // received
-  std::size_t handed_out_ = 0;      // number of scans_ already returned
+  std::size_t returned_ = 0;        // number of scans_ already returned
   Status broken_;                   // the error that ended the stream
 
   Unwrap count_{32, true};

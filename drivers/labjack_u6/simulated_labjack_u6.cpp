@@ -68,7 +68,7 @@ void SimulatedLabjackU6::restart() {
   *this = SimulatedLabjackU6(std::move(senses_), {.serial = serial_});
 }
 
-std::string SimulatedLabjackU6::says_who() const {
+std::string SimulatedLabjackU6::identity_body() const {
   std::string body(32, '\0');
   body[3] = 15;  // firmware 1.15
   body[4] = 1;
@@ -163,7 +163,7 @@ std::string SimulatedLabjackU6::answer_extended(std::string_view command, std::i
   if ((code == kConfigIo || code == kStreamConfig) && command.size() < 16) return "\xB8\xB8";
   switch (code) {
     case kConfigU6:
-      return says_who();
+      return identity_body();
     case kReadCalibration:
       return constants(byte_at(command, 7));
     case kConfigIo:

@@ -61,7 +61,7 @@ class SimulatedLabjackU6 final : public usb::SimulatedUsb {
   std::string answer(std::string_view command, std::int64_t now_ns);
   std::string answer_normal(std::string_view command, std::int64_t now_ns);
   std::string answer_extended(std::string_view command, std::int64_t now_ns);
-  std::string says_who() const;
+  std::string identity_body() const;
   std::string configured(std::string_view command);
   void take_scans(std::int64_t now_ns);
   usb::Reply stream_in(std::size_t max_bytes);

@@ -8,7 +8,7 @@ namespace mdof::drivers::linux_comedi {
 namespace {
 
 constexpr double kRateOff = 0.01;  // relative to the requested rate
-constexpr const char* kMadeUp = "comedi_test";
+constexpr const char* kTestDriver = "comedi_test";
 constexpr int kTests = 4;  // the first test changes arguments, the next test them again
 
 std::string channel_text(unsigned channel) {
@@ -60,7 +60,7 @@ Result<BoardInput> board_input(Board& board, unsigned subdevice, const Subdevice
 }
 
 // Uses the nearest values that the board supports. test() changes the command accordingly.
-Status make_fit(Board& board, Command& command) {
+Status fit_command(Board& board, Command& command) {
   int failed = 0;
   for (int i = 0; i < kTests; ++i) {
     MDOF_TRY(failed, board.test(command));
@@ -148,14 +148,14 @@ Result<Setup> set_up(Board& board, const Settings& settings) {
   MDOF_TRY(const Command sources, board.sources(subdevice));
   MDOF_TRY(setup.command,
            timed_command(sources, subdevice, inputs, {settings.rate_hz, settings.convert_us}));
-  MDOF_CHECK(make_fit(board, setup.command));
+  MDOF_CHECK(fit_command(board, setup.command));
   MDOF_CHECK(check_rate(setup.command, settings.rate_hz));
   setup.long_samples = has.long_samples;
   const double scan_bytes = static_cast<double>(inputs.size()) * (has.long_samples ? 4 : 2);
   setup.buffer_s =
       static_cast<double>(board.buffer_bytes(subdevice)) / scan_bytes / rate_of(setup.command);
   describe(board, settings, setup);
-  if (board.driver() == kMadeUp) setup.notices.push_back(notice(NoticeCode::board_simulated));
+  if (board.driver() == kTestDriver) setup.notices.push_back(notice(NoticeCode::board_simulated));
   MDOF_CHECK(convert(board, has, setup));
   return setup;
 }

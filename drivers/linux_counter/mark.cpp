@@ -25,7 +25,7 @@ Status check_quad8(const std::string& folder, const std::string& count, std::uin
   const std::string signal = folder + "/signal" + std::to_string(kFirstIndexSignal + *n);
   MDOF_TRY(const auto mode, read_sysfs(signal + "/synchronous_mode"));
   if (mode.value_or("") == "synchronous") return {};
-  return to_be_written(
+  return needs_setting(
       signal + "/synchronous_mode",
       "is \"" + mode.value_or("") +
           "\", so the reference mark would be as wide as the index pulse, not one count wide",

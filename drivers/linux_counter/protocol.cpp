@@ -4,7 +4,7 @@
 
 namespace mdof::drivers {
 
-tl::unexpected<Error> to_be_written(const std::string& file, const std::string& why,
+tl::unexpected<Error> needs_setting(const std::string& file, const std::string& why,
                                     const std::string& value) {
   return io_error(file + ": " + why + "; set the value with a udev rule that runs: echo " + value +
                   " > " + file);
@@ -24,18 +24,18 @@ std::optional<std::int64_t> CountUnwrap::operator()(std::uint64_t raw) {
 Result<std::uint64_t> check_count(const CountFiles& files, const std::string& path,
                                   const std::string& function, std::uint64_t ceiling) {
   if (files.enable && *files.enable == "0")
-    return to_be_written(path + "/enable", "the count is paused", "1");
+    return needs_setting(path + "/enable", "the count is paused", "1");
   if (!function.empty() && files.function && *files.function != function)
-    return to_be_written(path + "/function", "is \"" + *files.function + "\"",
+    return needs_setting(path + "/function", "is \"" + *files.function + "\"",
                          "\"" + function + "\"");
   if (!function.empty() && !files.function)
     return io_error(
         path + "/function: does not exist; remove the key \"function\" from the configuration");
   if (files.count_mode && *files.count_mode != "normal" && *files.count_mode != "modulo-n")
-    return to_be_written(path + "/count_mode",
+    return needs_setting(path + "/count_mode",
                          "\"" + *files.count_mode + "\" stops counting at a limit", "normal");
   if (files.floor && *files.floor != "0")
-    return to_be_written(path + "/floor", "is " + *files.floor + ", but counts must begin at 0",
+    return needs_setting(path + "/floor", "is " + *files.floor + ", but counts must begin at 0",
                          "0");
   if (!files.ceiling && ceiling == 0)
     return io_error(path +

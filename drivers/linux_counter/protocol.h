@@ -27,7 +27,7 @@ class CountUnwrap {
 };
 
 // Error: a file of the device must be set to `value`.
-tl::unexpected<Error> to_be_written(const std::string& file, const std::string& why,
+tl::unexpected<Error> needs_setting(const std::string& file, const std::string& why,
                                     const std::string& value);
 
 // Contents of the files beside `count`; nullopt: the file does not exist.

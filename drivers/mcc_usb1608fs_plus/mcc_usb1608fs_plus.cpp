@@ -74,7 +74,7 @@ void MccUsb1608fsPlus::close() {
   handle_.reset();
   line_ = ScanSplitter(settings_.inputs.size());
   words_.clear();
-  first_ = sound_ = 0;
+  first_ = confirmed_ = 0;
   clock_.reset();
   reopened_ = last_time_ns_ != 0;
 }
@@ -129,7 +129,7 @@ Status MccUsb1608fsPlus::receive(Time until) {
   do {
     MDOF_CHECK(take_chunk(std::min(until, next_status_)));
     if (steady_clock::now() >= next_status_) MDOF_CHECK(check_status());
-  } while (sound_ == 0 && steady_clock::now() < until);
+  } while (confirmed_ == 0 && steady_clock::now() < until);
   return {};
 }
 
@@ -158,14 +158,14 @@ Status MccUsb1608fsPlus::check_status() {
     return io_error(
         "no data for 2 s although the device reports that it scans; unplug the device and plug it "
         "in again");
-  sound_ = scans;
+  confirmed_ = scans;
   next_status_ = steady_clock::now() + kStatusEvery;
   return {};
 }
 
 void MccUsb1608fsPlus::fill_block(SampleBlock& block) {
   const std::size_t n = channels_.size();
-  for (std::size_t scan = 0; scan < sound_; ++scan) {
+  for (std::size_t scan = 0; scan < confirmed_; ++scan) {
     const std::int64_t time_ns = clock_.host_ns(static_cast<std::int64_t>(first_ + scan));
     if (reopened_) block.lost += lost_while_closed(time_ns);
     reopened_ = false;
@@ -178,8 +178,8 @@ void MccUsb1608fsPlus::fill_block(SampleBlock& block) {
       block.quality[c].push_back(at_rail(raw) ? Quality::over_range : Quality::good);
     }
   }
-  words_.erase(words_.begin(), words_.begin() + static_cast<std::ptrdiff_t>(sound_ * n));
-  first_ += std::exchange(sound_, 0);
+  words_.erase(words_.begin(), words_.begin() + static_cast<std::ptrdiff_t>(confirmed_ * n));
+  first_ += std::exchange(confirmed_, 0);
 }
 
 // The number of scans that the device would have taken since the last returned scan.

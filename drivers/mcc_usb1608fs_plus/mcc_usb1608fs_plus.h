@@ -58,7 +58,7 @@ class MccUsb1608fsPlus final : public Driver {
   ScanSplitter line_;
   std::vector<std::uint16_t> words_;  // of scans received but not yet returned
   std::uint64_t first_ = 0;           // number of the first scan in words_ since the start
-  std::size_t sound_ = 0;             // number of scans in words_ that a status has confirmed
+  std::size_t confirmed_ = 0;         // number of scans in words_ that a status has confirmed
   Time next_status_;
   std::int64_t last_chunk_ns_ = 0;  // host time; initially the time of the start
 

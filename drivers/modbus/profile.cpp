@@ -176,7 +176,7 @@ Result<Profile> load_profile(const std::string& name_or_path, const std::string&
     known += std::string(known.empty() ? "" : ", ") + name;
   }
   if (name_or_path.find('/') == std::string::npos && !name_or_path.ends_with(".toml")) {
-    const std::string nearest = nearest_of(name_or_path, names);
+    const std::string nearest = nearest_candidate(name_or_path, names);
     return bad_input("unknown profile \"" + name_or_path + "\"" +
                      (nearest.empty() ? "." : "; did you mean \"" + nearest + "\"?") +
                      " Known profiles are " + known +

@@ -72,7 +72,7 @@ Status PoKeys57u::open() {
   }
   MDOF_CHECK(set_up_encoders());
   MDOF_TRY(const auto reported, watch_for_restart());
-  if (!reported) return does_not_say("query for the time");
+  if (!reported) return no_answer_error("query for the time");
   next_ = last_ = steady_clock::now();
   return {};
 }
@@ -130,10 +130,10 @@ Status PoKeys57u::try_candidate(const HidEntry& entry, std::vector<std::string>&
 Result<Frame> PoKeys57u::need(const Frame& asked, const char* what) {
   MDOF_TRY(const auto reply, exchange(asked));
   if (reply) return reply->frame;
-  return does_not_say(what);
+  return no_answer_error(what);
 }
 
-tl::unexpected<Error> PoKeys57u::does_not_say(const char* what) const {
+tl::unexpected<Error> PoKeys57u::no_answer_error(const char* what) const {
   return io_error(place() + ": no reply to the " + what +
                   "; check that the device is a PoKeys57U " +
                   "or 56U, and end any other program that uses the device");

@@ -87,7 +87,7 @@ class PoKeys57u final : public Driver {
   Result<std::optional<Reply>> exchange(Frame asked);
   Result<std::optional<Frame>> reply_to(std::uint8_t id, Time until);
   Result<Frame> need(const Frame& asked, const char* what);
-  tl::unexpected<Error> does_not_say(const char* what) const;
+  tl::unexpected<Error> no_answer_error(const char* what) const;
   Status poll(SampleBlock& block);
   void append(SampleBlock& block, const Span& span);
   double value_of(std::size_t i, Time time, Quality& quality);

@@ -40,7 +40,7 @@ DeviceInfo Qsb::info() const {
   const double rate_hz = 1e9 / (tick_.ns() * options_.interval);
   DeviceInfo info{name_,   "qsb", text,          {{options_.channel.id, Unit::um}},
                   rate_hz, false, clock_.state()};
-  if (stays_at_mark()) {
+  if (is_stuck_at_mark()) {
     info.datum_lost = kAtMark;
     info.datum_remedy = Remedy::move_off_reference_mark;
   } else if (datum_lost_) {
@@ -50,7 +50,7 @@ DeviceInfo Qsb::info() const {
   return info;
 }
 
-bool Qsb::stays_at_mark() const {
+bool Qsb::is_stuck_at_mark() const {
   const std::chrono::nanoseconds there(monotonic_ns() - at_mark_since_ns_);
   return mark_.state() == IndexMark::State::at_mark && there > options_.long_at_mark;
 }
@@ -66,10 +66,10 @@ Status Qsb::open() {
   device_ns_ = 0;
   malformed_in_a_row_ = 0;
   MDOF_CHECK(connect());
-  MDOF_CHECK(make_it_answer());
+  MDOF_CHECK(stop_stream_and_set_format());
   MDOF_CHECK(check_identity());
   MDOF_CHECK(watch_for_reset());
-  if (anew_) count_.reset();
+  if (awaits_new_mark_) count_.reset();
   MDOF_CHECK(configure());
   MDOF_CHECK(await_mark());
   counted_ = true;
@@ -89,10 +89,10 @@ Status Qsb::connect() {
 
 // Stops a running stream and sets the format of the replies. A device that does not answer is reset
 // once, which loses its count.
-Status Qsb::make_it_answer() {
+Status Qsb::stop_stream_and_set_format() {
   for (const bool reset : {false, true}) {
     if (reset && !options_.address) {
-      if (counted_) count_from_elsewhere();
+      if (counted_) mark_datum_lost();
       pulse_dtr(*stream_);
       MDOF_TRY(const auto banner, stream_->drain(kBannerWait / 2, kBannerWait));
       (void)banner;
@@ -125,13 +125,13 @@ Status Qsb::check_identity() {
 Status Qsb::watch_for_reset() {
   if (!counted_) return {};
   MDOF_TRY(const QsbReply interval, ask('R', qsb::kInterval, std::nullopt));
-  if (interval.data != options_.interval) count_from_elsewhere();
+  if (interval.data != options_.interval) mark_datum_lost();
   return {};
 }
 
-void Qsb::count_from_elsewhere() {
+void Qsb::mark_datum_lost() {
   datum_lost_ = true;
-  anew_ = true;
+  awaits_new_mark_ = true;
 }
 
 Status Qsb::configure() {
@@ -152,14 +152,14 @@ Status Qsb::configure() {
 // closed.
 Status Qsb::await_mark() {
   if (!options_.channel.index_mm) {
-    anew_ = false;
+    awaits_new_mark_ = false;
     return {};
   }
-  if (anew_) {
+  if (awaits_new_mark_) {
     MDOF_TRY(const QsbReply now, ask('R', qsb::kCount, std::nullopt));
     mark_.arm(count_(now.data));
     marks_found_ = marks_passed_;
-    anew_ = false;
+    awaits_new_mark_ = false;
   }
   if (!mark_.armed()) return {};
   MDOF_CHECK(ask('W', qsb::kLoad, static_cast<std::uint32_t>(mark_.load())));
@@ -213,7 +213,7 @@ Result<ReadState> Qsb::read(SampleBlock& block, milliseconds timeout) {
   if (!stream_) return io_error(place() + ": is not open; call open() before read()");
   if (samples_.empty() && status_) status_ = fetch(timeout);
   if (samples_.empty()) MDOF_CHECK(status_);
-  give_out(block);
+  return_samples(block);
   const std::chrono::nanoseconds silent(monotonic_ns() - last_sample_ns_);
   if (block.scans() == 0 && silent > options_.silence)
     return io_error(place() + ": no line for " + std::to_string(options_.silence.count()) +
@@ -221,7 +221,7 @@ Result<ReadState> Qsb::read(SampleBlock& block, milliseconds timeout) {
   return ReadState::more;
 }
 
-void Qsb::give_out(SampleBlock& block) {
+void Qsb::return_samples(SampleBlock& block) {
   // Losses and passed marks are counted at the beginning of a block, so they start a new block.
   while (!samples_.empty()) {
     const Sample& sample = samples_.front();
@@ -309,7 +309,7 @@ Result<IndexMark::State> Qsb::watch_mark(std::int64_t count, std::int64_t receiv
   using State = IndexMark::State;
   const State before = mark_.state();
   const State now = mark_.take(count);
-  if (now == State::astray && malformed_in_a_row_ >= kMalformedAllowed) count_from_elsewhere();
+  if (now == State::astray && malformed_in_a_row_ >= kMalformedAllowed) mark_datum_lost();
   if (now == State::at_mark && before != now) at_mark_since_ns_ = received_ns;
   if (now == State::passed && before != now) {
     ++marks_found_;

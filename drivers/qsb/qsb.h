@@ -68,12 +68,12 @@ class Qsb final : public Driver {
   };
   std::string place() const;
   Status connect();
-  Status make_it_answer();
+  Status stop_stream_and_set_format();
   Status check_identity();
   Status watch_for_reset();
   Status configure();
   Status await_mark();
-  void count_from_elsewhere();
+  void mark_datum_lost();
   Result<QsbReply> ask(char type, std::uint8_t reg, std::optional<std::uint32_t> data);
   Result<std::optional<QsbReply>> one_reply(std::uint8_t reg, std::chrono::milliseconds timeout);
   std::optional<std::string> next_line();
@@ -82,8 +82,8 @@ class Qsb final : public Driver {
   Status take_sample(const QsbReply& reply, std::int64_t received_ns);
   Status take_malformed();
   Result<IndexMark::State> watch_mark(std::int64_t count, std::int64_t received_ns);
-  bool stays_at_mark() const;
-  void give_out(SampleBlock& block);
+  bool is_stuck_at_mark() const;
+  void return_samples(SampleBlock& block);
 
   std::string name_;
   QsbOptions options_;
@@ -102,7 +102,7 @@ class Qsb final : public Driver {
   Status status_;               // reported after samples_ is empty
   std::int64_t last_sample_ns_ = 0;
   IndexMark mark_{32};
-  bool anew_ = true;  // the count has a new zero, so the mark must be awaited
+  bool awaits_new_mark_ = true;  // the count has a new zero, so the mark must be awaited
   std::int64_t at_mark_since_ns_ = 0;
   int marks_found_ = 0, marks_passed_ = 0;  // in received samples; in returned samples
   std::uint64_t malformed_ = 0;

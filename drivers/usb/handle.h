@@ -22,7 +22,7 @@ struct Wanted {
   std::string serial;  // "": the only connected device
   int interface = 0;   // interface to claim
   // Returns the serial number of a device whose descriptor does not state it; may be empty.
-  std::function<Result<std::string>(Handle&)> ask_serial;
+  std::function<Result<std::string>(Handle&)> query_serial;
 };
 
 // Thread-bound. The destructor closes the device. Errors state cause and remedy, not the device:

@@ -29,7 +29,7 @@ bool has_open(const fs::path& process, const std::string& path) {
 
 }  // namespace
 
-std::string program_that_opened(const std::string& path) {
+std::string find_program_with_file(const std::string& path) {
   std::error_code failed;
   for (fs::directory_iterator each("/proc", failed), end; !failed && each != end;
        each.increment(failed)) {
@@ -44,7 +44,7 @@ std::string program_that_opened(const std::string& path) {
   return "";
 }
 
-std::string owner_of(const Place& place, int interface) {
+std::string interface_owner(const Place& place, int interface) {
   const std::string driver = fs::path(target_of("/sys/bus/usb/devices/" + place.port + ":1." +
                                                 std::to_string(interface) + "/driver"))
                                  .filename()
@@ -52,7 +52,7 @@ std::string owner_of(const Place& place, int interface) {
   if (!driver.empty() && driver != "usbfs") return "the kernel's driver " + driver;
   std::array<char, 64> node{};
   std::snprintf(node.data(), node.size(), "/dev/bus/usb/%03d/%03d", place.bus, place.address);
-  const std::string program = program_that_opened(node.data());
+  const std::string program = find_program_with_file(node.data());
   return program.empty() ? "another program" : "the program " + program;
 }
 

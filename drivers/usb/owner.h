@@ -11,8 +11,8 @@ struct Place {
 };
 
 // "the kernel's driver cdc_acm", "the program mdofd (4711)", or "another program".
-std::string owner_of(const Place& place, int interface);
+std::string interface_owner(const Place& place, int interface);
 // "mdofd (4711)": another program that has `path` open; "": this user can see none.
-std::string program_that_opened(const std::string& path);
+std::string find_program_with_file(const std::string& path);
 
 }  // namespace mdof::drivers::usb

@@ -98,12 +98,12 @@ class Search {
     if (other) return handle;
     if (const int code = libusb_claim_interface(connection.device, wanted_.interface); code != 0)
       return io_error(code == LIBUSB_ERROR_BUSY
-                          ? "the device is in use by " + owner_of(place, wanted_.interface) +
+                          ? "the device is in use by " + interface_owner(place, wanted_.interface) +
                                 "; end that program, or unload that driver"
                           : text_of_error(code));
     connection.claimed = wanted_.interface;
-    if (!handle.serial_.empty() || !wanted_.ask_serial) return handle;
-    MDOF_TRY(handle.serial_, wanted_.ask_serial(handle));
+    if (!handle.serial_.empty() || !wanted_.query_serial) return handle;
+    MDOF_TRY(handle.serial_, wanted_.query_serial(handle));
     return handle;
   }
 

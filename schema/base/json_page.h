@@ -15,8 +15,8 @@ inline constexpr std::size_t kPageBytes = 44 * 1024;
 // returns their number. The first item is always appended, so each item must be shorter than a
 // page. `to_json` converts an index, `begin` to `end` - 1, to JSON text.
 template <class ToJson>
-std::size_t append_page_of(JsonWriter& json, std::size_t begin, std::size_t end, ToJson to_json,
-                           std::size_t max_bytes = kPageBytes) {
+std::size_t append_page_by_index(JsonWriter& json, std::size_t begin, std::size_t end,
+                                 ToJson to_json, std::size_t max_bytes = kPageBytes) {
   std::size_t taken = 0;
   for (std::size_t i = begin; i < end; ++i, ++taken) {
     const std::string text = to_json(i);
@@ -30,7 +30,7 @@ std::size_t append_page_of(JsonWriter& json, std::size_t begin, std::size_t end,
 template <class Items, class ToJson>
 std::size_t append_page(JsonWriter& json, const Items& items, ToJson to_json,
                         std::size_t max_bytes = kPageBytes) {
-  return append_page_of(
+  return append_page_by_index(
       json, 0, items.size(), [&](std::size_t i) { return to_json(items[i]); }, max_bytes);
 }
 

@@ -34,10 +34,9 @@ struct MountingCalibration {
   double tilt_rad = 0;  // largest angle between the tilts of two clampings
   double chi_square = 0;
   int freedom = 0;
-  bool explained =
-      // Whether the readings' uncertainties explain the residuals. If false, the uncertainties
-      // above are widened (Birge).
-      true;
+  // Whether the readings' uncertainties explain the residuals. If false, the uncertainties above
+  // are widened (Birge).
+  bool explained = true;
 };
 
 }  // namespace mdof

@@ -54,7 +54,7 @@ void read_items(const XmlElement& items, DccCertificate& certificate) {
 
 Status read_due(const XmlElement& statements, DccCertificate& certificate) {
   for (const XmlElement& statement : statements.children) {
-    const auto types = ref_types_of(statement);
+    const auto types = read_ref_types(statement);
     if (std::find(types.begin(), types.end(), "basic_recalibration") == types.end()) continue;
     MDOF_TRY(certificate.due, day_at(statement, "dcc:date", certificate.source));
   }
@@ -98,7 +98,7 @@ Status read_results(const XmlElement& measured, DccCertificate& certificate) {
     if (element.name != "dcc:result" || !data) continue;
     DccResult result;
     result.name = name_of(element);
-    result.ref_types = ref_types_of(element);
+    result.ref_types = read_ref_types(element);
     result.line = element.line;
     MDOF_CHECK(read_data(*data, certificate.source, result.quantities, result));
     certificate.results.push_back(std::move(result));

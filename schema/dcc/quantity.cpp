@@ -158,7 +158,7 @@ std::string place_of(const std::string& source, const XmlElement& element) {
   return source + ":" + std::to_string(element.line) + ": " + element.name;
 }
 
-std::vector<std::string> ref_types_of(const XmlElement& element) {
+std::vector<std::string> read_ref_types(const XmlElement& element) {
   return words(std::string(element.attribute("refType")));
 }
 
@@ -175,7 +175,7 @@ Result<std::optional<DccQuantity>> read_quantity(const XmlElement& element,
   MDOF_TRY(auto quantity, QuantityReader(source).read(element));
   if (!quantity) return quantity;
   quantity->name = name_of(element);
-  quantity->ref_types = ref_types_of(element);
+  quantity->ref_types = read_ref_types(element);
   return quantity;
 }
 

@@ -14,7 +14,7 @@ namespace mdof {
 std::string place_of(const std::string& source, const XmlElement& element);
 
 // The words of an attribute such as refType="basic_measuredValue gp_table1".
-std::vector<std::string> ref_types_of(const XmlElement& element);
+std::vector<std::string> read_ref_types(const XmlElement& element);
 // The text of the first dcc:content in dcc:name; absent: empty.
 std::string name_of(const XmlElement& element);
 

@@ -90,7 +90,7 @@ std::optional<KnownField> find_field(std::string_view name) {
   return std::nullopt;
 }
 
-std::string regex_of(std::string_view name) {
+std::string field_regex(std::string_view name) {
   constexpr std::string_view figure = "{figure}";
   std::string regex = "^";
   while (!name.empty()) {

@@ -33,6 +33,6 @@ std::span<const Field> fields();  // in the order of topics
 std::optional<KnownField> find_field(std::string_view name);
 
 // A regular expression of ECMAScript, as in JSON Schema; without {field}.
-std::string regex_of(std::string_view name);
+std::string field_regex(std::string_view name);
 
 }  // namespace mdof

@@ -125,7 +125,7 @@ std::string object_keywords(const ShapeMembers& members) {
   json.begin_object();
   write("properties", members.properties, [](const std::string& name) { return name; });
   write("patternProperties", members.patterns,
-        [](const std::string& name) { return regex_of(name); });
+        [](const std::string& name) { return field_regex(name); });
   if (!members.required.empty()) {
     json.key("required").begin_array();
     for (const std::string& name : members.required) json.value(name);

@@ -28,7 +28,7 @@ std::string to_string(const std::vector<PointFlag>& flags) {
   return text;
 }
 
-std::vector<std::string> texts_of(const std::vector<PointFlag>& flags) {
+std::vector<std::string> flag_texts(const std::vector<PointFlag>& flags) {
   std::vector<std::string> texts;
   for (const PointFlag& flag : flags) texts.push_back(to_string(flag));
   return texts;

@@ -23,7 +23,7 @@ struct PointFlag {
 };
 std::string to_string(const PointFlag& flag);                // "spike:A", as stored and shown
 std::string to_string(const std::vector<PointFlag>& flags);  // space between them
-std::vector<std::string> texts_of(const std::vector<PointFlag>& flags);
+std::vector<std::string> flag_texts(const std::vector<PointFlag>& flags);
 Result<PointFlag> point_flag_from(std::string_view text);  // error (bad_input): no such flag
 
 }  // namespace mdof

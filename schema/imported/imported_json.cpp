@@ -11,7 +11,7 @@ void write_imported_point(JsonWriter& json, const MeasuredPoint& point, const st
   point.point.direction == 0 ? json.null() : json.value(point.point.direction);
   json.field("position_mm", to_mm(point.point.position_m));
   json.field(key, to_key_unit(deviation(point)));
-  json.key("u").begin_object().field(key, to_key_unit(u_of_deviation(point))).end_object();
+  json.key("u").begin_object().field(key, to_key_unit(deviation_uncertainty(point))).end_object();
   json.end_object();
 }
 

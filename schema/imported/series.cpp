@@ -30,7 +30,7 @@ std::optional<PositioningSense> positioning_sense_from(std::string_view word) {
   return std::nullopt;
 }
 
-ImportedError error_of_imported(const RunHeader& run) {
+ImportedError imported_run_error(const RunHeader& run) {
   return imported_error(run.axis, run.provenance.model)
       .value_or(ImportedError{run.provenance.model, std::nullopt, false});
 }
@@ -39,7 +39,7 @@ double deviation(const MeasuredPoint& point) {
   return point.point.probe_m.empty() ? kNaN : point.point.probe_m.front();
 }
 
-double u_of_deviation(const MeasuredPoint& point) {
+double deviation_uncertainty(const MeasuredPoint& point) {
   return point.point.probe_u_m.empty() ? kNaN : point.point.probe_u_m.front();
 }
 

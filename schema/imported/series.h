@@ -69,10 +69,10 @@ const char* to_string(PositioningSense sense);  // "command", "body"
 std::optional<PositioningSense> positioning_sense_from(std::string_view word);
 
 // The error of an imported run.
-ImportedError error_of_imported(const RunHeader& run);
+ImportedError imported_run_error(const RunHeader& run);
 // The deviation of a point of an imported run, in m or rad; NaN: the point has no deviation.
 double deviation(const MeasuredPoint& point);
-double u_of_deviation(const MeasuredPoint& point);
+double deviation_uncertainty(const MeasuredPoint& point);
 
 bool is_imported(const RunHeader& run);
 // Error (bad_input): the run is imported and lacks the data that `what` needs.

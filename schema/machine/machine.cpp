@@ -37,7 +37,7 @@ bool Machine::names_stored_rows() const {
          });
 }
 
-void turn_positioning(MachineFrame& frame) {
+void convert_positioning(MachineFrame& frame) {
   if (frame.positioning_sense == StatedSense::command && frame.against_command) {
     ErrorFunction& along = frame.error[frame.direction];
     for (auto* values : {&along.forward, &along.reverse})

@@ -173,7 +173,7 @@ std::string with_unit(const std::string& name, std::size_t k);
 bool has_location(const MachineFrame& frame, std::size_t k);
 
 // Converts positioning in the sense of the command to that of the body.
-void turn_positioning(MachineFrame& frame);
+void convert_positioning(MachineFrame& frame);
 
 // Converts written positions of an axis: mm, for a rotary axis degrees.
 double position_from_written(const MachineFrame& frame, double written);

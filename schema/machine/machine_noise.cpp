@@ -18,7 +18,7 @@ NoiseOnly noise_only(const Machine& machine, bool with_sources) {
 }
 
 std::string covers_text(const Machine& machine, bool some_without_u, bool with_sources) {
-  return covers_of_errors(noise_only(machine, with_sources), some_without_u) +
+  return error_covers_text(noise_only(machine, with_sources), some_without_u) +
          "; between the positions of an error, u also contains the uncertainty of the "
          "interpolation";
 }

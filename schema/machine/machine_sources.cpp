@@ -57,7 +57,7 @@ SourceEffect read_effect(TomlTable& table, const Machine& machine,
   if (found == errors.end()) {
     std::vector<std::string> names;
     for (const NamedError& e : errors) names.push_back(e.name);
-    const std::string near = nearest_of(name, names);
+    const std::string near = nearest_candidate(name, names);
     table.reject("error", "this machine has no error \"" + name + "\"; " +
                               (near.empty() ? "give an error such as " + errors.front().name
                                             : "did you mean \"" + near + "\"?"));

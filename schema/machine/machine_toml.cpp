@@ -161,7 +161,7 @@ void read_axis(TomlTable& table, MachineFrame& frame) {
   read_range(table, frame);
   read_errors(table, frame);
   // Values in files are converted when they are read.
-  if (frame.file.empty() && frame.error[frame.direction].file.empty()) turn_positioning(frame);
+  if (frame.file.empty() && frame.error[frame.direction].file.empty()) convert_positioning(frame);
 }
 
 MachineFrame frame_of(const ChainAxis& axis) {

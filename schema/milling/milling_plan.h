@@ -31,9 +31,8 @@ struct MillingPlan {
   std::vector<ToolSection> sections;
   double youngs_modulus_Pa = 0;
   // [runout]
-  double runout_m = 0, runout_angle_rad = 0,
-         // At the tip; tilt: m per m of height.
-      runout_tilt = 0;
+  // At the tip; tilt: m per m of height.
+  double runout_m = 0, runout_angle_rad = 0, runout_tilt = 0;
   // [cut]
   bool is_up = true;
   double spindle_hz = 0, feed_per_tooth_m = 0, radial_depth_m = 0, axial_depth_m = 0;

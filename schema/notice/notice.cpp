@@ -8,7 +8,7 @@
 namespace mdof {
 namespace {
 
-constexpr std::size_t kMostAlike = 10;
+constexpr std::size_t kMaxNoticesPerCode = 10;
 
 struct CodeRow {
   const char* name;
@@ -88,7 +88,7 @@ void append(Notices& to, Notices more) {
 }
 
 void append_first(Notices& to, Notices alike) {
-  const std::size_t more = alike.size() - std::min(alike.size(), kMostAlike);
+  const std::size_t more = alike.size() - std::min(alike.size(), kMaxNoticesPerCode);
   alike.resize(alike.size() - more);
   if (more > 0) {
     const Notice& last = alike.back();

@@ -69,17 +69,17 @@ void write_probes(JsonWriter& json, const std::vector<ProbeFigures>& probes) {
 
 }  // namespace
 
-void write_plausibility(JsonWriter& json, const Plausibility& p, std::size_t most_visits) {
+void write_plausibility(JsonWriter& json, const Plausibility& p, std::size_t visit_limit) {
   const std::size_t visits =
       p.n_ij.size() * (2 * static_cast<std::size_t>(std::max(0, p.runs)) + 4);
-  const bool whole = visits <= most_visits;
+  const bool whole = visits <= visit_limit;
   json.begin_object()
       .field("cycle", p.cycle)
       .field("runs", p.runs)
       .field("targets", static_cast<std::uint64_t>(p.n_ij.size()));
   json.key("n_ij");
   whole ? write_visits(json, p.n_ij) : static_cast<void>(json.null());
-  write_left_out(json, p.left_out, most_visits == kAllVisits ? kAllVisits : kFewStops);
+  write_left_out(json, p.left_out, visit_limit == kAllVisits ? kAllVisits : kFewStops);
   json.field("short_stops", p.short_stops)
       .field("rate_hz", p.rate_hz)
       .field("encoder_min_mm", rounded_mm(p.encoder_min_m))

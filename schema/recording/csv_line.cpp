@@ -100,7 +100,7 @@ CsvLine parse_csv_line(std::string_view line, const CsvHeader& header) {
     result.state = State::blank;
     return result;
   }
-  const bool words = header.has_words();
+  const bool words = header.has_text_columns();
   const std::vector<std::string_view> fields = split(line, words);
   if (fields.size() != header.columns.size())
     return wrong_count(line, fields.size(), header.columns.size());

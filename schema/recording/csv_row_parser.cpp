@@ -21,7 +21,7 @@ static_assert(kCsvMargin >= kColumnMargin && kCsvMargin >= kStopsMargin);
 constexpr std::size_t kBatchRows = 256;
 
 // The bytes that end the fields of a batch of good rows.
-std::string stops_of_rows(std::size_t columns, const std::string& line_end) {
+std::string row_stops(std::size_t columns, const std::string& line_end) {
   const std::string row = std::string(columns - 1, ',') + line_end;
   std::string rows;
   for (std::size_t i = 0; i < kBatchRows; ++i) rows += row;
@@ -48,8 +48,8 @@ CsvRowParser::CsvRowParser(CsvHeader header, CsvLimits limits)
       last_time_ns_(std::numeric_limits<std::int64_t>::min()) {
   assert(limits_.scans_per_block > 0);
   missing_.resize(header_.channels.size());
-  plain_rows_ = stops_of_rows(header_.columns.size(), "\n");
-  plain_crlf_rows_ = stops_of_rows(header_.columns.size(), "\r\n");
+  plain_rows_ = row_stops(header_.columns.size(), "\n");
+  plain_crlf_rows_ = row_stops(header_.columns.size(), "\r\n");
   prepare_block();
 }
 
@@ -122,8 +122,8 @@ void CsvRowParser::mark_missing(std::size_t channel) {
 // Reads as many consecutive plain rows as possible. Reads column by column in batches, so that text
 // and stops stay in the nearest cache and numbers of one kind are adjacent.
 void CsvRowParser::parse_plain_rows() {
-  if (blank_lines_) return;         // the next line reports the blank lines first
-  if (header_.has_words()) return;  // a field may be quoted
+  if (blank_lines_) return;                // the next line reports the blank lines first
+  if (header_.has_text_columns()) return;  // a field may be quoted
   const std::size_t columns = header_.columns.size();
   for (;;) {
     if (next_stop_ + columns + 1 >= stops_.count) return;
@@ -162,15 +162,15 @@ std::size_t CsvRowParser::read_columns(std::size_t rows, std::size_t stride) {
     const std::size_t read = read_doubles(column, rows, block_.value[channel].data() + row_);
     rows = read == rows || !header_.may_be_missing(channel)
                ? read
-               : read_past_missing(channel, column, rows, read);
+               : skip_missing_fields(channel, column, rows, read);
   }
   return rows;
 }
 
 // `read` of `rows` rows are read, and the next field is not a number. A probe that was lost has
 // missing values in many consecutive rows.
-std::size_t CsvRowParser::read_past_missing(std::size_t channel, const ColumnText& column,
-                                            std::size_t rows, std::size_t read) {
+std::size_t CsvRowParser::skip_missing_fields(std::size_t channel, const ColumnText& column,
+                                              std::size_t rows, std::size_t read) {
   double* const out = block_.value[channel].data() + row_;
   while (read < rows && is_missing_value(field(column, read))) {
     missing_[channel].in_block = true;

@@ -57,8 +57,8 @@ class CsvRowParser {
   void parse_plain_rows();
   std::size_t plain_rows_ahead(bool crlf) const;
   std::size_t read_columns(std::size_t rows, std::size_t stride);
-  std::size_t read_past_missing(std::size_t channel, const ColumnText& column, std::size_t rows,
-                                std::size_t read);
+  std::size_t skip_missing_fields(std::size_t channel, const ColumnText& column, std::size_t rows,
+                                  std::size_t read);
   std::size_t read_times(std::size_t rows, std::size_t stride);
   Status parse_one_line();
   Status store(const struct CsvLine& line);

@@ -180,13 +180,13 @@ bool CsvHeader::may_be_missing(std::size_t channel) const {
          channels[channel].id != kEncoderChannel;
 }
 
-bool CsvHeader::has_words() const {
+bool CsvHeader::has_text_columns() const {
   return kind == CsvKind::table &&
          std::any_of(columns.begin(), columns.end(),
                      [](const auto& name) { return is_of_words(name) || name == kSenseColumn; });
 }
 
-bool CsvHeader::says_simulated() const {
+bool CsvHeader::is_marked_simulated() const {
   return std::any_of(
       comments.begin(), comments.end(),
       [](const std::string& text) {  // "simulated": a log; "SIMULATED": an export of a run
@@ -194,7 +194,7 @@ bool CsvHeader::says_simulated() const {
       });
 }
 
-bool CsvHeader::says_noise_only() const {
+bool CsvHeader::is_marked_noise_only() const {
   return std::any_of(comments.begin(), comments.end(),
                      [](const std::string& text) { return text.starts_with("NOISE ONLY"); });
 }

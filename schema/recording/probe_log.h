@@ -55,11 +55,11 @@ struct CsvHeader {
   // independently, and a table, whose reader checks the required cells.
   bool may_be_missing(std::size_t channel) const;
   // Whether the file has a text column, so that fields may be quoted.
-  bool has_words() const;
+  bool has_text_columns() const;
   // Whether a comment begins with "simulated" or "SIMULATED": the data are not from a machine.
-  bool says_simulated() const;
+  bool is_marked_simulated() const;
   // Whether a comment states that u contains noise and repeatability only.
-  bool says_noise_only() const;
+  bool is_marked_noise_only() const;
 };
 
 // `text` is the beginning of a file, or the whole file; it must include the complete header line.

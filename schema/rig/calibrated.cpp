@@ -132,7 +132,7 @@ void apply(const std::string& record, const CalibratedProbe& found, Probe& probe
 
 // Removes covariances that are no longer valid: of positions and directions of earlier records that
 // this record replaces, and of zeros that the rig declares.
-void keep_valid_values(CalibrationRecord& record, Rig& rig) {
+void erase_invalid_covariances(CalibrationRecord& record, Rig& rig) {
   for (const CalibratedProbe& found : record.probes)
     for (const Probe& probe : rig.probes) {
       if (probe.id != found.id) continue;
@@ -146,7 +146,7 @@ void keep_valid_values(CalibrationRecord& record, Rig& rig) {
 }
 
 void apply(CalibrationRecord& record, Rig& rig) {
-  keep_valid_values(record, rig);
+  erase_invalid_covariances(record, rig);
   for (const CalibratedProbe& found : record.probes)
     for (Probe& probe : rig.probes)
       if (probe.id == found.id) apply(record.id, found, probe);

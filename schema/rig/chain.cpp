@@ -80,7 +80,7 @@ Chain read_machine(TomlTable& root) {
   return std::move(*chain);
 }
 
-std::string travels_of(const Chain& chain) {
+std::string chain_travels_text(const Chain& chain) {
   std::string text;
   for (const ChainAxis& axis : chain.axes)
     text += (text.empty() ? "" : " ") + std::string(1, axis.letter) +

@@ -37,8 +37,8 @@ Result<Chain> parse_chain(std::string_view text);
 Chain read_machine(TomlTable& root);
 
 // "X+ Y-": the travel of each axis, for people and for the hash of a table.
-std::string travels_of(const Chain& chain);
-// Reads both stored texts; the inverse of Chain::text and travels_of().
+std::string chain_travels_text(const Chain& chain);
+// Reads both stored texts; the inverse of Chain::text and chain_travels_text().
 Result<Chain> chain_from(std::string_view text, std::string_view travels);
 
 }  // namespace mdof

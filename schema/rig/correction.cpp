@@ -10,7 +10,8 @@ int sign_of_error(const ChainAxis& measured) {
 }
 
 // Why straightness at this reference does not apply to the tool; empty: it does.
-std::string gap_of_point(const ChainAxis& measured, Axis axis, Sides sides, Reference reference) {
+std::string reference_point_gap(const ChainAxis& measured, Axis axis, Sides sides,
+                                Reference reference) {
   const bool at_carriage = reference == Reference::carriage;
   if (fixture_is_with_tool(measured, sides)) {
     if (!at_carriage) return "";
@@ -28,8 +29,8 @@ std::string gap_of_point(const ChainAxis& measured, Axis axis, Sides sides, Refe
 }
 
 // Why a rotary axis between the two changes the direction of the correction; empty: none does.
-std::string gap_of_rotary(const Chain& chain, const ChainAxis& measured,
-                          const ChainAxis& correcting) {
+std::string rotary_axis_gap(const Chain& chain, const ChainAxis& measured,
+                            const ChainAxis& correcting) {
   const auto [first, last] = std::minmax({&measured, &correcting});
   for (const ChainAxis* between = first + 1; between < last; ++between) {
     const bool is_rotary = between->letter < 'D';
@@ -73,9 +74,9 @@ CorrectionSigns correction_signs(const Chain& chain, Axis axis, Sides sides, Ref
     } else if (!measured || !correcting) {
       signs.gap[k] = "the chain " + chain.text + " has no axis " + (measured ? by : letter(axis));
     } else {
-      signs.gap[k] = gap_of_rotary(chain, *measured, *correcting);
+      signs.gap[k] = rotary_axis_gap(chain, *measured, *correcting);
       if (signs.gap[k].empty() && !error_names(axis)[k].angle)
-        signs.gap[k] = gap_of_point(*measured, axis, sides, reference);
+        signs.gap[k] = reference_point_gap(*measured, axis, sides, reference);
       if (signs.gap[k].empty())
         signs.factor[k] = -sign_of_error(*measured) * sign_of_command(*correcting);
     }

@@ -279,7 +279,7 @@ struct DeclaredKey {
 
 // `of(item)` is the declared uncertainty of the item.
 template <class Items, class Of>
-DeclaredKey declared_key(const char* key, const Items& items, Of of) {
+DeclaredKey declared_state(const char* key, const Items& items, Of of) {
   return {key,
           !items.empty() && std::all_of(items.begin(), items.end(),
                                         [&](const auto& item) { return of(item).known(); }),
@@ -288,31 +288,31 @@ DeclaredKey declared_key(const char* key, const Items& items, Of of) {
 }
 
 template <class Declared>
-DeclaredKey declared_key(const char* key, const Declared& of) {
+DeclaredKey declared_state(const char* key, const Declared& of) {
   return {key, of.known(), of.declared()};
 }
 
 std::vector<DeclaredKey> declared_keys(const Rig& rig) {
   const auto of_probes = [&](const char* key, auto of) {
-    return declared_key(key, rig.probes,
-                        [of](const Probe& probe) { return probe.uncertainty.*of; });
+    return declared_state(key, rig.probes,
+                          [of](const Probe& probe) { return probe.uncertainty.*of; });
   };
   const RigUncertainty& u = rig.uncertainty;
   return {of_probes("u_calibration_um", &ProbeUncertainty::calibration),
           of_probes("u_sensitivity_ppm", &ProbeUncertainty::sensitivity),
           of_probes("u_position_mm", &ProbeUncertainty::position),
           of_probes("u_direction_mrad", &ProbeUncertainty::direction),
-          declared_key("u_flatness_um", rig.planes,
-                       [](const TargetPlane& plane) { return plane.u_flatness; }),
-          declared_key("[encoder] u_um", u.encoder),
-          declared_key("u_angle_mrad", u.installation_angle),
-          declared_key("u_offset_mm", u.installation_offset),
-          declared_key("u_um_per_h", u.drift),
+          declared_state("u_flatness_um", rig.planes,
+                         [](const TargetPlane& plane) { return plane.u_flatness; }),
+          declared_state("[encoder] u_um", u.encoder),
+          declared_state("u_angle_mrad", u.installation_angle),
+          declared_state("u_offset_mm", u.installation_offset),
+          declared_state("u_um_per_h", u.drift),
           {"[temperature] u_scale_K", rig.expansion.scale.u_temperature.known(),
            rig.expansion.scale.relative() > 0},
           {"[temperature] u_fixture_K", rig.expansion.fixture.u_temperature.known(),
            rig.expansion.fixture.relative() > 0},
-          declared_key("[temperature] u_square_gradient_K_per_m", rig.expansion.square_gradient)};
+          declared_state("[temperature] u_square_gradient_K_per_m", rig.expansion.square_gradient)};
 }
 
 }  // namespace

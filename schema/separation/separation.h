@@ -20,24 +20,24 @@ inline const char* to_string(Surface surface) {
 
 // Shapes that the readings of these set-ups cannot determine. They are removed from the result by
 // least squares.
-struct UnseenShape {
+struct UndeterminedShape {
   std::string name;  // "offset", "parabola", "period 10 mm", "4 more shapes symmetric about -30 mm"
   std::size_t dimensions = 1;  // a period has two: sine and cosine
 };
 
 // A series over places, as far as it is determined: the true series minus its undetermined shapes,
 // which were fitted by least squares over the same places.
-struct SeenSeries {
+struct DeterminedSeries {
   std::vector<double> place_m;  // ascending
   std::vector<double> seen_m;
   std::vector<double> u_m;      // standard uncertainty of seen_m; NaN: unknown
   std::vector<double> freedom;  // effective degrees of freedom of u; NaN: u is unknown
   std::vector<double> k;        // coverage factor of U = k u, 95 %, Student's t; NaN: u is unknown
-  std::vector<UnseenShape> unseen;
+  std::vector<UndeterminedShape> unseen;
 
   // True if at most offset and slope are undetermined; these depend on the clamping of the target.
   bool whole() const {
-    for (const UnseenShape& shape : unseen)
+    for (const UndeterminedShape& shape : unseen)
       if (shape.name != "offset" && shape.name != "slope") return false;
     return true;
   }
@@ -46,8 +46,8 @@ struct SeenSeries {
 };
 
 struct Separation {
-  SeenSeries machine;  // error of the moving body over the encoder's position
-  SeenSeries
+  DeterminedSeries machine;  // error of the moving body over the encoder's position
+  DeterminedSeries
       target;  // height over the place on the target, in C with the orientation of the first set-up
   std::size_t set_ups = 0, readings = 0, unknowns = 0, rank = 0;
   std::size_t freedom() const { return readings - rank; }

@@ -21,11 +21,11 @@ void write_sources(JsonWriter& json, const SeparationRecord& record) {
   json.end_array();
 }
 
-void write_series(JsonWriter& json, const SeenSeries& series, const char* place,
+void write_series(JsonWriter& json, const DeterminedSeries& series, const char* place,
                   const std::string& value) {
   json.begin_object().field("whole", series.whole()).field("zone_um", to_um(series.zone_m()));
   json.key("unseen").begin_array();
-  for (const UnseenShape& shape : series.unseen)
+  for (const UndeterminedShape& shape : series.unseen)
     json.begin_object()
         .field("shape", shape.name)
         .field("dimensions", static_cast<std::uint64_t>(shape.dimensions))
@@ -45,9 +45,9 @@ void write_series(JsonWriter& json, const SeenSeries& series, const char* place,
 }
 
 // NaN: the places have different values.
-double common(const Separation& fit, std::vector<double> SeenSeries::*of) {
+double common(const Separation& fit, std::vector<double> DeterminedSeries::*of) {
   const double first = (fit.machine.*of).empty() ? std::nan("") : (fit.machine.*of).front();
-  for (const SeenSeries* series : {&fit.machine, &fit.target})
+  for (const DeterminedSeries* series : {&fit.machine, &fit.target})
     for (const double x : series->*of)
       if (x != first) return std::nan("");
   return first;
@@ -59,17 +59,17 @@ void write_fit(JsonWriter& json, const Separation& fit) {
       .field("rank", static_cast<std::uint64_t>(fit.rank))
       .field("freedom", static_cast<std::uint64_t>(fit.freedom()))
       .field("residual_um", to_um(fit.residual_m))
-      .field("k", common(fit, &SeenSeries::k))
-      .field("nu_eff", common(fit, &SeenSeries::freedom))
+      .field("k", common(fit, &DeterminedSeries::k))
+      .field("nu_eff", common(fit, &DeterminedSeries::freedom))
       .field("u_from", fit.u_reason)
       .field("u_covers", fit.u_reason)
       .field("noise_only", fit.noise_only)
-      .field("not_covered", not_in_separation_u());
+      .field("not_covered", separation_u_omits());
 }
 
 }  // namespace
 
-const char* not_in_separation_u() {
+const char* separation_u_omits() {
   return "undeclared sources (scale of the probe, drift within a set-up, flatness of other "
          "surfaces), errors of the shifts, unequal lever arms and sag; the tilt between the "
          "set-ups is no source, because the fit determines it";

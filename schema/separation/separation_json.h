@@ -15,6 +15,6 @@ namespace mdof {
 std::string separation_json(const SeparationRecord& record);
 
 // Contributions that u of a separation does not include, for people.
-const char* not_in_separation_u();
+const char* separation_u_omits();
 
 }  // namespace mdof

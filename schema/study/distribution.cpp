@@ -43,7 +43,7 @@ Kind read_kind(TomlTable& table) {
     known.emplace_back(k.name);
     list += std::string(list.empty() ? "" : ", ") + k.name;
   }
-  const std::string near = nearest_of(name, known);
+  const std::string near = nearest_candidate(name, known);
   table.reject("distribution",
                "\"" + name + "\" is not a distribution; " +
                    (near.empty() ? "possible: " + list : "did you mean \"" + near + "\"?"));

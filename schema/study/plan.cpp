@@ -13,7 +13,7 @@ namespace mdof {
 namespace plan_parts {
 
 std::string known_or_list(const std::string& word, const std::vector<std::string>& known) {
-  const std::string near = nearest_of(word, known);
+  const std::string near = nearest_candidate(word, known);
   if (!near.empty()) return "did you mean \"" + near + "\"?";
   std::string list = "possible:";
   for (const auto& k : known) list += " " + k;

@@ -72,7 +72,7 @@ void read_truth(TomlTable& table, StudyPlan& plan) {
 }
 
 // Sets missing values of the truth as in the paper.
-void complete_truth(StudyPlan& plan, bool said) {
+void set_default_truth(StudyPlan& plan, bool said) {
   if (!has_quantity(plan, "travel_mm")) add_usual_range(plan, "travel_mm", 0, kTravel_mm);
   const bool any = std::any_of(plan.quantities.begin(), plan.quantities.end(),
                                [](const auto& q) { return q.name.starts_with("truth."); });
@@ -239,7 +239,7 @@ void read_bins(TomlTable& table, StudyPlan& plan, const std::set<std::string>& g
 Status read_quantities(TomlTable& table, const Path& folder, StudyPlan& plan) {
   read_truth(table, plan);
   for (auto& quantity : table.tables("quantity")) MDOF_CHECK(read_quantity(quantity, folder, plan));
-  complete_truth(plan, table.has("truth"));
+  set_default_truth(plan, table.has("truth"));
   reject_doubles(table, plan);
   return {};
 }

@@ -120,7 +120,7 @@ Result<std::vector<QuantityTarget>> resolve_quantity(std::string_view name, cons
     if (starred || target.name == name) found.push_back(std::move(target));
   }
   if (!found.empty()) return found;
-  const std::string near = nearest_of(name, quantity_names(rig));
+  const std::string near = nearest_candidate(name, quantity_names(rig));
   return bad_input(
       "no quantity of rig \"" + rig.name + "\" is called \"" + std::string(name) + "\"; " +
       (near.empty() ? "a name begins with \"probe.\", \"installation.\", \"target.\", "

@@ -5,8 +5,8 @@
 
 namespace mdof {
 bool is_noise_only(double u, double u_declared) {
-  constexpr double kSeen = 0.01;  // share of u
-  return !(u_declared > kSeen * u);
+  constexpr double kVisibleShare = 0.01;  // share of u
+  return !(u_declared > kVisibleShare * u);
 }
 
 bool is_noise_only(const Budget& budget) {

@@ -14,7 +14,7 @@ constexpr std::array kCoveredWords = {
 
 }  // namespace
 
-Covers covers(const MeasuredCovers& of) {
+Covers covers(const CoverFacts& of) {
   Covers found;
   if (of.noise_only)
     found = {of.repeated ? Covered::noise_repeatability_only : Covered::noise_only,

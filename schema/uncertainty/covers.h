@@ -15,11 +15,11 @@ enum class Covered {
 using Covers = std::vector<Covered>;
 
 // Facts about the u of results that a fixture measured.
-struct MeasuredCovers {
+struct CoverFacts {
   bool noise_only = false, declares = false;
   bool repeated = true;  // false: no target of a run was visited twice from the same side
 };
-Covers covers(const MeasuredCovers& of);
+Covers covers(const CoverFacts& of);
 
 // One English sentence without a full stop: "u_covers" of documents. The German text is in
 // daemon/words/words.h.

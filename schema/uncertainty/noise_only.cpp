@@ -2,7 +2,7 @@
 
 namespace mdof {
 
-std::string covers_of_errors(NoiseOnly noise_only, bool some_without_u) {
+std::string error_covers_text(NoiseOnly noise_only, bool some_without_u) {
   const char* const text[] = {
       "the u of the errors; errors of different axes and errors from files are treated as "
       "independent, except for scale, linearity and tilt factor of probes that measured several "

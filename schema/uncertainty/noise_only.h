@@ -17,6 +17,6 @@ constexpr NoiseOnly joined(NoiseOnly a, NoiseOnly b) {
 }
 
 // Contributions that u of a sum of machine errors includes, in English, without a full stop.
-std::string covers_of_errors(NoiseOnly noise_only, bool some_without_u);
+std::string error_covers_text(NoiseOnly noise_only, bool some_without_u);
 
 }  // namespace mdof

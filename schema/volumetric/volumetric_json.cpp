@@ -42,7 +42,7 @@ void write_um(JsonWriter& json, const char* key, const Vec3& value_m) {
 
 void write_volumetric_members(JsonWriter& json, const VolumetricTable& t) {
   json.field("table", t.id).field("axis", "volume").field("machine", t.name);
-  json.field("chain", t.machine.text).field("chain_travel", travels_of(t.machine));
+  json.field("chain", t.machine.text).field("chain_travel", chain_travels_text(t.machine));
   json.key("runs").begin_array();
   for (const std::int64_t run : t.runs) json.value(run);
   json.end_array().field("approach", t.approach).key("tool_point_mm").begin_array();

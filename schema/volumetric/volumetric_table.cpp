@@ -18,7 +18,7 @@ Vec3 VolumetricTable::command_at(std::size_t node) const {
   return {command_m[0][node % nx], command_m[1][node / nx % ny], command_m[2][node / (nx * ny)]};
 }
 
-Vec3 u_beside(const Vec3& u_m, const Vec3& part_m) {
+Vec3 remaining_u(const Vec3& u_m, const Vec3& part_m) {
   Vec3 rest{};
   for (std::size_t k = 0; k < 3; ++k) {
     const double square = u_m[k] * u_m[k] - part_m[k] * part_m[k];
@@ -32,7 +32,7 @@ Vec3 VolumetricTable::u_independent_at(std::size_t node) const {
 }
 
 Vec3 VolumetricTable::u_common_at(std::size_t node) const {
-  return u_beside(u_m[node], u_independent_at(node));
+  return remaining_u(u_m[node], u_independent_at(node));
 }
 
 namespace {
@@ -80,7 +80,7 @@ std::string volumetric_sha256(const VolumetricTable& t) {
            (reversal ? ", reversal" : "") + (t.doubtful.empty() ? "" : ", doubtful"));
   put_text(t.name);
   put_text(t.machine.text);
-  put_text(travels_of(t.machine));
+  put_text(chain_travels_text(t.machine));
   put_text(t.description);
   put(bytes, std::uint64_t{t.runs.size()});
   for (const std::int64_t run : t.runs) put(bytes, run);
@@ -116,7 +116,7 @@ std::string rotary_text(const VolumetricTable& table) {
 }
 
 std::string covers_text(const VolumetricTable& table) {
-  std::string text = covers_of_errors(table.noise_only, !table.u_not_declared.empty());
+  std::string text = error_covers_text(table.noise_only, !table.u_not_declared.empty());
   if (!table.u_independent_m.empty())
     text +=
         "; u_independent is the part from noise, which differs between the positions of an axis; "

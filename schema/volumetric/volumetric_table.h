@@ -89,7 +89,7 @@ struct VolumetricTable {
 std::string rotary_text(const VolumetricTable& table);
 
 // The other part of u, if `part_m` is one part; m. NaN if either is NaN.
-Vec3 u_beside(const Vec3& u_m, const Vec3& part_m);
+Vec3 remaining_u(const Vec3& u_m, const Vec3& part_m);
 
 // All numbers of `noise`, X first: the variances of a node, then its covariances. set_noise()
 // assigns them to the commands of the table; false: the number of values does not fit.

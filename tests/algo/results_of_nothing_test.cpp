@@ -157,7 +157,7 @@ TEST(ResultsOfNothing, RuleWithoutBlocksIsNotSettled) {
   EXPECT_EQ(rule->progress()[0].tolerance, 0);
   EXPECT_FALSE(rule->progress()[0].constant);
   EXPECT_FALSE(rule->settled());
-  EXPECT_FALSE(rule->output_that_never_settles());
+  EXPECT_FALSE(rule->unsettled_output());
 }
 
 // A single turn cannot show a drift. Without a radius there is no angle.

@@ -13,15 +13,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#define MDOF_SAME_PLACE 1e-6       /* machine units */
-#define MDOF_MOST_COORDINATES 1024 /* of an axis of the grid */
+#define MDOF_POSITION_TOLERANCE 1e-6 /* machine units */
+#define MDOF_MAX_COORDINATES 1024    /* of an axis of the grid */
 
 /* Corrections at the nodes of a grid, X fastest, then Y, then Z. The correction does not
    depend on the position of an axis with one coordinate. */
 struct mdof_table {
   int n[3];
-  double coordinate[3][MDOF_MOST_COORDINATES]; /* strictly increasing */
-  double* correction;                          /* nodes * 3 */
+  double coordinate[3][MDOF_MAX_COORDINATES]; /* strictly increasing */
+  double* correction;                         /* nodes * 3 */
   long nodes;
   long generation_number;
   bool is_simulated;
@@ -34,7 +34,7 @@ static inline bool mdof_cell(const double* at, int n, double x, int* cell, doubl
   int low = 0, high = n - 1;
   *cell = 0;
   *share = 0;
-  if (n < 2) return fabs(x - at[0]) <= MDOF_SAME_PLACE;
+  if (n < 2) return fabs(x - at[0]) <= MDOF_POSITION_TOLERANCE;
   while (high - low > 1) {
     const int middle = (low + high) / 2;
     if (at[middle] <= x)
@@ -46,7 +46,7 @@ static inline bool mdof_cell(const double* at, int n, double x, int* cell, doubl
   *share = (x - at[low]) / (at[high] - at[low]);
   if (*share >= 0 && *share <= 1) return true;
   *share = *share > 1 ? 1 : 0;
-  return x >= at[0] - MDOF_SAME_PLACE && x <= at[n - 1] + MDOF_SAME_PLACE;
+  return x >= at[0] - MDOF_POSITION_TOLERANCE && x <= at[n - 1] + MDOF_POSITION_TOLERANCE;
 }
 
 /* The correction at a position, linear along each axis between nodes; outside the grid, the
@@ -170,7 +170,7 @@ static inline enum mdof_received mdof_receive_size(struct mdof_receiver* r, cons
   t->nodes = 1;
   r->coordinates = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(v[axis] >= 1 && v[axis] <= MDOF_MOST_COORDINATES)) return mdof_refuse(r, MDOF_TOO_LARGE);
+    if (!(v[axis] >= 1 && v[axis] <= MDOF_MAX_COORDINATES)) return mdof_refuse(r, MDOF_TOO_LARGE);
     t->n[axis] = lrint(v[axis]);
     t->nodes *= t->n[axis];
     r->coordinates += t->n[axis];

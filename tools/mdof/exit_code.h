@@ -7,7 +7,7 @@ namespace mdof::tools {
 
 enum ExitCode { kOk = 0, kFailedCheck = 1, kUsage = 2, kBadInput = 3, kDeviceOrIo = 4 };
 
-inline ExitCode exit_code_of(ErrorCode code) {
+inline ExitCode exit_code_for(ErrorCode code) {
   switch (code) {
     case ErrorCode::usage:
       return kUsage;

@@ -66,7 +66,7 @@ int run(int argc, char** argv) {
   if (done) done = chosen();
   if (done) return kOk;
   say("mdof: " + words::text(done.error()));
-  return exit_code_of(done.error().code);
+  return exit_code_for(done.error().code);
 }
 
 }  // namespace

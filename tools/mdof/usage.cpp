@@ -46,7 +46,7 @@ std::string usage_message(CLI::App& app, const CLI::ParseError& error) {
   if (unknown.empty()) return error.what() + help;
   const std::string word = unknown.front().substr(0, unknown.front().find('='));
   const bool option = word.starts_with("-");
-  const std::string nearest = nearest_of(word, known_words(command, option));
+  const std::string nearest = nearest_candidate(word, known_words(command, option));
   return std::string("unknown ") + (option ? "option" : "command or argument") + " \"" + word +
          "\"" + (nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)") + help;
 }

@@ -61,7 +61,7 @@ int main(int argc, char** argv) try {
   const mdof::Status done = serve(plan, host);
   if (done) return 0;
   std::fprintf(stderr, "mdof-simulate: %s\n", mdof::words::text(done.error()).c_str());
-  return mdof::tools::exit_code_of(done.error().code);
+  return mdof::tools::exit_code_for(done.error().code);
 } catch (const std::exception& e) {
   std::fprintf(stderr, "mdof-simulate: %s\n", e.what());
   return mdof::tools::kDeviceOrIo;

@@ -86,8 +86,9 @@ class CorrectedPlace {
 };
 
 // NaN: no relevant error has an uncertainty.
-Vec3 u_of_correction(const Machine& machine, const Command& command, MachineApproach approach) {
-  const Vector6 all = error_uncertainty(derivatives_of_command(machine, command),
+Vec3 correction_uncertainty(const Machine& machine, const Command& command,
+                            MachineApproach approach) {
+  const Vector6 all = error_uncertainty(command_derivatives(machine, command),
                                         values_at(machine, command, approach));
   Vec3 u{};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -117,10 +118,10 @@ Status add_node(VolumetricTable& table, const Machine& machine, const Volumetric
            CorrectedPlace::at(machine, request, table.command_at(node)));
   const ToolError error = tool_error(machine, place.command(), request.approach);
   table.correction_m.push_back(place.correction_m());
-  table.u_m.push_back(u_of_correction(machine, place.command(), request.approach));
+  table.u_m.push_back(correction_uncertainty(machine, place.command(), request.approach));
   if (has_parts(table)) table.u_independent_m.push_back(u_independent(table, node));
   table.place_left_m = std::max(table.place_left_m, place.found().residual_m.norm());
-  const Vec3 reversal = reversal_of_command(machine, place.command());
+  const Vec3 reversal = command_reversal(machine, place.command());
   const double left = request.approach == MachineApproach::mean ? 0.5 : 1;
   for (std::size_t k = 0; k < 3; ++k)
     table.reversal_m[k] = std::max(table.reversal_m[k], left * reversal[k]);
@@ -134,7 +135,8 @@ Status add_node(VolumetricTable& table, const Machine& machine, const Volumetric
 }
 
 // Moves the command by half a cell along each axis of `half`; false: there is no such cell.
-bool half_a_cell(const VolumetricTable& table, std::size_t node, unsigned half, Vec3& command_m) {
+bool move_half_cell(const VolumetricTable& table, std::size_t node, unsigned half,
+                    Vec3& command_m) {
   command_m = table.command_at(node);
   for (std::size_t k = 0; k < 3; ++k) {
     if (!(half >> k & 1U)) continue;
@@ -192,7 +194,7 @@ class Interpolation {
   Status find(std::size_t node) {
     Vec3 middle{};
     for (unsigned half = 1; half < 8; ++half) {
-      if (!half_a_cell(table_, node, half, middle)) continue;
+      if (!move_half_cell(table_, node, half, middle)) continue;
       MDOF_TRY(const Vec3 left, left_at(middle));
       take(left);
     }
@@ -315,7 +317,7 @@ Result<VolumetricTable> build_volumetric(const Machine& machine, const Volumetri
                                                                   : "mean";
   table.tool_m = machine.tool_m;
   MDOF_CHECK(set_grid(table, machine, request));
-  set_noise_of_axes(table, machine, request.others, request.approach);
+  set_axis_noise(table, machine, request.others, request.approach);
   for (std::size_t node = 0; node < table.nodes(); ++node)
     MDOF_CHECK(add_node(table, machine, request, node));
   MDOF_CHECK(check_measured(table, request));

@@ -22,7 +22,7 @@ struct AffineEffect {
 
 EffectOnTool effect_at(const Machine& machine, std::size_t frame, const Command& command) {
   EffectOnTool effect = EffectOnTool::Zero();
-  for (const ErrorDerivative& d : derivatives_of_command(machine, command))
+  for (const ErrorDerivative& d : command_derivatives(machine, command))
     if (d.frame == frame && !d.of_line) effect.col(static_cast<Eigen::Index>(d.k)) = d.d.head<3>();
   return effect;
 }
@@ -118,8 +118,8 @@ double value_of(const AxisNoise::SquareForm& c, double p, double q) {
 
 }  // namespace
 
-void set_noise_of_axes(VolumetricTable& table, const Machine& machine, const Command& others,
-                       MachineApproach approach) {
+void set_axis_noise(VolumetricTable& table, const Machine& machine, const Command& others,
+                    MachineApproach approach) {
   if (std::none_of(machine.frames.begin(), machine.frames.end(), has_noise)) return;
   for (std::size_t i = 0; i < machine.frames.size(); ++i) {
     const MachineFrame& frame = machine.frames[i];

@@ -23,8 +23,8 @@ struct GridCell {
 // (derivatives()). Noise at different targets of an axis is independent; between targets it is
 // interpolated linearly, because grid and targets can differ. `noise` is not set if no error has an
 // independent part.
-void set_noise_of_axes(VolumetricTable& table, const Machine& machine, const Command& others,
-                       MachineApproach approach);
+void set_axis_noise(VolumetricTable& table, const Machine& machine, const Command& others,
+                    MachineApproach approach);
 
 // Variances of the correction of X, Y, Z at a command due to this noise, m².
 Vec3 noise_variance(const VolumetricTable& table, const std::array<GridCell, 3>& cell,

@@ -43,7 +43,7 @@ double huber_loss(double left_m, double limit_m) {
 
 // Removes the plane from the residuals, in addition to the plane removed before, and sets the
 // limit.
-void take_plane(const Places& a, PoseFit& fit, int most) {
+void remove_fitted_plane(const Places& a, PoseFit& fit, int most) {
   const double scale = 1 / a.size_m;
   for (int step = 0; step < most; ++step) {
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(3, 3);
@@ -176,7 +176,7 @@ bool is_better(const PoseFit& next, const PoseFit& now) {
 
 PoseFit fit_at(const Places& a, const Surface& b, const MapPose& pose) {
   PoseFit fit = left_at(a, b, pose, {});
-  take_plane(a, fit, kPlaneSteps);
+  remove_fitted_plane(a, fit, kPlaneSteps);
   return fit;
 }
 
@@ -198,7 +198,7 @@ PoseFit fitted_from(const Places& a, const Surface& b, const MapPose& start,
       PoseFit next = left_at(a, b, pose, now.plane);
       if (next.count >= needed) {
         next.limit_m = now.limit_m;
-        take_plane(a, next, kPlaneStepsAgain);
+        remove_fitted_plane(a, next, kPlaneStepsAgain);
         found = is_better(next, now);
       }
       if (found) now = std::move(next);

@@ -132,7 +132,7 @@ void name_not_declared(const std::vector<ErrorDerivative>& all, BudgetModel& mod
     if (d.d.head<3>().norm() < 1e-12 || has_cause(model, frame, d)) continue;
     if (d.of_line && frame.kind == FrameKind::fixed) continue;
     if (d.of_line && frame.kind == FrameKind::linear) {
-      const MachineFrame* other = other_of_square(model.machine, d);
+      const MachineFrame* other = squareness_partner(model.machine, d);
       if (!other || frame.direction < other->direction || has_cause(model, *other, d)) continue;
     }
     model.not_declared.push_back(name_of(frame, d.k, d.of_line));

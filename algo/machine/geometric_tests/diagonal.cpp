@@ -109,7 +109,7 @@ Result<std::vector<Diagonal>> plane_diagonals(const Machine& machine, std::size_
   return diagonals;
 }
 
-Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines) {
+Result<DiagonalSquareness> squareness_of_diagonals(const DiagonalLines& lines) {
   if (lines.first.length_m.empty() || lines.second.length_m.empty() ||
       lines.diagonal.length_m.empty())
     return bad_input(
@@ -117,7 +117,7 @@ Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines
   if (!usable(lines.first) || !usable(lines.second) || !usable(lines.diagonal) ||
       !usable(lines.other))
     return bad_input("every length must be a number above 0");
-  SquarenessOfDiagonals s;
+  DiagonalSquareness s;
   s.two_diagonals = !lines.other.length_m.empty();
   const Length x = length_of(lines.first), y = length_of(lines.second);
   const Length d = length_of(lines.diagonal), e = length_of(lines.other);

@@ -26,7 +26,7 @@ Result<std::vector<Diagonal>> plane_diagonals(const Machine& machine, std::size_
 struct MeasuredLine {
   std::vector<double> length_m;
 };
-struct SquarenessOfDiagonals {
+struct DiagonalSquareness {
   double angle_error_rad = 0;  // angle between the axes - 90°: EC0Y of X and Y
   double u_rad = 0, U_rad = 0, k = 0, freedom = 0;
   double u_repeat_rad = 0;     // part of it by repetition
@@ -43,6 +43,6 @@ struct DiagonalLines {
   MeasuredLine first, second, diagonal, other;  // other may be empty
   double u_line_m = 0;                          // declared u of each line, independent
 };
-Result<SquarenessOfDiagonals> squareness_of_diagonals(const DiagonalLines& lines);
+Result<DiagonalSquareness> squareness_of_diagonals(const DiagonalLines& lines);
 
 }  // namespace mdof::algo

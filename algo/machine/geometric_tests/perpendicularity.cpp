@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
 constexpr double kWidestGap_rad = kTurn / 6;
-constexpr double kTurnsOfDrift = 1 + 1.0 / 6;
+constexpr double kLeastTurnsForDrift = 1 + 1.0 / 6;
 
 double sine(double angle_rad) {
   return sine_of_turns(angle_rad / kTurn);
@@ -78,7 +78,7 @@ Status check(const CircleReadings& r, int highest, bool drift) {
 Result<Perpendicularity> perpendicularity(const CircleReadings& r, int highest) {
   Perpendicularity p;
   p.turns = turns_of(r.angle_rad);
-  p.drift_fitted = p.turns > kTurnsOfDrift;
+  p.drift_fitted = p.turns > kLeastTurnsForDrift;
   MDOF_CHECK(check(r, highest, p.drift_fitted));
   MDOF_TRY(const Eigen::VectorXd time, times_of(r));
   const auto n = static_cast<Eigen::Index>(r.angle_rad.size());

@@ -96,7 +96,7 @@ MachineFrame axis_c(const ChainAxis& chain) {
 }
 
 // Errors that are not given are set to 0 as known.
-void know_the_rest(Machine& machine) {
+void set_missing_errors_to_zero(Machine& machine) {
   for (MachineFrame& frame : machine.frames)
     for (std::size_t k = 0; k < kBodyErrors; ++k) {
       if (!frame.error[k].known()) frame.error[k].forward = {0};
@@ -271,8 +271,8 @@ Result<GroovingState> read_state(const Plant& plant, const GroovingInstruments& 
   MDOF_TRY(state.square, squareness_of_diagonals(lines));
   DiagonalLines one = lines;
   one.other = {};
-  MDOF_TRY(const SquarenessOfDiagonals by_one, squareness_of_diagonals(one));
-  state.angle_of_one_diagonal_rad = by_one.angle_error_rad;
+  MDOF_TRY(const DiagonalSquareness by_one, squareness_of_diagonals(one));
+  state.one_diagonal_angle_rad = by_one.angle_error_rad;
   state.found = found_machine(plant.machine, x, y, state, noise.u_of_mean(by.position_m));
   PlaneMapRequest request;
   request.step_m = kTarget_m;
@@ -372,7 +372,7 @@ Machine grooving_machine() {
   machine.tool_m = {0, 0, 0.12};                 // above the guides, like the laser beam
   machine.frames = {axis_c(machine.chain.axes[0]), axis_y(machine.chain.axes[1]),
                     axis_x(machine.chain.axes[2])};
-  know_the_rest(machine);
+  set_missing_errors_to_zero(machine);
   return machine;
 }
 

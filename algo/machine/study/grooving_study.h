@@ -43,8 +43,8 @@ struct DiagonalRange {
 struct GroovingState {
   Machine found;  // positions, straightness and squareness as measured
   double angle_error_rad = 0, u_angle_rad = 0;  // between the axes, by straightness and a square
-  SquarenessOfDiagonals square;                 // by Eq. 2, with both diagonals
-  double angle_of_one_diagonal_rad = 0;         // by Eq. 2 as the paper uses it
+  DiagonalSquareness square;                    // by Eq. 2, with both diagonals
+  double one_diagonal_angle_rad = 0;            // by Eq. 2 as the paper uses it
   PlaneRange estimated;                         // by Eq. 1
   PlaneRange actual;  // by the simulated machine itself, including its angles
   std::vector<DiagonalRange> diagonals;

@@ -37,7 +37,7 @@ bool PlaceWatch::is_placed(std::int64_t time_ns, double position_m) const {
          std::abs(position_m - last_.position_m) < kBack * std::abs(position_m - stray_.position_m);
 }
 
-std::size_t PlaceWatch::end_of_placed(const FrameBlock& frames, std::size_t from) {
+std::size_t PlaceWatch::find_placed_end(const FrameBlock& frames, std::size_t from) {
   std::size_t i = from;
   for (; i < frames.size() && is_placed(frames.time_ns[i], frames.encoder_m[i]); ++i) {
     last_ = {frames.time_ns[i], frames.encoder_m[i]};
@@ -61,7 +61,7 @@ void PlaceWatch::leave_out(std::int64_t time_ns, double position_m) {
   stray_ = {time_ns, position_m};
 }
 
-std::size_t PlaceWatch::end_of_unplaced(const FrameBlock& frames, std::size_t from) {
+std::size_t PlaceWatch::find_unplaced_end(const FrameBlock& frames, std::size_t from) {
   std::size_t i = from;
   for (; i < frames.size() && !is_placed(frames.time_ns[i], frames.encoder_m[i]); ++i)
     leave_out(frames.time_ns[i], frames.encoder_m[i]);

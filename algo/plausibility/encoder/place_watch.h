@@ -24,8 +24,8 @@ class PlaceWatch {
   // Position of the axis when the frames begin. Before this call only NaN is left out.
   void begin_at(std::int64_t time_ns, double position_m);
   // End of the consecutive frames from `from` on that have a place, or that have no place.
-  std::size_t end_of_placed(const FrameBlock& frames, std::size_t from);
-  std::size_t end_of_unplaced(const FrameBlock& frames, std::size_t from);
+  std::size_t find_placed_end(const FrameBlock& frames, std::size_t from);
+  std::size_t find_unplaced_end(const FrameBlock& frames, std::size_t from);
 
   bool is_placed(std::int64_t time_ns, double position_m) const;
   std::uint64_t left_out() const { return missing_ + too_fast_; }

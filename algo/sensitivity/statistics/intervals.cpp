@@ -35,8 +35,8 @@ struct Shortest {
 };
 
 // Tries the ranks r at one end of every slice; `shift`: r is that end minus this.
-void look_at_ends(const OrderedTrials& trials, std::uint64_t q, std::uint64_t shift, bool last,
-                  Shortest& best) {
+void search_at_slice_ends(const OrderedTrials& trials, std::uint64_t q, std::uint64_t shift,
+                          bool last, Shortest& best) {
   Cursor low(trials), high(trials);
   for (const OrderedTrials::Slice& s : trials.slices()) {
     const std::uint64_t end = s.before + (last ? s.count : 1);
@@ -65,8 +65,8 @@ IntervalRanks shortest_ranks(double coverage, const OrderedTrials& trials) {
   const std::uint64_t q = covered(coverage, trials.size());
   Shortest best;
   for (const std::uint64_t shift : {std::uint64_t{0}, q}) {
-    look_at_ends(trials, q, shift, false, best);
-    look_at_ends(trials, q, shift, true, best);
+    search_at_slice_ends(trials, q, shift, false, best);
+    search_at_slice_ends(trials, q, shift, true, best);
   }
   return {best.low, best.low + q};
 }

@@ -19,9 +19,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::uint64_t kTrialsOfU = 2000;    // U is then accurate to 2 %
-constexpr std::uint64_t kTrialsOfBlock = 64;  // so many that their shifts stay in the cache
-constexpr double kLeastFirstOrder = 0.01;     // u as a part of U; k is then 100
+constexpr std::uint64_t kIntervalTrials = 2000;  // U is then accurate to 2 %
+constexpr std::uint64_t kTrialsPerBlock = 64;    // so many that their shifts stay in the cache
+constexpr double kLeastFirstOrder = 0.01;        // u as a part of U; k is then 100
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 MeanErrors means_of(const Run& run, const std::vector<MeasuredPoint>& points) {
@@ -44,7 +44,7 @@ double sum_of_squares(const std::vector<double>& values) {
 
 // A few parts that are added to the shifts of all trials in one pass: each sum is read and written
 // a quarter as often.
-class SomeParts {
+class PartBatch {
  public:
   void add(const std::vector<double>& part, std::vector<double> drawn) {
     part_[n_] = part.data();
@@ -180,7 +180,7 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
     place.push_back(budgets.size() - 1);
   }
   if (ranges.empty()) return budgets;
-  auto trials = drawn(ranges, {kTrialsOfU, 1}, 0);
+  auto trials = drawn(ranges, {kIntervalTrials, 1}, 0);
   for (std::size_t r = 0; r < ranges.size(); ++r) {
     Budget& budget = budgets[place[r]];
     const RangeTrials range(ranges[r].deviations(means_), std::move(trials[r].changes));
@@ -198,9 +198,9 @@ std::vector<Budget> RunBudgets::of(const std::vector<Figure>& figures) const {
 
 // Shifts of the means, trial after trial. `quantities`: one for each contributor.
 std::vector<double> RunBudgets::moved_by(BlockOfDraws& draws, std::size_t trials,
-                                         const std::vector<OneU>& quantities) const {
+                                         const std::vector<UnitQuantity>& quantities) const {
   std::vector<double> moved(trials * means_.targets.size() * kErrorCount);
-  SomeParts some;
+  PartBatch some;
   for (std::size_t s = 0; s < shifted_.size(); ++s)
     for (const MeanShifts& part : shifted_[s].parts) {
       some.add(part, draws.next(quantities[s]));
@@ -214,7 +214,8 @@ std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figu
                                                  const TrialsRequest& request,
                                                  std::uint32_t stream) const {
   std::vector<Random> random;
-  std::map<double, OneU> noise;  // by degrees of freedom: a table of t takes long to calculate
+  std::map<double, UnitQuantity>
+      noise;  // by degrees of freedom: a table of t takes long to calculate
   std::vector<std::vector<double>> measured;
   bool any_range = false;
   for (const Figure& figure : figures) {
@@ -223,13 +224,14 @@ std::vector<RunBudgets::Drawn> RunBudgets::drawn(const std::vector<Figure>& figu
     measured.push_back(figure.is_range() ? figure.deviations(means_) : std::vector<double>());
     any_range = any_range || !measured.back().empty();
   }
-  std::vector<OneU> quantities;
+  std::vector<UnitQuantity> quantities;
   for (const Shifted& s : shifted_)
-    quantities.push_back(s.parts.size() == 1 ? OneU(s.contributor.declared) : OneU(kInfinite));
+    quantities.push_back(s.parts.size() == 1 ? UnitQuantity(s.contributor.declared)
+                                             : UnitQuantity(kInfinite));
   std::vector<Drawn> all(figures.size());
   for (Drawn& of : all) of.values.resize(request.trials);
-  for (std::uint64_t first = 0; first < request.trials; first += kTrialsOfBlock) {
-    const std::size_t trials = std::min(kTrialsOfBlock, request.trials - first);
+  for (std::uint64_t first = 0; first < request.trials; first += kTrialsPerBlock) {
+    const std::size_t trials = std::min(kTrialsPerBlock, request.trials - first);
     BlockOfDraws draws({request.seed, stream}, first, trials);
     const std::vector<double> uniform = draws.next();
     const std::vector<double> shifts = moved_by(draws, trials, quantities);

@@ -89,7 +89,7 @@ class RunBudgets {
   };
   MeanErrors moved(std::span<const double> shifts, double factor) const;
   std::vector<double> moved_by(BlockOfDraws& draws, std::size_t trials,
-                               const std::vector<OneU>& quantities) const;
+                               const std::vector<UnitQuantity>& quantities) const;
   std::vector<Drawn> drawn(const std::vector<Figure>& figures, const TrialsRequest& request,
                            std::uint32_t stream) const;
   double half_difference(const Figure& figure, const MeanShifts& shifts) const;

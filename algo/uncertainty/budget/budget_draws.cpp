@@ -39,13 +39,14 @@ Distribution distribution_of(const DeclaredUncertainty& declared) {
 
 }  // namespace
 
-OneU::OneU(const DeclaredUncertainty& declared)
+UnitQuantity::UnitQuantity(const DeclaredUncertainty& declared)
     : normal_(declared.shape == UncertaintyShape::normal && !(declared.freedom <= kMostFreedom)),
       quantile_(distribution_of(declared)) {}
 
-OneU::OneU(double freedom) : OneU(DeclaredUncertainty{1, UncertaintyShape::normal, freedom}) {}
+UnitQuantity::UnitQuantity(double freedom)
+    : UnitQuantity(DeclaredUncertainty{1, UncertaintyShape::normal, freedom}) {}
 
-void OneU::quantiles(std::span<double> p) const {
+void UnitQuantity::quantiles(std::span<double> p) const {
   if (normal_) return gaussians(p);
   for (double& each : p) each = quantile_.at(each);
 }
@@ -60,7 +61,7 @@ std::vector<double> BlockOfDraws::next() {
   return pair_[quantity_++ % 2];
 }
 
-std::vector<double> BlockOfDraws::next(const OneU& quantity) {
+std::vector<double> BlockOfDraws::next(const UnitQuantity& quantity) {
   std::vector<double> drawn = next();
   quantity.quantiles(drawn);
   return drawn;

@@ -13,11 +13,11 @@
 namespace mdof::algo {
 
 // A quantity with the standard uncertainty 1. Few degrees of freedom give Student's t (6.4.9).
-class OneU {
+class UnitQuantity {
  public:
-  explicit OneU(const DeclaredUncertainty& declared);
+  explicit UnitQuantity(const DeclaredUncertainty& declared);
   // Normal, or Student's t.
-  explicit OneU(double freedom);
+  explicit UnitQuantity(double freedom);
 
   // Replaces each probability by its quantile.
   void quantiles(std::span<double> p) const;
@@ -34,7 +34,7 @@ class BlockOfDraws {
   BlockOfDraws(const Stream& from, std::uint64_t first, std::uint64_t trials);
   // One value for each trial: a probability, or the quantity.
   std::vector<double> next();
-  std::vector<double> next(const OneU& quantity);
+  std::vector<double> next(const UnitQuantity& quantity);
 
  private:
   Stream from_;

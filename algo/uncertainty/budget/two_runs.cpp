@@ -45,7 +45,7 @@ class TwoSlopes {
     std::vector<double> values(request.trials, budget_.value);
     BlockOfDraws draws({request.seed, 0}, 0, request.trials);
     for (std::size_t i = 0; i < budget_.lines.size(); ++i) {
-      const std::vector<double> drawn = draws.next(OneU(drawn_[i]));
+      const std::vector<double> drawn = draws.next(UnitQuantity(drawn_[i]));
       for (std::size_t t = 0; t < values.size(); ++t)
         values[t] += budget_.lines[i].contribution * drawn[t];
     }
@@ -144,7 +144,7 @@ Result<TwoRuns> two_runs(const Rig& rig_a, const Run& run_a, const Rig& rig_b, c
   const Run at_a = restate(run_a, at.a), at_b = restate(run_b, at.b);
   MDOF_TRY(auto of_a, contributors(rig_a, at_a));
   MDOF_TRY(auto of_b, contributors(rig_b, at_b));
-  const PartsOfTwo parts = parts_of_two(of_a, rig_a.axis, of_b, rig_b.axis);
+  const TwoRunParts parts = parts_of_both_runs(of_a, rig_a.axis, of_b, rig_b.axis);
   TwoRuns both{{rig_a, at_a}, {rig_b, at_b}};
   for (std::size_t i = 0; i < of_a.size(); ++i) both.a.add(of_a[i], parts.a[i]);
   for (std::size_t i = 0; i < of_b.size(); ++i) both.b.add(of_b[i], parts.b[i]);

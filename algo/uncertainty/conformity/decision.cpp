@@ -14,7 +14,7 @@ namespace {
 
 // If the limit is at least so many u, the chance that the true value lies beyond the other end is
 // below 0.1 %.
-constexpr double kOneEnd = 2.4;
+constexpr double kOneSidedFrom = 2.4;
 
 struct Guard {
   double factor = 0;
@@ -26,7 +26,7 @@ Guard guard_of(const Budget& budget, double limit) {
   if (budget.U_by_trials)
     return {budget.coverage_factor, standard + "guard band g = U from Monte Carlo trials"};
   // If the value is beyond the limit, the other end is further away still.
-  const bool one_end = limit >= kOneEnd * budget.u || std::abs(budget.value) > limit;
+  const bool one_end = limit >= kOneSidedFrom * budget.u || std::abs(budget.value) > limit;
   const double factor = one_end ? one_sided_factor(budget.freedom) : budget.coverage_factor;
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.3f u", factor);

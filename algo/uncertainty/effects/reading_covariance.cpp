@@ -14,7 +14,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kAQuarter = 0.25;  // turns
+constexpr double kQuarterTurn_turns = 0.25;  // turns
 
 class Covariance {
  public:
@@ -54,7 +54,7 @@ class Covariance {
       if (!together_.contains(place_name(id, c))) add_place(k, c, u.position.u[c]);
     if (together_.contains(direction_name(id, 0)) || together_.contains(direction_name(id, 1)))
       return;
-    for (const double turns : {0.0, kAQuarter})
+    for (const double turns : {0.0, kQuarterTurn_turns})
       add_mounting(u.direction.u, [&](Mounting& mounting, double size) {
         mounting.probe[k].tilt_rad = size;
         mounting.probe[k].tilt_turns = turns;

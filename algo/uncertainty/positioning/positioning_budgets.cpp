@@ -151,13 +151,14 @@ std::vector<double> drawn_errors(const Visits& visits, const Run& run, std::size
   const std::size_t trials = std::clamp(kMostDrawn / n, kFewestTrials, kMostTrials);
   std::vector<double> errors(trials * n);
   BlockOfDraws draws({1, 1}, 0, trials);
-  const OneU normal(std::numeric_limits<double>::infinity());
+  const UnitQuantity normal(std::numeric_limits<double>::infinity());
   for (std::size_t v = 0; v < n; ++v) {
     const std::vector<double> drawn = draws.next(normal);
     for (std::size_t t = 0; t < trials; ++t) errors[t * n + v] = visits.noise[v] * drawn[t];
   }
   for (std::size_t c = 0; c < declared.size(); ++c) {
-    const OneU quantity = parts[c].size() == 1 ? OneU(declared[c].declared) : normal;
+    const UnitQuantity quantity =
+        parts[c].size() == 1 ? UnitQuantity(declared[c].declared) : normal;
     for (const PointShifts& part : parts[c]) {
       std::vector<double> shift;
       for (const std::size_t j : visits.point)

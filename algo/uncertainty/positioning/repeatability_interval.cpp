@@ -33,14 +33,14 @@ std::vector<Group> groups_of(const VisitGroups& groups, const double* values) {
 
 }  // namespace
 
-double repeatability_of(const VisitGroups& groups, const double* values, RepeatabilityOf of) {
+double repeatability_R(const VisitGroups& groups, const double* values, RepeatabilityKind of) {
   const std::vector<Group> all = groups_of(groups, values);
   double most = 0;
   for (std::size_t i = 0; i < groups.targets; ++i) {
     const Group &reverse = all[2 * i], &forward = all[2 * i + 1];
     const double both = 2 * forward.s + 2 * reverse.s + std::abs(forward.mean - reverse.mean);
-    const double R = of == RepeatabilityOf::forward ? 4 * forward.s
-                     : of == RepeatabilityOf::reverse
+    const double R = of == RepeatabilityKind::forward ? 4 * forward.s
+                     : of == RepeatabilityKind::reverse
                          ? 4 * reverse.s
                          : std::max({both, 4 * forward.s, 4 * reverse.s});
     if (!std::isfinite(R)) return kNaN;
@@ -50,15 +50,15 @@ double repeatability_of(const VisitGroups& groups, const double* values, Repeata
 }
 
 double repeatability_U(const VisitGroups& groups, const std::vector<double>& measured,
-                       const std::vector<double>& errors, RepeatabilityOf of) {
-  const double R = repeatability_of(groups, measured.data(), of);
+                       const std::vector<double>& errors, RepeatabilityKind of) {
+  const double R = repeatability_R(groups, measured.data(), of);
   if (!std::isfinite(R)) return kNaN;
   const std::size_t n = measured.size();
   const auto distance = [&](double part) {
     std::vector<double> off(errors.size() / n), values(n);
     for (std::size_t t = 0; t < off.size(); ++t) {
       for (std::size_t j = 0; j < n; ++j) values[j] = part * measured[j] + errors[t * n + j];
-      off[t] = std::abs(repeatability_of(groups, values.data(), of) - part * R);
+      off[t] = std::abs(repeatability_R(groups, values.data(), of) - part * R);
     }
     const auto at =
         off.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(off.size()));

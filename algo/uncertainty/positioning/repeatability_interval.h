@@ -14,12 +14,12 @@ struct VisitGroups {
   std::size_t targets = 0;
 };
 
-enum class RepeatabilityOf { forward, reverse, both };
-inline constexpr std::array kRepeatabilities = {RepeatabilityOf::forward, RepeatabilityOf::reverse,
-                                                RepeatabilityOf::both};
+enum class RepeatabilityKind { forward, reverse, both };
+inline constexpr std::array kRepeatabilities = {
+    RepeatabilityKind::forward, RepeatabilityKind::reverse, RepeatabilityKind::both};
 
 // R forward, R reverse or R of these values of the visits; NaN if an approach has one visit.
-double repeatability_of(const VisitGroups& groups, const double* values, RepeatabilityOf of);
+double repeatability_R(const VisitGroups& groups, const double* values, RepeatabilityKind of);
 
 // U such that 95 % of measured R lie within U of the true R, over trials of the errors of the
 // measurement. R is a seminorm of the readings, so the true readings λ x (x measured) have the true
@@ -27,6 +27,6 @@ double repeatability_of(const VisitGroups& groups, const double* values, Repeata
 // R - T = c(T), the 95 % point of |R(λ x + errors) - T|; U = c(0) if c(0) is R or more. `errors`:
 // trial after trial, one value for each visit.
 double repeatability_U(const VisitGroups& groups, const std::vector<double>& measured,
-                       const std::vector<double>& errors, RepeatabilityOf of);
+                       const std::vector<double>& errors, RepeatabilityKind of);
 
 }  // namespace mdof::algo

@@ -58,9 +58,9 @@ void name_probe_correlations(const Rig& rig, std::vector<Contributor>& list) {
   }
 }
 
-PartsOfTwo parts_of_two(std::vector<Contributor>& of_a, Axis along_a,
-                        std::vector<Contributor>& of_b, Axis along_b) {
-  PartsOfTwo parts;
+TwoRunParts parts_of_both_runs(std::vector<Contributor>& of_a, Axis along_a,
+                               std::vector<Contributor>& of_b, Axis along_b) {
+  TwoRunParts parts;
   parts.a.resize(of_a.size());
   parts.b.resize(of_b.size());
   for (std::size_t i = 0; i < of_a.size(); ++i)

@@ -22,10 +22,10 @@ void name_common_surfaces(const Rig& rig, std::vector<Contributor>& list);
 
 // The parts of all contributors of two runs. The parts of a common surface, whose common_as is set,
 // are calculated together: part p of one run is the same quantity as part p of the other.
-struct PartsOfTwo {
+struct TwoRunParts {
   std::vector<std::vector<PointShifts>> a, b;  // [contributor][part]
 };
-PartsOfTwo parts_of_two(std::vector<Contributor>& of_a, Axis along_a,
-                        std::vector<Contributor>& of_b, Axis along_b);
+TwoRunParts parts_of_both_runs(std::vector<Contributor>& of_a, Axis along_a,
+                               std::vector<Contributor>& of_b, Axis along_b);
 
 }  // namespace mdof::algo

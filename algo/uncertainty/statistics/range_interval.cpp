@@ -42,13 +42,13 @@ std::vector<double> RangeTrials::ranges(double cut) const {
   return all;
 }
 
-double RangeTrials::distance_of_95_percent(double true_range) const {
+double RangeTrials::distance_at_95_percent(double true_range) const {
   std::vector<double> off = ranges((highest_ - lowest_ - true_range) / 2);
   for (double& v : off) v = std::abs(v - true_range);
   return point_of_95_percent(std::move(off));
 }
 
-double RangeTrials::distance_of_ends() const {
+double RangeTrials::end_distance() const {
   const std::size_t n = measured_.size();
   const auto [least, most] = std::minmax_element(measured_.begin(), measured_.end());
   const auto low = static_cast<std::size_t>(least - measured_.begin());
@@ -62,10 +62,10 @@ double RangeTrials::distance_of_ends() const {
 // By regula falsi (Illinois): c(T) falls slowly as T grows.
 double RangeTrials::U() const {
   const double range = highest_ - lowest_;
-  const double most = distance_of_95_percent(0);
+  const double most = distance_at_95_percent(0);
   if (most >= range) return most;
-  const double as_measured = distance_of_95_percent(range);
-  const auto excess = [&](double U) { return distance_of_95_percent(range - U) - U; };
+  const double as_measured = distance_at_95_percent(range);
+  const auto excess = [&](double U) { return distance_at_95_percent(range - U) - U; };
   double low = 0, high = most;
   double below = as_measured, above = excess(high);
   if (above >= 0) return most + above;
@@ -84,7 +84,7 @@ double RangeTrials::U() const {
       side = -1;
     }
   }
-  return std::max({high, as_measured, distance_of_ends()});
+  return std::max({high, as_measured, end_distance()});
 }
 
 double RangeTrials::standard_deviation() const {

@@ -25,8 +25,8 @@ class RangeTrials {
 
  private:
   // c(T)
-  double distance_of_95_percent(double true_range) const;
-  double distance_of_ends() const;
+  double distance_at_95_percent(double true_range) const;
+  double end_distance() const;
   std::vector<double> ranges(double cut) const;  // range of each trial
 
   std::vector<double> measured_, changes_;

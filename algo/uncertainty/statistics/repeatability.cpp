@@ -35,7 +35,7 @@ class Decomposition {
       visit.target = p.target;
       visit.run = p.run;
       visit.way = p.point.direction > 0 ? 1 : 0;
-      visit.time_s = time_of_s(p);
+      visit.time_s = middle_time_s(p);
       visit.error = named_from_local(moving, p.errors.local);
       const Covariance5 covariance = named_from_local(moving.axis, p.errors.covariance);
       for (std::size_t k = 0; k < kErrorCount; ++k) visit.noise[k] = covariance[6 * k];
@@ -49,7 +49,7 @@ class Decomposition {
     if (visits_.empty()) return;
     const RunDrifts drifts(passes);
     shifts_ = drifts.of(errors);
-    pass_of_ = drifts.run_of_points();
+    pass_of_ = drifts.point_runs();
     freedom_ = static_cast<double>(visits_.size() - visits_of_.size()) -
                static_cast<double>(shifts_.size() - ways.size());
     find_scatter();
@@ -163,7 +163,7 @@ class Decomposition {
 
 // Changes of the means of both approaches by one u of each error: [part][target]. `by_unit`:
 // changes of the means of each target and approach by one unit.
-std::vector<std::vector<Errors5>> of_both_approaches(
+std::vector<std::vector<Errors5>> changes_of_both_approaches(
     const TargetChanges& changes, const std::vector<MeasuredPoint>& counted,
     const std::vector<std::map<TargetAndWay, double>>& by_unit, const Errors5& u) {
   std::vector<std::vector<Errors5>> parts;
@@ -185,8 +185,8 @@ void add_shared(Repeatability& found, const MovingAxis& moving,
   const TargetChanges changes(moving, counted);
   const PassLevels levels = pass_levels(moving, counted, found.u_visit);
   found.together =
-      of_both_approaches(changes, counted, parts_by_run_shifts(counted), found.u_visit);
-  found.of_passes = of_both_approaches(changes, counted, levels.parts, levels.u_half);
+      changes_of_both_approaches(changes, counted, parts_by_run_shifts(counted), found.u_visit);
+  found.of_passes = changes_of_both_approaches(changes, counted, levels.parts, levels.u_half);
   found.passes_freedom = levels.freedom;
 }
 
@@ -215,7 +215,7 @@ Repeatability repeatability(const MovingAxis& moving, const std::vector<Measured
   std::copy_if(points.begin(), points.end(), std::back_inserter(counted), counts_in_means);
   const Decomposition visits(moving, counted);
   const bool one_way = visits.has_one_way_only(), uneven = any_run_lacks_visits(counted);
-  const WithoutDrift without = uneven ? without_drift_of_runs(counted) : WithoutDrift{};
+  const WithoutDrift without = uneven ? subtract_run_drifts(counted) : WithoutDrift{};
   const std::map<int, Errors5> variances = visits.variances();
   std::vector<Errors5> trend;  // by target
   // Runs that lack visits are taken without their level: it is the shift.

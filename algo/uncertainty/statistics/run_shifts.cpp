@@ -91,7 +91,7 @@ HalfDifferences half_differences(const MovingAxis& moving,
   for (std::size_t i = 0; i < counted.size(); ++i) {
     Pass& pass =
         of_run[counted[i].run][static_cast<std::size_t>(target_and_way(counted[i]).second)];
-    pass.number = fitted.run_of_points()[i];
+    pass.number = fitted.point_runs()[i];
     pass.visits += 1;
   }
   HalfDifferences found;
@@ -115,7 +115,7 @@ std::map<TargetAndWay, double> changed_by_half(const RunDrifts& drifts,
   const std::vector<Errors5> taken = drifts.of(changes);
   std::map<TargetAndWay, double> sum, visits;
   for (std::size_t i = 0; i < counted.size(); ++i) {
-    sum[target_and_way(counted[i])] += changes[i][0] - taken[drifts.run_of_points()[i]][0];
+    sum[target_and_way(counted[i])] += changes[i][0] - taken[drifts.point_runs()[i]][0];
     visits[target_and_way(counted[i])] += 1;
   }
   for (auto& [at, change] : sum) change /= visits.at(at);

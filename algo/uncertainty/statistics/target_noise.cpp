@@ -12,7 +12,7 @@ constexpr double kLeastRoot = 0.1;
 }  // namespace
 
 TargetNoise::TargetNoise(BlockOfDraws& draws, const Repeatability& random) : random_(random) {
-  const OneU normal(std::numeric_limits<double>::infinity());
+  const UnitQuantity normal(std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i <= random.u.size(); ++i) drawn_.push_back(draws.next(normal));
   for_freedom_ = draws.next(normal);
   for (const auto* parts : {&random.together, &random.of_passes})

@@ -32,10 +32,10 @@ VisitScatter::VisitScatter(const std::vector<MeasuredPoint>& points) {
     const int side = p.point.direction > 0 ? 1 : -1;
     sides.insert(side);
     visits_.push_back({i, number_of({p.target, side}, places, visits_of_place_),
-                       number_of({p.run, side}, passes, visits_of_pass_)});
+                       number_of({p.run, side}, passes, pass_visits_)});
   }
   freedom_ = static_cast<double>(visits_.size() - places.size());
-  freedom_of_passes_ = std::min(freedom_, static_cast<double>(passes.size() - sides.size()));
+  pass_freedom_ = std::min(freedom_, static_cast<double>(passes.size() - sides.size()));
 }
 
 VisitScatter::Pooled VisitScatter::of(const std::vector<Errors5>& values) const {
@@ -67,8 +67,8 @@ VisitScatter::Pooled VisitScatter::pooled(const std::vector<Errors5>& values, do
   Pooled pooled;
   if (!has_repeats()) return pooled;
   const double freedom = freedom_ - taken;
-  const double freedom_of_passes = std::max(0.0, freedom_of_passes_ - taken);
-  std::vector<Errors5> of_place(visits_of_place_.size()), of_pass(visits_of_pass_.size());
+  const double freedom_of_passes = std::max(0.0, pass_freedom_ - taken);
+  std::vector<Errors5> of_place(visits_of_place_.size()), of_pass(pass_visits_.size());
   for (const Visit& visit : visits_)
     for (std::size_t k = 0; k < kErrorCount; ++k)
       of_place[visit.place][k] += values[visit.point][k] / visits_of_place_[visit.place];
@@ -77,11 +77,11 @@ VisitScatter::Pooled VisitScatter::pooled(const std::vector<Errors5>& values, do
     for (std::size_t k = 0; k < kErrorCount; ++k) {
       const double off = values[visit.point][k] - of_place[visit.place][k];
       all[k] += off * off;
-      of_pass[visit.pass][k] += off / visits_of_pass_[visit.pass];
+      of_pass[visit.pass][k] += off / pass_visits_[visit.pass];
     }
   for (std::size_t p = 0; p < of_pass.size(); ++p)
     for (std::size_t k = 0; k < kErrorCount; ++k)
-      shared[k] += visits_of_pass_[p] * of_pass[p][k] * of_pass[p][k];
+      shared[k] += pass_visits_[p] * of_pass[p][k] * of_pass[p][k];
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     const double of_passes = std::min(shared[k], all[k]);
     pooled.variance[k] = all[k] / freedom;

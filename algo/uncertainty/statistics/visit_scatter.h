@@ -36,8 +36,8 @@ class VisitScatter {
     std::size_t point = 0, place = 0, pass = 0;  // place: a target from one side
   };
   std::vector<Visit> visits_;
-  std::vector<double> visits_of_place_, visits_of_pass_;
-  double freedom_ = 0, freedom_of_passes_ = 0;
+  std::vector<double> visits_of_place_, pass_visits_;
+  double freedom_ = 0, pass_freedom_ = 0;
 };
 
 }  // namespace mdof::algo

@@ -38,17 +38,17 @@ void write_closures(JsonWriter& json, const Run& run, const std::vector<algo::Cl
 
 }  // namespace
 
-DriftOfStored drift_of(const Run& run) {
+StoredDrift drift_of(const Run& run) {
   const Run at_fixture = algo::restate(run, kAtFixture);
   const algo::DriftOfRun drift(at_fixture.points);
-  DriftOfStored out{drift.found(), {}};
+  StoredDrift out{drift.found(), {}};
   if (out.found.removable())
     out.without = algo::straightness(run.header.moving(), drift.without(at_fixture.points));
   return out;
 }
 
 void write_drift(JsonWriter& json, const Run& run, const std::vector<std::string>& probes,
-                 const DriftOfStored& drift) {
+                 const StoredDrift& drift) {
   const algo::RunDrift& found = drift.found;
   json.begin_object().field("significant", found.significant()).key("not_seen");
   found.not_seen.empty() ? json.null() : json.value(found.not_seen);

@@ -11,14 +11,14 @@
 namespace mdof::daemon {
 
 // Drift at the fixture, whatever the stated point of `run` is.
-struct DriftOfStored {
+struct StoredDrift {
   algo::RunDrift found;
   std::vector<StraightnessFigure> without;  // figures without the drift, if it can be removed
 };
-DriftOfStored drift_of(const Run& run);
+StoredDrift drift_of(const Run& run);
 
 // `probes`: the probe ids in the order of the rig.
 void write_drift(JsonWriter& json, const Run& run, const std::vector<std::string>& probes,
-                 const DriftOfStored& drift);
+                 const StoredDrift& drift);
 
 }  // namespace mdof::daemon

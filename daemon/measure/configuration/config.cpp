@@ -159,8 +159,8 @@ Status check_log(drivers::DriverSpec& device, const Rig& rig) {
 Status check_units(const TomlTable& table, const drivers::DriverSpec& device, const Rig& rig) {
   if (!device.live || device.simulated) return {};
   MDOF_TRY(const auto driver, device.make());
-  if (auto fits =
-          drivers::Calibrator(rig).check(drivers::of_part(driver->info().channels, device.part));
+  if (auto fits = drivers::Calibrator(rig).check(
+          drivers::channels_for_axis(driver->info().channels, device.part));
       !fits)
     return in_context(table.where("channel"), std::move(fits.error()));
   return {};
@@ -179,7 +179,7 @@ Result<drivers::DriverSpec> read_device(TomlTable& table, const std::filesystem:
   context.further = further_axes(context.name, later);
   MDOF_TRY(context.forward, forward_model(axis.rig));
   MDOF_TRY(auto device, drivers::configure_driver(driver, table, context));
-  MDOF_CHECK(leave_part(device, context.further));
+  MDOF_CHECK(restrict_to_first_axis(device, context.further));
   if (!device.recorded) MDOF_CHECK(check_log(device, axis.rig));
   MDOF_CHECK(check_units(table, device, axis.rig));
   return device;

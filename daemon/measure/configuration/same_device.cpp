@@ -60,7 +60,8 @@ std::vector<drivers::FurtherAxis> further_axes(const std::string& name,
   return further;
 }
 
-Status leave_part(drivers::DriverSpec& device, std::vector<drivers::FurtherAxis>& further) {
+Status restrict_to_first_axis(drivers::DriverSpec& device,
+                              std::vector<drivers::FurtherAxis>& further) {
   if (further.empty()) return {};
   std::vector<std::string> others;
   for (auto& axis : further) {

@@ -33,7 +33,8 @@ std::vector<drivers::FurtherAxis> further_axes(const std::string& name,
 
 // Restricts the device to the channels of its first axis, if it also samples channels of further
 // axes. Error: the driver cannot sample the further channels, or not at the same time.
-Status leave_part(drivers::DriverSpec& device, std::vector<drivers::FurtherAxis>& further);
+Status restrict_to_first_axis(drivers::DriverSpec& device,
+                              std::vector<drivers::FurtherAxis>& further);
 
 // The device that `table` names, found in `above`, with the channels of `axis`. Adds the delays of
 // its channels. Errors: unknown device; device that cannot serve two axes.

@@ -76,7 +76,7 @@ Result<Notices> doubtful_notices(store::Store& store, const CompensationTable& t
   MDOF_TRY(Notices superseded, superseded_notices(store, table.runs));
   append(found, std::move(superseded));
   if (runs.size() < 2 || is_imported(runs.front().header)) return found;
-  MDOF_TRY(Notices uneven, algo::uneven_visits_of(runs));
+  MDOF_TRY(Notices uneven, algo::uneven_visit_notices(runs));
   append(found, std::move(uneven));
   return without_information(std::move(found));
 }
@@ -103,7 +103,7 @@ const char* only_approach(const Run& run) {
   return forward ? "forward" : "reverse";
 }
 
-std::string against_decision(store::Store& store, const Run& run) {
+std::string undecidable_reason(store::Store& store, const Run& run) {
   const std::string of = "run " + std::to_string(run.header.id);
   if (const Notice* wrong = invalid_notice(run.header.notices))
     return of + " is invalid: " + words::text(*wrong);
@@ -143,7 +143,7 @@ Status check_gate(const Judged& judged, const Consent& consent, const std::strin
               Remedy::allow_doubtful);
 }
 
-std::vector<std::string> marks_of(const Judged& judged, Language language) {
+std::vector<std::string> warning_marks(const Judged& judged, Language language) {
   const bool german = language == Language::german;
   const std::string of = name_of(judged, language) + ": ";
   const std::string doubtful = (german ? "ZWEIFELHAFT: " : "DOUBTFUL: ") + of;
@@ -164,13 +164,13 @@ std::vector<std::string> marks_of(const Judged& judged, Language language) {
   return marks;
 }
 
-std::vector<std::string> marks_of(const Run& run, Language language) {
+std::vector<std::string> warning_marks(const Run& run, Language language) {
   Notices notices;
   if (run.header.state == RunState::partial) notices.push_back(notice(NoticeCode::run_partial));
   append(notices, run.header.notices);
-  return marks_of(Judged{JudgedKind::run, std::to_string(run.header.id), run.header.simulated,
-                         doubtful_notices(std::move(notices))},
-                  language);
+  return warning_marks(Judged{JudgedKind::run, std::to_string(run.header.id), run.header.simulated,
+                              doubtful_notices(std::move(notices))},
+                       language);
 }
 
 }  // namespace mdof::daemon

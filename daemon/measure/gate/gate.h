@@ -48,15 +48,15 @@ const char* only_approach(const Run& run);
 // Why conformity of its figures cannot be decided, without a full stop; empty if it can. Reasons:
 // the run is invalid, incomplete or superseded, has readings that never change (notice
 // probes_dead), or a measured run lacks an approach at some targets.
-std::string against_decision(store::Store& store, const Run& run);
+std::string undecidable_reason(store::Store& store, const Run& run);
 
 // `consequence`: "it is not activated". Error (conflict): states the first notice and the option
 // that allows it.
 Status check_gate(const Judged& judged, const Consent& consent, const std::string& consequence);
 // Marks of a file, one line each: SIMULATED, DOUBTFUL.
-std::vector<std::string> marks_of(const Judged& judged,
-                                  words::Language language = words::Language::english);
-std::vector<std::string> marks_of(const Run& run,
-                                  words::Language language = words::Language::english);
+std::vector<std::string> warning_marks(const Judged& judged,
+                                       words::Language language = words::Language::english);
+std::vector<std::string> warning_marks(const Run& run,
+                                       words::Language language = words::Language::english);
 
 }  // namespace mdof::daemon

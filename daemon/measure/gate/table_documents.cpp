@@ -18,7 +18,7 @@ void write_points(JsonWriter& json, std::size_t total, const DocumentPage& page,
   const std::int64_t size = static_cast<std::int64_t>(total);
   const std::int64_t begin = std::min(page.offset, size);
   const std::int64_t end = begin + std::min(page.count, size - begin);
-  append_page_of(
+  append_page_by_index(
       json, static_cast<std::size_t>(begin), static_cast<std::size_t>(end),
       [&](std::size_t i) {
         JsonWriter row;
@@ -60,7 +60,7 @@ std::size_t entries_that_fit(const std::vector<std::string>& a, const std::vecto
 
 }  // namespace
 
-DocumentPage page_beside(const Notices& notices, std::int64_t count) {
+DocumentPage page_with_notices(const Notices& notices, std::int64_t count) {
   const std::size_t bytes = with_notices("{}", notices, words::text).size();
   return {0, count, kPageBytes - std::min(kPageBytes / 2, bytes)};
 }

@@ -21,7 +21,7 @@ struct DocumentPage {
 };
 
 // The first points of a calculated table, as many as fit into a reply together with these notices.
-DocumentPage page_beside(const Notices& notices, std::int64_t count);
+DocumentPage page_with_notices(const Notices& notices, std::int64_t count);
 
 // `generation`: 0 if the table is not active; `doubtful`: because of its runs or its own notices.
 std::string table_document(const CompensationTable& table, std::int64_t generation, bool doubtful,

@@ -12,7 +12,7 @@
 
 namespace mdof::daemon {
 
-TableRequest table_of_imported(const Run& run, const Run& other) {
+TableRequest imported_table_request(const Run& run, const Run& other) {
   TableRequest request;
   request.runs = {run.header.id};
   request.partial = true;
@@ -28,8 +28,9 @@ Run with_positioning_notices(Run run) {
   return run;
 }
 
-Covers covers_of_readings(const Run& run) {
-  const bool is_declared = !run.points.empty() && !std::isnan(u_of_deviation(run.points.front()));
+Covers readings_coverage(const Run& run) {
+  const bool is_declared =
+      !run.points.empty() && !std::isnan(deviation_uncertainty(run.points.front()));
   return {is_declared ? Covered::declared_at_import : Covered::undeclared_at_import,
           Covered::no_repeatability};
 }
@@ -44,7 +45,7 @@ std::string imported_document(const Run& run, const RunHeader& header, const Sta
   write_stated(json, figures);
   json.field("points_total", static_cast<std::uint64_t>(run.points.size()));
   if (with_points) {
-    const std::string key = error_of_imported(run.header).key();
+    const std::string key = imported_run_error(run.header).key();
     json.key("points").begin_array();
     for (const MeasuredPoint& p : run.points) write_imported_point(json, p, key);
     json.end_array();

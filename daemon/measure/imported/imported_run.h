@@ -14,12 +14,12 @@ namespace mdof::daemon {
 // The request for a table of this run alone, to compare it with `other`. If both runs have the same
 // sense and neither states its travel, travel "+" is assumed for both; otherwise the statement of
 // each run is used.
-TableRequest table_of_imported(const Run& run, const Run& other);
+TableRequest imported_table_request(const Run& run, const Run& other);
 
 // Adds notices about the readings: no approach, one reading a target.
 Run with_positioning_notices(Run run);
 // The contributions that u of the readings includes.
-Covers covers_of_readings(const Run& run);
+Covers readings_coverage(const Run& run);
 
 // The document of `mdof show` and run.get for an imported run, like run_document() for other runs.
 // `header`: the run's header or a shortened one.

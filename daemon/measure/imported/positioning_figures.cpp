@@ -50,7 +50,7 @@ std::vector<ReadingsMean> means_of(const Run& run, int direction) {
 // NaN: the import did not declare an uncertainty; 0 is a declaration.
 double declared_u(const Run& run) {
   double largest = kNaN;
-  for (const MeasuredPoint& p : run.points) largest = std::fmax(largest, u_of_deviation(p));
+  for (const MeasuredPoint& p : run.points) largest = std::fmax(largest, deviation_uncertainty(p));
   return largest;
 }
 

@@ -154,7 +154,7 @@ Status read_shared_file(Machine& machine, MachineFrame& frame, const std::string
 
 }  // namespace
 
-bool names_files(const Machine& machine) {
+bool has_table_files(const Machine& machine) {
   for (const MachineFrame& frame : machine.frames) {
     if (!frame.file.empty()) return true;
     for (const ErrorFunction& error : frame.error)
@@ -177,13 +177,13 @@ Result<std::string> read_machine_files(Machine& machine, const FindFile& find) {
       MDOF_CHECK(file.named(read_own_file(machine, frame, k, file.path)));
       lines += file.line;
     }
-    turn_positioning(frame);
+    convert_positioning(frame);
   }
   add_curvatures(machine);
   return lines;
 }
 
-FindFile files_beside(const std::string& machine_file) {
+FindFile files_in_same_folder(const std::string& machine_file) {
   return [folder = std::filesystem::path(machine_file).parent_path()](
              const std::string& name) -> Result<std::string> { return (folder / name).string(); };
 }

@@ -9,7 +9,7 @@
 
 namespace mdof::daemon {
 
-bool names_files(const Machine& machine);
+bool has_table_files(const Machine& machine);
 
 // The path to open for a file name in MACHINE.toml.
 using FindFile = std::function<Result<std::string>(const std::string& name)>;
@@ -19,6 +19,6 @@ using FindFile = std::function<Result<std::string>(const std::string& name)>;
 Result<std::string> read_machine_files(Machine& machine, const FindFile& find);
 
 // Finds files in the folder of MACHINE.toml.
-FindFile files_beside(const std::string& machine_file);
+FindFile files_in_same_folder(const std::string& machine_file);
 
 }  // namespace mdof::daemon

@@ -49,8 +49,8 @@ Status check_set_up(const Machine& machine, const MachineFrame& frame,
                      "\", but the machine file states the opposite; correct the wrong file");
   if (table.machine.known() && table.machine != machine.chain)
     return bad_input(of + "the rig states the chain " + table.machine.text + " (" +
-                     travels_of(table.machine) + "), but the machine file states " +
-                     machine.chain.text + " (" + travels_of(machine.chain) +
+                     chain_travels_text(table.machine) + "), but the machine file states " +
+                     machine.chain.text + " (" + chain_travels_text(machine.chain) +
                      "); correct the wrong file");
   return {};
 }
@@ -132,7 +132,7 @@ Status take_table(store::Store& store, Machine& machine, MachineFrame& frame,
     const std::vector<double> noise = larger(along.u_forward, along.u_reverse);
     std::vector<double> u;
     for (std::size_t i = 0; i < noise.size(); ++i)
-      u.push_back(std::fmax(table.u_of_positioning(true, i), table.u_of_positioning(false, i)));
+      u.push_back(std::fmax(table.positioning_u_at(true, i), table.positioning_u_at(false, i)));
     // The table contains errors in the controller's coordinates; errors of the body are positive
     // along +.
     const double body = frame.against_command ? -1 : 1;

@@ -29,7 +29,7 @@ std::string names_of(const std::vector<std::string>& names) {
 // Notices on the residual error of one command, from the two approaches and from interpolation
 // between nodes. A notice is doubtful if the self-test of an export would reject the sum of both
 // errors: then the larger one, and the other one if it alone is too large.
-Notices left_notices(const VolumetricTable& table, std::size_t k) {
+Notices residual_notices(const VolumetricTable& table, std::size_t k) {
   const std::string command(1, "XYZ"[k]);
   const double reversal = table.reversal_m[k], between = table.interpolation_m[k];
   const double largest = algo::largest_correction_m(table, k);
@@ -74,7 +74,7 @@ std::string direction_text(const Eigen::Vector3d& d) {
 // the positions of the rotary axes. The notice is doubtful by the same limit as for one command. It
 // is expected if the machine has no third axis; the residual error is then stated as for every
 // table.
-Notices fixed_direction(const VolumetricTable& table) {
+Notices fixed_direction_notices(const VolumetricTable& table) {
   double largest = 0;
   for (std::size_t k = 0; k < 3; ++k)
     largest = std::max(largest, std::abs(algo::largest_correction_m(table, k)));
@@ -106,8 +106,8 @@ Notices own_notices(const VolumetricTable& table) {
   if (!table.beyond_tables.empty())
     own.push_back(
         notice(NoticeCode::volume_beyond_tables, "", {{"errors", names_of(table.beyond_tables)}}));
-  for (std::size_t k = 0; k < 3; ++k) append(own, left_notices(table, k));
-  append(own, fixed_direction(table));
+  for (std::size_t k = 0; k < 3; ++k) append(own, residual_notices(table, k));
+  append(own, fixed_direction_notices(table));
   return own;
 }
 

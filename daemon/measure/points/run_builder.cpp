@@ -63,7 +63,7 @@ Run RunBuilder::build(SolvedPoints points) const {
   append(notices, std::move(points.first));
   for (auto& [probe, why] : aligner_.too_slow()) notices.push_back(why);
   add_plausibility(points, run);
-  append(notices, std::move(points.of_signals));
+  append(notices, std::move(points.notices_after_signals));
   run.points = std::move(points.sequence.points);
   corrections_.report(solver_, points.as_read, run);
   append(notices, std::move(points.of_points));

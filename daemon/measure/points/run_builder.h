@@ -33,7 +33,7 @@ struct SolvedPoints {
   std::vector<double> targets_m;  // targets of a complete run
   // Notices by their place in the run's list: at the beginning; after the notices on the run's
   // signals; after those on corrections; at the end, as reasons why the run is partial.
-  Notices first = {}, of_signals = {}, of_points = {}, partial = {};
+  Notices first = {}, notices_after_signals = {}, of_points = {}, partial = {};
 };
 
 // Thread-bound.

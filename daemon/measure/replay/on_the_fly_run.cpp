@@ -33,9 +33,9 @@ Status OnTheFlyRun::check_room() {
   const auto& passes = fly_.passes();
   for (; passes_seen_ < passes.size(); ++passes_seen_)
     points_ += passes[passes_seen_].bins.size() + passes[passes_seen_].left_out.size();
-  if (points_ <= options_.most_stops) return {};
+  if (points_ <= options_.max_stops) return {};
   return bad_input("a run that is measured on the fly may have at most " +
-                       std::to_string(options_.most_stops) + " points",
+                       std::to_string(options_.max_stops) + " points",
                    Remedy::larger_interval);
 }
 
@@ -77,7 +77,7 @@ Result<Run> OnTheFlyRun::finish() {
   aligner_.flush(frames_);
   MDOF_CHECK(fly_.push(frames_));
   fly_.flush();
-  MDOF_CHECK(fly_.explain_nothing());
+  MDOF_CHECK(fly_.check_has_points());
   algo::Sequence sequence = fly_.sequence();
   Notices first = fly_.statements();
   MDOF_CHECK(leave_suspect_out(sequence, first));
@@ -95,7 +95,7 @@ Result<Run> OnTheFlyRun::finish() {
                 .residuals = residuals,
                 .targets_m = std::move(targets_m),
                 .first = std::move(first),
-                .of_signals = fly_.notices()});
+                .notices_after_signals = fly_.notices()});
 }
 
 }  // namespace mdof::daemon

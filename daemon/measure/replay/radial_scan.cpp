@@ -219,7 +219,7 @@ void add_points(const Columns& columns, const Motion& motion, const Rig& rig, co
 }
 
 Status add_run(store::Store& store, std::int64_t id, algo::ScanPoints& points, RadialScan& out) {
-  MDOF_TRY(const Run run, run_stated_at(store, id, Reference::carriage));
+  MDOF_TRY(const Run run, restated_run(store, id, Reference::carriage));
   const std::string name = "run " + std::to_string(id);
   MDOF_TRY(const Rig rig, daemon::rig_of(run.header));
   MDOF_TRY(const auto scan, scan_of_rig(run.header.provenance.rig_text, rig.axis, name));

@@ -52,7 +52,7 @@ Changes changes_of(const std::string& figure, const ComparedPoints& compared, st
   return changes;
 }
 
-void take_line_off(Changes& changes) {
+void subtract_fitted_line(Changes& changes) {
   if (!algo::can_fit(changes.x)) return;
   const algo::Line line = algo::least_squares_line(changes.x, changes.y);
   for (std::size_t i = 0; i < changes.x.size(); ++i) changes.y[i] -= line.at(changes.x[i]);
@@ -68,7 +68,7 @@ double change_at_targets(const Budget& before, const Budget& after,
     if (!figure.starts_with(compared.errors[error].substr(0, 3))) continue;
     Changes changes = changes_of(figure, compared, error);
     if (changes.y.empty()) return kNaN;
-    if (figure.find("_straightness_") != std::string::npos) take_line_off(changes);
+    if (figure.find("_straightness_") != std::string::npos) subtract_fitted_line(changes);
     const auto [least, most] = std::minmax_element(changes.y.begin(), changes.y.end());
     if (figure.find("_B_") != std::string::npos) return std::max(std::abs(*least), std::abs(*most));
     return *most - *least;

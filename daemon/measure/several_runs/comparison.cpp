@@ -163,8 +163,8 @@ Result<Comparison> compare_positioning(store::Store& store, const Run& before, c
   found.is_imported = true;
   found.differences = differences(before, after);
   found.simulated = before.header.simulated || after.header.simulated;
-  MDOF_TRY(BuiltTable first, calculate_table(store, table_of_imported(before, after)));
-  MDOF_TRY(BuiltTable second, calculate_table(store, table_of_imported(after, before)));
+  MDOF_TRY(BuiltTable first, calculate_table(store, imported_table_request(before, after)));
+  MDOF_TRY(BuiltTable second, calculate_table(store, imported_table_request(after, before)));
   append(found.notices, std::move(first.notices));
   append(found.notices, std::move(second.notices));
   const TabledRun a{before, first.table}, b{after, second.table};

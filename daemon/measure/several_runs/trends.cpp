@@ -145,7 +145,7 @@ void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& 
 // Adds the values of all wanted figures, so that the run is read once.
 Status add_run(store::Store& store, const RunHeader& header, std::vector<Trend>& trends,
                const std::vector<algo::Figure>& figures) {
-  MDOF_TRY(const Run run, run_stated_at(store, header.id, Reference::fixture));
+  MDOF_TRY(const Run run, restated_run(store, header.id, Reference::fixture));
   MDOF_TRY(const Rig rig, rig_of(run.header));
   const auto whole = algo::RunBudgets::create(rig, run);
   const algo::RunBudgets noise(rig, run);

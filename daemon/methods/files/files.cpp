@@ -107,7 +107,7 @@ void store_run(Methods& m, const Params& params, Result<Request> request, MakeRu
   const FileUser user{who->uid, who->gid, params.caller().further_groups()};
   m.replayer->start([request = std::move(*request), user, make](
                         const ProgressCallback& progress) { return make(request, user, progress); },
-                    action_of(params, method),
+                    caller_action(params, method),
                     [shared](Result<std::string> document) { (*shared)(std::move(document)); });
 }
 

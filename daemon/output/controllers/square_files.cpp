@@ -24,7 +24,7 @@ std::vector<std::string> head_of(const SquareAxes& axes, const ExportOptions& op
           plain_number(to_urad(b.U), 3) + " urad (k " + plain_number(b.coverage_factor, 3) +
           ", 95 %); U contains " + one_plain_line(covers_text(b)),
       "the angle is valid at the " + stated_place(axes.at),
-      "machine " + axes.machine.text + " (" + travels_of(axes.machine) + ")"};
+      "machine " + axes.machine.text + " (" + chain_travels_text(axes.machine) + ")"};
   for (const std::string& mark : options.marks) lines.push_back(one_plain_line(mark));
   return lines;
 }

@@ -79,12 +79,12 @@ std::string largest_u_text(const VolumetricTable& t, std::size_t axis) {
 
 std::vector<std::string> head_of(const VolumetricTable& t, const ExportOptions& options,
                                  const std::string& sense) {
-  std::vector<std::string> lines{
-      "mdof volumetric table " + std::to_string(t.id) + " of " + one_plain_line(t.name) +
-          ", made " + t.created_utc,
-      "sha256 of the table " + t.sha256,
-      "machine " + t.machine.text + " (" + travels_of(t.machine) + "), approach " + t.approach,
-      "sense: " + sense};
+  std::vector<std::string> lines{"mdof volumetric table " + std::to_string(t.id) + " of " +
+                                     one_plain_line(t.name) + ", made " + t.created_utc,
+                                 "sha256 of the table " + t.sha256,
+                                 "machine " + t.machine.text + " (" +
+                                     chain_travels_text(t.machine) + "), approach " + t.approach,
+                                 "sense: " + sense};
   const auto mm = [](double m) { return plain_number(to_mm(m), 9); };
   std::string at = "valid for the tool point X, Y, Z = " + mm(t.tool_m[0]) + ", " +
                    mm(t.tool_m[1]) + ", " + mm(t.tool_m[2]) + " mm";
@@ -112,7 +112,7 @@ void count_nodes(const VolumetricTable& t, Export& out) {
     if (t.machine.find(kLinear[k])) out.written.push_back({letter_of(k), t.nodes(), t.nodes(), 0});
 }
 
-std::vector<std::size_t> axes_of_grid(const VolumetricTable& t) {
+std::vector<std::size_t> grid_axes(const VolumetricTable& t) {
   std::vector<std::size_t> axes;
   for (std::size_t k = 0; k < 3; ++k)
     if (t.command_m[k].size() > 1) axes.push_back(k);
@@ -133,7 +133,7 @@ Result<double> equal_step(const VolumetricTable& t, std::size_t axis,
 Result<Export> write_isg_csv(const VolumetricTable& t, const ExportOptions& options) {
   Export out;
   note_options(options, out);
-  const auto axes = axes_of_grid(t);
+  const auto axes = grid_axes(t);
   const auto head =
       head_of(t, options,
               "columns EXX, EYX, EZX in mm = actual - nominal position of the tool = -correction");

@@ -26,7 +26,7 @@ std::vector<std::string> head_of(const VolumetricTable& table, const ExportOptio
 void note_options(const ExportOptions& options, Export& out);
 void count_nodes(const VolumetricTable& table, Export& out);
 // Those of X, Y, Z that have more than one command.
-std::vector<std::size_t> axes_of_grid(const VolumetricTable& table);
+std::vector<std::size_t> grid_axes(const VolumetricTable& table);
 // In m. Error (bad_input): unequal steps, which `controller` does not support.
 Result<double> equal_step(const VolumetricTable& table, std::size_t axis,
                           const std::string& controller);

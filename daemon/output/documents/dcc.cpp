@@ -123,7 +123,7 @@ void write_statements(Xml& xml, const Report& report) {
   xml.open("dcc:statements");
   write_declaration(xml, "dcc:statement", "test report", kWhatItIs);
   for (const ReportRun& run : report.runs)
-    for (const std::string& mark : daemon::marks_of(run.results.run))
+    for (const std::string& mark : daemon::warning_marks(run.results.run))
       write_declaration(xml, "dcc:statement", "warning", mark);
   if (!report.facts.conditions.empty())
     write_declaration(xml, "dcc:statement", "conditions as stated", report.facts.conditions);

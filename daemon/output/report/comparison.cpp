@@ -37,7 +37,7 @@ void write_comparison(Html& html, const daemon::Comparison& comparison, Language
   std::vector<Budget> changes;
   for (const daemon::ComparedFigure& figure : comparison.figures) {
     const std::string& key = figure.change.figure;
-    rows.push_back({key.substr(0, key.rfind('_')), unit_of_key(key),
+    rows.push_back({key.substr(0, key.rfind('_')), key_unit(key),
                     uncertain_text(figure.before, key), uncertain_text(figure.after, key),
                     uncertain_text(figure.change, key), of(effect_phrase(figure.effect))});
     changes.push_back(figure.change);

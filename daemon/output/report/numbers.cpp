@@ -28,7 +28,7 @@ std::string value_with_u(double value, double u) {
   return value_text(value, u) + "\u00a0±\u00a0" + uncertainty_text(u);
 }
 
-std::string unit_of_key(const std::string& key) {
+std::string key_unit(const std::string& key) {
   return charts::split_key(key).unit;
 }
 

@@ -11,6 +11,6 @@ namespace mdof::report {
 std::string uncertainty_text(double u);
 std::string value_text(double value, double u);
 std::string value_with_u(double value, double u);  // "0.123 ± 0.045"
-std::string unit_of_key(const std::string& key);   // "EYX_um": "µm"
+std::string key_unit(const std::string& key);      // "EYX_um": "µm"
 
 }  // namespace mdof::report

@@ -51,9 +51,9 @@ std::string options_of(const daemon::PipelineOptions& o) {
 std::string import_options(const Run& run) {
   const RunHeader& h = run.header;
   std::string text = std::string(" --axis ") + letter(h.axis) + " --error " + h.provenance.model;
-  const double u = run.points.empty() ? std::nan("") : u_of_deviation(run.points.front());
+  const double u = run.points.empty() ? std::nan("") : deviation_uncertainty(run.points.front());
   if (std::isfinite(u))
-    text += option(error_of_imported(h).angle ? "--u-urad" : "--u-um", to_key_unit(u));
+    text += option(imported_run_error(h).angle ? "--u-urad" : "--u-um", to_key_unit(u));
   constexpr std::string_view kKind = "imported ";  // followed by the format
   if (h.provenance.recording_kind.starts_with(kKind))
     text += " --format " + h.provenance.recording_kind.substr(kKind.size());

@@ -29,7 +29,7 @@ void write_alarms(Html& html, const Report& report) {
   for (const ReportRun& run : report.runs) {
     const bool noise_only = run.results.uncertainty.noise_only;
     for (const std::string& mark : charts::head_marks(
-             noise_only, daemon::marks_of(run.results.run, report.language), report.language))
+             noise_only, daemon::warning_marks(run.results.run, report.language), report.language))
       html.element("p", name_of_run(run, report.language) + ": " + mark, "alarm");
   }
 }

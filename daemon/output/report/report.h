@@ -28,8 +28,8 @@ struct ReportRun {
   std::vector<Decided> decided;  // decisions on the figures that have a tolerance
   std::string result_sha256;
   std::optional<std::int64_t> superseded_by;
-  std::string against_decision;  // why no conformity is decided for this run; empty: it can be
-                                 // decided
+  std::string undecidable_reason;  // why no conformity is decided for this run; empty: it can be
+                                   // decided
 };
 
 // A file inside the report that a reader can save.

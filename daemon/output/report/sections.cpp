@@ -85,10 +85,10 @@ std::vector<std::pair<std::string, std::string>> conditions_of_imported(const Ru
                                                                         Language language) {
   const RunHeader& h = run.header;
   const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
-  const ImportedError error = error_of_imported(h);
+  const ImportedError error = imported_run_error(h);
   const RunOptions options = run_options(h);
   const double u =
-      run.points.empty() ? std::nan("") : to_key_unit(u_of_deviation(run.points.front()));
+      run.points.empty() ? std::nan("") : to_key_unit(deviation_uncertainty(run.points.front()));
   std::string about;
   for (const std::string& line : options.about) about += (about.empty() ? "" : "; ") + line;
   const bool is_positioning = h.provenance.model == positioning_name(h.axis);
@@ -102,7 +102,7 @@ std::vector<std::pair<std::string, std::string>> conditions_of_imported(const Ru
                : of(options.imported.sense == PositioningSense::body ? Phrase::sense_body
                                                                      : Phrase::sense_command)},
           {of(Phrase::declared_u), std::isfinite(u)
-                                       ? charts::number_text(u) + " " + unit_of_key(error.key())
+                                       ? charts::number_text(u) + " " + key_unit(error.key())
                                        : of(Phrase::not_stated)},
           {of(Phrase::measured_by), h.provenance.software_version},
           {of(Phrase::note), h.note}};
@@ -110,7 +110,7 @@ std::vector<std::pair<std::string, std::string>> conditions_of_imported(const Ru
 
 void write_readings(Html& html, const Run& run, Language language) {
   const auto of = [&](Phrase name) { return std::string(phrase(name, language)); };
-  const std::string key = error_of_imported(run.header).key();
+  const std::string key = imported_run_error(run.header).key();
   html.element("h3", of(Phrase::readings));
   html.element("p", of(Phrase::readings_explained), "quiet");
   const std::size_t all = run.points.size(), n = std::min(all, kMostListedPoints);
@@ -121,13 +121,13 @@ void write_readings(Html& html, const Run& run, Language language) {
   std::vector<std::vector<std::string>> rows;
   for (std::size_t row = 0; row < n; ++row) {
     const MeasuredPoint& p = run.points[row];
-    const double u = to_key_unit(u_of_deviation(p));
+    const double u = to_key_unit(deviation_uncertainty(p));
     rows.push_back({std::to_string(p.target), std::to_string(p.run),
                     approach_text(p.point.direction), fixed_text(to_mm(p.point.position_m), 4),
                     value_text(to_key_unit(deviation(p)), u), uncertainty_text(u)});
   }
   html.table({of(Phrase::target), of(Phrase::pass), of(Phrase::approach),
-              of(Phrase::position) + " / mm", charts::key_label(key), "u / " + unit_of_key(key)},
+              of(Phrase::position) + " / mm", charts::key_label(key), "u / " + key_unit(key)},
              rows, "long points tight");
 }
 
@@ -193,8 +193,8 @@ void write_results(Html& html, const ReportRun& run, Language language) {
     const bool known = std::isfinite(b.u);
     const std::string U_text = known ? uncertainty_text(U) : unknown;
     rows.push_back(
-        {charts::split_key(b.figure).name, value_text(to_key_unit(b.value), U),
-         unit_of_key(b.figure), known ? uncertainty_text(u) : unknown,
+        {charts::split_key(b.figure).name, value_text(to_key_unit(b.value), U), key_unit(b.figure),
+         known ? uncertainty_text(u) : unknown,
          known && b.U_by_trials ? phrase(Phrase::by_monte_carlo, language, {U_text}) : U_text,
          known ? fixed_text(b.coverage_factor, 2) : unknown});
   }
@@ -252,7 +252,7 @@ void write_decided(Html& html, const std::vector<Decided>& decided,
     const double U = budget ? to_key_unit(budget->U) : std::nan("");
     rows.push_back({charts::split_key(figure).name,
                     budget ? value_text(to_key_unit(budget->value), U) : "–",
-                    charts::number_text(to_key_unit(decision.limit), 6), unit_of_key(figure),
+                    charts::number_text(to_key_unit(decision.limit), 6), key_unit(figure),
                     conformity_text(decision.conformity, language),
                     decision.rule +
                         (std::isnan(decision.guard_band)

@@ -36,7 +36,7 @@ void Connection::start(std::shared_ptr<Session> session) {
   wait_readable();
 }
 
-void Connection::turn_away(std::string_view why) {
+void Connection::reject_connection(std::string_view why) {
   std::string message;
   append_error(message, "null", kBusy, why);
   send(message);
@@ -48,8 +48,8 @@ void Connection::send(std::string_view message) {
   output_.text().append(message).push_back('\n');
 }
 
-void Connection::ask_for_turn() {
-  server_.ask_for_turn(std::static_pointer_cast<Connection>(shared_from_this()));
+void Connection::request_turn() {
+  server_.request_turn(std::static_pointer_cast<Connection>(shared_from_this()));
 }
 
 void Connection::forget() {
@@ -130,7 +130,7 @@ void Connection::go_on() {
 }
 
 bool Connection::finished() {
-  return input_ended_ && output_.unsent() == 0 && session_->awaits_nothing();
+  return input_ended_ && output_.unsent() == 0 && session_->has_nothing_pending();
 }
 
 // Call it only if no complete line waits, because it invalidates the result of next() and may move

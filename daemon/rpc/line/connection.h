@@ -27,7 +27,7 @@ class Connection final : public ClientSocket {
 
   // Call one of these two first.
   void start(std::shared_ptr<Session> session);
-  void turn_away(std::string_view why);
+  void reject_connection(std::string_view why);
 
   FairShare& share() { return share_; }
   void check_times(Clock::time_point now);
@@ -37,7 +37,7 @@ class Connection final : public ClientSocket {
   void send(std::string_view message) override;
 
  private:
-  void ask_for_turn() override;
+  void request_turn() override;
   void forget() override;
   void receive() override;
   void pump() override;

@@ -16,14 +16,14 @@ std::chrono::milliseconds ServerCore::least_limit() const {
 void ServerCore::adopt(int socket) {
   const auto connection = std::make_shared<Connection>(*this, socket);
   auto session = service.admit(peer_of(socket), *connection);
-  if (!session) return connection->turn_away(session.error().message);
+  if (!session) return connection->reject_connection(session.error().message);
   // Charges a turn, so that a client that reconnects repeatedly is not served before the others.
   order_.charge(connection->share(), service.options().turn);
   connection->start(std::move(*session));
   begin(connection);
 }
 
-void ServerCore::ask_for_turn(std::shared_ptr<Connection> connection) {
+void ServerCore::request_turn(std::shared_ptr<Connection> connection) {
   if (connection.get() == in_turn_) {
     again_ = true;  // after its turn has been charged
     return;

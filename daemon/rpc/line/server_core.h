@@ -15,7 +15,7 @@ struct ServerCore final : ClientSet<Connection> {
   ~ServerCore() override { close_all(); }
 
   void adopt(int socket);  // a connected client, which is turned away if all places are taken
-  void ask_for_turn(std::shared_ptr<Connection> connection);
+  void request_turn(std::shared_ptr<Connection> connection);
 
  private:
   Clock::time_point give_turn(Clock::time_point now) override;

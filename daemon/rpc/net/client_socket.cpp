@@ -11,7 +11,7 @@ ClientSocket::ClientSocket(asio::io_context& context, int socket) : socket_(cont
 
 void ClientSocket::wake() {
   if (closed_ || std::exchange(has_turn_, true)) return;
-  ask_for_turn();
+  request_turn();
 }
 
 void ClientSocket::take_turn() {

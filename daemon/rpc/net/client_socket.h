@@ -28,7 +28,7 @@ class ClientSocket : public Transport, public std::enable_shared_from_this<Clien
   ClientSocket(asio::io_context& context, int socket);  // takes ownership; connected and
                                                         // non-blocking
 
-  virtual void ask_for_turn() = 0;
+  virtual void request_turn() = 0;
   virtual void forget() = 0;   // called when the socket is closed
   virtual void receive() = 0;  // called when data can be read
   virtual void pump() = 0;     // the rest of a turn

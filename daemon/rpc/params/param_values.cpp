@@ -74,7 +74,7 @@ tl::unexpected<Error> unknown_name(const Method& method, std::string_view name) 
   std::vector<std::string> known;
   for (const Param& param : method.params) known.push_back(param.name);
   const bool sane = name.size() <= 64;  // the distance of long texts takes long and is useless
-  const std::string near = sane ? nearest_of(name, known) : "";
+  const std::string near = sane ? nearest_candidate(name, known) : "";
   return usage("unknown parameter " + in_quotes(name) +
                (near.empty() ? "; the parameters of " + method.name + " are: " + names(method)
                              : "; did you mean " + in_quotes(near) + "?"));

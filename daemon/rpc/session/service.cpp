@@ -97,8 +97,8 @@ void Service::add_topic(Topic topic) {
   topics_.add(std::move(topic));
 }
 
-std::optional<std::chrono::milliseconds> Service::wanted_every(std::string_view topic) const {
-  return topics_.wanted_every(topic);
+std::optional<std::chrono::milliseconds> Service::wanted_interval(std::string_view topic) const {
+  return topics_.wanted_interval(topic);
 }
 
 Status Service::publish(std::string_view topic, std::string json, std::string_view of) {

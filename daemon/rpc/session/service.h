@@ -45,7 +45,7 @@ class Service {
   // subscribers get new ones: the common interval of the subscribers, or the shortest interval of
   // the topic if a subscriber waits for its first value or the intervals differ. nullopt: no
   // subscribers.
-  std::optional<std::chrono::milliseconds> wanted_every(std::string_view topic) const;
+  std::optional<std::chrono::milliseconds> wanted_interval(std::string_view topic) const;
   // `json` is one JSON value. Cheap: all waiting subscribers share the value, and it is sent in a
   // later turn of the loop. Errors: unknown topic; value too large for a reply (subscribers then
   // see it in "missed"). `of`: the source of the value (topic.h).

@@ -58,13 +58,14 @@ std::optional<Session::Clock::time_point> Session::send_due(Clock::time_point no
                   [this](std::string_view message) { transport_.send(message); });
 }
 
-bool Session::awaits_nothing() const {
+bool Session::has_nothing_pending() const {
   return open_exchanges_ == 0 && !batch_.exchange && subscriptions.empty();
 }
 
 bool Session::is_idle(Clock::time_point now) const {
   const auto limit = parts_.options.idle_timeout;
-  return limit.count() > 0 && awaits_nothing() && transport_.unsent() == 0 && now - active_ > limit;
+  return limit.count() > 0 && has_nothing_pending() && transport_.unsent() == 0 &&
+         now - active_ > limit;
 }
 
 void Session::refuse(std::string_view why) {

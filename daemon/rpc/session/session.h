@@ -62,7 +62,7 @@ class Session final : public Caller,
   std::optional<Clock::time_point> send_due(Clock::time_point now);
 
   bool has_subscriptions() const { return !subscriptions.empty(); }
-  bool awaits_nothing() const;                // no open calls, no subscriptions
+  bool has_nothing_pending() const;           // no open calls, no subscriptions
   bool is_idle(Clock::time_point now) const;  // whether it was idle for longer than the limit
 
   // Sends the reason and ends the session.

@@ -22,7 +22,7 @@ void TopicHub::add(Topic topic) {
   assert(added && "a topic with this name already exists");
 }
 
-std::optional<std::chrono::milliseconds> TopicHub::wanted_every(std::string_view topic) const {
+std::optional<std::chrono::milliseconds> TopicHub::wanted_interval(std::string_view topic) const {
   const auto found = rows_.find(topic);
   if (found == rows_.end() || found->second.subscribers.empty()) return std::nullopt;
   const auto& [wanted, subscribers] = found->second;
@@ -41,7 +41,7 @@ Result<TopicHub::Row*> TopicHub::row(std::string_view topic) {
     names.push_back(name);
     list += (list.empty() ? "" : ", ") + name;
   }
-  const std::string near = topic.size() <= 64 ? nearest_of(topic, names) : "";
+  const std::string near = topic.size() <= 64 ? nearest_candidate(topic, names) : "";
   return fail(ErrorCode::not_found, "no topic " + in_quotes(topic) +
                                         (near.empty() ? "; the topics are " + list
                                                       : "; did you mean " + in_quotes(near) + "?"));

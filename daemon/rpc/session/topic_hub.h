@@ -33,7 +33,7 @@ class TopicHub {
   void add(Topic topic);                            // a repeated name is a programming error
   const Topic* topic(std::string_view name) const;  // nullptr if unknown
   bool fits(std::string_view topic, std::string_view json) const;  // whether it fits into a message
-  std::optional<std::chrono::milliseconds> wanted_every(std::string_view topic) const;
+  std::optional<std::chrono::milliseconds> wanted_interval(std::string_view topic) const;
   Status publish(std::string_view topic, std::string json, std::string_view of = "");
 
   Status subscribe(Subscriber& who, std::string_view topic, std::chrono::milliseconds interval);

@@ -23,7 +23,7 @@ constexpr std::size_t kReceiveBytes = 16 * 1024;
 HttpConnection::HttpConnection(HttpServerCore& server, int socket)
     : ClientSocket(*server.loop->context, socket), server_(server), peer_(peer_of(socket)) {}
 
-void HttpConnection::turn_away() {
+void HttpConnection::reject_connection() {
   append_refusal(output_.text(),
                  {503, "all connections of mdofd for browsers are in use; close a page of mdofd"},
                  "Retry-After: 5\r\n");
@@ -41,8 +41,8 @@ void HttpConnection::send(std::string_view message) {
   append_event(output_.text(), seen_, note.method, note.params);
 }
 
-void HttpConnection::ask_for_turn() {
-  server_.ask_for_turn(std::static_pointer_cast<HttpConnection>(shared_from_this()));
+void HttpConnection::request_turn() {
+  server_.request_turn(std::static_pointer_cast<HttpConnection>(shared_from_this()));
 }
 
 void HttpConnection::forget() {
@@ -66,7 +66,7 @@ void HttpConnection::take_request() {
 // False: the head is incomplete or was rejected.
 bool HttpConnection::take_head() {
   const auto& options = server_.service.options();
-  const auto end = end_of_head(input_, scanned_, options.max_http_head_bytes);
+  const auto end = head_length(input_, scanned_, options.max_http_head_bytes);
   if (!end) return refuse(end.error()), false;
   if (*end == 0) return false;
   auto head = read_head(std::string_view(input_).substr(0, *end),
@@ -142,7 +142,7 @@ void HttpConnection::go_on_with_rpc() {
     return reply(
         {.type = "application/json", .body = text, .fields = "Cache-Control: no-store\r\n"});
   }
-  if (session_->awaits_nothing()) reply({.status = 204});  // only notifications
+  if (session_->has_nothing_pending()) reply({.status = 204});  // only notifications
 }
 
 void HttpConnection::begin_stream() {

@@ -28,7 +28,7 @@ class HttpConnection final : public ClientSocket {
                                                        // non-blocking
 
   void start() { wait_readable(); }
-  void turn_away();
+  void reject_connection();
   void check_times(Clock::time_point now);
 
   bool is_stream() const { return is(State::streaming); }
@@ -43,7 +43,7 @@ class HttpConnection final : public ClientSocket {
   enum class State { reading, answering, streaming, draining };
 
   bool is(State state) const { return !closed_ && state_ == state; }
-  void ask_for_turn() override;
+  void request_turn() override;
   void forget() override;
   void receive() override;
   void pump() override;

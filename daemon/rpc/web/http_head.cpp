@@ -69,7 +69,7 @@ bool lists_gzip(const std::string& accepted) {
 
 }  // namespace
 
-tl::expected<std::size_t, HttpError> end_of_head(std::string_view received, std::size_t& scanned,
+tl::expected<std::size_t, HttpError> head_length(std::string_view received, std::size_t& scanned,
                                                  std::size_t max_bytes) {
   if (!received.empty() && (received.front() < 'A' || received.front() > 'Z'))
     return refused(400, "this is not an HTTP request");

@@ -33,10 +33,10 @@ struct HttpLimits {
 
 // Length of the head in `received` including its empty line; 0: incomplete. Error: the bytes cannot
 // become a valid request. `scanned`: bytes that were checked before; updated.
-tl::expected<std::size_t, HttpError> end_of_head(std::string_view received, std::size_t& scanned,
+tl::expected<std::size_t, HttpError> head_length(std::string_view received, std::size_t& scanned,
                                                  std::size_t max_bytes);
 
-// `head`: the bytes up to end_of_head().
+// `head`: the bytes up to head_length().
 tl::expected<HttpHead, HttpError> read_head(std::string_view head, const HttpLimits& limits);
 
 }  // namespace mdof::rpc

@@ -25,7 +25,7 @@ HttpServerCore::~HttpServerCore() {
 void HttpServerCore::adopt(int socket) {
   const auto connection = std::make_shared<HttpConnection>(*this, socket);
   if (connections.size() >= service.options().max_http_connections && !make_room())
-    return connection->turn_away();
+    return connection->reject_connection();
   connection->start();
   begin(connection);
 }
@@ -57,7 +57,7 @@ std::chrono::milliseconds HttpServerCore::least_limit() const {
       {o.request_timeout, o.stall_timeout, o.drain_timeout, o.http_idle_timeout, o.http_heartbeat});
 }
 
-void HttpServerCore::ask_for_turn(std::shared_ptr<HttpConnection> connection) {
+void HttpServerCore::request_turn(std::shared_ptr<HttpConnection> connection) {
   waiting_.push_back(std::move(connection));
   post_turns();
 }

@@ -22,7 +22,7 @@ struct HttpServerCore final : ClientSet<HttpConnection> {
   ~HttpServerCore() override;
 
   void adopt(int socket);  // a connected client, which is turned away if all places are taken
-  void ask_for_turn(std::shared_ptr<HttpConnection> connection);
+  void request_turn(std::shared_ptr<HttpConnection> connection);
   std::size_t stream_count() const;
   static std::string allowed(std::string_view path);  // value of the field Allow
 

@@ -29,7 +29,7 @@ class Acquisition final : public DeviceReader {
 
   void start() override;
   void stop() override;  // joins the thread, after at most a read timeout and an open
-  void cease() override { acquiring_ = false; }
+  void request_stop() override { acquiring_ = false; }
   void trust_count() override { trust_count_of(kEncoderChannel); }
   // `encoder`: a channel of the device.
   void trust_count_of(const std::string& encoder);

@@ -44,14 +44,14 @@ struct DeviceSink {
   std::function<void(const std::string& device)> mark = {};
 };
 
-// Call it from the station's threads, one call at a time. status(), healthy(), cease(), wake() and
-// trust_count() are thread-safe.
+// Call it from the station's threads, one call at a time. status(), healthy(), request_stop(),
+// wake() and trust_count() are thread-safe.
 class DeviceReader {
  public:
   virtual ~DeviceReader() = default;  // stops the device
   virtual void start() = 0;
-  virtual void stop() = 0;   // no samples follow
-  virtual void cease() = 0;  // stops soon, without waiting
+  virtual void stop() = 0;          // no samples follow
+  virtual void request_stop() = 0;  // stops soon, without waiting
   // A user has set the position of the axis, so that the datum is no longer lost.
   virtual void trust_count() = 0;
   virtual void wake() = 0;  // a device was plugged in: ends the present waiting time

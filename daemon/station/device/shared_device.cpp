@@ -54,7 +54,7 @@ class DevicePart final : public DeviceReader {
 
   void start() override { device_->join(taker_); }
   void stop() override { device_->leave(taker_); }
-  void cease() override { device_->cease(*taker_); }
+  void request_stop() override { device_->request_stop(*taker_); }
   void trust_count() override {
     const std::string encoder = device_channel(taker_->spec.part, kEncoderChannel);
     if (!encoder.empty()) device_->acquisition_.trust_count_of(encoder);
@@ -80,7 +80,7 @@ SharedDevice::SharedDevice(const drivers::DriverSpec& spec)
 DeviceSink SharedDevice::fan_out() {
   DeviceSink sink;
   sink.samples = [this](SampleBlock& block, std::uint64_t pass, std::chrono::milliseconds) {
-    hand_out(block, pass);
+    distribute_block(block, pass);
     return true;  // blocks without space in the queue of an axis are lost for this axis only
   };
   sink.ended = [this](std::uint64_t pass, const std::string& why, const drivers::SourceInfo& info) {
@@ -102,7 +102,7 @@ DeviceSink SharedDevice::fan_out() {
   return sink;
 }
 
-void SharedDevice::hand_out(const SampleBlock& block, std::uint64_t pass) {
+void SharedDevice::distribute_block(const SampleBlock& block, std::uint64_t pass) {
   const std::lock_guard lock(mutex_);
   for (const auto& taker : takers_) {
     SampleBlock& part = taker->block;
@@ -136,17 +136,17 @@ void SharedDevice::leave(const std::shared_ptr<Taker>& taker) {
   acquisition_.stop();
 }
 
-void SharedDevice::cease(Taker& taker) {
+void SharedDevice::request_stop(Taker& taker) {
   const std::lock_guard lock(mutex_);
   taker.ceased = true;
   if (std::all_of(takers_.begin(), takers_.end(), [](const auto& t) { return t->ceased; }))
-    acquisition_.cease();
+    acquisition_.request_stop();
 }
 
 DeviceStatus SharedDevice::status_of(const Taker& taker) const {
   DeviceStatus status = acquisition_.status();
   const Part& part = taker.spec.part;
-  status.info.channels = drivers::of_part(std::move(status.info.channels), part);
+  status.info.channels = drivers::channels_for_axis(std::move(status.info.channels), part);
   std::erase_if(status.standing, [&](const Trouble& trouble) {
     return !trouble.channel.empty() && !part.contains(trouble.channel);
   });

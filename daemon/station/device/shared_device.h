@@ -36,10 +36,10 @@ class SharedDevice {
     std::uint64_t dropped = 0, lost = 0;  // blocks and scans, as in DeviceStatus
   };
   DeviceSink fan_out();
-  void hand_out(const SampleBlock& block, std::uint64_t pass);
+  void distribute_block(const SampleBlock& block, std::uint64_t pass);
   void join(const std::shared_ptr<Taker>& taker);
   void leave(const std::shared_ptr<Taker>& taker);
-  void cease(Taker& taker);
+  void request_stop(Taker& taker);
   DeviceStatus status_of(const Taker& taker) const;
 
   mutable std::mutex mutex_;

@@ -19,7 +19,7 @@ struct Out {
 };
 
 // A mask of all 64 bits, or of the first n if fewer bytes are left.
-std::uint64_t of_the_text(std::size_t n) {
+std::uint64_t text_bits_mask(std::size_t n) {
   return n < kStep ? (std::uint64_t{1} << n) - 1 : ~std::uint64_t{0};
 }
 
@@ -70,7 +70,7 @@ template <bool kPopcount>
 template <bool kPopcount>
 [[gnu::always_inline]] inline Out append_all(std::string_view text, Out out) {
   for (std::size_t begin = 0; begin < text.size(); begin += kStep) {
-    const std::uint64_t bits = stop_bits(text.data() + begin) & of_the_text(text.size() - begin);
+    const std::uint64_t bits = stop_bits(text.data() + begin) & text_bits_mask(text.size() - begin);
     out = append<kPopcount>(text.data(), begin, bits, out);
   }
   return out;
@@ -94,7 +94,7 @@ MDOF_AVX512 Out append_all_avx512(std::string_view text, Out out) {
   for (std::size_t begin = 0; begin < text.size(); begin += kStep) {
     const __m512i bytes = _mm512_loadu_si512(text.data() + begin);
     const std::uint64_t bits =
-        _mm512_cmplt_epi8_mask(bytes, _mm512_set1_epi8('-')) & of_the_text(text.size() - begin);
+        _mm512_cmplt_epi8_mask(bytes, _mm512_set1_epi8('-')) & text_bits_mask(text.size() - begin);
     const int count = __builtin_popcountll(bits);
     _mm512_storeu_si512(out.byte, _mm512_maskz_compress_epi8(bits, bytes));
     __m512i places = _mm512_maskz_compress_epi8(bits, all_places);

@@ -196,7 +196,7 @@ bool JournalWatch::is_kept() {
 }
 
 // Closing the connection then neither moves nor deletes the current -wal.
-void JournalWatch::leave_files_alone() {
+void JournalWatch::disable_checkpoint_on_close() {
   sqlite3_db_config(database_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
 }
 
@@ -205,7 +205,7 @@ void JournalWatch::note(std::string what, bool foreign_wal) {
   moved_ = sqlite3_wal_checkpoint_v2(database_, "main", SQLITE_CHECKPOINT_FULL, &in_wal,
                                      &in_database) == SQLITE_OK &&
            in_wal == in_database;
-  leave_files_alone();
+  disable_checkpoint_on_close();
   if (!moved_) return lose(std::move(what));
   fault_ = std::move(what) + "; all data stored before this change are in the database file";
   if (!foreign_wal) return;
@@ -218,7 +218,7 @@ void JournalWatch::note(std::string what, bool foreign_wal) {
 }
 
 void JournalWatch::lose(std::string what) {
-  leave_files_alone();
+  disable_checkpoint_on_close();
   fault_ = std::move(what) + "; data stored in the last minutes may be missing from the database";
 }
 

@@ -48,7 +48,7 @@ class JournalWatch {
   bool is_cut(off_t wal_bytes);
   void note(std::string what, bool foreign_wal);
   void lose(std::string what);
-  void leave_files_alone();
+  void disable_checkpoint_on_close();
 
   sqlite3* database_;
   std::filesystem::path wal_, shm_;

@@ -189,8 +189,8 @@ struct Half {
 
 // Adds the contents of block k. `digits`: values of the digits, 0 elsewhere.
 template <int k, int kBlocks>
-HWY_INLINE void look_at_block(const Bytes& all, const Bytes (&field)[kBlocks],
-                              Bytes (&digits)[kBlocks], Bytes& seen, Bytes& odd) {
+HWY_INLINE void classify_block(const Bytes& all, const Bytes (&field)[kBlocks],
+                               Bytes (&digits)[kBlocks], Bytes& seen, Bytes& odd) {
   const Bytes text = hn::And(all, field[k]);
   const Bytes first = hn::AndNot(moved_up<k>(field), field[k]);
   const auto is_point = hn::Eq(text, allowed<k>('.'));
@@ -222,8 +222,8 @@ HWY_INLINE bool look_at(const ColumnText& column, std::size_t first, Half<kBlock
   half.odd = hn::Zero(d8);
   load_blocks(ends.text, -32, text);
   load_blocks(ends.last, 0, field);
-  look_at_block<0>(text[0], field, digits, seen, half.odd);
-  if constexpr (kBlocks == 2) look_at_block<1>(text[1], field, digits, seen, half.odd);
+  classify_block<0>(text[0], field, digits, seen, half.odd);
+  if constexpr (kBlocks == 2) classify_block<1>(text[1], field, digits, seen, half.odd);
   const Longs sum = hn::SumsOf8(seen);
   half.seen = hn::Add(sum, hn::Shuffle01(sum));
   const Bytes point = hn::TableLookupBytes(hn::BitCast(d8, half.seen), hn::Zero(d8));

@@ -88,7 +88,7 @@ enum class Reading { shared, unchanging, copied };
 
 // In WAL mode a reader needs the -shm file and creates it if it is missing. If the folder is
 // read-only and the -wal file is empty, the database cannot change while it is read.
-Reading way_to_read(const fs::path& file, OpenMode mode) {
+Reading read_open_mode(const fs::path& file, OpenMode mode) {
   if (is_open_for_writing(file))
     return Reading::shared;  // a file of this process: its locks must remain
   if (has_journal(file)) return Reading::copied;
@@ -255,7 +255,7 @@ Result<Connection> Connection::open(const fs::path& file, OpenMode mode, int bus
   std::string name = file.string();
   int flags = open_flags(mode) | SQLITE_OPEN_NOMUTEX;
   const bool reads = mode == OpenMode::read_only || mode == OpenMode::snapshot;
-  const Reading reading = reads ? way_to_read(file, mode) : Reading::shared;
+  const Reading reading = reads ? read_open_mode(file, mode) : Reading::shared;
   if (reading == Reading::unchanging) {
     session->descriptor = open_foreign(file, 0);
     if (session->descriptor < 0)

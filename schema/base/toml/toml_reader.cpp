@@ -23,7 +23,7 @@ struct TomlTable::Node {
   const toml::table* table = nullptr;
   std::string path;  // "probe[2]."
   std::set<std::string, std::less<>> asked;
-  std::set<std::string, std::less<>> looked_for;  // by has(): for hints, not read yet
+  std::set<std::string, std::less<>> queried_keys;  // by has(): for hints, not read yet
   std::vector<std::shared_ptr<Node>> children;
   std::map<const toml::table*, std::shared_ptr<Node>> child_of;
 
@@ -65,7 +65,7 @@ std::optional<double> as_number(const toml::node& node) {
 
 }  // namespace
 
-std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates) {
+std::string nearest_candidate(std::string_view word, const std::vector<std::string>& candidates) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;
   for (const auto& candidate : candidates) {
@@ -121,13 +121,13 @@ void TomlTable::missing(std::string_view key, const char* form) {
   for (const auto& [name, value] : *node_->table) {
     if (!node_->asked.contains(name.str())) others.emplace_back(name.str());
   }
-  const std::string near = nearest_of(key, others);
+  const std::string near = nearest_candidate(key, others);
   const std::string hint = near.empty() ? "" : " (or rename \"" + near + "\")";
   reject(key, "is missing; add " + std::string(key) + " = " + form + hint);
 }
 
 bool TomlTable::has(std::string_view key) {
-  node_->looked_for.emplace(key);
+  node_->queried_keys.emplace(key);
   return node_->table->contains(key);
 }
 
@@ -312,8 +312,8 @@ Status TomlTable::finish() {
     for (const auto& [key, value] : *node->table) {
       if (node->asked.contains(key.str())) continue;
       std::vector<std::string> known(node->asked.begin(), node->asked.end());
-      known.insert(known.end(), node->looked_for.begin(), node->looked_for.end());
-      const std::string near = nearest_of(key.str(), known);
+      known.insert(known.end(), node->queried_keys.begin(), node->queried_keys.end());
+      const std::string near = nearest_candidate(key.str(), known);
       std::string why = "unknown key";
       if (!near.empty()) {
         why += "; did you mean \"" + near + "\"?";

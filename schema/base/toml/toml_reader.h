@@ -61,6 +61,6 @@ class TomlTable {
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
 // The candidate with the smallest edit distance to `word`; empty if none is near.
-std::string nearest_of(std::string_view word, const std::vector<std::string>& candidates);
+std::string nearest_candidate(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace mdof

@@ -21,7 +21,7 @@ ThermalExpansion expansion_of(TomlTable& table, const std::string& body) {
 }
 
 // The coefficient is required if a temperature has an effect, and is read whenever it is given.
-bool needs_expansion(TomlTable& table, const std::string& body, bool counts) {
+bool requires_expansion(TomlTable& table, const std::string& body, bool counts) {
   return counts || table.has(body + "_ppm_per_K") || table.has("u_" + body + "_ppm_per_K");
 }
 
@@ -32,7 +32,7 @@ BodyExpansion body_of(TomlTable& table, const std::string& body) {
   if (!(std::abs(out.above_20_K) <= kMostAbove_K))
     table.reject(key, "must be a temperature in degrees Celsius, from -80 to 120");
   out.u_temperature = read_uncertainty(table, "u_" + body + "_K", 1);
-  if (needs_expansion(table, body, out.above_20_K != 0 || out.u_temperature.declared()))
+  if (requires_expansion(table, body, out.above_20_K != 0 || out.u_temperature.declared()))
     out.expansion = expansion_of(table, body);
   return out;
 }
@@ -47,7 +47,7 @@ RigExpansion read_expansion(TomlTable& table) {
   out.scale = body_of(*temperature, "scale");
   out.fixture = body_of(*temperature, "fixture");
   out.square_gradient = read_uncertainty3(*temperature, "u_square_gradient_K_per_m", 1);
-  if (needs_expansion(*temperature, "square", out.square_gradient.declared()))
+  if (requires_expansion(*temperature, "square", out.square_gradient.declared()))
     out.square = expansion_of(*temperature, "square");
   return out;
 }

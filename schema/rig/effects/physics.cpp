@@ -12,7 +12,7 @@ namespace mdof {
 namespace {
 
 constexpr double kMostRadius_mm = 50, kMostStandoff_um = 1e5, kMostTiltFactor = 100;
-constexpr int kLooks = 200;              // points at which a correction is checked over the range
+constexpr int kCorrectionSamples = 200;  // points at which a correction is checked over the range
 constexpr double kRangeCovered = 0.999;  // a reading beyond this share is at the end of the range
 
 double positive(TomlTable& table, const char* key, double most) {
@@ -76,7 +76,8 @@ std::optional<DeclaredAir> read_air(TomlTable& root) {
 
 bool rises(const Calibration& c, const std::array<double, 2>& range) {
   std::vector<double> at;
-  for (int i = 0; i <= kLooks; ++i) at.push_back(range[0] + (range[1] - range[0]) * i / kLooks);
+  for (int i = 0; i <= kCorrectionSamples; ++i)
+    at.push_back(range[0] + (range[1] - range[0]) * i / kCorrectionSamples);
   for (const auto& row : c.linearity) at.push_back(row[0]);
   std::sort(at.begin(), at.end());
   at.erase(std::unique(at.begin(), at.end()), at.end());
@@ -108,7 +109,7 @@ void check_linearity(TomlTable& table, const Probe& probe) {
                         " um; extend the table, or give the used range of the probe as valid_um");
 }
 
-void leave_linearity_out(Rig& rig, RigPhysics& physics) {
+void remove_linearity(Rig& rig, RigPhysics& physics) {
   for (Probe& probe : rig.probes) {
     physics.left_out.push_back(std::make_shared<Calibration>(probe.calibration));
     probe.calibration.linearity.clear();
@@ -139,7 +140,7 @@ void check_needs(TomlTable& root, std::vector<TomlTable>& tables, const Rig& rig
         "calibration_temperature_C, calibration_pressure_kPa and calibration_humidity_percent");
 }
 
-bool says_anything(const RigPhysics& physics) {
+bool declares_any_effect(const RigPhysics& physics) {
   return physics.asked || physics.air ||
          std::any_of(physics.probes.begin(), physics.probes.end(), [](const ProbePhysics& p) {
            return p.sensing_radius_m > 0 || p.u_linearity.declared();
@@ -147,7 +148,7 @@ bool says_anything(const RigPhysics& physics) {
 }
 
 // u of the corrections from certificates, read from the records that follow the rig.
-void take_certificates(TomlTable& table, const Rig& rig, RigPhysics& physics) {
+void apply_certificate_uncertainties(TomlTable& table, const Rig& rig, RigPhysics& physics) {
   for (TomlTable& record : table.tables("calibration_record"))
     for (TomlTable& probe : record.tables("probe")) {
       const CertificateFacts facts = read_certificate(probe);
@@ -186,10 +187,11 @@ void read_physics(TomlTable& table, Rig& rig) {
   if (tables.size() != rig.probes.size()) return;  // parse_rig() rejects this
   for (std::size_t k = 0; k < tables.size(); ++k)
     physics.probes.push_back(read_probe_physics(tables[k], rig.probes[k]));
-  take_certificates(table, rig, physics);
+  apply_certificate_uncertainties(table, rig, physics);
   check_needs(table, tables, rig, physics);
-  if (!physics.linearity.value_or(true)) leave_linearity_out(rig, physics);
-  if (says_anything(physics)) rig.physics = std::make_shared<const RigPhysics>(std::move(physics));
+  if (!physics.linearity.value_or(true)) remove_linearity(rig, physics);
+  if (declares_any_effect(physics))
+    rig.physics = std::make_shared<const RigPhysics>(std::move(physics));
 }
 
 std::array<double, 2> readings_of_range(const Probe& probe) {

@@ -8,11 +8,11 @@ namespace mdof {
 namespace {
 
 template <class Is>
-bool of_any_probe(const RigPhysics& physics, Is is) {
+bool any_probe(const RigPhysics& physics, Is is) {
   return std::any_of(physics.probes.begin(), physics.probes.end(), is);
 }
 
-bool left_out_linearity(const RigPhysics& physics) {
+bool has_removed_linearity(const RigPhysics& physics) {
   return std::any_of(physics.left_out.begin(), physics.left_out.end(), [](const auto& c) {
     return !c->linearity.empty() || !c->polynomial_um.empty();
   });
@@ -36,12 +36,12 @@ std::vector<std::string> undeclared_physics(const Rig& rig) {
   if (!rig.physics) return keys;
   const RigPhysics& physics = *rig.physics;
   if (physics.asked &&
-      of_any_probe(physics, [](const ProbePhysics& p) { return !p.u_linearity.known(); }))
+      any_probe(physics, [](const ProbePhysics& p) { return !p.u_linearity.known(); }))
     keys.emplace_back("u_linearity_um");
-  if (of_any_probe(physics, [&](const ProbePhysics& p) { return !p.tilts(); }))
+  if (any_probe(physics, [&](const ProbePhysics& p) { return !p.tilts(); }))
     keys.emplace_back("sensing_radius_mm and standoff_um");
-  if (of_any_probe(physics,
-                   [&](const ProbePhysics& p) { return p.tilts() && !p.u_tilt_factor.known(); }))
+  if (any_probe(physics,
+                [&](const ProbePhysics& p) { return p.tilts() && !p.u_tilt_factor.known(); }))
     keys.emplace_back("u_tilt_factor");
   if (physics.knows_air())
     add_undeclared_air(physics, keys);
@@ -53,7 +53,7 @@ std::vector<std::string> undeclared_physics(const Rig& rig) {
 bool declares_physics(const Rig& rig) {
   if (!rig.physics) return false;
   const auto adds = [](const ProbePhysics& p) { return p.tilts() || p.u_linearity.declared(); };
-  return of_any_probe(*rig.physics, adds) || left_out_linearity(*rig.physics) ||
+  return any_probe(*rig.physics, adds) || has_removed_linearity(*rig.physics) ||
          rig.physics->knows_air();
 }
 

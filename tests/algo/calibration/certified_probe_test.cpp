@@ -239,16 +239,16 @@ TEST(CertifiedProbe, CorrectsTheScaleOnlyOnce) {
                 certificate({s}, {{measured(kMetre, {-read_um * 1e-6, 0, read_um * 1e-6}),
                                    reference(kMetre, {-80e-6, 0, 80e-6}, {6e-9, 5e-9, 6e-9})}}));
   };
-  const auto read_with_rig = found(20, 79.84);
-  ASSERT_TRUE(read_with_rig) << read_with_rig.error().message;
-  EXPECT_NEAR(read_with_rig->probe.um_per_V.value(), 1 / 0.0499, 1e-9);
-  expect_rows(read_with_rig->probe.linearity, {{-80, 0}, {0, 0}, {80, 0}});
-  EXPECT_TRUE(has(read_with_rig->taken, {"certified_readings_converted from_um_per_V=20 "}));
+  const auto with_rig_scale = found(20, 79.84);
+  ASSERT_TRUE(with_rig_scale) << with_rig_scale.error().message;
+  EXPECT_NEAR(with_rig_scale->probe.um_per_V.value(), 1 / 0.0499, 1e-9);
+  expect_rows(with_rig_scale->probe.linearity, {{-80, 0}, {0, 0}, {80, 0}});
+  EXPECT_TRUE(has(with_rig_scale->taken, {"certified_readings_converted from_um_per_V=20 "}));
   // Read with the scale of the certificate: within 3 u (48 nm at 80 um) nothing is converted.
-  const auto read_with_own = found(20, 79.97);
-  ASSERT_TRUE(read_with_own) << read_with_own.error().message;
-  expect_rows(read_with_own->probe.linearity, {{-79.97, -0.03}, {0, 0}, {79.97, 0.03}});
-  EXPECT_FALSE(has(read_with_own->taken, {"certified_readings_converted"}));
+  const auto with_own_scale = found(20, 79.97);
+  ASSERT_TRUE(with_own_scale) << with_own_scale.error().message;
+  expect_rows(with_own_scale->probe.linearity, {{-79.97, -0.03}, {0, 0}, {79.97, 0.03}});
+  EXPECT_FALSE(has(with_own_scale->taken, {"certified_readings_converted"}));
   // Readings that match neither scale.
   for (const std::optional<double> um_per_V : {std::optional<double>(), {20.04}, {20.1}})
     EXPECT_TRUE(refused(found(um_per_V, 79.84), {"c.xml:31: ", "scale twice", "\"B\" in r.toml"}));
@@ -270,10 +270,10 @@ TEST(CertifiedProbe, ReadsTableOfReferenceValues) {
   EXPECT_NEAR(both->facts.u_linearity_m, std::sqrt(41.0) * 1e-8, 1e-18);
   EXPECT_TRUE(has(both->taken, {"corrections=3", "ref_type=basic_referenceValue"}));
   EXPECT_EQ(both->not_taken.size(), 1u);
-  const auto of_read = found(u_read, {});
-  ASSERT_TRUE(of_read) << of_read.error().message;
-  EXPECT_NEAR(of_read->facts.u_linearity_m, 5e-8, 1e-18);
-  EXPECT_TRUE(has(of_read->not_taken, {"u_not_certified", "ref_type=basic_referenceValue"}));
+  const auto of_readings = found(u_read, {});
+  ASSERT_TRUE(of_readings) << of_readings.error().message;
+  EXPECT_NEAR(of_readings->facts.u_linearity_m, 5e-8, 1e-18);
+  EXPECT_TRUE(has(of_readings->not_taken, {"u_not_certified", "ref_type=basic_referenceValue"}));
   const auto of_x = found({}, u_x);
   ASSERT_TRUE(of_x) << of_x.error().message;
   EXPECT_NEAR(of_x->facts.u_linearity_m, 5e-8, 1e-18);
@@ -287,10 +287,10 @@ TEST(CertifiedProbe, ErrorsWithoutUTakeUOfTheReadings) {
     return of_b(rig_of(std::nullopt, 0), certificate({}, {{measured(kMetre, {4e-6, 9e-6}, u_read),
                                                            error(kMetre, {0.2e-6, 0.5e-6})}}));
   };
-  const auto of_read = found({6e-8, 2e-8});
-  ASSERT_TRUE(of_read) << of_read.error().message;
-  EXPECT_NEAR(of_read->facts.u_linearity_m, 6e-8, 1e-18);
-  EXPECT_TRUE(has(of_read->not_taken, {"u_not_certified", "ref_type=basic_referenceValue"}));
+  const auto of_readings = found({6e-8, 2e-8});
+  ASSERT_TRUE(of_readings) << of_readings.error().message;
+  EXPECT_NEAR(of_readings->facts.u_linearity_m, 6e-8, 1e-18);
+  EXPECT_TRUE(has(of_readings->not_taken, {"u_not_certified", "ref_type=basic_referenceValue"}));
   EXPECT_TRUE(refused(found({}), {"c.xml:47: ", "table", "no uncertainty"}));
 }
 
@@ -307,10 +307,10 @@ TEST(CertifiedProbe, RefusesErrorsThatContradictTheReference) {
   EXPECT_NEAR(found(0.25, u)->facts.u_linearity_m, 4e-6, 1e-18);
   for (const double off : {-0.125, 0.125}) {  // 2 u
     EXPECT_TRUE(found(0.25 + off, u)) << off;
-    const double error_V = 0.25 + 1.05 * off, more_um = 32 * error_V;
+    const double error_V = 0.25 + 1.05 * off, expected_error_um = 32 * error_V;
     EXPECT_TRUE(refused(found(error_V, u), {"c.xml:47: ", "value 2 is ", off < 0 ? "3.8" : "12.2",
                                             "reference is 8 um"}))
-        << more_um;
+        << expected_error_um;
   }
   EXPECT_TRUE(found(3, {}));
   // Each row is checked by itself: here only the reading is wrong.

@@ -12,7 +12,7 @@ namespace mdof::algo {
 namespace {
 
 // Three tilts, each with traverses along X and Y.
-std::vector<Clamping> clampings_of(std::size_t probes) {
+std::vector<Clamping> simulated_clampings(std::size_t probes) {
   std::vector<Clamping> clampings;
   for (int c = 0; c < 3; ++c) {
     Clamping clamping;
@@ -33,7 +33,7 @@ std::vector<Clamping> clampings_of(std::size_t probes) {
 
 TEST(MountingModel, UnknownsAreAlongOrthogonalUnitVectors) {
   const Rig rig = test::rig_oblique();
-  const auto model = MountingModel::create(rig, clampings_of(7));
+  const auto model = MountingModel::create(rig, simulated_clampings(7));
   ASSERT_TRUE(model) << model.error().message;
   for (std::size_t k = 0; k < 7; ++k) {
     const FixtureProbe& probe = model->nominal().probes[k];
@@ -46,7 +46,7 @@ TEST(MountingModel, UnknownsAreAlongOrthogonalUnitVectors) {
       EXPECT_NEAR(two[0].dot(across), 0, 1e-12) << k;
       EXPECT_NEAR(two[1].dot(across), 0, 1e-12) << k;
     }
-    const Eigen::Vector3d turned = model->turned_direction(k, 3e-3, -4e-3);
+    const Eigen::Vector3d turned = model->rotated_direction(k, 3e-3, -4e-3);
     EXPECT_NEAR(turned.norm(), 1, 1e-12);
     EXPECT_NEAR(turned.dot(model->towards(k, 0)), 3e-3, 1e-7) << k;
     EXPECT_NEAR(turned.dot(model->towards(k, 1)), -4e-3, 1e-7) << k;
@@ -91,9 +91,9 @@ void expect_derivatives(const MountingModel& model) {
 }
 
 TEST(MountingModel, DerivativesMatchFiniteDifferences) {
-  expect_derivatives(MountingModel::create(test::rig_oblique(), clampings_of(7)).value());
+  expect_derivatives(MountingModel::create(test::rig_oblique(), simulated_clampings(7)).value());
   const Rig rig = test::rig_x_with("B", "u_sensitivity_ppm = 1000");
-  const auto model = MountingModel::create(rig, clampings_of(5)).value();
+  const auto model = MountingModel::create(rig, simulated_clampings(5)).value();
   EXPECT_NEAR(model.scale()(unknown_of(1, algo::kScale)), 1e-3, 1e-15);
   EXPECT_EQ(model.scale()(unknown_of(0, algo::kScale)), 0);
   expect_derivatives(model);
@@ -104,7 +104,7 @@ TEST(MountingModel, DerivativesMatchFiniteDifferences) {
 TEST(MountingModel, ScalesComeFromTheRigOrFromDefaults) {
   const Rig rig = test::rig_x_with(
       "D", "u_position_mm = [0.02, 0.03, 0.04]\nu_direction_mrad = 7\nu_sensitivity_ppm = 300");
-  const auto model = MountingModel::create(rig, clampings_of(5)).value();
+  const auto model = MountingModel::create(rig, simulated_clampings(5)).value();
   // D faces the side plane: its position unknowns are along X and Z.
   for (const auto& [which, axis, u] :
        {std::tuple(kPlace1, 0, 0.02e-3), std::tuple(kPlace2, 2, 0.04e-3)}) {
@@ -125,11 +125,11 @@ TEST(MountingModel, ScalesComeFromTheRigOrFromDefaults) {
 
 // On a plane that is tilted by t the encoder uncertainty u contributes t u to a reading.
 TEST(MountingModel, EncoderUncertaintyEntersThroughTilts) {
-  auto model = MountingModel::create(test::rig_x(), clampings_of(5)).value();
+  auto model = MountingModel::create(test::rig_x(), simulated_clampings(5)).value();
   Eigen::VectorXd pose = Eigen::VectorXd::Zero(model.pose_unknowns());
   pose(3 + 1) = 2;  // the second clamping is pitched by 20 mrad
-  EXPECT_NEAR(model.angles_of(pose, 1)[kEy], 0.02, 1e-15);
-  EXPECT_EQ(model.angles_of(pose, 0), Errors5{});
+  EXPECT_NEAR(model.clamping_angles(pose, 1)[kEy], 0.02, 1e-15);
+  EXPECT_EQ(model.clamping_angles(pose, 0), Errors5{});
   model.widen_by_encoder(pose, 1e-6);
   for (const TraverseReading& seen : model.readings()) {
     const bool is_pitched = seen.clamping == 1 && seen.probe < 3 && seen.traverse % 2 == 0;

@@ -26,7 +26,7 @@ Rig rig_with(const std::string& of_probes) {
 
 // True minus nominal values, in the order of MountingFit::change. The tangents of both planes are
 // the local axes; a direction is given by its components along them.
-Eigen::VectorXd truth_of(const TiltedTarget& target, const Rig& rig) {
+Eigen::VectorXd true_deviations(const TiltedTarget& target, const Rig& rig) {
   Eigen::VectorXd truth(30);
   for (std::size_t k = 0; k < 5; ++k) {
     const std::size_t across = k < 3 ? 1 : 2, facing = k < 3 ? 2 : 1;
@@ -50,7 +50,7 @@ TEST(Mounting, ExactReadingsGiveRelativePositions) {
   const Rig rig = rig_with("");
   const auto fit = fit_mounting(rig, target.logs(rng));
   ASSERT_TRUE(fit) << fit.error().message;
-  const Eigen::VectorXd truth = truth_of(target, rig);
+  const Eigen::VectorXd truth = true_deviations(target, rig);
   const Eigen::VectorXd part = fit->seen * truth;
   // Each probe relative to the first one of its plane.
   for (const auto& [a, b] : {std::pair{0, 1}, {0, 2}, {3, 4}})
@@ -108,7 +108,7 @@ TEST(Mounting, IntervalsCoverTheTruth) {
     target.clamp(4, kTilt_rad, rng);
     const auto fit = fit_mounting(rig, target.logs(rng));
     ASSERT_TRUE(fit) << fit.error().message;
-    const Eigen::VectorXd truth = truth_of(target, rig);
+    const Eigen::VectorXd truth = true_deviations(target, rig);
     const Eigen::VectorXd off = fit->change - fit->seen * truth;
     for (int k = 0; k < 5; ++k)
       for (int j = 0; j < 3; ++j) {
@@ -146,7 +146,7 @@ TEST(Mounting, DeclaredSensitivityUKeepsPositionsCorrect) {
   const auto worst = [&](const Rig& rig) {
     const auto fit = fit_mounting(rig, logs);
     if (!fit) return 1.0;
-    const Eigen::VectorXd off = fit->change - truth_of(target, rig);
+    const Eigen::VectorXd off = fit->change - true_deviations(target, rig);
     return std::max(std::abs(off(0) - off(6)), std::abs(off(7) - off(13)));
   };
   EXPECT_GT(worst(exact), 5e-6);
@@ -240,7 +240,8 @@ TEST(Mounting, CalibrationReducesInducedErrorsTwentyfold) {
     const auto known = Solver::create(calibrated, Model::rigid).value();
     // Offset of the origin of the axis relative to the true probes: the clampings do not show their
     // mean position.
-    const Eigen::VectorXd off = truth_of(target, rig) - fit.seen * truth_of(target, rig);
+    const Eigen::VectorXd off =
+        true_deviations(target, rig) - fit.seen * true_deviations(target, rig);
     for (int trial = 0; trial < 200; ++trial) {
       const test::TrueClamping e{{angle(rng), angle(rng), angle(rng)}, {0, shift(rng), shift(rng)}};
       const double d = travel(rng);
@@ -288,7 +289,7 @@ CalibrationRecord record_of(const MountingFit& fit, const Rig& rig, bool with_co
 
 // Angles of a target that is tilted by some mrad, measured with the calibrated rig as read from its
 // record. Returns the share (%) of 300 intervals that contain the truth, in the order of Errors5.
-std::array<double, 5> angles_held(bool with_covariance) {
+std::array<double, 5> angle_coverage(bool with_covariance) {
   std::mt19937_64 rng(11);
   const std::string text = test::mounting_rig_toml(kDeclared);
   const Rig rig = parse_rig(text, "rig_X.toml").value();
@@ -333,7 +334,7 @@ std::array<double, 5> angles_held(bool with_covariance) {
 
 // The zeros and positions of one calibration are correlated, and their effects partly cancel.
 TEST(Mounting, RecordKeepsCovariancesForTheBudget) {
-  const auto with = angles_held(true), without = angles_held(false);
+  const auto with = angle_coverage(true), without = angle_coverage(false);
   for (const std::size_t e : {kEx, kEy, kEz}) {
     std::printf("held %.1f %%, without covariances %.1f %%\n", with[e], without[e]);
     EXPECT_GT(with[e], 91.2) << e;  // 95 % less three standard deviations of 300 trials

@@ -23,7 +23,7 @@ Unseen named(const MountingModel& model, const std::vector<Eigen::VectorXd>& dir
   view.unseen = Eigen::MatrixXd(model.unknowns(), static_cast<Eigen::Index>(directions.size()));
   for (std::size_t i = 0; i < directions.size(); ++i)
     view.unseen.col(static_cast<Eigen::Index>(i)) = directions[i].normalized();
-  return unseen_of(model, view);
+  return find_unseen(model, view);
 }
 Eigen::VectorXd unit(const MountingModel& model, std::size_t probe, MountingUnknown which) {
   return Eigen::VectorXd::Unit(model.unknowns(), unknown_of(probe, which));

@@ -51,7 +51,7 @@ TEST(Sensitivity, MatchesSlopeAndUncertaintyByHand) {
 // Share (%) of 5,000 intervals, with the coverage factor for the degrees of freedom, that contain
 // the true sensitivity. The axis visits `places` positions there and back; the readings have white
 // noise and an encoder error that is the same at both visits of a position.
-double held_percent(const std::string& of_rig, double encoder_m, double noise_m, int places) {
+double coverage_percent(const std::string& of_rig, double encoder_m, double noise_m, int places) {
   const Rig rig = test::rig_x_with("", "", of_rig);
   std::mt19937_64 engine(5);
   std::normal_distribution<> normal;
@@ -78,9 +78,9 @@ TEST(Sensitivity, IntervalsCoverAnEncoderErrorAtEachPosition) {
   // 95 % less three standard deviations of 5,000 trials.
   for (const int places : {5, 11}) {
     SCOPED_TRACE(places);
-    EXPECT_GT(held_percent(declared, 0.2e-6, 10e-9, places), 94);
-    EXPECT_GT(held_percent("", 0.2e-6, 10e-9, places), 94);  // the residuals show it
-    EXPECT_GT(held_percent("", 0, 50e-9, places), 94);
+    EXPECT_GT(coverage_percent(declared, 0.2e-6, 10e-9, places), 94);
+    EXPECT_GT(coverage_percent("", 0.2e-6, 10e-9, places), 94);  // the residuals show it
+    EXPECT_GT(coverage_percent("", 0, 50e-9, places), 94);
   }
 }
 

@@ -16,7 +16,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kIsEYX = 0, kIsEZX = 1, kIsEAX = 2, kIsEBX = 3, kIsECX = 4;
+constexpr std::size_t kEYXIndex = 0, kEZXIndex = 1, kEAXIndex = 2, kEBXIndex = 3, kECXIndex = 4;
 
 struct Case {
   CompensationTable table;
@@ -53,11 +53,11 @@ TEST(ErrorCovariance, EqualNoiseGivesTheFixtureCorrelations) {
   const std::size_t row = 2;
   // Straightness is as measured and angles refer to the first target: this reduces the correlation
   // between straightness and angles by 1/sqrt(2).
-  EXPECT_NEAR(c.of(kIsEYX, kIsEAX, row), 1 / std::sqrt(3.0), 1e-3);
-  EXPECT_NEAR(c.of(kIsEYX, kIsECX, row), -1 / std::sqrt(12.0), 1e-3);
-  EXPECT_NEAR(c.of(kIsEZX, kIsEBX, row), 1 / std::sqrt(6.0), 1e-3);
-  EXPECT_NEAR(c.of(kIsEAX, kIsECX, row), 0, 1e-3);
-  EXPECT_NEAR(c.of(kIsEYX, kIsEZX, row), 0, 1e-3);
+  EXPECT_NEAR(c.of(kEYXIndex, kEAXIndex, row), 1 / std::sqrt(3.0), 1e-3);
+  EXPECT_NEAR(c.of(kEYXIndex, kECXIndex, row), -1 / std::sqrt(12.0), 1e-3);
+  EXPECT_NEAR(c.of(kEZXIndex, kEBXIndex, row), 1 / std::sqrt(6.0), 1e-3);
+  EXPECT_NEAR(c.of(kEAXIndex, kECXIndex, row), 0, 1e-3);
+  EXPECT_NEAR(c.of(kEYXIndex, kEZXIndex, row), 0, 1e-3);
   for (std::size_t k = 0; k < kErrorCount; ++k)
     for (std::size_t l = 0; l < kErrorCount; ++l) {
       EXPECT_NEAR(c.of(k, l, row), c.of(l, k, row), 1e-12);
@@ -65,20 +65,20 @@ TEST(ErrorCovariance, EqualNoiseGivesTheFixtureCorrelations) {
         EXPECT_NEAR(c.covariance(k, l, row), 1e-18, 1e-27);
       }
     }
-  EXPECT_EQ(c.of(kIsEYX, kIsEAX, 0), 0);  // the angle is 0 by definition
+  EXPECT_EQ(c.of(kEYXIndex, kEAXIndex, 0), 0);  // the angle is 0 by definition
 }
 
 // A scale error s of D changes EYX by s D and ECX by -s (D - D0) / 10 mm. At x = 10 mm both cancel.
 TEST(ErrorCovariance, ErrorOfOneProbeCorrelatesTheErrors) {
   const Case c = made_of(test::rig_x_with("D", "u_sensitivity_ppm = 1000"), 0);
   const std::size_t last = c.table.position_m.size() - 1;
-  ASSERT_GT(c.table.u_declared[kIsEYX][last], 1e-9);
-  EXPECT_NEAR(c.of(kIsEYX, kIsECX, last), -1, 1e-9);
+  ASSERT_GT(c.table.u_declared[kEYXIndex][last], 1e-9);
+  EXPECT_NEAR(c.of(kEYXIndex, kECXIndex, last), -1, 1e-9);
   const Eigen::Vector3d beside(10e-3, 0, 0);
   const auto u = [&](const ErrorCovariances& together) {
     return test::u_of_tool(test::machine_of(c.table, beside, together), c.table, last).y();
   };
-  const double alone = c.table.u_declared[kIsEYX][last];
+  const double alone = c.table.u_declared[kEYXIndex][last];
   EXPECT_NEAR(u({}), std::sqrt(2.0) * alone, 1e-3 * alone);
   EXPECT_NEAR(u(c.covariances), 0, 1e-3 * alone);
 }
@@ -96,8 +96,10 @@ TEST(ErrorCovariance, UsesTheOnlyMeasuredApproach) {
   const auto table = build_table({run}, options).value();
   const auto declared = error_covariances(table, {rig}, {run}, options).value().declared.back();
   const auto of = [&](std::size_t k, std::size_t l) { return declared[k * kErrorCount + l]; };
-  ASSERT_GT(of(kIsEYX, kIsEYX), 1e-18);
-  EXPECT_NEAR(of(kIsEYX, kIsECX) / std::sqrt(of(kIsEYX, kIsEYX) * of(kIsECX, kIsECX)), -1, 1e-9);
+  ASSERT_GT(of(kEYXIndex, kEYXIndex), 1e-18);
+  EXPECT_NEAR(
+      of(kEYXIndex, kECXIndex) / std::sqrt(of(kEYXIndex, kEYXIndex) * of(kECXIndex, kECXIndex)), -1,
+      1e-9);
 }
 
 // The target rotates about Z with the square of the travel; in the second run E reads 1000 ppm too
@@ -120,11 +122,11 @@ TEST(ErrorCovariance, UsesTheZeroPositionOfAngles) {
   const auto [table, runs] = tables(0, options);
   const CompensationTable off = tables(1e-3, options).first;
   const auto declared = error_covariances(table, {rig}, runs, options).value().declared;
-  const std::size_t last = table.position_m.size() - 1, own = kIsECX * kErrorCount + kIsECX;
-  EXPECT_NEAR(table.forward[kIsECX][middle], 0, 1e-15);
+  const std::size_t last = table.position_m.size() - 1, own = kECXIndex * kErrorCount + kECXIndex;
+  EXPECT_NEAR(table.forward[kECXIndex][middle], 0, 1e-15);
   EXPECT_NEAR(declared[middle][own], 0, 1e-24);
   for (const std::size_t row : {std::size_t{0}, middle / 2, last}) {
-    const double moved = off.forward[kIsECX][row] - table.forward[kIsECX][row];
+    const double moved = off.forward[kECXIndex][row] - table.forward[kECXIndex][row];
     ASSERT_GT(std::abs(moved), 1e-8) << row;
     EXPECT_NEAR(std::sqrt(declared[row][own]), std::abs(moved), 1e-3 * std::abs(moved)) << row;
   }

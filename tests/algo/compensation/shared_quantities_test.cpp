@@ -21,7 +21,7 @@ const Eigen::Vector3d kToolPlace_m(5e-3, -3e-3, -30e-3);
 constexpr std::size_t kRow = 6;
 
 // The same fixture for both axes; the local frame of Y is x = +Y, y = -X.
-Rig rig_of_axis(Axis axis, const std::string& certificate) {
+Rig axis_rig(Axis axis, const std::string& certificate) {
   const bool y = axis == Axis::y;
   std::string toml = std::string("name = \"test\"\naxis = \"") + letter(axis) + "\"\n";
   const auto probe = [&](const char* id, double along, double across, double up, bool top) {
@@ -44,7 +44,7 @@ Rig rig_of_axis(Axis axis, const std::string& certificate) {
 
 // B reads too much by the fraction `off`.
 BuiltFrom built(Axis axis, double off, const std::string& certificate = "1") {
-  const Rig rig = rig_of_axis(axis, certificate);
+  const Rig rig = axis_rig(axis, certificate);
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified};
   const double size = axis == Axis::x ? 1 : 0.6;
   synthetic.truth = [size](double d) {

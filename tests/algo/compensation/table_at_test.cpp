@@ -52,7 +52,7 @@ TEST(TableAt, GivesTheValueOfTheLastTarget) {
 }
 
 TEST(TableAt, NoRunsHaveNoUnevenVisits) {
-  const auto uneven = uneven_visits_of({});
+  const auto uneven = uneven_visit_notices({});
   ASSERT_TRUE(uneven);
   EXPECT_TRUE(uneven->empty());
 }

@@ -13,7 +13,8 @@ using ManyColumns = std::vector<std::vector<double>>;
 
 // Largest deviation of an omitted point from the lines between the chosen points; bit i of `chosen`
 // selects point i.
-double worst_of_choice(const std::vector<double>& x, const ManyColumns& columns, unsigned chosen) {
+double worst_deviation_of_points(const std::vector<double>& x, const ManyColumns& columns,
+                                 unsigned chosen) {
   double worst = 0;
   std::size_t before = 0;
   for (std::size_t i = 1; i < x.size(); ++i) {
@@ -41,7 +42,7 @@ TEST(Thinning, KeepsTheFewestPossiblePoints) {
     std::size_t fewest_points = x.size();
     for (unsigned chosen = 0; chosen < (1U << 13); ++chosen) {
       const bool ends = (chosen & 1) && (chosen >> 12 & 1);
-      if (ends && worst_of_choice(x, columns, chosen) <= tolerance)
+      if (ends && worst_deviation_of_points(x, columns, chosen) <= tolerance)
         fewest_points =
             std::min(fewest_points, static_cast<std::size_t>(__builtin_popcount(chosen)));
     }
@@ -50,7 +51,7 @@ TEST(Thinning, KeepsTheFewestPossiblePoints) {
     for (const std::size_t i : thin.kept) chosen |= 1U << i;
     EXPECT_EQ(thin.kept.size(), fewest_points) << tolerance;
     EXPECT_LE(thin.largest_deviation, tolerance);
-    EXPECT_NEAR(thin.largest_deviation, worst_of_choice(x, columns, chosen), 1e-15);
+    EXPECT_NEAR(thin.largest_deviation, worst_deviation_of_points(x, columns, chosen), 1e-15);
   }
 }
 

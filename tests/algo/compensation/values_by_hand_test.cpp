@@ -16,7 +16,7 @@ namespace {
 // Two runs of three targets in both directions. In the first run the forward values are higher by 3
 // plus 1, 0, -1 and the reverse values by 5 plus 2, -1, -1; in the second run they are lower by the
 // same amounts. Reverse is 7 lower than forward. Error k is k + 1 times this value.
-std::vector<MeasuredPoint> visits_of_table() {
+std::vector<MeasuredPoint> table_visits() {
   const double shift[] = {3, 5}, off[2][3] = {{1, 0, -1}, {2, -1, -1}};
   std::vector<MeasuredPoint> points;
   for (const int run : {1, 2})
@@ -38,10 +38,10 @@ std::vector<MeasuredPoint> visits_of_table() {
 }
 
 SeriesOfErrors u_by_hand(const std::vector<MeasuredPoint>& points, Approach approach,
-                         const std::vector<Reference>& of_each) {
+                         const std::vector<Reference>& target_references) {
   const MovingAxis x;
   std::array<std::vector<Reference>, kErrorCount> references;
-  references.fill(of_each);
+  references.fill(target_references);
   return table_uncertainty(x, points, target_means(x, points, Approach::both), approach,
                            references);
 }
@@ -50,7 +50,7 @@ SeriesOfErrors u_by_hand(const std::vector<MeasuredPoint>& points, Approach appr
 // variance of a visit is 4/2 forward and 12/2 reverse; a mean of two visits has half of it. The
 // level of a pass has the variance 2 * 9 and 2 * 25, less a third of the variance of a visit; its
 // mean has half of that.
-constexpr double kOfForward = 1, kOfReverse = 3;
+constexpr double kMeanVarianceForward = 1, kMeanVarianceReverse = 3;
 constexpr double kLevelForward = (18 - 2 / 3.) / 2, kLevelReverse = (50 - 6 / 3.) / 2;
 // Half of forward minus reverse is -1.5, -0.5, -1 in the first run, -1 on average, and +1 in the
 // second: variance 2, less (3.5/3 - 1)/2 from the visits; the mean of both runs has half of it.
@@ -67,30 +67,32 @@ void expect_u(const SeriesOfErrors& u, const std::vector<double>& variances) {
 
 TEST(TableUncertaintyByHand, ValuesAsMeasured) {
   const std::vector<Reference> none(3, as_measured(3));
-  const double forward = kOfForward + kLevelForward, reverse = kOfReverse + kLevelReverse;
-  expect_u(u_by_hand(visits_of_table(), Approach::forward, none), {forward, forward, forward});
-  expect_u(u_by_hand(visits_of_table(), Approach::reverse, none), {reverse, reverse, reverse});
+  const double forward = kMeanVarianceForward + kLevelForward,
+               reverse = kMeanVarianceReverse + kLevelReverse;
+  expect_u(u_by_hand(table_visits(), Approach::forward, none), {forward, forward, forward});
+  expect_u(u_by_hand(table_visits(), Approach::reverse, none), {reverse, reverse, reverse});
 }
 
 // The mean of both directions at the start has half of each.
 TEST(TableUncertaintyByHand, ValuesReferredToTheStart) {
   const std::vector<Reference> from_start(3, Reference{1, 0, 0});
-  const double of_start = (kOfForward + kOfReverse) / 4;
+  const double of_start = (kMeanVarianceForward + kMeanVarianceReverse) / 4;
   const auto later = [&](double own) { return own + of_start + kApart; };
-  expect_u(u_by_hand(visits_of_table(), Approach::forward, from_start),
-           {of_start + kApart, later(kOfForward), later(kOfForward)});
-  expect_u(u_by_hand(visits_of_table(), Approach::reverse, from_start),
-           {of_start + kApart, later(kOfReverse), later(kOfReverse)});
+  expect_u(u_by_hand(table_visits(), Approach::forward, from_start),
+           {of_start + kApart, later(kMeanVarianceForward), later(kMeanVarianceForward)});
+  expect_u(u_by_hand(table_visits(), Approach::reverse, from_start),
+           {of_start + kApart, later(kMeanVarianceReverse), later(kMeanVarianceReverse)});
 }
 
 // Each visit twice: twice the squares and 12 - 3 - 1 degrees of freedom give half the variance; a
 // mean of four visits has a quarter of it. The difference of the directions is unchanged.
 TEST(TableUncertaintyByHand, VisitsOfARunAreAveraged) {
-  auto points = visits_of_table();
+  auto points = table_visits();
   const auto once = points;
   points.insert(points.end(), once.begin(), once.end());
   const std::vector<Reference> from_start(3, Reference{1, 0, 0});
-  const double forward = kOfForward / 4, of_start = (kOfForward + kOfReverse) / 16;
+  const double forward = kMeanVarianceForward / 4,
+               of_start = (kMeanVarianceForward + kMeanVarianceReverse) / 16;
   expect_u(u_by_hand(points, Approach::forward, from_start),
            {of_start + kApart, forward + of_start + kApart, forward + of_start + kApart});
 }
@@ -107,21 +109,21 @@ TEST(TableUncertaintyByHand, ValuesReferredToTheLine) {
     for (std::size_t j = 0; j < 3; ++j) {
       EXPECT_NEAR(line[i][j], share[i][j], 1e-12);
       const double own = (i == j ? 1 : 0) - share[i][j] / 2, other = share[i][j] / 2;
-      variance += own * own * kOfForward + other * other * kOfReverse;
+      variance += own * own * kMeanVarianceForward + other * other * kMeanVarianceReverse;
     }
     variances.push_back(variance);
   }
-  expect_u(u_by_hand(visits_of_table(), Approach::forward, line), variances);
+  expect_u(u_by_hand(table_visits(), Approach::forward, line), variances);
 }
 
 // With one direction only, the mean is that of this direction, and there is no difference of
 // directions.
 TEST(TableUncertaintyByHand, OneDirectionOnly) {
-  auto points = visits_of_table();
+  auto points = table_visits();
   std::erase_if(points, [](const MeasuredPoint& p) { return p.point.direction < 0; });
   const auto against_start =
       u_by_hand(points, Approach::forward, std::vector<Reference>(3, Reference{1, 0, 0}));
-  expect_u(against_start, {0, 2 * kOfForward, 2 * kOfForward});
+  expect_u(against_start, {0, 2 * kMeanVarianceForward, 2 * kMeanVarianceForward});
   const auto back =
       u_by_hand(points, Approach::reverse, std::vector<Reference>(3, Reference{1, 0, 0}));
   for (const auto& of_error : back)
@@ -130,7 +132,7 @@ TEST(TableUncertaintyByHand, OneDirectionOnly) {
 
 // A single run shows neither scatter nor level.
 TEST(TableUncertaintyByHand, SingleRunHasItsNoiseOnly) {
-  auto points = visits_of_table();
+  auto points = table_visits();
   points.resize(6);
   for (MeasuredPoint& p : points)
     for (std::size_t k = 0; k < 5; ++k)
@@ -141,7 +143,7 @@ TEST(TableUncertaintyByHand, SingleRunHasItsNoiseOnly) {
            {0.25 * (0.25 + 0.25), 0.25 * 1.5, 0.25 * 1.5});
 }
 
-constexpr double kHoleOfTable = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMissingTableValue = std::numeric_limits<double>::quiet_NaN();
 using Series = std::vector<double>;
 
 // Square of the second derivative of the parabola through three values, by divided differences,
@@ -155,7 +157,7 @@ double square_of_curvature(const Series& x, const Series& y, const Series& u, st
       std::pow(bend(u[a], 0, 0), 2) + std::pow(bend(0, u[b], 0), 2) + std::pow(bend(0, 0, u[c]), 2);
   return std::pow(bend(y[a], y[b], y[c]), 2) - noise;
 }
-double mean_of_all(const Series& x, const Series& y, const Series& u, std::size_t step) {
+double mean_squared_curvature(const Series& x, const Series& y, const Series& u, std::size_t step) {
   double sum = 0, n = 0;
   for (std::size_t i = step; i + step < x.size(); ++i, n += 1)
     sum += square_of_curvature(x, y, u, i - step, i, i + step);
@@ -170,7 +172,7 @@ double expected_curvature(const Series& x, const Series& y, const Series& u, std
       near += square_of_curvature(x, y, u, at - 1, at, at + 1);
       n += 1;
     }
-  return R * std::sqrt(std::max(0.0, 6 * mean_of_all(x, y, u, 1) + near) / (6 + n));
+  return R * std::sqrt(std::max(0.0, 6 * mean_squared_curvature(x, y, u, 1) + near) / (6 + n));
 }
 
 TEST(CurvaturesByHand, ThreeValues) {
@@ -208,8 +210,9 @@ TEST(CurvaturesByHand, FactorFollowsTheRoughness) {
   for (int i = 0; i < 9; ++i) x.push_back(i + 0.1 * (i % 2));
   double least = 9, most = 0;
   for (const Series& y : {smooth, wavy, rough}) {
-    const double q =
-        std::clamp(std::sqrt(mean_of_all(x, y, u, 1) / mean_of_all(x, y, u, 2)), 1.0, 4.0);
+    const double q = std::clamp(
+        std::sqrt(mean_squared_curvature(x, y, u, 1) / mean_squared_curvature(x, y, u, 2)), 1.0,
+        4.0);
     const double R = std::max(2 * std::sqrt(q) / (1 + std::sqrt(q)), q * q / 4);
     const Series found = curvatures(x, y, u);
     for (std::size_t i = 0; i < 8; ++i)
@@ -228,8 +231,8 @@ TEST(CurvaturesByHand, FactorFollowsTheRoughness) {
 
 // Missing values are skipped: the interval between their neighbours counts as one step.
 TEST(CurvaturesByHand, MissingValuesAreSkipped) {
-  const Series x = {0, 1, 3, 4, 6, 7, 9}, u = {0.1, kHoleOfTable, 0.1, 0.3, 0.2, 0.1, 0.2};
-  const Series y = {kHoleOfTable, 2, 1, kHoleOfTable, -1, 3, kHoleOfTable};
+  const Series x = {0, 1, 3, 4, 6, 7, 9}, u = {0.1, kMissingTableValue, 0.1, 0.3, 0.2, 0.1, 0.2};
+  const Series y = {kMissingTableValue, 2, 1, kMissingTableValue, -1, 3, kMissingTableValue};
   const Series found = curvatures(x, y, u);
   ASSERT_EQ(found.size(), 6u);
   const Series xs = {1, 3, 6, 7}, ys = {2, 1, -1, 3}, us = {0, 0.1, 0.2, 0.1};

@@ -72,7 +72,7 @@ struct Log {
 constexpr double kNoise = 3e-9;
 
 // Largest deviation of δy from form and reversal over all points, less the mean deviation.
-double worst_off(const Log& log, const std::vector<MeasuredPoint>& points) {
+double worst_deviation_m(const Log& log, const std::vector<MeasuredPoint>& points) {
   double mean = 0;
   std::vector<double> off;
   for (const MeasuredPoint& p : points) {
@@ -98,8 +98,8 @@ TEST(RunDrift, FindsALinearDriftExactlyWithoutNoise) {
   EXPECT_NEAR(drift.found().probes[3].change, 200e-9, 1e-15);
   for (const std::size_t k : {kDz, kEx, kEy, kEz})
     EXPECT_FALSE(drift.found().errors[k].significant());
-  EXPECT_LT(worst_off(log, drift.without(points)), 1e-15);
-  EXPECT_NEAR(worst_off(log, points), 100e-9, 1e-9);
+  EXPECT_LT(worst_deviation_m(log, drift.without(points)), 1e-15);
+  EXPECT_NEAR(worst_deviation_m(log, points), 100e-9, 1e-9);
 }
 
 // Noise with a correlation of 0.6 between successive readings. A fit that treats the readings as
@@ -196,7 +196,8 @@ TEST(RunDrift, RemovesCurvedDriftsWithinLimits) {
     const DriftOfRun drift(points);
     EXPECT_GT(drift.found().errors[kDy].order, 0) << kind.name;
     EXPECT_FALSE(drift.found().errors[kDy].steps) << kind.name;
-    const double before = worst_off(log, points), after = worst_off(log, drift.without(points));
+    const double before = worst_deviation_m(log, points),
+                 after = worst_deviation_m(log, drift.without(points));
     EXPECT_GT(before, 90e-9) << kind.name;
     EXPECT_LT(after, kind.left_m) << kind.name;
   }

@@ -112,7 +112,7 @@ std::vector<TimedVisit> many_visits(std::size_t places, int runs) {
   return visits;
 }
 
-double legendre_by_hand(int order, double x) {
+double closed_form_legendre(int order, double x) {
   const double x2 = x * x;
   switch (order) {
     case 1:
@@ -141,7 +141,7 @@ TEST(DriftDesignByHand, PolynomialsAreLegendreFromTheFirstVisit) {
     ASSERT_EQ(found.size(), 6);
     const double x = 2 * std::min(std::max(share, 0.0), 1.0) - 1;
     for (int k = 1; k <= 6; ++k)
-      EXPECT_NEAR(found(k - 1), legendre_by_hand(k, x) - (k % 2 == 0 ? 1 : -1), 1e-9);
+      EXPECT_NEAR(found(k - 1), closed_form_legendre(k, x) - (k % 2 == 0 ? 1 : -1), 1e-9);
   }
 }
 

@@ -92,18 +92,18 @@ TEST_F(Cutting, SmoothingKeepsPixelNoiseOutOfThePart) {
   CuttingPasses p{map(0, false), {map(noise_m, true)}, false, CuttingGain::one};
   for (std::size_t k = 0; k < 2400; ++k) p.cuts[0].z_m[k] += wave(double(k % 60), double(k / 60));
   for (std::size_t k : {1210u, 1211u, 1270u, 1271u}) p.cuts[0].z_m[k] = SurfaceMap::kMissing;
-  const auto error_of_second = [&] {
+  const auto second_pass_error = [&] {
     const auto found = next_cut(p);
     SurfaceMap error = found->next;
     for (std::size_t k = 0; k < 2400; ++k) error.z_m[k] += wave(double(k % 60), double(k / 60));
     EXPECT_EQ(error.measured(), 2396u);
     return std::pair{figures_of(error), found->left_by_smoothing_rms_m};
   };
-  const auto [raw, nothing] = error_of_second();
+  const auto [raw, nothing] = second_pass_error();
   EXPECT_NEAR(raw.rms_m, noise_m, 0.05 * noise_m);
   EXPECT_FALSE(nothing);
   p.smooth_m = 10e-3;
-  const auto [smooth, left] = error_of_second();
+  const auto [smooth, left] = second_pass_error();
   // 11 x 11 pixels: about 1.9 / 11 of the noise in the middle, more at edges and corners.
   EXPECT_LE(smooth.rms_m, 0.33 * noise_m);
   EXPECT_LE(smooth.pv_m, 2.5 * noise_m);
@@ -130,16 +130,16 @@ TEST_F(Cutting, OptimalGainLeavesTheSmallestError) {
   const SurfaceMap repeats = map(0.08e-6, false), first = map(0.08e-6, true);
   CuttingPasses p{map(0, false), {first}, false, CuttingGain::optimal, 0, 0.08e-6};
   for (std::size_t k = 0; k < 2400; ++k) p.cuts[0].z_m[k] += repeats.z_m[k] + 1e-6;
-  const auto error_of_next = [&] {
+  const auto next_pass_error = [&] {
     SurfaceMap error = next_cut(p)->next;
     for (std::size_t k = 0; k < 2400; ++k) error.z_m[k] += repeats.z_m[k];
     return figures_of(error);
   };
   EXPECT_NEAR(*next_cut(p)->factor, 0.5, 0.03);
-  EXPECT_NEAR(error_of_next().rms_m, 0.08e-6 * std::sqrt(0.5), 0.003e-6);
-  EXPECT_NEAR(error_of_next().mean_m, -1e-6, 0.01e-6);
+  EXPECT_NEAR(next_pass_error().rms_m, 0.08e-6 * std::sqrt(0.5), 0.003e-6);
+  EXPECT_NEAR(next_pass_error().mean_m, -1e-6, 0.01e-6);
   p.gain = CuttingGain::one;
-  EXPECT_NEAR(error_of_next().rms_m, 0.08e-6, 0.003e-6);
+  EXPECT_NEAR(next_pass_error().rms_m, 0.08e-6, 0.003e-6);
   p.gain = CuttingGain::optimal;
   p.random_rms_m = 1e-6;
   EXPECT_EQ(*next_cut(p)->factor, 0);

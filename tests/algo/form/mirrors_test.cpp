@@ -134,7 +134,7 @@ std::vector<SurfaceMap> passes(Mirror& mirror, const SurfaceMap& wanted, const S
   return errors;
 }
 
-void through_the_paper(unsigned seed, Figures& figures) {
+void simulate_paper_mirror(unsigned seed, Figures& figures) {
   Mirror mirror(seed);
   const SurfaceMap shape = mirror.waves(60, 400), before = Mirror::times(shape, kBefore);
   const SurfaceMap bent = mirror.correlated(mirror.waves(70, 400), shape, kBeforeWithClamping),
@@ -205,7 +205,7 @@ TEST(Mirrors, ReproduceThePaper) {
   const unsigned mirrors = asked ? static_cast<unsigned>(std::atoi(asked)) : 3;
   ASSERT_GT(mirrors, 0u);
   Figures figures;
-  for (unsigned k = 0; k < mirrors; ++k) through_the_paper(1000 + k, figures);
+  for (unsigned k = 0; k < mirrors; ++k) simulate_paper_mirror(1000 + k, figures);
   std::printf("%-44s %8s %8s %8s\n", "", "mean", "5 %", "95 %");
   for (const auto& [name, values] : figures)
     std::printf("%-44s %8.4f %8.4f %8.4f\n", name.c_str(), average(values), quantile(values, 0.05),

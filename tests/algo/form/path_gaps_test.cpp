@@ -14,7 +14,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr std::size_t kOfTurn = 90;
+constexpr std::size_t kPointsPerTurn = 90;
 constexpr double kFeed_m = 0.5e-3;
 constexpr double kAlongX = 2e-3, kAlongY = -1e-3;  // slopes of the plane that is cut
 
@@ -33,7 +33,7 @@ SurfaceMap plane_with_gaps(IsPart&& is_part) {
 
 std::vector<PathPoint> points_over(const SurfaceMap& map, double outer_m,
                                    std::size_t extend_pixels = 0) {
-  SpiralRequest request{0, 0, outer_m, kFeed_m, kOfTurn, 0, extend_pixels};
+  SpiralRequest request{0, 0, outer_m, kFeed_m, kPointsPerTurn, 0, extend_pixels};
   const auto path = SpiralPath::over(map, request);
   EXPECT_TRUE(path) << path.error().message;
   std::vector<PathPoint> points;
@@ -47,7 +47,7 @@ std::vector<PathPoint> points_over(const SurfaceMap& map, double outer_m,
 }
 
 double angle_of(double index) {
-  return 2 * std::numbers::pi * index / kOfTurn;
+  return 2 * std::numbers::pi * index / kPointsPerTurn;
 }
 double slope_along(std::size_t index) {
   const double angle = angle_of(static_cast<double>(index));
@@ -83,8 +83,8 @@ TEST(PathGaps, OfManyTurnsUseTheMeanOfTheEnds) {
       from = first;
     }
   }
-  const std::size_t before = from - 1, after = from + longest, half = kOfTurn / 2 + 1;
-  ASSERT_GT(longest, 8 * kOfTurn);
+  const std::size_t before = from - 1, after = from + longest, half = kPointsPerTurn / 2 + 1;
+  ASSERT_GT(longest, 8 * kPointsPerTurn);
   const double mean = (points[before].z_m + points[after].z_m) / 2;
   const double first_arc = arc_between(points, before, before + half),
                last_arc = arc_between(points, after - half, after);
@@ -107,7 +107,7 @@ TEST(PathGaps, OfLessThanATurnUseOneCubic) {
       plane_with_gaps([](double r, double x, double y) { return !(r > 5e-3 && x > 0 && y > 0); }),
       14e-3);
   std::size_t gaps = 0;
-  for (std::size_t k = kOfTurn; k + 1 < points.size(); ++k) {
+  for (std::size_t k = kPointsPerTurn; k + 1 < points.size(); ++k) {
     if (points[k].on_part != OnPart::bridged || points[k - 1].on_part == OnPart::bridged) continue;
     const std::size_t before = k - 1;
     std::size_t after = k;
@@ -131,7 +131,7 @@ TEST(PathGaps, AtTheEndKeepTheLastHeight) {
   ASSERT_EQ(points[last].on_part, OnPart::bridged);
   while (points[last].on_part == OnPart::bridged) --last;
   for (std::size_t k = last; k < points.size(); ++k) ASSERT_EQ(points[k].z_m, points[last].z_m);
-  EXPECT_GT(points.size() - last, 5 * kOfTurn);
+  EXPECT_GT(points.size() - last, 5 * kPointsPerTurn);
 }
 
 // The path begins beside the part for more than a turn: it has the first height on the part.
@@ -140,7 +140,7 @@ TEST(PathGaps, AtALongBeginningHaveTheFirstHeight) {
       points_over(plane_with_gaps([](double r, double, double) { return r < 6e-3; }), 12e-3);
   std::size_t first = 0;
   while (points[first].on_part == OnPart::bridged) ++first;
-  ASSERT_GT(first, 8 * kOfTurn);
+  ASSERT_GT(first, 8 * kPointsPerTurn);
   for (std::size_t k = 0; k <= first; ++k) ASSERT_EQ(points[k].z_m, points[first].z_m);
 }
 
@@ -151,13 +151,13 @@ TEST(PathGaps, AtAShortBeginningContinueTheFirstTurn) {
       plane_with_gaps([](double r, double x, double) { return r < 3e-3 || x < 1e-3; }), 12e-3);
   std::size_t first = 0;
   while (points[first].on_part == OnPart::bridged) ++first;
-  std::size_t last = kOfTurn;  // of the first turn
+  std::size_t last = kPointsPerTurn;  // of the first turn
   while (points[last].on_part == OnPart::bridged) --last;
   ASSERT_GT(first, 10u);
-  ASSERT_LT(last, kOfTurn - 10);
+  ASSERT_LT(last, kPointsPerTurn - 10);
   // As if a turn before had run at the outermost radius.
   const double outer = points[0].rho_m;
-  const std::size_t back = kOfTurn - last;
+  const std::size_t back = kPointsPerTurn - last;
   const auto arc_from_before = [&](std::size_t k) {
     const double around = angle_of(static_cast<double>(k + back)) * (outer + points[k].rho_m) / 2;
     return std::hypot(outer - points[k].rho_m, around);
@@ -200,7 +200,7 @@ TEST(PathGaps, EndAtTheExtendedPixels) {
 
 TEST(PathGaps, CallbackErrorEndsThePath) {
   const auto map = plane_with_gaps([](double, double x, double) { return x < 5e-3; });
-  const auto path = SpiralPath::over(map, {0, 0, 12e-3, kFeed_m, kOfTurn, 0, 0});
+  const auto path = SpiralPath::over(map, {0, 0, 12e-3, kFeed_m, kPointsPerTurn, 0, 0});
   for (const std::size_t most : {1u, 20u, 300u}) {
     std::size_t taken = 0;
     const auto counts = path->each(

@@ -22,7 +22,7 @@ using Shape = std::function<double(double, double)>;
 constexpr double kPixel_m = 0.66e-3, kX0_m = -26e-3, kY0_m = -16e-3;
 constexpr std::size_t kNx = 80, kNy = 50;
 
-SurfaceMap map_here(const Shape& z) {
+SurfaceMap map_on_grid(const Shape& z) {
   return map_of(z, kX0_m, kY0_m, kPixel_m, kNx, kNy);
 }
 double flat(double, double) {
@@ -87,8 +87,8 @@ SurfaceMap with_noise(SurfaceMap map, unsigned seed, double sd_m) {
 struct Tolerance {
   double shift_m = 5e-9, turn_rad = 1e-7, share = 1e-5;
 };
-Comparison expect_at_rest(const SurfaceMap& a, const SurfaceMap& b, const std::string& what,
-                          const Tolerance& tolerance = {}) {
+Comparison expect_no_movement(const SurfaceMap& a, const SurfaceMap& b, const std::string& what,
+                              const Tolerance& tolerance = {}) {
   const auto found = compare(a, b, Register::rigid);
   EXPECT_TRUE(found) << what;
   const Left truth = without_plane(a, b);
@@ -103,8 +103,8 @@ Comparison expect_at_rest(const SurfaceMap& a, const SurfaceMap& b, const std::s
 
 TEST(RegistrationMatrix, IdenticalMapsDoNotMove) {
   for (const auto& [name, z, undetermined] : shapes()) {
-    const SurfaceMap a = map_here(z);
-    EXPECT_EQ(expect_at_rest(a, a, name).undetermined, undetermined) << name;
+    const SurfaceMap a = map_on_grid(z);
+    EXPECT_EQ(expect_no_movement(a, a, name).undetermined, undetermined) << name;
     // Piston and tilt, and rounding to six digits of um as in a file.
     SurfaceMap b = a, rounded = a;
     for (std::size_t k = 0; k < b.z_m.size(); ++k) {
@@ -112,7 +112,7 @@ TEST(RegistrationMatrix, IdenticalMapsDoNotMove) {
       b.z_m[k] += 3e-6 + 1e-5 * a.x_m(k % a.nx);
       b.z_m[k] = std::nearbyint(b.z_m[k] * 1e12) * 1e-12;
     }
-    expect_at_rest(rounded, b, std::string(name) + ", rounded", {1e-7, 1e-6, 0.05});
+    expect_no_movement(rounded, b, std::string(name) + ", rounded", {1e-7, 1e-6, 0.05});
   }
 }
 
@@ -120,26 +120,26 @@ TEST(RegistrationMatrix, SpikeAtTheBorderRemains) {
   for (const auto& [name, z, undetermined] : shapes())
     for (const double spike_m : {5e-6, -0.4e-6, 1e3})
       for (const std::size_t pixel : {std::size_t{20}, std::size_t{0}, 31 * kNx, kNx * kNy - 7}) {
-        const SurfaceMap a = map_here(z);
+        const SurfaceMap a = map_on_grid(z);
         SurfaceMap b = a;
         b.z_m[pixel] += spike_m;
         const std::string what = std::string(name) + " " + std::to_string(pixel);
-        expect_at_rest(a, b, what);
-        expect_at_rest(b, a, what + " reversed");
+        expect_no_movement(a, b, what);
+        expect_no_movement(b, a, what + " reversed");
       }
 }
 
 TEST(RegistrationMatrix, ARaisedEdgeAndTheMarkOfAClampAreLeft) {
   for (const auto& [name, z, undetermined] : shapes()) {
-    const SurfaceMap a = map_here(z);
+    const SurfaceMap a = map_on_grid(z);
     SurfaceMap column = a, row = a, mark = a;
     for (std::size_t j = 0; j < kNy; ++j) column.z_m[j * kNx] += 1e-6;
     for (std::size_t i = 0; i < kNx; ++i) row.z_m[(kNy - 1) * kNx + i] -= 1e-6;
     for (std::size_t j = 20; j < 30; ++j)
       for (std::size_t i = 0; i < 2; ++i) mark.z_m[j * kNx + i] += 3e-6;
     for (const SurfaceMap* b : {&column, &row, &mark}) {
-      expect_at_rest(a, *b, name);
-      expect_at_rest(*b, a, std::string(name) + " reversed");
+      expect_no_movement(a, *b, name);
+      expect_no_movement(*b, a, std::string(name) + " reversed");
     }
     EXPECT_GT(compare(a, mark, Register::rigid)->pv_m, 2.9e-6) << name;
   }
@@ -148,7 +148,8 @@ TEST(RegistrationMatrix, ARaisedEdgeAndTheMarkOfAClampAreLeft) {
 TEST(RegistrationMatrix, NoiseMovesByNoMoreThanItsU) {
   for (const auto& [name, z, undetermined] : shapes())
     for (const double sd_m : {1e-9, 50e-9}) {
-      const SurfaceMap a = with_noise(map_here(z), 1, sd_m), b = with_noise(map_here(z), 2, sd_m);
+      const SurfaceMap a = with_noise(map_on_grid(z), 1, sd_m),
+                       b = with_noise(map_on_grid(z), 2, sd_m);
       // With slopes of 1e-4 in 4000 pixels, u of a shift is about sd sqrt(2) / (1e-4 sqrt(4000));
       // twice that, because interpolated heights have less noise, which attracts the fit.
       const bool is_held = undetermined == 3;
@@ -163,8 +164,9 @@ TEST(RegistrationMatrix, NoiseMovesByNoMoreThanItsU) {
       EXPECT_NEAR(found->rms_m, truth.rms_m, (is_held ? 1e-6 : 0.03) * truth.rms_m) << name;
       EXPECT_NEAR(found->pv_m, truth.pv_m, (is_held ? 1e-6 : 0.2) * truth.pv_m) << name;
       // One map is exact, as nominal heights are. An exact cylinder still determines a turn.
-      if (is_held) expect_at_rest(map_here(z), b, std::string(name) + " against noise");
-      if (is_held) expect_at_rest(b, map_here(z), std::string(name) + " noise against exact");
+      if (is_held) expect_no_movement(map_on_grid(z), b, std::string(name) + " against noise");
+      if (is_held)
+        expect_no_movement(b, map_on_grid(z), std::string(name) + " noise against exact");
     }
 }
 
@@ -172,12 +174,12 @@ TEST(RegistrationMatrix, ABowIsLeftWhereTheShapeDeterminesNoMovement) {
   for (const auto& [name, z, undetermined] : shapes()) {
     if (undetermined == 0) continue;
     for (const double sd_m : {0.0, 20e-9}) {
-      const SurfaceMap a = with_noise(map_here(z), 3, sd_m);
+      const SurfaceMap a = with_noise(map_on_grid(z), 3, sd_m);
       const SurfaceMap b = with_noise(
-          map_here([&, &z = z](double x, double y) { return z(x, y) + bow(x, y); }), 4, sd_m);
+          map_on_grid([&, &z = z](double x, double y) { return z(x, y) + bow(x, y); }), 4, sd_m);
       const Tolerance tolerance = undetermined == 3 ? Tolerance{} : Tolerance{1e-7, 1e-3, 0.01};
-      expect_at_rest(a, b, std::string(name) + " + bow", tolerance);
-      if (sd_m == 0) expect_at_rest(b, a, std::string(name) + " + bow, reversed", tolerance);
+      expect_no_movement(a, b, std::string(name) + " + bow", tolerance);
+      if (sd_m == 0) expect_no_movement(b, a, std::string(name) + " + bow, reversed", tolerance);
     }
   }
 }
@@ -187,7 +189,7 @@ TEST(RegistrationMatrix, ABowIsLeftWhereTheShapeDeterminesNoMovement) {
 TEST(RegistrationMatrix, BowMovesAFreeformAsLeastSquares) {
   const double share = 0.02;
   const auto b_of = [&](double x, double y) { return freeform(x, y) + share * bow(x, y); };
-  const SurfaceMap a = map_here(freeform), b = map_here(b_of);
+  const SurfaceMap a = map_on_grid(freeform), b = map_on_grid(b_of);
   Eigen::MatrixXd A(static_cast<Eigen::Index>(a.z_m.size()), 6);
   Eigen::VectorXd z(A.rows());
   for (std::size_t k = 0; k < a.z_m.size(); ++k) {
@@ -220,7 +222,7 @@ SurfaceMap moved(const Shape& z, double sx_m, double sy_m, double turn_deg) {
 }
 
 TEST(RegistrationMatrix, FindsKnownMovementsThatAreDetermined) {
-  const SurfaceMap a = map_here(freeform);
+  const SurfaceMap a = map_on_grid(freeform);
   const auto found = compare(a, moved(freeform, 0.41e-3, -0.77e-3, 1.3), Register::rigid);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->undetermined, 0u);
@@ -230,8 +232,8 @@ TEST(RegistrationMatrix, FindsKnownMovementsThatAreDetermined) {
   EXPECT_LT(found->rms_m, 1e-9);
   // A plane and a sphere are the same everywhere: no difference remains for any position of B.
   for (const Shape& z : {Shape(flat), Shape(sphere), Shape(tilted)}) {
-    const auto same =
-        compare(a.z_m.empty() ? a : map_here(z), moved(z, 0.41e-3, -0.77e-3, 1.3), Register::rigid);
+    const auto same = compare(a.z_m.empty() ? a : map_on_grid(z), moved(z, 0.41e-3, -0.77e-3, 1.3),
+                              Register::rigid);
     ASSERT_TRUE(same);
     EXPECT_EQ(same->undetermined, 3u);
     EXPECT_EQ(same->pose.shift_x_m, 0);
@@ -241,7 +243,7 @@ TEST(RegistrationMatrix, FindsKnownMovementsThatAreDetermined) {
   }
   for (const double turn_deg : {1.3, -8.0}) {
     const auto turned =
-        compare(map_here(cylinder), moved(cylinder, 0, 0, turn_deg), Register::rigid);
+        compare(map_on_grid(cylinder), moved(cylinder, 0, 0, turn_deg), Register::rigid);
     ASSERT_TRUE(turned);
     EXPECT_EQ(turned->undetermined, 2u);
     EXPECT_NEAR(turned->pose.turn_rad / kDeg, turn_deg, 1e-4);
@@ -251,7 +253,7 @@ TEST(RegistrationMatrix, FindsKnownMovementsThatAreDetermined) {
 
 // A known movement and a mark: the mark has no influence on the movement found.
 TEST(RegistrationMatrix, MarkDoesNotDisturbAKnownMovement) {
-  const SurfaceMap a = map_here(freeform);
+  const SurfaceMap a = map_on_grid(freeform);
   SurfaceMap b = moved(freeform, 0.41e-3, -0.77e-3, 1.3);
   for (std::size_t j = 20; j < 30; ++j)
     for (std::size_t i = 6; i < 9; ++i) b.z_m[j * b.nx + i] += 3e-6;
@@ -269,20 +271,20 @@ TEST(RegistrationMatrix, UnrelatedShapesDoNotMove) {
     return 1e-6 * (std::sin(x / 5e-3) + 0.7 * std::cos(y / 3e-3) + 0.02e6 * x * y / 3 +
                    0.5 * std::exp(-u / 20e-6));
   };
-  const SurfaceMap a = map_here(h);
-  expect_at_rest(a, map_here([&](double x, double y) { return -h(x, y); }), "upside down");
-  expect_at_rest(a, with_noise(map_here(flat), 5, 1e-6), "noise");
+  const SurfaceMap a = map_on_grid(h);
+  expect_no_movement(a, map_on_grid([&](double x, double y) { return -h(x, y); }), "upside down");
+  expect_no_movement(a, with_noise(map_on_grid(flat), 5, 1e-6), "noise");
   const auto waves = [](double x, double y) {
     return 0.4e-6 * std::sin(x / 10e-3 + 1) + 0.3e-6 * std::cos(y / 7e-3);
   };
-  expect_at_rest(map_here(flat), map_here(waves), "flat and long waves");
-  expect_at_rest(map_here(waves), map_here(flat), "long waves and flat");
+  expect_no_movement(map_on_grid(flat), map_on_grid(waves), "flat and long waves");
+  expect_no_movement(map_on_grid(waves), map_on_grid(flat), "long waves and flat");
 }
 
 // A nominal cylinder and a part with an error along its axis.
 TEST(RegistrationMatrix, ErrorAlongTheAxisOfACylinderRemains) {
   const auto part = [](double x, double y) { return cylinder(x, y) + 0.3e-6 * std::sin(y / 5e-3); };
-  expect_at_rest(map_here(cylinder), map_here(part), "cylinder", {1e-6, 1e-3, 1e-3});
+  expect_no_movement(map_on_grid(cylinder), map_on_grid(part), "cylinder", {1e-6, 1e-3, 1e-3});
 }
 
 TEST(RegistrationMatrix, ProfilesMoveAlongXOnly) {
@@ -291,8 +293,8 @@ TEST(RegistrationMatrix, ProfilesMoveAlongXOnly) {
   };
   const auto line = [](const Shape& of) { return map_of(of, 0, 0, 0.1e-3, 200, 1); };
   const SurfaceMap a = line(z);
-  EXPECT_EQ(expect_at_rest(a, a, "profile").undetermined, 2u);
-  expect_at_rest(line(tilted), line(tilted), "line");
+  EXPECT_EQ(expect_no_movement(a, a, "profile").undetermined, 2u);
+  expect_no_movement(line(tilted), line(tilted), "line");
   const auto found = compare(a, line([&](double x, double) { return z(x - 0.3e-3, 0) + 2e-4 * x; }),
                              Register::rigid);
   ASSERT_TRUE(found);

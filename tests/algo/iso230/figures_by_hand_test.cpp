@@ -221,12 +221,12 @@ TEST(ArtefactByHand, OneRigMayDeclareIt) {
   }
   for (const auto& [x, y] :
        {std::pair(x_with, y_without), std::pair(x_without, y_with), std::pair(x_with, y_with)}) {
-    const auto artefact = artefact_of(x, y, {});
+    const auto artefact = combined_artefact(x, y, {});
     ASSERT_TRUE(artefact);
     EXPECT_EQ(artefact->angle_error_rad, -4e-6);
     EXPECT_EQ(artefact->u_rad, 0.25e-6);
   }
-  EXPECT_EQ(artefact_of(x_without, y_without, {})->angle_error_rad, 0);
+  EXPECT_EQ(combined_artefact(x_without, y_without, {})->angle_error_rad, 0);
 }
 
 // 0, 3, -2, 2, 1 µm have a mean of 0.8 µm and a slope of 10 µrad.

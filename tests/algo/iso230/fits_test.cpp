@@ -94,9 +94,9 @@ TEST(Squareness, CombinesBothSlopesAndTheArtefact) {
     EXPECT_NEAR(s.slope_b_rad * 1e6, -17.418182, 1e-6);
     // These points have no noise, and each run visits a target once: u contains the artefact only.
     EXPECT_DOUBLE_EQ(s.u_error_rad, 0.5e-6);
-    const double crooked_x = 1e-6 * least_squares_line(kAxis1_m, kAxis1_um).u_slope;
-    const double crooked_y = 1e-6 * least_squares_line(kAxis2_m, kAxis2_um).u_slope;
-    EXPECT_NEAR(s.form_rad, std::hypot(crooked_x, crooked_y), 1e-15);
+    const double slope_uncertainty_x = 1e-6 * least_squares_line(kAxis1_m, kAxis1_um).u_slope;
+    const double slope_uncertainty_y = 1e-6 * least_squares_line(kAxis2_m, kAxis2_um).u_slope;
+    EXPECT_NEAR(s.form_rad, std::hypot(slope_uncertainty_x, slope_uncertainty_y), 1e-15);
   }
 }
 
@@ -179,7 +179,7 @@ TEST(Artefact, SignFollowsTheCornerOfItsFaces) {
   for (const double x : {15.0, -15.0}) {
     for (const double y : {15.0, -15.0}) {
       const auto [rig_x, rig_y] = rigs_at(x, y, "artefact_angle_error_urad = 3");
-      const SquareArtefact artefact = artefact_of(rig_x, rig_y, {}).value();
+      const SquareArtefact artefact = combined_artefact(rig_x, rig_y, {}).value();
       EXPECT_EQ(artefact.corner, x * y > 0 ? 1 : -1);
       EXPECT_DOUBLE_EQ(artefact.angle_error_rad, 3e-6);
     }
@@ -190,30 +190,30 @@ TEST(Artefact, RefusesDifferentRigsOrAnUnknownCorner) {
   const std::string three = "artefact_angle_error_urad = 3\nu_artefact_angle_urad = 0.5";
   const std::string four = "artefact_angle_error_urad = 4\nu_artefact_angle_urad = 0.5";
   const auto [x, y] = rigs_at(15, -15, three, four);
-  EXPECT_NE(artefact_of(x, y, {}).error().message.find("3 urad in rig_X and 4 urad in rig_Y"),
+  EXPECT_NE(combined_artefact(x, y, {}).error().message.find("3 urad in rig_X and 4 urad in rig_Y"),
             std::string::npos);
-  EXPECT_DOUBLE_EQ(artefact_of(x, y, {.angle_error_rad = 5e-6, .u_rad = {}})->angle_error_rad,
+  EXPECT_DOUBLE_EQ(combined_artefact(x, y, {.angle_error_rad = 5e-6, .u_rad = {}})->angle_error_rad,
                    5e-6);
   const auto [same_x, same_y] = rigs_at(15, -15, three, three);
-  EXPECT_DOUBLE_EQ(artefact_of(same_x, same_y, {})->u_rad.value(), 0.5e-6);
-  EXPECT_DOUBLE_EQ(artefact_of(same_x, rigs_at(15, -15).second, {})->u_rad.value(), 0.5e-6);
+  EXPECT_DOUBLE_EQ(combined_artefact(same_x, same_y, {})->u_rad.value(), 0.5e-6);
+  EXPECT_DOUBLE_EQ(combined_artefact(same_x, rigs_at(15, -15).second, {})->u_rad.value(), 0.5e-6);
   const auto [not_known, not_declared] = rigs_at(15, -15);
-  EXPECT_FALSE(artefact_of(not_known, not_declared, {})->u_rad);
+  EXPECT_FALSE(combined_artefact(not_known, not_declared, {})->u_rad);
   const auto [zero, of_zero] = rigs_at(15, -15, "u_artefact_angle_urad = 0");
-  EXPECT_EQ(artefact_of(zero, of_zero, {})->u_rad, 0);
-  EXPECT_FALSE(artefact_of(zero, same_y, {}));  // 0 and 0.5
+  EXPECT_EQ(combined_artefact(zero, of_zero, {})->u_rad, 0);
+  EXPECT_FALSE(combined_artefact(zero, same_y, {}));  // 0 and 0.5
   const auto [at_0, other] = rigs_at(0, -15, three);
   for (const double no_square : {1e302, -0.011, std::nan("")})
-    EXPECT_FALSE(artefact_of(same_x, same_y, {.angle_error_rad = no_square, .u_rad = {}}));
+    EXPECT_FALSE(combined_artefact(same_x, same_y, {.angle_error_rad = no_square, .u_rad = {}}));
   for (const double no_u : {-1e-9, 1e302, std::nan("")})
-    EXPECT_FALSE(artefact_of(same_x, same_y, {.angle_error_rad = {}, .u_rad = no_u}));
-  EXPECT_TRUE(artefact_of(same_x, same_y, {.angle_error_rad = -0.01, .u_rad = 0.01}));
-  EXPECT_NE(artefact_of(at_0, other, {})
+    EXPECT_FALSE(combined_artefact(same_x, same_y, {.angle_error_rad = {}, .u_rad = no_u}));
+  EXPECT_TRUE(combined_artefact(same_x, same_y, {.angle_error_rad = -0.01, .u_rad = 0.01}));
+  EXPECT_NE(combined_artefact(at_0, other, {})
                 .error()
                 .message.find("rig_X: the rig does not state on which side of the square"),
             std::string::npos);
   const auto [no_angle, needs_none] = rigs_at(0, -15);
-  EXPECT_EQ(artefact_of(no_angle, needs_none, {})->corner, 0);
+  EXPECT_EQ(combined_artefact(no_angle, needs_none, {})->corner, 0);
 }
 
 TEST(Straightness, ReportsBothReferenceLinesForEachApproach) {
@@ -356,14 +356,14 @@ TEST(LineFit, TwoPointsOrEndPointsHaveNoUncertainty) {
 TEST(Artefact, NamesTheRigWithTheUnclearFace) {
   const std::string three = "artefact_angle_error_urad = 3\nu_artefact_angle_urad = 0.5";
   const auto [x, at_0] = rigs_at(15, 0, three, three);
-  const auto refused = artefact_of(x, at_0, {});
+  const auto refused = combined_artefact(x, at_0, {});
   ASSERT_FALSE(refused);
   EXPECT_NE(
       refused.error().message.find("rig_Y: the rig does not state on which side of the square"),
       std::string::npos);
   EXPECT_NE(refused.error().message.find("square the face normal to X is"), std::string::npos);
   const auto [x_at_0, y] = rigs_at(0, -15, three, three);
-  EXPECT_NE(artefact_of(x_at_0, y, {}).error().message.find("square the face normal to Y is"),
+  EXPECT_NE(combined_artefact(x_at_0, y, {}).error().message.find("square the face normal to Y is"),
             std::string::npos);
 }
 

@@ -45,14 +45,15 @@ mdof::Run run_of_motion(const MotionByHand& motion) {
 
 // Slopes of 0, 0, 3, 1 at equal steps: end points 1/3, least squares (0.5 * 3 + 1.5 * 1)/5 = 0.6;
 // the minimum zone is along (1, 0) - (3, 1), 0.5 per step.
-const std::vector<double> kStepsOfA = {0, 0.01, 0.02, 0.03}, kStepsOfB = {0.01, 0.02, 0.03, 0.04};
+const std::vector<double> kPositionsA_m = {0, 0.01, 0.02, 0.03},
+                          kPositionsB_m = {0.01, 0.02, 0.03, 0.04};
 MotionByHand motion_a() {
-  return {11, Axis::x, kStepsOfA, {0, 0, 3, 1}, {0, 0, -6, -2}};
+  return {11, Axis::x, kPositionsA_m, {0, 0, 3, 1}, {0, 0, -6, -2}};
 }
 // 0, 2, 0, 0: end points 0, least squares -0.2, minimum zone 0. 0, 0, 0, 4: end points 4/3, least
 // squares 1.2, minimum zone 4/3.
 MotionByHand motion_b() {
-  return {12, Axis::x, kStepsOfB, {0, 2, 0, 0}, {0, 0, 0, 4}};
+  return {12, Axis::x, kPositionsB_m, {0, 2, 0, 0}, {0, 0, 0, 4}};
 }
 
 void expect_line(const ParallelismLine& line, double a_urad, double b_urad) {

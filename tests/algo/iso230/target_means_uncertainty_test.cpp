@@ -10,7 +10,7 @@ namespace mdof::algo {
 namespace {
 
 struct Scatter {
-  double noise, of_run, of_way;  // of a point, of a run, of one direction of a run; nm
+  double noise, of_run, direction_sd;  // of a point, of a run, of one direction of a run; nm
 };
 
 // Root mean square of the stated u divided by that of the true error of the mean (the truth is 0).
@@ -28,7 +28,8 @@ double stated_over_true(const Scatter& sd, int runs, Approach approach) {
         p.run = run;
         p.point.direction = direction;
         p.errors.valid = true;
-        p.errors.local[0] = 1e-9 * (shift + sd.of_way * unit(engine) + sd.noise * unit(engine));
+        p.errors.local[0] =
+            1e-9 * (shift + sd.direction_sd * unit(engine) + sd.noise * unit(engine));
         p.errors.covariance[0] = 1e-18 * sd.noise * sd.noise;
         points.push_back(p);
       }

@@ -58,7 +58,7 @@ Machine without_errors(Machine machine) {
   return machine;
 }
 
-std::array<double, 4> trial_of(const ScalableExperiment& trials, std::uint64_t i) {
+std::array<double, 4> single_trial(const ScalableExperiment& trials, std::uint64_t i) {
   std::array<double, 4> out{};
   double* const at[4] = {&out[0], &out[1], &out[2], &out[3]};
   trials.run(i, 1, 1, at);
@@ -84,7 +84,7 @@ TEST(MachineBudgetTrials, MatchTheProductOfMatrices) {
       for (const auto& [name, x] : trials->inputs(trial)) value.push_back(x);
       ASSERT_EQ(value.size(), machine.sources.size());
       const auto truth = test::true_error(with_sources_at(machine, at, value), at);
-      const auto error = trial_of(*trials, trial);
+      const auto error = single_trial(*trials, trial);
       for (std::size_t k = 0; k < 3; ++k)
         EXPECT_NEAR(error[k], static_cast<double>(truth.place[k]) * 1e6, 1e-9);
       EXPECT_NEAR(error[3], std::hypot(error[0], error[1], error[2]), 1e-12);
@@ -264,7 +264,7 @@ TEST(MachineBudget, SeparatesErrorsOfLinesAndBodies) {
 
 // The largest value of the distribution (for u = 1, times u) plus the error must be below 10 mm.
 TEST(MachineBudget, RefusesACauseByItsLargestValue) {
-  const auto is_refused = [](SourceShape shape, double u_um, double value_m) {
+  const auto exceeds_limit = [](SourceShape shape, double u_um, double value_m) {
     Machine machine;
     machine.frames.resize(1);
     machine.frames[0].id = "X";
@@ -277,8 +277,8 @@ TEST(MachineBudget, RefusesACauseByItsLargestValue) {
        {std::pair(SourceShape::rectangular, std::sqrt(3.0)),
         std::pair(SourceShape::triangular, std::sqrt(6.0)),
         std::pair(SourceShape::u_shaped, std::sqrt(2.0)), std::pair(SourceShape::normal, 8.5)}) {
-    EXPECT_FALSE(is_refused(shape, 0.99 * 10e3 / reach, 0)) << to_string(shape);
-    EXPECT_TRUE(is_refused(shape, 1.01 * 10e3 / reach, 0)) << to_string(shape);
+    EXPECT_FALSE(exceeds_limit(shape, 0.99 * 10e3 / reach, 0)) << to_string(shape);
+    EXPECT_TRUE(exceeds_limit(shape, 1.01 * 10e3 / reach, 0)) << to_string(shape);
   }
 }
 

@@ -128,7 +128,7 @@ void compare(const GroovingState& state, const ErrorAt& error) {
   const double px = square(0, kMiddle, kWidth, kMiddle), py = square(kMiddle, 0, kMiddle, kWidth);
   const double pd = square(0, 0, kWidth, kWidth), pe = square(kWidth, 0, 0, kWidth);
   EXPECT_NEAR(state.square.angle_error_rad, (pe - pd) / (4 * std::sqrt(px * py)), 1e-9);
-  EXPECT_NEAR(state.angle_of_one_diagonal_rad, (px + py - pd) / (2 * std::sqrt(px * py)), 1e-9);
+  EXPECT_NEAR(state.one_diagonal_angle_rad, (px + py - pd) / (2 * std::sqrt(px * py)), 1e-9);
   ASSERT_EQ(state.diagonals.size(), 2U);
   for (const DiagonalRange& diagonal : state.diagonals) {
     const bool falls = diagonal.name == "X-Y+";
@@ -251,7 +251,7 @@ TEST(GroovingStudy, TheNoiseOfEachInstrumentIsInWhatItReads) {
       all.first.push_back(x.error[0].forward[0]);
       all.angle.push_back(s.angle_error_rad - q.angle_error_rad);
       all.both.push_back(s.square.angle_error_rad - q.square.angle_error_rad);
-      all.one_diagonal.push_back(s.angle_of_one_diagonal_rad - q.angle_of_one_diagonal_rad);
+      all.one_diagonal.push_back(s.one_diagonal_angle_rad - q.one_diagonal_angle_rad);
       all.along.push_back(s.diagonals[0].measured_m - q.diagonals[0].measured_m);
       all.raw.push_back(study->table.raw.EA0C_rad - quiet->table.raw.EA0C_rad);
       all.tilted.push_back(study->table.without_tilt.EB0C_rad - quiet->table.without_tilt.EB0C_rad);

@@ -16,7 +16,7 @@ namespace {
 constexpr double kRightAngle = std::numbers::pi / 2;
 
 // n angles from `from` on, `step` apart.
-CircularPath path_from(double from_rad, double step_rad, std::size_t n) {
+CircularPath circular_path_from(double from_rad, double step_rad, std::size_t n) {
   CircularPath path;
   for (std::size_t i = 0; i < n; ++i) {
     path.angle_rad.push_back(from_rad + step_rad * static_cast<double>(i));
@@ -27,19 +27,20 @@ CircularPath path_from(double from_rad, double step_rad, std::size_t n) {
 
 TEST(CircularEdges, NeedEightAnglesAndNoGapAboveAQuarter) {
   const double of_seven = 2 * std::numbers::pi / 7;
-  EXPECT_FALSE(circular_figures(path_from(0, of_seven, 7)));
-  EXPECT_TRUE(circular_figures(path_from(0, of_seven, 8)));  // the eighth equals the first
+  EXPECT_FALSE(circular_figures(circular_path_from(0, of_seven, 7)));
+  EXPECT_TRUE(circular_figures(circular_path_from(0, of_seven, 8)));  // the eighth equals the first
   // Ten angles leave a gap of a quarter turn, or of 2 mrad more, anywhere and in any turn.
   for (const double from : {0.0, 1.0, 4.0, -3.0, 60.0, -60.0}) {
-    EXPECT_TRUE(circular_figures(path_from(from, 3 * kRightAngle / 9, 10))) << from;
-    EXPECT_FALSE(circular_figures(path_from(from, (3 * kRightAngle - 2e-3) / 9, 10))) << from;
+    EXPECT_TRUE(circular_figures(circular_path_from(from, 3 * kRightAngle / 9, 10))) << from;
+    EXPECT_FALSE(circular_figures(circular_path_from(from, (3 * kRightAngle - 2e-3) / 9, 10)))
+        << from;
   }
   // Half of the angles are one turn further: the circle is the same.
-  CircularPath turned = path_from(0, 2 * std::numbers::pi / 12, 12);
+  CircularPath turned = circular_path_from(0, 2 * std::numbers::pi / 12, 12);
   for (std::size_t i = 0; i < 12; i += 2) turned.angle_rad[i] += 2 * std::numbers::pi;
   EXPECT_TRUE(circular_figures(turned));
   // The widest gap is between two others.
-  CircularPath gap = path_from(0, 0.1, 63);
+  CircularPath gap = circular_path_from(0, 0.1, 63);
   for (std::size_t i = 45; i-- > 25;) {
     gap.angle_rad.erase(gap.angle_rad.begin() + static_cast<std::ptrdiff_t>(i));
     gap.ccw_m.pop_back();
@@ -49,7 +50,7 @@ TEST(CircularEdges, NeedEightAnglesAndNoGapAboveAQuarter) {
 
 TEST(CircularEdges, RefuseNonFiniteOrMissingNumbers) {
   const auto whole = [] {
-    CircularPath path = path_from(0, 0.7, 9);
+    CircularPath path = circular_path_from(0, 0.7, 9);
     path.cw_m = path.ccw_m;
     return path;
   };
@@ -70,7 +71,7 @@ TEST(CircularEdges, RefuseNonFiniteOrMissingNumbers) {
 }
 
 TEST(CircularEdges, CentreIsRemovedFromBothPaths) {
-  CircularPath path = path_from(0.3, 0.7, 9);
+  CircularPath path = circular_path_from(0.3, 0.7, 9);
   path.cw_m = path.ccw_m;
   CircularFigures figures;
   figures.centre_m = {3e-6, -5e-6};
@@ -162,7 +163,7 @@ TEST(CircularEdges, RadiusIsAtMostTenMetres) {
 }
 
 // Lines along axes that enclose 90 degrees + error.
-DiagonalLines lines_at(double error, bool two) {
+DiagonalLines lines_at_angle_error(double error, bool two) {
   const double x = 0.4, y = 0.3, s = std::sin(error);
   DiagonalLines lines{{{x}}, {{y}}, {{std::sqrt(x * x + y * y - 2 * x * y * s)}}, {}, 1e-7};
   if (two) lines.other.length_m = {std::sqrt(x * x + y * y + 2 * x * y * s)};
@@ -172,8 +173,8 @@ DiagonalLines lines_at(double error, bool two) {
 TEST(DiagonalEdges, AxesAreWithinSixDegreesOfSquare) {
   for (const bool two : {false, true})
     for (const double sign : {-1.0, 1.0}) {
-      EXPECT_TRUE(squareness_of_diagonals(lines_at(sign * std::asin(0.0999), two)));
-      EXPECT_FALSE(squareness_of_diagonals(lines_at(sign * std::asin(0.1001), two)));
+      EXPECT_TRUE(squareness_of_diagonals(lines_at_angle_error(sign * std::asin(0.0999), two)));
+      EXPECT_FALSE(squareness_of_diagonals(lines_at_angle_error(sign * std::asin(0.1001), two)));
     }
 }
 
@@ -181,7 +182,7 @@ TEST(DiagonalEdges, AxesAreWithinSixDegreesOfSquare) {
 // central differences.
 TEST(DiagonalEdges, SensitivitiesFarFromARightAngle) {
   for (const bool two : {false, true}) {
-    DiagonalLines lines = lines_at(0.08, two);
+    DiagonalLines lines = lines_at_angle_error(0.08, two);
     const auto found = squareness_of_diagonals(lines);
     ASSERT_TRUE(found);
     double squares = 0;
@@ -202,7 +203,7 @@ TEST(DiagonalEdges, SensitivitiesFarFromARightAngle) {
 }
 
 TEST(DiagonalEdges, NeedThreeLinesWithPositiveLengths) {
-  const DiagonalLines whole = lines_at(0, true);
+  const DiagonalLines whole = lines_at_angle_error(0, true);
   for (const auto line : {&DiagonalLines::first, &DiagonalLines::second, &DiagonalLines::diagonal,
                           &DiagonalLines::other}) {
     for (const double bad : {0.0, -0.5, HUGE_VAL}) {

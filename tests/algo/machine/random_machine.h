@@ -141,7 +141,7 @@ inline Matrix4 inverse(Matrix4 m) {
   return r;
 }
 
-inline Real by_two_rows(const ErrorFunction& f, Real at) {
+inline Real interpolated_error(const ErrorFunction& f, Real at) {
   if (f.forward.empty()) return 0;
   if (f.position.empty()) return f.forward[0];
   const Real part = (at - f.position[0]) / (Real(f.position[1]) - f.position[0]);
@@ -154,7 +154,7 @@ inline Matrix4 frame_matrix(const MachineFrame& f, Real command, bool with_error
                                           : command;
   std::array<Real, 6> e{}, line{};
   for (std::size_t k = 0; with_errors && k < 6; ++k) {
-    e[k] = by_two_rows(f.error[k], command);
+    e[k] = interpolated_error(f.error[k], command);
     line[k] = f.location[k].value.value_or(0);
   }
   Matrix4 motion = same();

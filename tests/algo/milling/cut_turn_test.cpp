@@ -12,9 +12,9 @@ namespace mdof::algo {
 namespace {
 
 constexpr ChipModel kChips[] = {ChipModel::sine, ChipModel::eq8, ChipModel::trochoid};
-constexpr DeflectionModel kBent[] = {DeflectionModel::paper, DeflectionModel::steady};
+constexpr DeflectionModel kFlexibleModels[] = {DeflectionModel::paper, DeflectionModel::steady};
 
-MillingPlan bent_cut(ChipModel chip, DeflectionModel deflection, bool up) {
+MillingPlan deflected_cut(ChipModel chip, DeflectionModel deflection, bool up) {
   MillingPlan plan = parse_milling_plan(micro_end_mill_preset(), "preset")->plan;
   plan.teeth = 3;
   plan.helix_rad = 0.5;
@@ -32,12 +32,12 @@ MillingPlan bent_cut(ChipModel chip, DeflectionModel deflection, bool up) {
 // steps. With a wrong derivative it would need tens of steps.
 TEST(CutTurn, EquilibriumIsFoundInFourSteps) {
   for (const ChipModel chip : kChips)
-    for (const DeflectionModel deflection : kBent)
+    for (const DeflectionModel deflection : kFlexibleModels)
       for (const bool up : {true, false}) {
-        const auto turn = cut_turn(bent_cut(chip, deflection, up));
+        const auto turn = cut_turn(deflected_cut(chip, deflection, up));
         ASSERT_TRUE(turn) << turn.error().message;
         EXPECT_LE(turn->iterations, chip == ChipModel::trochoid ? 5 : 4);
-        EXPECT_GT(deflection_m(bent_cut(chip, deflection, up), *turn, 0).cwiseAbs().maxCoeff(),
+        EXPECT_GT(deflection_m(deflected_cut(chip, deflection, up), *turn, 0).cwiseAbs().maxCoeff(),
                   0.5e-6);
       }
 }
@@ -45,7 +45,7 @@ TEST(CutTurn, EquilibriumIsFoundInFourSteps) {
 // With the edge force Eq. 8 has separate derivatives where the chip is thick.
 TEST(CutTurn, EquilibriumWithEdgeForceNeedsFourSteps) {
   for (const bool up : {true, false}) {
-    MillingPlan plan = bent_cut(ChipModel::eq8, DeflectionModel::paper, up);
+    MillingPlan plan = deflected_cut(ChipModel::eq8, DeflectionModel::paper, up);
     plan.Kte = 2e3;
     plan.Kre = 3e3;
     EXPECT_LE(cut_turn(plan)->iterations, 4);
@@ -54,9 +54,9 @@ TEST(CutTurn, EquilibriumWithEdgeForceNeedsFourSteps) {
 
 // At the free edge the tip, with its deflection there, leaves or meets the uncut side.
 TEST(CutTurn, WindowEndsAtTheFreeEdgeOfTheBentTool) {
-  for (const DeflectionModel deflection : kBent)
+  for (const DeflectionModel deflection : kFlexibleModels)
     for (const bool up : {true, false}) {
-      const MillingPlan plan = bent_cut(ChipModel::sine, deflection, up);
+      const MillingPlan plan = deflected_cut(ChipModel::sine, deflection, up);
       const CutTurn turn = *cut_turn(plan);
       const CuttingEdge edge(plan, 0, turn.height_m[0]);
       const double at = up ? turn.exit_rad : turn.entry_rad, r = plan.radius_m();
@@ -73,7 +73,7 @@ TEST(CutTurn, WindowEndsAtTheFreeEdgeOfTheBentTool) {
 TEST(CutTurn, PowerIsTangentialForceTimesSpeed) {
   for (const ChipModel chip : kChips)
     for (const bool up : {true, false}) {
-      MillingPlan plan = bent_cut(chip, DeflectionModel::steady, up);
+      MillingPlan plan = deflected_cut(chip, DeflectionModel::steady, up);
       plan.Kte = chip == ChipModel::eq8 ? 2e3 : 0;
       const CutTurn turn = *cut_turn(plan);
       const double turns = kWholeTurn_rad * plan.spindle_hz;
@@ -103,13 +103,13 @@ TEST(CutTurn, PowerIsTangentialForceTimesSpeed) {
 }
 
 TEST(Milling, ResultsMatchItsTurns) {
-  const MillingPlan plan = bent_cut(ChipModel::sine, DeflectionModel::steady, true);
+  const MillingPlan plan = deflected_cut(ChipModel::sine, DeflectionModel::steady, true);
   MillingPlan rigid = plan;
   rigid.deflection = DeflectionModel::rigid;
   const auto found = milling(plan);
   ASSERT_TRUE(found) << found.error().message;
   const CutTurn turn = *cut_turn(plan), stiff = *cut_turn(rigid);
-  const Eigen::MatrixXd force = turn.force_N(), of_stiff = stiff.force_N();
+  const Eigen::MatrixXd force = turn.force_N(), rigid_force = stiff.force_N();
   const auto largest = [](const Eigen::MatrixXd& f, Eigen::Index k) {
     double most = 0;
     for (Eigen::Index i = 0; i < f.rows(); ++i) most = std::max(most, std::abs(f(i, k)));
@@ -117,8 +117,8 @@ TEST(Milling, ResultsMatchItsTurns) {
   };
   EXPECT_EQ(found->x_max_N, largest(force, 0));
   EXPECT_EQ(found->y_max_N, largest(force, 1));
-  EXPECT_EQ(found->x_max_rigid_N, largest(of_stiff, 0));
-  EXPECT_EQ(found->y_max_rigid_N, largest(of_stiff, 1));
+  EXPECT_EQ(found->x_max_rigid_N, largest(rigid_force, 0));
+  EXPECT_EQ(found->y_max_rigid_N, largest(rigid_force, 1));
   double x = 0, y = 0, power = 0, bent = 0, bent_rigid = 0;
   const Eigen::MatrixXd u = deflection_m(plan, turn, 0), v = deflection_m(plan, stiff, 0);
   for (Eigen::Index i = 0; i < 360; ++i) {
@@ -140,7 +140,7 @@ TEST(Milling, ResultsMatchItsTurns) {
 }
 
 TEST(Milling, RefusesADeflectionOfHalfTheRadius) {
-  MillingPlan plan = bent_cut(ChipModel::sine, DeflectionModel::rigid, true);
+  MillingPlan plan = deflected_cut(ChipModel::sine, DeflectionModel::rigid, true);
   const double bent_m = milling(plan)->deflection_m, E = plan.youngs_modulus_Pa;
   for (const double part : {0.99, 1.01}) {
     plan.youngs_modulus_Pa = E * bent_m / (part * plan.radius_m() / 2);

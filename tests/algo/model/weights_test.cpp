@@ -25,16 +25,17 @@ Solver seven_probes() {
   return Solver::create(parse_rig(text, "rig.toml").value(), Model::rigid).value();
 }
 
-constexpr double kWeighedAt_m = 12e-3;
+constexpr double kWeightedTravel_m = 12e-3;
 const std::vector<double> kProbesU_m = {1e-9, 2e-9, 5e-9, 1e-9, 3e-9, 4e-9, 2e-9};
 
 struct SevenReadings {
   std::vector<double> all;
   Eigen::MatrixXd jacobian;
 };
-SevenReadings seven_readings(const Solver& solver, const Errors5& truth) {
-  const Eigen::VectorXd r = rigid_readings(solver.fixture(), kWeighedAt_m, truth);
-  return {{r.data(), r.data() + r.size()}, rigid_jacobian(solver.fixture(), kWeighedAt_m, truth)};
+SevenReadings simulated_seven_readings(const Solver& solver, const Errors5& truth) {
+  const Eigen::VectorXd r = rigid_readings(solver.fixture(), kWeightedTravel_m, truth);
+  return {{r.data(), r.data() + r.size()},
+          rigid_jacobian(solver.fixture(), kWeightedTravel_m, truth)};
 }
 
 // The change of the errors by `change` of the readings: (J'WJ)^-1 J'W change.
@@ -47,7 +48,7 @@ Eigen::VectorXd by_normal_equations(const Eigen::MatrixXd& J, const Eigen::Vecto
 TEST(ProbeWeights, FollowFromTheUncertainties) {
   const Solver solver = seven_probes();
   const Errors5 truth = {2e-6, -1e-6, 1e-4, -2e-4, 3e-4};
-  const SevenReadings nominal = seven_readings(solver, truth);
+  const SevenReadings nominal = simulated_seven_readings(solver, truth);
   for (const bool known : {true, false})
     for (std::size_t bad = 0; bad < 7; ++bad) {
       std::vector<double> readings = nominal.all, u = kProbesU_m;
@@ -59,7 +60,7 @@ TEST(ProbeWeights, FollowFromTheUncertainties) {
         weights[k] = known ? 1 / (u_nm * u_nm) : 1;
       }
       change[static_cast<Eigen::Index>(bad)] = 10e-9;
-      const AxisErrors found = solver.solve(kWeighedAt_m, readings, u);
+      const AxisErrors found = solver.solve(kWeightedTravel_m, readings, u);
       ASSERT_TRUE(found.valid) << found.reason;
       const Eigen::VectorXd expected = by_normal_equations(nominal.jacobian, weights, change);
       for (std::size_t e = 0; e < 5; ++e)
@@ -73,7 +74,7 @@ TEST(ProbeWeights, FollowFromTheUncertainties) {
 TEST(ProbeWeights, LostProbeNeedsNoU) {
   const Solver solver = seven_probes();
   const Errors5 truth = {2e-6, -1e-6, 1e-4, -2e-4, 3e-4};
-  SevenReadings nominal = seven_readings(solver, truth);
+  SevenReadings nominal = simulated_seven_readings(solver, truth);
   std::vector<double> readings = nominal.all, u = kProbesU_m;
   readings[6] = std::nan("");
   u[6] = std::nan("");
@@ -82,7 +83,7 @@ TEST(ProbeWeights, LostProbeNeedsNoU) {
   for (Eigen::Index k = 0; k < 7; ++k)
     weights[k] = k == 6 ? 0 : 1e-18 / std::pow(kProbesU_m[static_cast<std::size_t>(k)], 2);
   change[0] = 10e-9;
-  const AxisErrors found = solver.solve(kWeighedAt_m, readings, u);
+  const AxisErrors found = solver.solve(kWeightedTravel_m, readings, u);
   ASSERT_TRUE(found.valid) << found.reason;
   const Eigen::VectorXd expected = by_normal_equations(nominal.jacobian, weights, change);
   for (std::size_t e = 0; e < 5; ++e)

@@ -82,7 +82,7 @@ TEST(OnTheFlyRun, StatesSpeedsBinsAndScatter) {
     EXPECT_NEAR(p.target_m, 1e-3 * p.target, 1e-12);
     EXPECT_NEAR(p.point.probe_m[0], kHeight_m * std::sin(2 * M_PI * p.target_m / kWave_m), 20e-9);
   }
-  EXPECT_TRUE(run.explain_nothing());
+  EXPECT_TRUE(run.check_has_points());
   EXPECT_EQ(run.summary().gaps, 0U);
   EXPECT_EQ(run.summary().scans, MotionLog().frames().size());
   EXPECT_NEAR(run.summary().period_s, 1e-3, 1e-12);
@@ -115,9 +115,10 @@ TEST(OnTheFlyRun, ReportsAnUndeclaredDelay) {
   const auto effect_nm = [](const std::string& notices) {
     return std::stod(notices.substr(notices.find("effect_nm=") + 10));
   };
-  const std::string of_half = test::shown(measured({.delay_s = 1e-3}).notices());
+  const std::string half_delay_notices = test::shown(measured({.delay_s = 1e-3}).notices());
   EXPECT_GT(effect_nm(said), 1);
-  EXPECT_NEAR(effect_nm(said) / effect_nm(of_half), 2, 0.1) << said << of_half;
+  EXPECT_NEAR(effect_nm(said) / effect_nm(half_delay_notices), 2, 0.1)
+      << said << half_delay_notices;
   EXPECT_EQ(test::shown(measured({}).notices()).find("reading_delayed"), std::string::npos);
 }
 
@@ -168,12 +169,12 @@ TEST(OnTheFlyRun, RangeDeterminesTheTargets) {
 }
 
 TEST(OnTheFlyRun, ExplainsWhyThereIsNoPoint) {
-  const Status too_short = measured({.travel_m = 0.8e-3}).explain_nothing();
+  const Status too_short = measured({.travel_m = 0.8e-3}).check_has_points();
   ASSERT_FALSE(too_short);
   expect_in(too_short.error().message, "contains no whole bin of 1 mm around a target");
   OnTheFlyOptions fine;
   fine.interval_mm = 0.02;  // 2 and 4 scans per bin; the error asks for kFewestOfBin + 1
-  const Status dense = measured({}, fine).explain_nothing();
+  const Status dense = measured({}, fine).check_has_points();
   ASSERT_FALSE(dense);
   expect_in(dense.error().message, "and 1000 Hz a bin of 0.02 mm has ");
 }
@@ -194,7 +195,7 @@ TEST(OnTheFlyRun, SuggestsReplayWithStopsForALogWithStops) {
   OnTheFly run(TargetGrid(options, {}), {"A"}, {200e-6});
   ASSERT_TRUE(run.push(frames));
   run.flush();
-  const Status why = run.explain_nothing();
+  const Status why = run.check_has_points();
   ASSERT_FALSE(why);
   EXPECT_EQ(why.error().remedy, Remedy::replay_with_stops) << why.error().message;
 }
@@ -225,7 +226,7 @@ TEST(OnTheFlyRun, ExplanationStatesTheMeanSpeed) {
   OnTheFly run(TargetGrid(fine, {}), {"A"}, {200e-6});
   ASSERT_TRUE(run.push(frames));
   run.flush();
-  const Status why = run.explain_nothing();
+  const Status why = run.check_has_points();
   ASSERT_FALSE(why);
   expect_in(why.error().message, "at 6.6");
   expect_in(why.error().message, "mm/s and 1000 Hz a bin of 0.02 mm has 3");

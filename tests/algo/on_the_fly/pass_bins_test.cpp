@@ -145,10 +145,10 @@ TEST(PassBins, ReportsTooFewScansAndGaps) {
 TEST(PassBins, FitOnlyFreshReadings) {
   auto frames = pass_over(
       1.2, [](double t) { return 10e-3 * t; }, each, [](double x) { return 1e-6 + 2e-3 * x; });
-  frames.probe_fresh.assign(1, std::vector<std::uint8_t>(frames.size(), 1));
+  frames.probe_is_new.assign(1, std::vector<std::uint8_t>(frames.size(), 1));
   for (std::size_t i = 0; i < frames.size(); ++i)
     if (i % 3 != 0) {
-      frames.probe_fresh[0][i] = 0;
+      frames.probe_is_new[0][i] = 0;
       frames.probe_m[0][i] += 5e-6;
     }
   PassBins found = found_in(frames, 1);

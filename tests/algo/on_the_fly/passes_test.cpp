@@ -15,7 +15,7 @@ namespace {
 
 using PassFound = std::tuple<double, double, int>;  // from and to in whole µm, direction
 
-FrameBlock way_over(const std::vector<double>& turns_mm) {
+FrameBlock frames_over_turns(const std::vector<double>& turns_mm) {
   FrameBlock frames = empty_frames(1);
   for (std::size_t leg = 1; leg < turns_mm.size(); ++leg) {
     for (int i = 0; i < 1000; ++i) {
@@ -42,7 +42,7 @@ std::vector<PassFound> passes_of(const FrameBlock& frames, std::size_t block) {
 }
 
 TEST(PassFinder, FindsTheSamePassesForAnyBlockSize) {
-  auto frames = way_over({5, 5, 20, 20, 0, 0.03, 0, 10});
+  auto frames = frames_over_turns({5, 5, 20, 20, 0, 0.03, 0, 10});
   frames.encoder_m[1500] += 1e-3;  // a spike is no turn
   const auto whole = passes_of(frames, frames.size());
   ASSERT_EQ(whole.size(), 3U);
@@ -54,7 +54,7 @@ TEST(PassFinder, FindsTheSamePassesForAnyBlockSize) {
 }
 
 TEST(PassFinder, FindsNoPassesAtStandstill) {
-  EXPECT_TRUE(passes_of(way_over({3, 3, 3.04, 3}), 100).empty());
+  EXPECT_TRUE(passes_of(frames_over_turns({3, 3, 3.04, 3}), 100).empty());
 }
 
 OnTheFlyOptions every(double interval_mm, double bin_mm = 0) {
@@ -109,7 +109,7 @@ TEST(PassFinder, StartsANewPassAfterFlush) {
   };
   PassFinder finder;
   for (const auto& turns : {std::vector<double>{0, 10}, {20, 10}, {5, 15}}) {
-    const FrameBlock frames = way_over(turns);
+    const FrameBlock frames = frames_over_turns(turns);
     EXPECT_TRUE(finder.push(frames, 0, frames.size(), take));
     finder.flush(take);
   }

@@ -8,7 +8,8 @@
 namespace mdof::algo {
 namespace {
 
-std::string refusal_of(const OnTheFlyOptions& options, const std::vector<double>& targets_m = {}) {
+std::string options_error(const OnTheFlyOptions& options,
+                          const std::vector<double>& targets_m = {}) {
   const Status checked = check_on_the_fly(options, targets_m);
   return checked ? "" : checked.error().message;
 }
@@ -26,29 +27,29 @@ OnTheFlyOptions grid(double interval_mm, double bin_mm = 0, std::optional<double
 TEST(TargetGridLimits, ErrorsNameTheKey) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(refusal_of(grid(1)), "");
-  EXPECT_NE(refusal_of(grid(-1)).find("interval_mm must be a finite number and not negative"),
+  EXPECT_EQ(options_error(grid(1)), "");
+  EXPECT_NE(options_error(grid(-1)).find("interval_mm must be a finite number and not negative"),
             std::string::npos);
-  EXPECT_NE(refusal_of(grid(0)).find("because no targets are given"), std::string::npos);
-  EXPECT_EQ(refusal_of(grid(0), {0, 1e-3}), "");
+  EXPECT_NE(options_error(grid(0)).find("because no targets are given"), std::string::npos);
+  EXPECT_EQ(options_error(grid(0), {0, 1e-3}), "");
   for (const double bad : {nan, kInfinity}) {
-    EXPECT_NE(refusal_of(grid(1, 0, bad)).find("from_mm, to_mm must be numbers"),
+    EXPECT_NE(options_error(grid(1, 0, bad)).find("from_mm, to_mm must be numbers"),
               std::string::npos);
-    EXPECT_NE(refusal_of(grid(1, 0, 0, bad)).find("from_mm, to_mm must be numbers"),
+    EXPECT_NE(options_error(grid(1, 0, 0, bad)).find("from_mm, to_mm must be numbers"),
               std::string::npos);
-    EXPECT_NE(refusal_of(grid(bad)).find("interval_mm"), std::string::npos);
-    EXPECT_NE(refusal_of(grid(1, bad)).find("bin_mm"), std::string::npos);
+    EXPECT_NE(options_error(grid(bad)).find("interval_mm"), std::string::npos);
+    EXPECT_NE(options_error(grid(1, bad)).find("bin_mm"), std::string::npos);
   }
-  EXPECT_NE(refusal_of(grid(1, 0, 5, 5)).find("to_mm must be greater"), std::string::npos);
-  EXPECT_EQ(refusal_of(grid(1, 0, 0, 9999)), "");
-  EXPECT_NE(refusal_of(grid(1, 0, 0, 10000)).find("more than 10000 targets"), std::string::npos);
-  EXPECT_EQ(refusal_of(grid(2, 2)), "");
-  EXPECT_NE(refusal_of(grid(2, 2.1)).find("bin_mm must not exceed the target interval of 2 mm"),
+  EXPECT_NE(options_error(grid(1, 0, 5, 5)).find("to_mm must be greater"), std::string::npos);
+  EXPECT_EQ(options_error(grid(1, 0, 0, 9999)), "");
+  EXPECT_NE(options_error(grid(1, 0, 0, 10000)).find("more than 10000 targets"), std::string::npos);
+  EXPECT_EQ(options_error(grid(2, 2)), "");
+  EXPECT_NE(options_error(grid(2, 2.1)).find("bin_mm must not exceed the target interval of 2 mm"),
             std::string::npos);
-  EXPECT_EQ(refusal_of(grid(0.001)), "");
-  EXPECT_NE(refusal_of(grid(0.0009)).find("must be 0.001 or more"), std::string::npos);
-  EXPECT_NE(refusal_of(grid(1, 0.0009)).find("must be 0.001 or more"), std::string::npos);
-  EXPECT_EQ(refusal_of(grid(1, 0.001)), "");
+  EXPECT_EQ(options_error(grid(0.001)), "");
+  EXPECT_NE(options_error(grid(0.0009)).find("must be 0.001 or more"), std::string::npos);
+  EXPECT_NE(options_error(grid(1, 0.0009)).find("must be 0.001 or more"), std::string::npos);
+  EXPECT_EQ(options_error(grid(1, 0.001)), "");
 }
 
 TEST(TargetGridLimits, BinLengthIsTheIntervalUpToOneMillimetre) {

@@ -26,7 +26,8 @@ std::vector<Point> two_points() {
   return points;
 }
 
-bool is_told(DwellEventKind kind, double position_mm, double time_s, double length_s = 0.5) {
+bool is_reported_event(DwellEventKind kind, double position_mm, double time_s,
+                       double length_s = 0.5) {
   const DwellEvent n{kind, static_cast<std::int64_t>(time_s * 1e9), 1e-3 * position_mm, 0,
                      length_s};
   const auto found = event_notices({n}, two_points(), 0, 0.2);
@@ -37,23 +38,23 @@ bool is_told(DwellEventKind kind, double position_mm, double time_s, double leng
 // A short stop directly before or after a point at its position needs no notice.
 TEST(NoticesTold, ShortStopBesideItsPointIsNotReported) {
   for (const DwellEventKind kind : {DwellEventKind::short_stop, DwellEventKind::creep}) {
-    EXPECT_TRUE(is_told(kind, 5, 15));
-    EXPECT_FALSE(is_told(kind, 9.99, 18.6));
-    EXPECT_TRUE(is_told(kind, 9.99, 18.4));
-    EXPECT_FALSE(is_told(kind, 9.99, 21.9));
-    EXPECT_TRUE(is_told(kind, 9.99, 22.1));
-    EXPECT_TRUE(is_told(kind, 9.94, 20.5));
-    EXPECT_FALSE(is_told(kind, 9.96, 20.5));
-    EXPECT_TRUE(is_told(kind, 10, 10.5));  // at the time of the other point
+    EXPECT_TRUE(is_reported_event(kind, 5, 15));
+    EXPECT_FALSE(is_reported_event(kind, 9.99, 18.6));
+    EXPECT_TRUE(is_reported_event(kind, 9.99, 18.4));
+    EXPECT_FALSE(is_reported_event(kind, 9.99, 21.9));
+    EXPECT_TRUE(is_reported_event(kind, 9.99, 22.1));
+    EXPECT_TRUE(is_reported_event(kind, 9.94, 20.5));
+    EXPECT_FALSE(is_reported_event(kind, 9.96, 20.5));
+    EXPECT_TRUE(is_reported_event(kind, 10, 10.5));  // at the time of the other point
   }
 }
 
 // The axis turns around beyond the end targets.
 TEST(NoticesTold, TurnBeyondTheEndsIsNotReported) {
-  EXPECT_TRUE(is_told(DwellEventKind::short_stop, 10.04, 30));
-  EXPECT_FALSE(is_told(DwellEventKind::short_stop, 10.06, 30));
-  EXPECT_TRUE(is_told(DwellEventKind::short_stop, -0.04, 30));
-  EXPECT_FALSE(is_told(DwellEventKind::short_stop, -0.06, 30));
+  EXPECT_TRUE(is_reported_event(DwellEventKind::short_stop, 10.04, 30));
+  EXPECT_FALSE(is_reported_event(DwellEventKind::short_stop, 10.06, 30));
+  EXPECT_TRUE(is_reported_event(DwellEventKind::short_stop, -0.04, 30));
+  EXPECT_FALSE(is_reported_event(DwellEventKind::short_stop, -0.06, 30));
   const DwellEvent n{DwellEventKind::short_stop, kSecond_ns, 50e-3, 0, 0.1};
   EXPECT_EQ(event_notices({n}, {}, 0, 0.2).size(), 1u);
 }
@@ -61,8 +62,8 @@ TEST(NoticesTold, TurnBeyondTheEndsIsNotReported) {
 TEST(NoticesTold, EventsOfPositionsAreAlwaysReported) {
   for (const DwellEventKind kind :
        {DwellEventKind::jump, DwellEventKind::hole, DwellEventKind::crept}) {
-    EXPECT_TRUE(is_told(kind, 10, 20.5));
-    EXPECT_TRUE(is_told(kind, 15, 30));
+    EXPECT_TRUE(is_reported_event(kind, 10, 20.5));
+    EXPECT_TRUE(is_reported_event(kind, 15, 30));
   }
 }
 

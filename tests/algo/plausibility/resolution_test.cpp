@@ -115,17 +115,17 @@ TEST(Resolution, NeedsEightOfSixtyFourSteps) {
 TEST(ProbeResolution, IsUnknownForAProbeSlowerThanTheEncoder) {
   FrameBlock frames;
   frames.probe_m = {{0, 1, 0, 0, 2, 2, 0, 0, 2, 2, 7}, {0, 1, 0, 0, 3, 3, 0, 0, 3, 3, 7}};
-  frames.probe_fresh = {std::vector<std::uint8_t>(11, 1), {1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 0}};
+  frames.probe_is_new = {std::vector<std::uint8_t>(11, 1), {1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 0}};
   ProbeResolution resolution(2);
   resolution.add(frames, 2, 10);
   EXPECT_EQ(resolution.step_m(0), 2);
   EXPECT_EQ(resolution.step_m(1), 3);
   ProbeResolution slow(2);
-  frames.probe_fresh[1][6] = 0;
+  frames.probe_is_new[1][6] = 0;
   slow.add(frames, 2, 10);
   EXPECT_EQ(slow.step_m(0), 2);
   EXPECT_EQ(slow.step_m(1), 0);
-  frames.probe_fresh.clear();
+  frames.probe_is_new.clear();
   slow.add(frames, 2, 10);
   EXPECT_EQ(slow.step_m(1), 0);
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double kRange_m = 400e-6;
 
 // Five probes 5 mm apart; probe B reads a gap. The rig has no fault.
-Rig rig_of_gap() {
+Rig rig_with_gap_probe() {
   Rig rig;
   for (int k = 0; k < 5; ++k) {
     Probe probe;
@@ -35,11 +35,11 @@ Plausibility figures() {
   return p;
 }
 
-std::size_t said_of(const Plausibility& p, const Rig& rig = rig_of_gap()) {
+std::size_t said_of(const Plausibility& p, const Rig& rig = rig_with_gap_probe()) {
   return unit_notices(rig, p).size();
 }
 
-std::size_t said_of_probe(const ProbeFigures& probe) {
+std::size_t count_probe_notices(const ProbeFigures& probe) {
   Plausibility p = figures();
   p.probes[1] = probe;
   return said_of(p);
@@ -67,21 +67,22 @@ TEST(UnitsLimits, ReportsRateBeyondEachLimit) {
 // The readings are within a thousandth of half the range, 0.2 um, and the noise is below 0.5 nm.
 TEST(UnitsLimits, ReportsAProbeInMillimetres) {
   const double least_m = 1e-3 * kRange_m / 2;
-  EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, -least_m, 0}), 1u);
-  EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, 0, least_m}), 1u);
-  EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, 0, 1.01 * least_m}), 0u);
-  EXPECT_EQ(said_of_probe({"B", 78, 0.1e-9, 1e-9, -1.01 * least_m, 0}), 0u);
-  EXPECT_EQ(said_of_probe({"B", 78, 0.5e-9, 1e-9, 0, least_m}), 0u);
-  EXPECT_EQ(said_of_probe({"B", 78, 0.49e-9, 1e-9, 0, least_m}), 1u);
-  EXPECT_EQ(said_of_probe({"B", 78, 0, 0, 0, least_m}), 0u);  // the reading does not change at all
-  EXPECT_EQ(said_of_probe({"B", 0, 0, 1e-9, 0, 0}), 0u);      // there are no readings
+  EXPECT_EQ(count_probe_notices({"B", 78, 0.1e-9, 1e-9, -least_m, 0}), 1u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 0.1e-9, 1e-9, 0, least_m}), 1u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 0.1e-9, 1e-9, 0, 1.01 * least_m}), 0u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 0.1e-9, 1e-9, -1.01 * least_m, 0}), 0u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 0.5e-9, 1e-9, 0, least_m}), 0u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 0.49e-9, 1e-9, 0, least_m}), 1u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 0, 0, 0, least_m}),
+            0u);  // the reading does not change at all
+  EXPECT_EQ(count_probe_notices({"B", 0, 0, 1e-9, 0, 0}), 0u);  // there are no readings
 }
 
 // The noise exceeds both 1 um and 0.25 % of the range.
 TEST(UnitsLimits, ReportsAProbeInNanometres) {
-  EXPECT_EQ(said_of_probe({"B", 78, 1.01e-6, 20e-6, -8e-6, 12e-6}), 1u);
-  EXPECT_EQ(said_of_probe({"B", 78, 0.99e-6, 20e-6, -8e-6, 12e-6}), 0u);
-  Rig wide = rig_of_gap();
+  EXPECT_EQ(count_probe_notices({"B", 78, 1.01e-6, 20e-6, -8e-6, 12e-6}), 1u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 0.99e-6, 20e-6, -8e-6, 12e-6}), 0u);
+  Rig wide = rig_with_gap_probe();
   wide.probes[1].range_m = 4e-3;
   for (const double sd_m : {9.9e-6, 10.1e-6}) {
     Plausibility p = figures();
@@ -92,13 +93,14 @@ TEST(UnitsLimits, ReportsAProbeInNanometres) {
 
 // The middle of the readings differs from zero by more than a tenth of the range, 40 um.
 TEST(UnitsLimits, ReportsAGapWithoutOffset) {
-  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 20e-6, -50.1e-6, -30e-6}), 1u);
-  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 20e-6, -49.9e-6, -30e-6}), 0u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 10e-9, 20e-6, -50.1e-6, -30e-6}), 1u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 10e-9, 20e-6, -49.9e-6, -30e-6}), 0u);
   const double tenth_m = 0.1 * kRange_m;
-  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 0, -tenth_m, -tenth_m}), 0u);
-  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 300e-6, -300e-6, 0}), 0u);  // the readings include 0
-  EXPECT_EQ(said_of_probe({"B", 78, 10e-9, 20e-6, 80e-6, 100e-6}), 0u);
-  EXPECT_EQ(said_of_probe({"B", 0, 10e-9, 20e-6, -100e-6, -80e-6}), 0u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 10e-9, 0, -tenth_m, -tenth_m}), 0u);
+  EXPECT_EQ(count_probe_notices({"B", 78, 10e-9, 300e-6, -300e-6, 0}),
+            0u);  // the readings include 0
+  EXPECT_EQ(count_probe_notices({"B", 78, 10e-9, 20e-6, 80e-6, 100e-6}), 0u);
+  EXPECT_EQ(count_probe_notices({"B", 0, 10e-9, 20e-6, -100e-6, -80e-6}), 0u);
 }
 
 TEST(UnitsLimits, ReportsFixtureSizeBeyondEachLimit) {
@@ -106,7 +108,7 @@ TEST(UnitsLimits, ReportsFixtureSizeBeyondEachLimit) {
        {std::pair(0.49e-3, 1u), std::pair(0.51e-3, 1u), std::pair(4.9e-3, 1u),
         std::pair(5.1e-3, 0u), std::pair(0.299, 0u), std::pair(0.301, 1u), std::pair(0.51, 1u)}) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      Rig rig = rig_of_gap();
+      Rig rig = rig_with_gap_probe();
       for (std::size_t k = 0; k < 5; ++k) {
         rig.probes[k].position_m = {};
         rig.probes[k].position_m[axis] = size_m * static_cast<double>(k) / 4;

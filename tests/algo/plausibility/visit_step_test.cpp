@@ -210,7 +210,7 @@ struct PlacesOfProbe {
     }
     for (const auto& [name, of] : found) places.push_back(of);
   }
-  Eigen::VectorXd about_means(Eigen::VectorXd x) const {
+  Eigen::VectorXd without_place_means(Eigen::VectorXd x) const {
     for (const auto& of : places) {
       double mean = 0;
       for (const std::size_t i : of)
@@ -222,7 +222,7 @@ struct PlacesOfProbe {
 };
 
 // Fits each possible step separately, and the smooth change by powers of the time.
-std::vector<VisitStep> brute_steps(const std::vector<MeasuredPoint>& points) {
+std::vector<VisitStep> exhaustive_steps(const std::vector<MeasuredPoint>& points) {
   std::vector<VisitStep> steps;
   for (std::size_t k = 0; k < 5; ++k) {
     const PlacesOfProbe of(points, k);
@@ -239,13 +239,13 @@ std::vector<VisitStep> brute_steps(const std::vector<MeasuredPoint>& points) {
     }
     std::sort(all_u.begin(), all_u.end());
     const double u = std::max(1e-9 / 6, all_u[all_u.size() / 2]);
-    y = of.about_means(y);
+    y = of.without_place_means(y);
     double least = y.squaredNorm(), size = 0;
     Eigen::Index at = 0;
     for (Eigen::Index i = 1; i < n; ++i) {
       Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
       step.tail(n - i).setOnes();
-      step = of.about_means(step);
+      step = of.without_place_means(step);
       if (step.squaredNorm() < 2 - 1e-9) continue;
       const double fitted = step.dot(y) / step.squaredNorm();
       const double left = (y - fitted * step).squaredNorm();
@@ -255,7 +255,8 @@ std::vector<VisitStep> brute_steps(const std::vector<MeasuredPoint>& points) {
     if (at == 0 || std::abs(size) < 6 * sd) continue;
     Eigen::MatrixXd powers(n, 6);
     const Eigen::ArrayXd x = (time.array() - time[0]) / (time[n - 1] - time[0]) - 0.5;
-    for (int order = 1; order <= 6; ++order) powers.col(order - 1) = of.about_means(x.pow(order));
+    for (int order = 1; order <= 6; ++order)
+      powers.col(order - 1) = of.without_place_means(x.pow(order));
     const Eigen::VectorXd fit = powers.colPivHouseholderQr().solve(y);
     const double smooth = (y - powers * fit).norm() / std::sqrt(freedom);
     if (freedom * std::log(smooth / sd) >= 10)
@@ -290,7 +291,7 @@ TEST(VisitStep, MatchesTheExhaustiveFit) {
       p.point.probe_m[2] += some.size() > 9 ? -size : 0;
       some.push_back(p);
     }
-    const auto steps = visit_steps(rig, some), expected = brute_steps(some);
+    const auto steps = visit_steps(rig, some), expected = exhaustive_steps(some);
     ASSERT_EQ(steps.size(), expected.size()) << seed;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       EXPECT_EQ(steps[i].probe, expected[i].probe) << seed;

@@ -258,9 +258,9 @@ TEST(Aligner, MarksRepeatedReadingsOfASlowerProbe) {
   SampleBlock encoder = block("e", {"encoder"}, {0, 1, 2, 3, 4, 5}, 1.0);
   for (SampleBlock* b : {&slow, &fast, &encoder}) ASSERT_TRUE(aligner.push(*b, out));
   ASSERT_EQ(out.size(), 6u);
-  ASSERT_EQ(out.probe_fresh.size(), 2u);
-  EXPECT_EQ(out.probe_fresh[0], (std::vector<std::uint8_t>{1, 1, 0, 1, 0, 1}));
-  EXPECT_TRUE(out.probe_fresh[1].empty());
+  ASSERT_EQ(out.probe_is_new.size(), 2u);
+  EXPECT_EQ(out.probe_is_new[0], (std::vector<std::uint8_t>{1, 1, 0, 1, 0, 1}));
+  EXPECT_TRUE(out.probe_is_new[1].empty());
 }
 
 // The aligner waits for an encoder that sent samples and is then silent for longer than the lag

@@ -78,9 +78,9 @@ std::vector<Point> detect(const FrameBlock& frames, std::size_t block, DwellOpti
                     {cut(frames.probe_m[0])},
                     {cut(frames.probe_quality[0])},
                     {}};
-    if (!frames.probe_fresh.empty()) part.probe_fresh = {cut(frames.probe_fresh[0])};
+    if (!frames.probe_is_new.empty()) part.probe_is_new = {cut(frames.probe_is_new[0])};
     // Alignment gives no column if no row repeats a reading.
-    for (auto& column : part.probe_fresh)
+    for (auto& column : part.probe_is_new)
       if (std::find(column.begin(), column.end(), 0) == column.end()) column.clear();
     detector.push(part, points);
   }
@@ -134,8 +134,8 @@ TEST(Dwell, LearnsTheSameResolutionForAnyBlockSize) {
   for (double& reading_m : axis.frames.probe_m[0])
     reading_m = step_m * std::round(reading_m / step_m);
   const std::size_t n = axis.frames.size();
-  axis.frames.probe_fresh.assign(1, std::vector<std::uint8_t>(n, 1));
-  axis.frames.probe_fresh[0][n - n / 4] = 0;
+  axis.frames.probe_is_new.assign(1, std::vector<std::uint8_t>(n, 1));
+  axis.frames.probe_is_new[0][n - n / 4] = 0;
   const auto whole = detect(axis.frames, n);
   ASSERT_EQ(whole.size(), 20u);
   EXPECT_NEAR(whole[9].probe_u_m[0], step_m / std::sqrt(12), 1e-3 * step_m);
@@ -386,9 +386,9 @@ TEST(Sequence, InterruptedStopCountsOnce) {
 TEST(Dwell, AveragesOnlyFreshReadings) {
   Stepper axis;
   axis.passes(kTargets, 1);
-  axis.frames.probe_fresh.resize(1);
+  axis.frames.probe_is_new.resize(1);
   for (std::size_t i = 0; i < axis.frames.size(); ++i) {
-    axis.frames.probe_fresh[0].push_back(i % 4 == 0);
+    axis.frames.probe_is_new[0].push_back(i % 4 == 0);
     axis.frames.probe_m[0][i] += i % 4 == 0 ? 0 : 3e-6;
   }
   const auto points = detect(axis.frames, 1000);

@@ -82,7 +82,7 @@ TEST(MissingEncoder, ManyInARowAreAHole) {
     ASSERT_EQ(found.points.size(), 25u);
     ASSERT_EQ(found.notices.size(), 2u);
     EXPECT_EQ(found.notices[0].code, NoticeCode::recording_hole);
-    EXPECT_TRUE(std::isnan(found.points[3].way_min_m)) << "a way that nobody saw";
+    EXPECT_TRUE(std::isnan(found.points[3].travel_min_m)) << "a way that nobody saw";
   }
 }
 

@@ -52,7 +52,7 @@ TEST(ProbeGap, TiltFactorOfAnIdealDiscIsOne) {
     const double excess_m = tilt_excess_m(electrode(r_m, 1), tilt_rad * tilt_rad, d_m);
     const double share = r_m * tilt_rad / d_m;
     EXPECT_NEAR((d_m - shown_m) / excess_m, 1, share * share / 3 + 1e-3);
-    const double found_m = gap_of_shown_m(electrode(r_m, 1), shown_m, tilt_rad * tilt_rad, 1);
+    const double found_m = true_gap_m(electrode(r_m, 1), shown_m, tilt_rad * tilt_rad, 1);
     EXPECT_LT(std::abs(found_m - d_m), (d_m - shown_m) * (share * share / 3 + 1e-3));
   }
 }
@@ -64,7 +64,7 @@ TEST(ProbeGap, GapIsCalculatedBackFromTheReading) {
       for (const double ratio : {0.9999, 1.0, 1.0003}) {
         const double shown_m = (d_m - tilt_excess_m(physics, tilt_rad * tilt_rad, d_m)) / ratio;
         if (shown_m <= 0) continue;
-        EXPECT_NEAR(gap_of_shown_m(physics, shown_m, tilt_rad * tilt_rad, ratio), d_m, 1e-16);
+        EXPECT_NEAR(true_gap_m(physics, shown_m, tilt_rad * tilt_rad, ratio), d_m, 1e-16);
       }
 }
 
@@ -94,7 +94,7 @@ TEST(ProbeAir, HumidityOf20PercentChangesTheGapBy10nm) {
   const double ratio = air_permittivity({20, 101.325, 60}) / air_permittivity({20, 101.325, 40});
   const double gap_m = 250e-6, shown_m = gap_m / ratio;
   EXPECT_NEAR((gap_m - shown_m) * 1e9, 10, 0.3);
-  EXPECT_NEAR(gap_of_shown_m(electrode(0, 5), shown_m, 0, ratio), gap_m, 1e-16);
+  EXPECT_NEAR(true_gap_m(electrode(0, 5), shown_m, 0, ratio), gap_m, 1e-16);
 }
 
 }  // namespace

@@ -63,12 +63,12 @@ double shown_m(std::size_t k, const Errors5& e, double s_m, double factor, doubl
   return kStandoff_m - seen_m / ratio;
 }
 
-struct Nature {
+struct TrueConditions {
   std::vector<double> factor = std::vector<double>(5, 5.0);
   double ratio = permittivity_by_hand(23, 99, 65) / permittivity_by_hand(20, 101.325, 40);
 };
 
-SyntheticRun deceived(const Rig& rig, const Nature& nature) {
+SyntheticRun disturbed_run(const Rig& rig, const TrueConditions& nature) {
   SyntheticRun run{.rig = rig, .runs = 1};
   run.truth = tilting;
   run.added = [nature](std::size_t k, double d, double s_m, double) {
@@ -118,7 +118,7 @@ Run true_run(const Rig& rig) {
 
 TEST(ReadingCorrection, CorrectsKnownEffects) {
   const Rig rig = physics_rig(kBoth);
-  const auto truth = true_run(rig), raw = deceived(rig, Nature()).measure();
+  const auto truth = true_run(rig), raw = disturbed_run(rig, TrueConditions()).measure();
   const Errors5 before = worst(raw, truth), after = worst(corrected(rig, raw), truth);
   for (std::size_t k = 0; k < 5; ++k) {
     EXPECT_GT(before[k], k < 2 ? 5e-9 : 1e-8) << k;
@@ -130,14 +130,14 @@ TEST(ReadingCorrection, CorrectsKnownEffects) {
 
 TEST(ReadingCorrection, EachCorrectionHasItsSwitch) {
   const Rig tilt = physics_rig("[corrections]\ntilt = true\n");
-  Nature same_air;
+  TrueConditions same_air;
   same_air.ratio = 1;
-  const auto truth = true_run(tilt), raw = deceived(tilt, same_air).measure();
+  const auto truth = true_run(tilt), raw = disturbed_run(tilt, same_air).measure();
   EXPECT_LT(worst(corrected(tilt, raw), truth)[kDz], worst(raw, truth)[kDz] / 200);
   const Rig air = physics_rig("[corrections]\ndielectric = true\n");
-  Nature square;
+  TrueConditions square;
   square.factor.assign(5, 0.0);
-  const auto in_air = deceived(air, square).measure();
+  const auto in_air = disturbed_run(air, square).measure();
   const auto fine = corrected(air, in_air);
   // The correction for air refers to the conditions of the calibration, so the first point changes
   // too.
@@ -188,12 +188,12 @@ TEST(ReadingCorrection, StatedUncertaintyCoversUnknownParameters) {
   std::normal_distribution<double> normal;
   std::array<Inside, 5> inside;
   for (int trial = 0; trial < 300; ++trial) {
-    Nature nature;
+    TrueConditions nature;
     for (double& factor : nature.factor) factor += 0.4 * normal(source);
     const double t = 23 + normal(source), p = 99 + 0.5 * normal(source),
                  rh = 65 + 5 * normal(source);
     nature.ratio = permittivity_by_hand(t, p, rh) / permittivity_by_hand(20, 101.325, 40);
-    auto run = corrected(rig, deceived(rig, nature).measure());
+    auto run = corrected(rig, disturbed_run(rig, nature).measure());
     const std::size_t last = 8;
     run.points.resize(last + 1);
     const ErrorsUncertainty u = run_uncertainty(rig, run).points[last];
@@ -212,7 +212,7 @@ TEST(ReadingCorrection, StatedUncertaintyCoversUnknownParameters) {
 
 TEST(ReadingCorrection, BudgetContainsUncorrectedEffects) {
   const Rig rig = physics_rig(kNone);
-  const auto truth = true_run(rig), raw = deceived(rig, Nature()).measure();
+  const auto truth = true_run(rig), raw = disturbed_run(rig, TrueConditions()).measure();
   const auto stated = run_uncertainty(rig, raw);
   const auto without = run_uncertainty(test::rig_x(), raw);
   for (std::size_t j = 1; j < raw.points.size(); ++j)

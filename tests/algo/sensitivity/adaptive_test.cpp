@@ -193,11 +193,11 @@ TEST(AdaptiveBlocks, RejectsACoverageWithTooLongBlocks) {
 TEST(AdaptiveRule, NamesTheFirstOutputThatNeverSettles) {
   AdaptiveRule rule = AdaptiveRule::create({"a_um", "b_um", "c_um"}, {2, {}}).value();
   rule.add({{2, 1, 1, 0, 2}, {2, 1, 1, 0, 2}, {2, 1, 1, 0, 2}});
-  EXPECT_FALSE(rule.output_that_never_settles());
+  EXPECT_FALSE(rule.unsettled_output());
   rule.add({{2, 1, 1, 0, 2}, {1, 1, 1, 0, 2}, {2, 1, 1, 0, 2}});
-  EXPECT_EQ(rule.output_that_never_settles(), 1u);
+  EXPECT_EQ(rule.unsettled_output(), 1u);
   rule.add({{2, 1, 1, 0, 2}, {2, 1, 1, 0, 2}, {0, 1, 1, 0, 2}});
-  EXPECT_EQ(rule.output_that_never_settles(), 1u);
+  EXPECT_EQ(rule.unsettled_output(), 1u);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ Eigen::MatrixXd unseen(const std::vector<std::vector<double>>& shapes) {
 std::string named(const std::vector<std::vector<double>>& shapes,
                   const std::vector<double>& periods_m = {}) {
   std::string text;
-  for (const UnseenShape& shape : named_shapes(kPlaces, unseen(shapes), periods_m))
+  for (const UndeterminedShape& shape : named_shapes(kPlaces, unseen(shapes), periods_m))
     text += shape.name + " (" + std::to_string(shape.dimensions) + ")\n";
   return text;
 }

@@ -21,7 +21,7 @@ std::vector<Visit> visits_of(const std::vector<int>& row) {
 
 // Forward and back over seven targets; the first `repeated` visits of the first pass are made
 // twice.
-std::vector<int> over_and_back(int runs, int repeated) {
+std::vector<int> forward_and_reverse(int runs, int repeated) {
   std::vector<int> row;
   for (int run = 0; run < runs; ++run) {
     for (int t = 1; t <= 7; ++t) row.insert(row.end(), run == 0 && t <= repeated ? 2 : 1, t);
@@ -35,15 +35,15 @@ bool by_passes(const std::vector<int>& row) {
 }
 
 TEST(CycleRule, AllowsThreeRepeatedVisitsInAShortRun) {
-  EXPECT_TRUE(by_passes(over_and_back(1, 3)));   // 3 of 17
-  EXPECT_FALSE(by_passes(over_and_back(1, 4)));  // 4 of 18
+  EXPECT_TRUE(by_passes(forward_and_reverse(1, 3)));   // 3 of 17
+  EXPECT_FALSE(by_passes(forward_and_reverse(1, 4)));  // 4 of 18
 }
 
 TEST(CycleRule, AllowsThreeOfTwentyInALongRun) {
-  EXPECT_TRUE(by_passes(over_and_back(3, 7)));  // 7 of 49
+  EXPECT_TRUE(by_passes(forward_and_reverse(3, 7)));  // 7 of 49
   // Three visits are out of order: the repeated visits of 4, 5 and 6.
   EXPECT_TRUE(by_passes({1, 2, 3, 4, 4, 5, 5, 6, 6, 7, -7, -6, -5, -4, -3, -2, -1}));
-  auto more = over_and_back(3, 7);
+  auto more = forward_and_reverse(3, 7);
   more.insert(more.begin(), 1);
   EXPECT_FALSE(by_passes(more));  // 8 of 50
 }

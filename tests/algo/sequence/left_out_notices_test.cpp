@@ -21,8 +21,8 @@ Sequence sequence_of(const std::vector<double>& stops_mm) {
     p.begin_ns = static_cast<std::int64_t>(points.size()) * 7 + 3;
     p.position_m = 1e-3 * at_mm;
     p.direction = points.empty() ? 0 : at_mm > before_mm ? 1 : -1;
-    p.way_min_m = 1e-3 * before_mm;
-    p.way_max_m = 1e-3 * at_mm;
+    p.travel_min_m = 1e-3 * before_mm;
+    p.travel_max_m = 1e-3 * at_mm;
     points.push_back(p);
     before_mm = points.size() == 1 ? 9 : at_mm;
   }

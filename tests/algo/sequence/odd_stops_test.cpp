@@ -24,7 +24,7 @@ struct Told {
 };
 
 // The log visits all places, and again those with more visits, so it ends at one of these.
-Told odd_stops_of(const std::vector<Visited>& places, bool parked_first = false) {
+Told left_out_stops(const std::vector<Visited>& places, bool parked_first = false) {
   std::vector<double> targets_m;
   for (const Visited& place : places) targets_m.push_back(1e-3 * place.position_mm);
   std::vector<MeasuredPoint> points;
@@ -49,18 +49,18 @@ Told odd_stops_of(const std::vector<Visited>& places, bool parked_first = false)
 }
 
 // Targets at 0, 10 ... 60 mm, and one more place.
-Told with_place(const Visited& odd, int forward, int reverse) {
+Told stops_with_place(const Visited& odd, int forward, int reverse) {
   std::vector<Visited> places;
   for (int i = 0; i < 7; ++i) places.push_back({10.0 * i, forward, reverse});
   const auto above = [](const Visited& a, const Visited& b) {
     return a.position_mm < b.position_mm;
   };
   places.insert(std::upper_bound(places.begin(), places.end(), odd, above), odd);
-  return odd_stops_of(places);
+  return left_out_stops(places);
 }
 
 bool is_target(const Visited& place, int forward, int reverse) {
-  const Told reported = with_place(place, forward, reverse);
+  const Told reported = stops_with_place(place, forward, reverse);
   EXPECT_EQ(reported.kept_mm.size() + (reported.reasons.empty() ? 0 : 1), 8u);
   return reported.reasons.empty();
 }
@@ -82,7 +82,7 @@ TEST(OddStops, PlaceBetweenDistantTargetsIsATarget) {
     for (int i = 0; i < 4; ++i) places.push_back({10.0 * i, 3, 3});
     places.push_back({30 + at_mm, 1, 1});
     for (int i = 0; i < 4; ++i) places.push_back({30 + gap_mm + 10.0 * i, 3, 3});
-    return odd_stops_of(places).reasons;
+    return left_out_stops(places).reasons;
   };
   EXPECT_TRUE(with_gap(20, 10).empty());
   EXPECT_TRUE(with_gap(20, 6.1).empty());
@@ -119,7 +119,7 @@ TEST(OddStops, PlacesWithMoreVisitsAreFirst) {
     for (int i = 0; i < 7; ++i) places.push_back({10.0 * i, 3, 3});
     places.push_back({67, near, 0});
     places.push_back({72, far, 0});
-    return odd_stops_of(places).kept_mm.back();
+    return left_out_stops(places).kept_mm.back();
   };
   EXPECT_NEAR(beyond(2, 3), 72, 1e-9);
   EXPECT_NEAR(beyond(3, 2), 67, 1e-9);
@@ -130,19 +130,20 @@ TEST(OddStops, PlacesWithMoreVisitsAreFirst) {
 TEST(OddStops, RowOfFewVisitsContinues) {
   std::vector<Visited> places;
   for (int i = 0; i < 10; ++i) places.push_back({10.0 * i, i < 7 ? 3 : 1, i < 7 ? 3 : 1});
-  EXPECT_TRUE(odd_stops_of(places).reasons.empty());
+  EXPECT_TRUE(left_out_stops(places).reasons.empty());
 }
 
 TEST(OddStops, ReasonDescribesThePlace) {
-  EXPECT_EQ(with_place({3, 2, 0}, 3, 3).reasons,
+  EXPECT_EQ(stops_with_place({3, 2, 0}, 3, 3).reasons,
             std::vector<std::string>(2, "stop_between_targets"));
-  EXPECT_EQ(with_place({62, 1, 1}, 3, 3).reasons,
+  EXPECT_EQ(stops_with_place({62, 1, 1}, 3, 3).reasons,
             std::vector<std::string>(2, "stop_beyond_targets"));
-  EXPECT_EQ(with_place({3, 2, 2}, 4, 4).reasons,
+  EXPECT_EQ(stops_with_place({3, 2, 2}, 4, 4).reasons,
             std::vector<std::string>(4, "stop_between_targets"));
-  EXPECT_EQ(with_place({-2, 1, 0}, 3, 3).reasons,
+  EXPECT_EQ(stops_with_place({-2, 1, 0}, 3, 3).reasons,
             std::vector<std::string>{"stop_before_first_target"});
-  EXPECT_EQ(with_place({62, 1, 0}, 3, 3).reasons, std::vector<std::string>{"stop_beyond_targets"});
+  EXPECT_EQ(stops_with_place({62, 1, 0}, 3, 3).reasons,
+            std::vector<std::string>{"stop_beyond_targets"});
 }
 
 // All places have one visit. A start off the grid is recognised with four places or more.
@@ -150,7 +151,7 @@ TEST(OddStops, LeavesOutAParkedStartOfASinglePass) {
   const auto kept = [](double parked_mm, int targets) {
     std::vector<Visited> places = {{parked_mm, 1, 0}};
     for (int i = 1; i <= targets; ++i) places.push_back({10.0 * i, 1, 0});
-    return odd_stops_of(places, true).reasons.empty();
+    return left_out_stops(places, true).reasons.empty();
   };
   EXPECT_TRUE(kept(0, 4));
   EXPECT_FALSE(kept(4.1, 4));  // 5.9 mm from the next target
@@ -165,7 +166,7 @@ TEST(OddStops, LeavesOutAParkedStartOfASinglePass) {
 
 // Places for which the order of the visits has no effect.
 std::vector<double> kept_of(const std::vector<Visited>& places) {
-  return odd_stops_of(places).kept_mm;
+  return left_out_stops(places).kept_mm;
 }
 
 void expect_kept(const std::vector<Visited>& places, const std::vector<double>& expected_mm) {
@@ -188,9 +189,9 @@ TEST(OddStopsTypical, CoversThreeQuartersOfTheStops) {
                {50, 2, 0},
                {60, 4, 0}},
               {0, 10, 20, 30, 40, 50, 60});
-  EXPECT_TRUE(
-      odd_stops_of({{4.1, 1, 0}, {10, 1, 0}, {20, 1, 0}, {30, 2, 0}, {40, 1, 0}, {50, 1, 0}}, true)
-          .reasons.empty());
+  EXPECT_TRUE(left_out_stops(
+                  {{4.1, 1, 0}, {10, 1, 0}, {20, 1, 0}, {30, 2, 0}, {40, 1, 0}, {50, 1, 0}}, true)
+                  .reasons.empty());
 }
 
 // Whether targets are visited from both sides is decided by the majority of the places that have

@@ -31,7 +31,7 @@ struct Case {
 // Least-squares solution of least norm; the columns are the runs, then the visits. The mean of each
 // group of runs that visits link is subtracted. The groups are found by spreading the lowest
 // number.
-std::vector<Errors5> all_at_once(const Case& of) {
+std::vector<Errors5> fit_all_runs(const Case& of) {
   std::map<int, std::size_t> runs;
   std::map<std::pair<int, int>, std::size_t> visits;
   for (const MeasuredPoint& p : of.points) {
@@ -76,7 +76,7 @@ std::vector<Errors5> all_at_once(const Case& of) {
 
 void expect_the_same(const Case& of) {
   const RunDrifts found(of.points);
-  const auto drifts = found.of(of.errors), expected = all_at_once(of);
+  const auto drifts = found.of(of.errors), expected = fit_all_runs(of);
   ASSERT_EQ(drifts.size(), expected.size());
   for (std::size_t run = 0; run < drifts.size(); ++run)
     for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(drifts[run][k], expected[run][k], 1e-10);
@@ -117,9 +117,9 @@ TEST(RunDrifts, UnlinkedRunsAreSeparate) {
       EXPECT_NEAR(drifts[0][k] + drifts[3][k] + drifts[5][k], 0, 1e-12);
       EXPECT_NEAR(drifts[1][k] + drifts[2][k] + drifts[4][k], 0, 1e-12);
     }
-    EXPECT_EQ(found.run_of_points()[0], 3U);
-    EXPECT_EQ(found.run_of_points()[2], 0U);
-    EXPECT_EQ(found.run_of_points().size(), of.points.size());
+    EXPECT_EQ(found.point_runs()[0], 3U);
+    EXPECT_EQ(found.point_runs()[2], 0U);
+    EXPECT_EQ(found.point_runs().size(), of.points.size());
   }
 }
 

@@ -26,60 +26,58 @@ std::vector<Point> stops_at(const Places& positions_m) {
 }
 
 // A stop at a target, with the way that led to it.
-MeasuredPoint stop_of(int target, double position_m, int direction, double way_min_m,
-                      double way_max_m, std::size_t samples = 100) {
+MeasuredPoint stop_of(int target, double position_m, int direction, double travel_min_m,
+                      double travel_max_m, std::size_t samples = 100) {
   MeasuredPoint p;
   p.target = target;
   p.point.position_m = position_m;
   p.point.direction = direction;
-  p.point.way_min_m = way_min_m;
-  p.point.way_max_m = way_max_m;
+  p.point.travel_min_m = travel_min_m;
+  p.point.travel_max_m = travel_max_m;
   p.point.samples = samples;
   return p;
 }
 
 TEST(TargetsOfStops, AreEmptyWithoutStops) {
-  EXPECT_EQ(targets_of_stops({}), Places{});
-  EXPECT_EQ(targets_of_stops(stops_at({3e-3})), Places{3e-3});
+  EXPECT_EQ(stop_targets({}), Places{});
+  EXPECT_EQ(stop_targets(stops_at({3e-3})), Places{3e-3});
 }
 
 // Stops of a target scatter by at most 50 um.
 TEST(TargetsOfStops, ScatterByAtMostFiftyMicrometres) {
-  EXPECT_EQ(targets_of_stops(stops_at({0, 50e-6, 10e-3})), (Places{0, 10e-3}));
-  EXPECT_EQ(targets_of_stops(stops_at({0, 51e-6, 10e-3})), (Places{0, 51e-6, 10e-3}));
+  EXPECT_EQ(stop_targets(stops_at({0, 50e-6, 10e-3})), (Places{0, 10e-3}));
+  EXPECT_EQ(stop_targets(stops_at({0, 51e-6, 10e-3})), (Places{0, 51e-6, 10e-3}));
 }
 
 // The distance to the next target is at least ten times the scatter of the stops. Multiples of
 // 2^-18 m are exact.
 TEST(TargetsOfStops, AreTenTimesAsFarApartAsTheirStops) {
   const double part_m = 0x1p-18;  // 3.8 um
-  EXPECT_EQ(targets_of_stops(stops_at({0, part_m, 11 * part_m})), (Places{0, 11 * part_m}));
-  EXPECT_EQ(targets_of_stops(stops_at({0, part_m, 10.9 * part_m})).size(), 3u);
+  EXPECT_EQ(stop_targets(stops_at({0, part_m, 11 * part_m})), (Places{0, 11 * part_m}));
+  EXPECT_EQ(stop_targets(stops_at({0, part_m, 10.9 * part_m})).size(), 3u);
 }
 
 // One gap is 20 times as large as the distance before it, the next one 11 times; the first gap is
 // the larger step.
 TEST(TargetsOfStops, FirstGapDecidesIfItIsLarger) {
-  EXPECT_EQ(targets_of_stops(stops_at({0, 1e-7, 40.1e-6, 480.1e-6})),
-            (Places{0, 40.1e-6, 480.1e-6}));
+  EXPECT_EQ(stop_targets(stops_at({0, 1e-7, 40.1e-6, 480.1e-6})), (Places{0, 40.1e-6, 480.1e-6}));
 }
 
 // The larger of two gaps decides: the ratios of 4, 60 and 6000 um are 15 and 100.
 TEST(TargetsOfStops, LargestGapDecides) {
-  EXPECT_EQ(targets_of_stops(stops_at({0, 4e-6, 64e-6, 6e-3})).size(), 3u);
-  EXPECT_EQ(targets_of_stops(stops_at({0, 4e-6, 44e-6, 6e-3})), (Places{0, 6e-3}));
+  EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 64e-6, 6e-3})).size(), 3u);
+  EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 44e-6, 6e-3})), (Places{0, 6e-3}));
 }
 
 TEST(TargetsOfStops, StopsWithinTwoMicrometresAreOne) {
-  EXPECT_EQ(targets_of_stops(stops_at({2e-6, 0, 1e-6, 3e-6})), Places{2e-6});
-  EXPECT_EQ(targets_of_stops(stops_at({0, 1e-9, 0.5e-6, 2e-6})), Places{0});
-  EXPECT_EQ(targets_of_stops(stops_at({0, 2.1e-6})).size(), 2u);
+  EXPECT_EQ(stop_targets(stops_at({2e-6, 0, 1e-6, 3e-6})), Places{2e-6});
+  EXPECT_EQ(stop_targets(stops_at({0, 1e-9, 0.5e-6, 2e-6})), Places{0});
+  EXPECT_EQ(stop_targets(stops_at({0, 2.1e-6})).size(), 2u);
 }
 
 // The first stop is used, not the lowest and not the last.
 TEST(TargetsOfStops, AreAtTheFirstStop) {
-  EXPECT_EQ(targets_of_stops(stops_at({5.001e-3, 1e-6, 5e-3, 0, 5.002e-3})),
-            (Places{1e-6, 5.001e-3}));
+  EXPECT_EQ(stop_targets(stops_at({5.001e-3, 1e-6, 5e-3, 0, 5.002e-3})), (Places{1e-6, 5.001e-3}));
 }
 
 TEST(NearestTarget, IsTheNearerNeighbour) {
@@ -98,8 +96,8 @@ TEST(NearestTarget, IsTheNearerNeighbour) {
 bool is_overshot(int direction, double beyond_m, double from_m) {
   Point p;
   p.direction = direction;  // direction of the last motion, the correction
-  p.way_min_m = direction < 0 ? -from_m : -beyond_m;
-  p.way_max_m = direction < 0 ? beyond_m : from_m;
+  p.travel_min_m = direction < 0 ? -from_m : -beyond_m;
+  p.travel_max_m = direction < 0 ? beyond_m : from_m;
   const bool overshot = correct_overshot(p);
   EXPECT_EQ(p.direction, overshot ? -direction : direction);
   EXPECT_EQ(has_flag(p, Flag::overshot), overshot);
@@ -121,9 +119,9 @@ TEST(Overshot, IsFrom40To250Micrometres) {
 
 TEST(Overshot, AreCounted) {
   std::vector<Point> points(4);
-  for (Point& p : points) p.direction = -1, p.way_min_m = -5e-3, p.way_max_m = 0;
+  for (Point& p : points) p.direction = -1, p.travel_min_m = -5e-3, p.travel_max_m = 0;
   EXPECT_EQ(correct_overshot(points), 0);
-  points[1].way_max_m = points[3].way_max_m = 0.1e-3;
+  points[1].travel_max_m = points[3].travel_max_m = 0.1e-3;
   EXPECT_EQ(correct_overshot(points), 2);
   EXPECT_EQ(points[0].direction, -1);
   EXPECT_EQ(points[3].direction, 1);
@@ -160,8 +158,8 @@ TEST(Interrupted, KeepsTheLongerPart) {
     merge_interrupted(points);
     ASSERT_EQ(points.size(), 1u);
     EXPECT_EQ(points[0].point.position_m, samples > 100 ? 5.001e-3 : 5e-3) << samples;
-    EXPECT_EQ(points[0].point.way_min_m, 0);
-    EXPECT_EQ(points[0].point.way_max_m, 5e-3);
+    EXPECT_EQ(points[0].point.travel_min_m, 0);
+    EXPECT_EQ(points[0].point.travel_max_m, 5e-3);
     EXPECT_TRUE(has_flag(points[0].point, Flag::interrupted));
   }
 }

@@ -27,8 +27,8 @@ struct Walk {
     p.end_ns = p.begin_ns + 300'000'000;
     p.position_m = to_m;
     p.direction = to_m > at_m ? 1 : -1;
-    p.way_min_m = std::min(at_m, to_m);
-    p.way_max_m = std::max(at_m, to_m);
+    p.travel_min_m = std::min(at_m, to_m);
+    p.travel_max_m = std::max(at_m, to_m);
     p.samples = 300;
     at_m = to_m;
     truth.push_back({target, run, p.direction});
@@ -56,7 +56,7 @@ Sequence grown(const std::vector<Point>& stops, std::size_t whole, const Sequenc
   return sequence;
 }
 
-void expect_alike(const Sequence& grown, const Sequence& whole) {
+void expect_equal_sequences(const Sequence& grown, const Sequence& whole) {
   ASSERT_EQ(grown.points.size(), whole.points.size());
   EXPECT_EQ(grown.targets_m, whole.targets_m);
   EXPECT_EQ(grown.runs, whole.runs);
@@ -82,7 +82,7 @@ TEST(SequenceTail, FindsTargetRunAndDirectionOfEachStop) {
       EXPECT_EQ(sequence.points[i].run, walk.truth[i].run) << i;
       EXPECT_EQ(sequence.points[i].point.direction, walk.truth[i].direction) << i;
     }
-    expect_alike(sequence, recognise_sequence(walk.stops, {}));
+    expect_equal_sequences(sequence, recognise_sequence(walk.stops, {}));
   }
 }
 
@@ -96,17 +96,17 @@ TEST(SequenceTail, OddStopsEqualThoseOfTheWholeLog) {
   stops[150].position_m += 1e-3;  // no target
   Point part = stops[170];
   part.begin_ns += 400'000'000, part.end_ns += 400'000'000, part.samples = 500;
-  part.way_min_m = part.way_max_m = part.position_m;
+  part.travel_min_m = part.travel_max_m = part.position_m;
   stops.insert(stops.begin() + 171, part);  // the same stop, interrupted; this is its longer part
-  stops[180].way_max_m = stops[180].position_m + 100e-6;
-  stops[180].way_min_m = stops[180].position_m - 5e-3;
+  stops[180].travel_max_m = stops[180].position_m + 100e-6;
+  stops[180].travel_min_m = stops[180].position_m - 5e-3;
   stops[180].direction = -1;                       // returned from 0.1 mm beyond
   for (const std::size_t unseen : {200u, 215u}) {  // forward and reverse
     stops[unseen].direction = 0;
-    stops[unseen].way_min_m = stops[unseen].way_max_m = kNaN;
+    stops[unseen].travel_min_m = stops[unseen].travel_max_m = kNaN;
   }
   for (const std::size_t whole : {130u, 150u, 171u, 181u, 200u, 201u, 215u, 216u})
-    expect_alike(grown(stops, whole, given), recognise_sequence(stops, given));
+    expect_equal_sequences(grown(stops, whole, given), recognise_sequence(stops, given));
 }
 
 // Five targets 5 mm apart; the first `whole` stops are recognised, the others are appended.
@@ -123,7 +123,7 @@ TEST(SequenceTail, StopAtTheLastTargetKeepsItsApproach) {
   for (int i = 0; i < 5; ++i) walk.stop(i * 5e-3, i + 1, 1);
   Point again = walk.stops.back();
   again.begin_ns += 500'000'000, again.end_ns += 500'000'000;
-  again.direction = 0, again.way_max_m += 1e-3;
+  again.direction = 0, again.travel_max_m += 1e-3;
   walk.stops.push_back(again);
   walk.stop(15e-3, 4, 1);
   for (const std::size_t whole : {5u, 6u}) {
@@ -143,7 +143,7 @@ TEST(SequenceTail, StopElsewhereWaitsForTheNextMotion) {
   walk.stop(15e-3, 4, 1);
   walk.stop(20e-3, 5, 2);
   walk.stops.back().direction = 0;
-  walk.stops.back().way_min_m = walk.stops.back().way_max_m = kNaN;
+  walk.stops.back().travel_min_m = walk.stops.back().travel_max_m = kNaN;
   const Sequence last = appended(walk.stops, 6);
   EXPECT_EQ(last.points.back().point.direction, 1);  // until more is known
   EXPECT_TRUE(has_flag(last.points.back().point, Flag::approach_assumed));

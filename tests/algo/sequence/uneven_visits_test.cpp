@@ -72,11 +72,11 @@ StraightnessFigure mean_figure(const mdof::Run& run) {
 TEST(UnevenVisits, CompleteRunHasNone) {
   for (const int runs : {1, 3}) {
     const mdof::Run run = cut_run(runs, kAll);
-    EXPECT_EQ(without_drift_of_runs(run.points).points.size(), run.points.size());
+    EXPECT_EQ(subtract_run_drifts(run.points).points.size(), run.points.size());
     EXPECT_EQ(test::shown(uneven_visits(run.points)), "");
   }
   const mdof::Run one_way = cut_run(2, [](const Visit& v) { return v.direction > 0; });
-  EXPECT_EQ(without_drift_of_runs(one_way.points).points.size(), 26);
+  EXPECT_EQ(subtract_run_drifts(one_way.points).points.size(), 26);
   EXPECT_EQ(test::shown(uneven_visits(one_way.points)), "");
 }
 
@@ -130,7 +130,7 @@ TEST(UnevenVisits, DriftOfAnIncompleteRunDoesNotTiltTheMean) {
 
 TEST(UnevenVisits, DriftsOfTheRunsSumToZero) {
   const mdof::Run run = cut_run(3, [](const Visit& v) { return v.run != 3 || v.target != 9; });
-  const auto without = without_drift_of_runs(run.points).points;
+  const auto without = subtract_run_drifts(run.points).points;
   const double drift_um[] = {0.3 - 1.4, 1.2 - 1.4, 2.7 - 1.4};
   for (std::size_t i = 0; i < without.size(); ++i)
     EXPECT_NEAR((run.points[i].errors.local[0] - without[i].errors.local[0]) * 1e6,
@@ -160,8 +160,8 @@ TEST(UnevenVisits, TableOfRunsWithOtherTargetsHasNoStep) {
     EXPECT_LE(table.u_forward[0][i], 2e-9);
     EXPECT_GT(table.u_forward[0][i], 0.3e-9);
   }
-  EXPECT_EQ(test::shown(uneven_visits_of({longer, longer}).value()), "");
-  EXPECT_EQ(test::shown(uneven_visits_of({longer, shorter}).value()),
+  EXPECT_EQ(test::shown(uneven_visit_notices({longer, longer}).value()), "");
+  EXPECT_EQ(test::shown(uneven_visit_notices({longer, shorter}).value()),
             "all runs together (the repetitions of all runs are numbered in one sequence): "
             "run_lacks_visits "
             "runs=run 2\n");
@@ -175,8 +175,8 @@ TEST(UnevenVisits, ReportsIfNoTargetHasBothApproaches) {
 
 // The least-squares solution by alternating between the means of the runs and of the visits,
 // without equations. `group` of a run: runs of different groups share no visit.
-std::map<int, double> drifts_to_and_fro(const std::vector<MeasuredPoint>& points,
-                                        const std::function<int(int)>& group) {
+std::map<int, double> alternating_drifts(const std::vector<MeasuredPoint>& points,
+                                         const std::function<int(int)>& group) {
   std::map<int, double> of_run;
   std::map<std::pair<int, int>, double> of_visit;
   const auto visit = [](const MeasuredPoint& p) { return std::pair(p.target, p.point.direction); };
@@ -218,8 +218,8 @@ TEST(UnevenVisits, DriftsMatchLeastSquares) {
   for (const int runs : {6, 60}) {
     auto points = cut_run(runs, kept, Axis::x, 0).points;
     for (auto& p : points) p.errors.local[0] += 1e-6 * unit(engine);
-    const auto truth = drifts_to_and_fro(points, group);
-    const auto without = without_drift_of_runs(points).points;
+    const auto truth = alternating_drifts(points, group);
+    const auto without = subtract_run_drifts(points).points;
     ASSERT_EQ(without.size(), points.size());
     for (std::size_t i = 0; i < points.size(); ++i)
       EXPECT_NEAR(points[i].errors.local[0] - without[i].errors.local[0], truth.at(points[i].run),
@@ -231,7 +231,7 @@ TEST(UnevenVisits, DriftsMatchLeastSquares) {
 // Runs without a common visit cannot be compared.
 TEST(UnevenVisits, RunsWithoutACommonVisitAreUnchanged) {
   const mdof::Run run = cut_run(2, [](const Visit& v) { return (v.run == 1) == (v.target < 7); });
-  const auto same = without_drift_of_runs(run.points).points;
+  const auto same = subtract_run_drifts(run.points).points;
   for (std::size_t i = 0; i < same.size(); ++i)
     EXPECT_NEAR(same[i].errors.local[0], run.points[i].errors.local[0], 1e-18);
 }

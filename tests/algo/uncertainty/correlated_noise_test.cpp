@@ -60,7 +60,7 @@ CorrelatedCoverage correlated_coverage(int runs, double correlation, double tilt
 }
 
 // At least `percent`, within three standard errors.
-void expect_held(const CorrelatedCoverage& c, double percent) {
+void expect_coverage(const CorrelatedCoverage& c, double percent) {
   const double three_sd = 65 / std::sqrt(test::coverage_runs(30));
   std::printf("slope %.1f %%, straightness %.1f %%, U/spread %.2f\n", c.slope_percent,
               c.straightness_percent, c.U_by_spread);
@@ -72,7 +72,7 @@ TEST(CorrelatedNoise, IntervalsOfRunsHoldTheTruth) {
   for (const int runs : {3, 5})
     for (const double correlation : {0.0, 1.0, 4.0, 16.0}) {
       std::printf("%d runs, tau %g visits: ", runs, correlation);
-      expect_held(correlated_coverage(runs, correlation, 0, 17), 95);
+      expect_coverage(correlated_coverage(runs, correlation, 0, 17), 95);
     }
 }
 
@@ -82,7 +82,7 @@ TEST(CorrelatedNoise, IntervalsOfRunsThatTiltMayBeTooShort) {
   for (const int runs : {3, 5})
     for (const double tilt_rad : {0.25e-6, 1e-6, 4e-6}) {
       std::printf("%d runs, tilt %g rad: ", runs, tilt_rad);
-      expect_held(correlated_coverage(runs, 0, tilt_rad, 18), 89);
+      expect_coverage(correlated_coverage(runs, 0, tilt_rad, 18), 89);
     }
 }
 

@@ -35,7 +35,7 @@ void count(Coverage& coverage, const Budget& budget, double truth) {
   tally.inside += std::abs(budget.value - truth) <= budget.U;
 }
 
-int wanted_runs() {
+int requested_runs() {
   const char* wanted = std::getenv("MDOF_COVERAGE_RUNS");
   return wanted ? std::atoi(wanted) : 0;
 }
@@ -45,7 +45,7 @@ int wanted_runs() {
 std::vector<Figure> figures() {
   std::vector<Figure> all = errors_at_target(Axis::x, 8);
   for (const Figure& figure : figures_of_run(Axis::x))
-    if (!figure.is_range() || wanted_runs() > 0) all.push_back(figure);
+    if (!figure.is_range() || requested_runs() > 0) all.push_back(figure);
   return all;
 }
 
@@ -73,7 +73,7 @@ Coverage coverage_of(const Rig& declared, const Rig& faulty, int trials) {
 }
 
 TEST(CoverageOfRuns, StatedIntervalsHoldTheTruth) {
-  const int runs = wanted_runs() > 0 ? wanted_runs() : 150;
+  const int runs = requested_runs() > 0 ? requested_runs() : 150;
   const double three_sd = 65 / std::sqrt(runs);  // for the share of this number of trials, %
   for (const auto& [l_mm, h_mm, z_mm] :
        {std::array{10.0, 15.0, 20.0}, std::array{25.0, 8.0, 12.0}}) {

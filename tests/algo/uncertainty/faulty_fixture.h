@@ -53,10 +53,10 @@ class FaultyFixture {
   FaultyFixture(const Rig& rig, std::uint64_t seed)
       : rig_(rig),
         nominal_(make_fixture(rig).value()),
-        as_is_(nominal_),
+        actual_fixture_(nominal_),
         engine_(well_mixed(seed)) {
-    misplace();
-    zero_ = rigid_readings(as_is_, 0, Errors5{}) - rigid_readings(nominal_, 0, Errors5{});
+    apply_mounting_faults();
+    zero_ = rigid_readings(actual_fixture_, 0, Errors5{}) - rigid_readings(nominal_, 0, Errors5{});
     for (const Probe& probe : rig.probes) {
       offset_m_.push_back(probe.uncertainty.calibration.u * normal());
       gain_.push_back(probe.uncertainty.sensitivity.u * normal());
@@ -74,12 +74,12 @@ class FaultyFixture {
   const DrawnSurface& top() const { return surfaces_.front(); }
   void take_top_of_x(const DrawnSurface& top) {
     surfaces_.front() = top;
-    top_of_x_ = true;
+    shares_top_ = true;
   }
 
   // Readings of all probes without noise; `errors` of the carriage in the local frame.
   std::vector<double> readings_m(double d, const Errors5& errors, double time_s) const {
-    const Eigen::VectorXd exact = rigid_readings(as_is_, d, errors) - zero_;
+    const Eigen::VectorXd exact = rigid_readings(actual_fixture_, d, errors) - zero_;
     std::vector<double> all;
     for (std::size_t k = 0; k < nominal_.probes.size(); ++k) {
       const FixtureProbe& probe = nominal_.probes[k];
@@ -98,17 +98,17 @@ class FaultyFixture {
   // Along Y, local x is +Y and local y is -X.
   double above_zero_m(std::size_t plane, double first_m, double second_m, double d) const {
     const DrawnSurface& surface = surfaces_[plane];
-    if (plane > 0 || !top_of_x_) return surface.above_zero_m(first_m, second_m, d);
+    if (plane > 0 || !shares_top_) return surface.above_zero_m(first_m, second_m, d);
     return surface.height_m(-second_m, first_m - d) - surface.height_m(-second_m, first_m);
   }
   Eigen::Vector3d vector(double u) { return {u * normal(), u * normal(), u * normal()}; }
 
-  void misplace() {
+  void apply_mounting_faults() {
     const RigUncertainty& whole = rig_.uncertainty;
     const Eigen::Vector3d turn = vector(whole.installation_angle.u[0]);
     const Eigen::Vector3d shift = vector(whole.installation_offset.u[0]);
-    for (std::size_t k = 0; k < as_is_.probes.size(); ++k) {
-      FixtureProbe& probe = as_is_.probes[k];
+    for (std::size_t k = 0; k < actual_fixture_.probes.size(); ++k) {
+      FixtureProbe& probe = actual_fixture_.probes[k];
       const ProbeUncertainty& u = rig_.probes[k].uncertainty;
       probe.p_MP += vector(u.position.u[0]);
       const Eigen::Vector3d tilt = vector(u.direction.u);
@@ -121,13 +121,13 @@ class FaultyFixture {
   }
 
   const Rig& rig_;
-  Fixture nominal_, as_is_;
+  Fixture nominal_, actual_fixture_;
   Eigen::VectorXd zero_;
   std::mt19937_64 engine_;
   std::normal_distribution<> normal_;
   std::vector<double> offset_m_, gain_, drift_m_per_s_;
   std::vector<DrawnSurface> surfaces_;
-  bool top_of_x_ = false;
+  bool shares_top_ = false;
 };
 
 // True errors of the carriage in the local frame, at a travel of d metres.

@@ -59,7 +59,7 @@ std::map<std::string, Held> held(int runs, double height_m, double angle_rad) {
   return all;
 }
 
-void expect_held(const std::map<std::string, Held>& all) {
+void expect_coverage(const std::map<std::string, Held>& all) {
   const double three_sd = 65 / std::sqrt(wanted());
   for (const auto& [figure, of] : all) {
     std::printf("%-22s %5.1f %%\n", figure.c_str(), of.percent());
@@ -70,7 +70,7 @@ void expect_held(const std::map<std::string, Held>& all) {
 TEST(NoiseOfRuns, APerfectAxisMayBePerfect) {
   for (const int runs : {1, 3}) {
     SCOPED_TRACE(runs);
-    expect_held(held(runs, 0, 0));
+    expect_coverage(held(runs, 0, 0));
   }
 }
 
@@ -80,7 +80,7 @@ TEST(NoiseOfRuns, IntervalsCoverABentAxis) {
   for (const int runs : {1, 3})
     for (const double height_m : {50e-9, 1e-6}) {
       SCOPED_TRACE(runs);
-      expect_held(held(runs, height_m, 100 * height_m));
+      expect_coverage(held(runs, height_m, 100 * height_m));
     }
 }
 
@@ -176,7 +176,7 @@ TEST(NoiseOfRuns, SlopeOmitsADriftOfTheLevel) {
 }
 
 // Root mean square of u over the root mean square of the error.
-struct OverSpread {
+struct UncertaintyRatio {
   double square = 0, u_square = 0;
   void add(double error, double u) { square += error * error, u_square += u * u; }
   double ratio() const { return std::sqrt(u_square / square); }
@@ -184,14 +184,15 @@ struct OverSpread {
 
 // A perfect axis. Its second run ends at the sixth target of the reverse pass, its third run at the
 // third target. Probes D and E drift together, from pass to pass or from run to run.
-std::map<std::string, OverSpread> over_spread_of_cut_runs(double level_m, bool of_each_pass) {
+std::map<std::string, UncertaintyRatio> u_ratio_of_incomplete_runs(double level_m,
+                                                                   bool of_each_pass) {
   const Rig rig = test::rig_x_with("", "");
   std::mt19937_64 engine(test::coverage_seed(6));
   std::normal_distribution<> normal;
   constexpr double kWhite_m = 10e-9;
   SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = 3};
   synthetic.u_reading_m = kWhite_m;
-  std::map<std::string, OverSpread> all;
+  std::map<std::string, UncertaintyRatio> all;
   for (int i = 0; i < test::coverage_runs(400); ++i) {
     std::array<double, 6> level{};
     for (std::size_t pass = 0; pass < level.size(); ++pass)
@@ -233,7 +234,7 @@ std::map<std::string, OverSpread> over_spread_of_cut_runs(double level_m, bool o
 // A common level of all targets of a run cancels, even if the run lacks visits.
 TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelCancelsAsOfWholeOnes) {
   for (const double level_m : {0.0, 200e-9})
-    for (const auto& [name, of] : over_spread_of_cut_runs(level_m, false)) {
+    for (const auto& [name, of] : u_ratio_of_incomplete_runs(level_m, false)) {
       // The level itself is known from three runs only.
       const bool has_level = name == "error EYX_um" || name.starts_with("table with slope");
       EXPECT_GT(of.ratio(), 0.95) << name << " " << level_m;
@@ -243,7 +244,7 @@ TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelCancelsAsOfWholeOnes) {
 
 // A separate level of each pass does not cancel if a run lacks a part of a pass.
 TEST(NoiseOfRuns, OfRunsThatLackVisitsALevelOfEachPassStays) {
-  for (const auto& [name, of] : over_spread_of_cut_runs(200e-9, true)) {
+  for (const auto& [name, of] : u_ratio_of_incomplete_runs(200e-9, true)) {
     EXPECT_GT(of.ratio(), 0.9) << name;
     EXPECT_LT(of.ratio(), 1.35) << name;
   }
@@ -261,7 +262,7 @@ TEST(RangeTrials, MatchManualCalculation) {
 }
 
 // Points of three runs, each with other missing visits; all errors are 0.
-std::vector<MeasuredPoint> uneven_points() {
+std::vector<MeasuredPoint> incomplete_runs_points() {
   std::vector<MeasuredPoint> points;
   for (int run = 1; run <= 3; ++run)
     for (const int direction : {1, -1})
@@ -280,7 +281,7 @@ std::vector<MeasuredPoint> uneven_points() {
 
 std::map<TargetAndWay, double> means_without_drift(const std::vector<MeasuredPoint>& points) {
   std::map<TargetAndWay, double> sum, n;
-  for (const MeasuredPoint& p : without_drift_of_runs(points).points) {
+  for (const MeasuredPoint& p : subtract_run_drifts(points).points) {
     const TargetAndWay at{p.target, p.point.direction > 0 ? 1 : 0};
     sum[at] += p.errors.local[0];
     n[at] += 1;
@@ -292,7 +293,7 @@ std::map<TargetAndWay, double> means_without_drift(const std::vector<MeasuredPoi
 // The means are linear in the readings, so moving each reading by 1 in turn gives their
 // covariances.
 TEST(RunShifts, PartsGiveTheCovarianceOfTheMeans) {
-  const std::vector<MeasuredPoint> points = uneven_points();
+  const std::vector<MeasuredPoint> points = incomplete_runs_points();
   std::map<std::pair<TargetAndWay, TargetAndWay>, double> covariance;
   std::map<TargetAndWay, double> visits;
   for (std::size_t j = 0; j < points.size(); ++j) {
@@ -318,7 +319,7 @@ TEST(RunShifts, PartsGiveTheCovarianceOfTheMeans) {
 // Change of the means if a forward pass is 1 higher and the reverse pass of its run 1 lower. The
 // half differences of both passes are 2, 0.5 and -3.5; their variance is 97/12.
 TEST(RunShifts, LevelsOfPassesShiftTheMeans) {
-  const std::vector<MeasuredPoint> points = uneven_points();
+  const std::vector<MeasuredPoint> points = incomplete_runs_points();
   std::vector<MeasuredPoint> measured = points;
   const double level[3][2] = {{-1, 3}, {4, 5}, {2, -5}};
   for (MeasuredPoint& p : measured)

@@ -20,10 +20,11 @@ namespace {
 constexpr double kArm_m = 0.010, kGap_m = 250e-6, kDisc_m2 = 2e-3 * 2e-3;
 constexpr std::size_t kOfB = 1, kOfD = 3;
 const std::string kGapKeys = "sensing_radius_mm = 2\nstandoff_um = 250\ntilt_factor = 5\n";
-const std::string kAirThen =
+const std::string kCalibrationConditions =
     "calibration_temperature_C = 20\ncalibration_pressure_kPa = 101.325\n"
     "calibration_humidity_percent = 40\n";
-const std::string kAirNow = "temperature_C = 23\npressure_kPa = 99\nhumidity_percent = 65\n";
+const std::string kMeasuringConditions =
+    "temperature_C = 23\npressure_kPa = 99\nhumidity_percent = 65\n";
 
 // `keys` are added to each probe, `of_b` to probe B only.
 Rig rig_of_physics(const std::string& keys, const std::string& of_b, const std::string& end,
@@ -120,19 +121,21 @@ TEST(PhysicsContributors, UncorrectedTiltCountsWhole) {
 
 // Probe B is misaligned by 20 mrad to its plane. Each unit of the factor acts by the change since
 // the zero.
-constexpr double kAskew = 0.02;
+constexpr double kMisalignment_rad = 0.02;
 const std::string kCorrectedOverPlanes =
     "[corrections]\ntilt = true\n[[plane]]\nid = \"top\"\nnormal = \"+Z\"\n"
     "[[plane]]\nid = \"side\"\nnormal = \"+Y\"\n";
-struct AskewProbe {
+struct MisalignedProbe {
   double gap_m, roll, pitch;
   // Angles between the plane's normal and the probe, across the probe.
   double square() const {
-    return ((roll + kAskew) * (roll + kAskew) + pitch * pitch) / (1 + kAskew * kAskew);
+    return ((roll + kMisalignment_rad) * (roll + kMisalignment_rad) + pitch * pitch) /
+           (1 + kMisalignment_rad * kMisalignment_rad);
   }
 };
-constexpr double kAskewSquare = kAskew * kAskew / (1 + kAskew * kAskew);
-AskewProbe askew_probe(const Run& run, std::size_t j) {
+constexpr double kMisalignmentSquare =
+    kMisalignment_rad * kMisalignment_rad / (1 + kMisalignment_rad * kMisalignment_rad);
+MisalignedProbe misaligned_probe(const Run& run, std::size_t j) {
   const double part = run.points[j].point.position_m / 0.04;
   return {gap_by_hand(run, j, kOfB), 1e-3 * part, 2e-3 * part};
 }
@@ -143,8 +146,9 @@ TEST(PhysicsContributors, TiltActsByItsChangeSinceTheZero) {
   const mdof::Run run = run_of_physics(rig, tilting_axis);
   const auto parts = named_contributor(rig, run, "probe B: tilt").parts();
   for (std::size_t j = 0; j < run.points.size(); ++j) {
-    const AskewProbe b = askew_probe(run, j);
-    const double expected = 0.4 * kDisc_m2 / 4 * (b.square() / b.gap_m - kAskewSquare / kGap_m);
+    const MisalignedProbe b = misaligned_probe(run, j);
+    const double expected =
+        0.4 * kDisc_m2 / 4 * (b.square() / b.gap_m - kMisalignmentSquare / kGap_m);
     EXPECT_NEAR(of_reading_b(parts[0][j]), expected, 0.02 * std::abs(expected) + 1e-15) << j;
   }
 }
@@ -159,10 +163,11 @@ TEST(PhysicsContributors, ProbeMayBeTiltedInItsClamp) {
   EXPECT_FALSE(has_contributor(rig, run, "probe D: tilt in its clamp"));
   const auto parts = found.parts();
   ASSERT_EQ(parts.size(), 3u);
-  const double c = 3e-3, norm = std::sqrt(1 + kAskew * kAskew);
+  const double c = 3e-3, norm = std::sqrt(1 + kMisalignment_rad * kMisalignment_rad);
   for (std::size_t j = 0; j < run.points.size(); ++j) {
-    const AskewProbe b = askew_probe(run, j);
-    const double about_x = -(b.roll + kAskew) / norm / b.gap_m + kAskew / norm / kGap_m;
+    const MisalignedProbe b = misaligned_probe(run, j);
+    const double about_x =
+        -(b.roll + kMisalignment_rad) / norm / b.gap_m + kMisalignment_rad / norm / kGap_m;
     const double about_y = -b.pitch / b.gap_m;  // across the probe, except for 2e-4 of it
     const double expected = 5 * kDisc_m2 / 4 * 2 * c * std::hypot(about_x, about_y);
     const double both = std::hypot(of_reading_b(parts[0][j]), of_reading_b(parts[1][j]));
@@ -246,7 +251,7 @@ struct AirState {
            0.2;
   }
 };
-constexpr AirState kThen = {20, 101.325, 40}, kNow = {23, 99, 65};
+constexpr AirState kAtCalibration = {20, 101.325, 40}, kNow = {23, 99, 65};
 
 // All gaps, of top and side probes, are longer by the factor `relative`.
 void expect_gaps_longer(const Contributor& c, const Run& run, double relative) {
@@ -265,8 +270,8 @@ void expect_gaps_longer(const Contributor& c, const Run& run, double relative) {
 constexpr const char* kQuantity[] = {"temperature", "pressure", "humidity"};
 constexpr const char* kQuantityKey[] = {"temperature_C", "pressure_kPa", "humidity_percent"};
 constexpr const char* kQuantityUnit[] = {"°C", "kPa", "%"};
-constexpr double kUNow[] = {1, 0.5, 5}, kUThen[] = {0.7, 0.3, 4};
-const std::string kUOfAir =
+constexpr double kUAtMeasurement[] = {1, 0.5, 5}, kUAtCalibration[] = {0.7, 0.3, 4};
+const std::string kAirUncertainties =
     "u_temperature_C = 1\nu_pressure_kPa = 0.5\nu_humidity_percent = 5\n"
     "u_calibration_temperature_C = 0.7\nu_calibration_pressure_kPa = 0.3\n"
     "u_calibration_humidity_percent = 4\n";
@@ -275,25 +280,29 @@ void expect_quantities_of_air(const Rig& rig, const Run& run, const AirState& sl
   for (int q = 0; q < 3; ++q) {
     const auto name = std::string(kQuantity[q]), key = std::string(kQuantityKey[q]);
     const Contributor now = named_contributor(rig, run, "air: " + name);
-    expect_shown(now, ("u_" + key).c_str(), kUNow[q], kQuantityUnit[q]);
-    expect_gaps_longer(now, run, kUNow[q] * slopes_at.slope(q));
+    expect_shown(now, ("u_" + key).c_str(), kUAtMeasurement[q], kQuantityUnit[q]);
+    expect_gaps_longer(now, run, kUAtMeasurement[q] * slopes_at.slope(q));
     const Contributor then = named_contributor(rig, run, "air during the calibration: " + name);
-    expect_shown(then, ("u_calibration_" + key).c_str(), kUThen[q], kQuantityUnit[q]);
-    expect_gaps_longer(then, run, -kUThen[q] * kThen.slope(q));
+    expect_shown(then, ("u_calibration_" + key).c_str(), kUAtCalibration[q], kQuantityUnit[q]);
+    expect_gaps_longer(then, run, -kUAtCalibration[q] * kAtCalibration.slope(q));
   }
 }
 
 TEST(PhysicsContributors, CorrectedAirHasTheUOfItsConditions) {
-  const Rig rig = rig_of_physics(
-      kGapKeys, "", "[corrections]\ndielectric = true\n[air]\n" + kAirThen + kAirNow + kUOfAir);
+  const Rig rig =
+      rig_of_physics(kGapKeys, "",
+                     "[corrections]\ndielectric = true\n[air]\n" + kCalibrationConditions +
+                         kMeasuringConditions + kAirUncertainties);
   const mdof::Run run = run_of_physics(rig, rising_axis);
   EXPECT_FALSE(has_contributor(rig, run, "air: uncorrected permittivity"));
   expect_quantities_of_air(rig, run, kNow);
 }
 
 TEST(PhysicsContributors, UncorrectedAirCountsWhole) {
-  const Rig rig = rig_of_physics(
-      kGapKeys, "", "[corrections]\ndielectric = false\n[air]\n" + kAirThen + kAirNow + kUOfAir);
+  const Rig rig =
+      rig_of_physics(kGapKeys, "",
+                     "[corrections]\ndielectric = false\n[air]\n" + kCalibrationConditions +
+                         kMeasuringConditions + kAirUncertainties);
   const mdof::Run run = run_of_physics(rig, rising_axis);
   const Contributor whole = named_contributor(rig, run, "air: uncorrected permittivity");
   const double relative =
@@ -313,21 +322,25 @@ TEST(PhysicsContributors, UncorrectedAirCountsWhole) {
 // If the log contains the ambient conditions, the rig does not know them. The slopes are taken at
 // the conditions of the calibration.
 TEST(PhysicsContributors, AirFromTheLogHasTheSlopesOfTheCalibration) {
-  const Rig rig = rig_of_physics(kGapKeys, "",
-                                 "[corrections]\ndielectric = false\n[air]\n" + kAirThen + kUOfAir);
+  const Rig rig = rig_of_physics(
+      kGapKeys, "",
+      "[corrections]\ndielectric = false\n[air]\n" + kCalibrationConditions + kAirUncertainties);
   const mdof::Run run = run_of_physics(rig, rising_axis);
   EXPECT_FALSE(has_contributor(rig, run, "air: uncorrected permittivity"));
-  expect_quantities_of_air(rig, run, kThen);
+  expect_quantities_of_air(rig, run, kAtCalibration);
   // The same applies if the log contains one quantity.
-  const Rig partly = rig_of_physics(kGapKeys, "",
-                                    "[corrections]\ndielectric = false\n[air]\n" + kAirThen +
-                                        "temperature_C = 23\nhumidity_percent = 65\n" + kUOfAir);
+  const Rig partly =
+      rig_of_physics(kGapKeys, "",
+                     "[corrections]\ndielectric = false\n[air]\n" + kCalibrationConditions +
+                         "temperature_C = 23\nhumidity_percent = 65\n" + kAirUncertainties);
   EXPECT_FALSE(has_contributor(partly, run, "air: uncorrected permittivity"));
 }
 
 TEST(PhysicsContributors, PointsWithoutErrorsHaveNone) {
-  const Rig rig = rig_of_physics(
-      kGapKeys, "", "[corrections]\ndielectric = true\n[air]\n" + kAirThen + kAirNow + kUOfAir);
+  const Rig rig =
+      rig_of_physics(kGapKeys, "",
+                     "[corrections]\ndielectric = true\n[air]\n" + kCalibrationConditions +
+                         kMeasuringConditions + kAirUncertainties);
   mdof::Run run = run_of_physics(rig, rising_axis);
   run.points[3].errors.valid = false;
   const auto parts = named_contributor(rig, run, "air: pressure").parts();

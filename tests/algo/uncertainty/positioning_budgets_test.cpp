@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kYawOfCases = 4;  // ECX; no line is removed from it
 
-int runs_wanted() {
+int requested_run_count() {
   const char* runs = std::getenv("MDOF_COVERAGE_RUNS");
   return runs ? std::atoi(runs) : 40;
 }
@@ -64,19 +64,19 @@ struct AxisCase {
   double gain = 0;  // declared standard deviation of the gain of D
 };
 
-struct HeldParameter {
+struct CoveredParameter {
   int inside = 0, all = 0;
   double U = 0, square = 0;
 };
 
-std::map<std::string, HeldParameter> held_parameters(const AxisCase& c) {
+std::map<std::string, CoveredParameter> count_covered_parameters(const AxisCase& c) {
   std::mt19937_64 engine(17);
   std::normal_distribution<> normal;
   const Rig rig = c.gain > 0
                       ? test::rig_x_with("D", "u_sensitivity_ppm = " + std::to_string(1e6 * c.gain))
                       : test::rig_x_with("", "");
-  std::map<std::string, HeldParameter> all;
-  for (int i = 0; i < runs_wanted(); ++i) {
+  std::map<std::string, CoveredParameter> all;
+  for (int i = 0; i < requested_run_count(); ++i) {
     SyntheticRun synthetic{.rig = rig, .model = Model::simplified, .runs = c.runs};
     const std::size_t targets = synthetic.targets_m.size();
     TrueVisits axis, visits;  // without and with its scatter
@@ -107,11 +107,11 @@ std::map<std::string, HeldParameter> held_parameters(const AxisCase& c) {
     for (const auto& [name, value] : found) {
       if (c.runs == 1 && name == "R") continue;
       const double off = value - (name == "R" ? of_visits : of_axis).at(name);
-      HeldParameter& of = all[name];
+      CoveredParameter& of = all[name];
       ++of.all;
       of.inside += std::abs(off) <= by_name.at(name);
-      of.U += by_name.at(name) / runs_wanted();
-      of.square += off * off / runs_wanted();
+      of.U += by_name.at(name) / requested_run_count();
+      of.square += off * off / requested_run_count();
     }
   }
   for (const auto& [name, of] : all)
@@ -121,10 +121,10 @@ std::map<std::string, HeldParameter> held_parameters(const AxisCase& c) {
 }
 
 double least_percent() {
-  return 95 - 65 / std::sqrt(runs_wanted());  // within three standard deviations
+  return 95 - 65 / std::sqrt(requested_run_count());  // within three standard deviations
 }
 
-void expect_parameters_held(const std::map<std::string, HeldParameter>& all, double most_U) {
+void expect_parameter_coverage(const std::map<std::string, CoveredParameter>& all, double most_U) {
   for (const auto& [name, of] : all) {
     EXPECT_GT(100.0 * of.inside / of.all, least_percent()) << name;
     EXPECT_LT(of.U / 1.96 / std::sqrt(of.square), most_U) << name;
@@ -134,13 +134,14 @@ void expect_parameters_held(const std::map<std::string, HeldParameter>& all, dou
 TEST(PositioningBudgets, CoversAPerfectAxis) {
   for (const int runs : {1, 5}) {
     SCOPED_TRACE(runs);
-    expect_parameters_held(held_parameters({.runs = runs}), 1.6);
+    expect_parameter_coverage(count_covered_parameters({.runs = runs}), 1.6);
   }
 }
 
 TEST(PositioningBudgets, CoversAnAxisThatScatters) {
-  expect_parameters_held(
-      held_parameters({.runs = 5, .form_rad = 200e-6, .reversal_rad = 60e-6, .scatter_rad = 20e-6}),
+  expect_parameter_coverage(
+      count_covered_parameters(
+          {.runs = 5, .form_rad = 200e-6, .reversal_rad = 60e-6, .scatter_rad = 20e-6}),
       1.5);
 }
 
@@ -151,8 +152,8 @@ TEST(PositioningBudgets, CoversADeclaredGain) {
                       .scatter_rad = 20e-6,
                       .noise_m = 5e-9,
                       .gain = 0.05};
-  const auto all = held_parameters(gain);
-  expect_parameters_held(all, 1.6);
+  const auto all = count_covered_parameters(gain);
+  expect_parameter_coverage(all, 1.6);
   EXPECT_GT(all.at("R").square, std::pow(1e-6, 2));
 }
 
@@ -236,7 +237,7 @@ TEST(Repeatability, UncertaintyMatchesAnExhaustiveSearch) {
   std::vector<double> measured, errors;
   for (int i = 0; i < 12; ++i) measured.push_back(numbers.between(-2, 2) + (i % 2 ? 1.5 : 0));
   for (int i = 0; i < 12 * 40; ++i) errors.push_back(numbers.between(-1, 1));
-  const auto R_of = [&](const std::vector<double>& v, RepeatabilityOf of) {
+  const auto R_of = [&](const std::vector<double>& v, RepeatabilityKind of) {
     double most = 0;
     for (std::size_t target = 0; target < 2; ++target) {
       std::array<double, 2> mean{}, s{};
@@ -248,18 +249,18 @@ TEST(Repeatability, UncertaintyMatchesAnExhaustiveSearch) {
       }
       const double both = 2 * s[0] + 2 * s[1] + std::abs(mean[0] - mean[1]);
       most =
-          std::max(most, of == RepeatabilityOf::forward   ? 4 * s[1]
-                         : of == RepeatabilityOf::reverse ? 4 * s[0]
-                                                          : std::max({both, 4 * s[0], 4 * s[1]}));
+          std::max(most, of == RepeatabilityKind::forward   ? 4 * s[1]
+                         : of == RepeatabilityKind::reverse ? 4 * s[0]
+                                                            : std::max({both, 4 * s[0], 4 * s[1]}));
     }
     return most;
   };
   for (const double size : {0.05, 0.3, 1.0, 3.0})
-    for (const RepeatabilityOf of : kRepeatabilities) {
+    for (const RepeatabilityKind of : kRepeatabilities) {
       std::vector<double> scaled = errors;
       for (double& e : scaled) e *= size;
       const double R = R_of(measured, of);
-      EXPECT_NEAR(repeatability_of(groups, measured.data(), of), R, 1e-12);
+      EXPECT_NEAR(repeatability_R(groups, measured.data(), of), R, 1e-12);
       const auto distance = [&](double part) {
         std::vector<double> off;
         for (std::size_t t = 0; t < 40; ++t) {

@@ -180,10 +180,10 @@ TEST(RunUncertainty, PartOfARunWithItsFirstPointHasTheSameU) {
   const Rig rig =
       rig_x_with("B", "u_sensitivity_ppm = 500", "[drift]\nu_um_per_h = 1\n[encoder]\nu_um = 1\n");
   const auto run = measured(rig, 10e-9);
-  const auto whole = uncertainty_of_stops(rig, run);
+  const auto whole = stop_uncertainty(rig, run);
   auto page = run;
   page.points.erase(page.points.begin() + 1, page.points.begin() + 40);
-  const auto some = uncertainty_of_stops(rig, page);
+  const auto some = stop_uncertainty(rig, page);
   for (std::size_t j = 1; j < some.points.size(); ++j)
     for (std::size_t k = 0; k < 5; ++k)
       EXPECT_DOUBLE_EQ(some.points[j].u[k], whole.points[j + 39].u[k]) << j << " " << k;

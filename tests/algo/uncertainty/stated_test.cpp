@@ -166,7 +166,7 @@ TEST(TargetNoiseByHand, AddsTargetNoiseShiftAndParts) {
   BlockOfDraws draws({5, 2}, 0, kTrials);
   const TargetNoise noise(draws, random);
   BlockOfDraws again({5, 2}, 0, kTrials);
-  const OneU normal(std::numeric_limits<double>::infinity());
+  const UnitQuantity normal(std::numeric_limits<double>::infinity());
   std::vector<std::vector<double>> drawn;  // targets, shift, freedom, parts
   for (int q = 0; q < 7; ++q) drawn.push_back(again.next(normal));
   for (std::size_t t = 0; t < kTrials; ++t) {

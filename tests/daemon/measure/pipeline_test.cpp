@@ -334,7 +334,7 @@ TEST(Pipeline, RejectsARigThatCannotDetermineAnError) {
 
 TEST(Pipeline, LimitsTheStopsAndReportsTheOmittedOnes) {
   PipelineOptions options;
-  options.most_stops = 7;
+  options.max_stops = 7;
   Pipeline pipeline = pipeline_of(five_probe_rig(), options);
   SampleBlock block = both_ways().whole();
   ASSERT_TRUE(pipeline.push(block));

@@ -21,7 +21,7 @@ constexpr std::size_t first_scan_of(std::size_t stop) {
   return kToStop + stop * (kToStop + kAtStop) + (stop >= 5 ? kToStop : 0);
 }
 
-std::string told_of(const Run& run) {
+std::string shown_notices(const Run& run) {
   return test::shown(run.header.notices);
 }
 
@@ -40,7 +40,7 @@ TEST(PipelineTold, AxisAndFiguresAreThoseOfTheRig) {
   EXPECT_EQ(run->header.axis, Axis::y);
   ASSERT_FALSE(run->straightness.empty());
   EXPECT_EQ(run->straightness.front().error_key, "EXY_um");
-  EXPECT_EQ(told_of(*run).find("datum_missing"), std::string::npos);
+  EXPECT_EQ(shown_notices(*run).find("datum_missing"), std::string::npos);
 }
 
 TEST(PipelineTold, ReportsAHeightMapShorterThanTheTravel) {
@@ -91,7 +91,7 @@ TEST(PipelineTold, AStopWithoutAPositionIsOmittedWithItsTime) {
   EXPECT_EQ(run->points.size(), 9u);
   for (const auto& p : run->points)
     EXPECT_FALSE(p.target == 3 && p.point.direction < 0) << "the one at 10 mm on the way back";
-  EXPECT_HAS_PART(told_of(*run),
+  EXPECT_HAS_PART(shown_notices(*run),
                   "stops_not_placed daq points=1 from_s=3.8");  // 3.7 s plus the settling time
 }
 
@@ -103,7 +103,7 @@ TEST(PipelineTold, ReportsAHoleInTheRecording) {
   after.lost = kToStop + 50;
   const auto run = run_of(pipeline, {axis.block(0, unseen), after});
   ASSERT_TRUE(run) << run.error().message;
-  EXPECT_HAS_PART(told_of(*run), "recording_hole length_s=0.15");
+  EXPECT_HAS_PART(shown_notices(*run), "recording_hole length_s=0.15");
 }
 
 // The gap is shorter than a window of the dwells, so no movement can be hidden in it.
@@ -129,7 +129,7 @@ TEST(PipelineTold, ReportsAnAssumedSequence) {
   const auto run = run_of(pipeline, {axis.whole()});
   ASSERT_TRUE(run) << run.error().message;
   EXPECT_EQ(run->points.size(), 9u);
-  EXPECT_HAS_PART(told_of(*run), "pendulum");
+  EXPECT_HAS_PART(shown_notices(*run), "pendulum");
 }
 
 // The samples of a second device are further apart than the longest interpolated gap.

@@ -55,7 +55,7 @@ constexpr double kStep_m = 10e-9;
 const char* const kOfShop = "[installation]\nu_angle_mrad = [2, 2, 2]\n[drift]\nu_um_per_h = 22\n";
 
 // Inserts the lines before each occurrence of a key.
-std::string with_before(std::string toml, const std::string& key, const std::string& lines) {
+std::string insert_before_key(std::string toml, const std::string& key, const std::string& lines) {
   for (std::size_t at = 0; (at = toml.find(key, at)) != std::string::npos; at += key.size()) {
     toml.insert(at, lines);
     at += lines.size();
@@ -86,7 +86,7 @@ Rig rig_of(const Lengths& of, Axis axis, Declares declares) {
                      "\"\nu_artefact_angle_urad = " + std::to_string(kSquare_urad) + "\n";
   for (const auto& text : probes) toml += text;
   if (of.shop)
-    return parse_rig(with_before(toml, "measures", "u_sensitivity_ppm = 1000\n") + kOfShop,
+    return parse_rig(insert_before_key(toml, "measures", "u_sensitivity_ppm = 1000\n") + kOfShop,
                      "shop.toml")
         .value();
   if (declares == Declares::nothing)
@@ -94,9 +94,9 @@ Rig rig_of(const Lengths& of, Axis axis, Declares declares) {
                          "normal = \"" + (y ? "-X" : "+Y") + "\"\n",
                      "coverage.toml")
         .value();
-  const std::string declared =
-      with_before(algo::test_faults::of_rig(kDrift_um_per_h, y ? "-X" : "+Y"), "u_flatness_um",
-                  "flatness_length_mm = " + std::to_string(of.flatness_length_mm) + "\n");
+  const std::string declared = insert_before_key(
+      algo::test_faults::of_rig(kDrift_um_per_h, y ? "-X" : "+Y"), "u_flatness_um",
+      "flatness_length_mm = " + std::to_string(of.flatness_length_mm) + "\n");
   return parse_rig(algo::test_faults::with_declared_probes(toml) + declared, "coverage.toml")
       .value();
 }
@@ -227,7 +227,7 @@ void count_points(Coverage& coverage, const Rig& rig, const Run& run, const Run&
           true_value[k], u.points[at].U[k]);
   if (rig.declares_uncertainty()) return;
   const auto control =
-      algo::uncertainty_of_stops(rig, run);  // control: without the run's repeatability
+      algo::stop_uncertainty(rig, run);  // control: without the run's repeatability
   for (std::size_t k = 0; k < kErrorCount; ++k)
     count(coverage, "by stops", value[k], true_value[k], control.points[at].U[k]);
 }
@@ -267,10 +267,10 @@ double count_figures(Coverage& coverage, const Rig& rig, const Run& run, const R
   return slope;
 }
 
-// Measures a pair of runs. Without `tell_calibration`, the rig of the solution has no u of the
+// Measures a pair of runs. Without `declare_calibration`, the rig of the solution has no u of the
 // zeros.
 void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64_t seed,
-                  bool tell_calibration, Declares declares) {
+                  bool declare_calibration, Declares declares) {
   std::map<Axis, Rig> rigs, faulty;
   std::map<Axis, Run> runs;
   double slopes = 0, square = 0;
@@ -278,7 +278,7 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
   std::optional<algo::test_faults::DrawnSurface> top;
   for (const Axis axis : {Axis::x, Axis::y}) {
     faulty[axis] = rigs[axis] = rig_of(of, axis, declares);
-    if (!tell_calibration)
+    if (!declare_calibration)
       for (Probe& probe : rigs[axis].probes) probe.uncertainty.calibration.u = 0;
     MeasuredAxis machine(rigs[axis], faulty[axis], kind, 2 * seed + (axis == Axis::y ? 1 : 0));
     if (of.shop) machine.quantise();
@@ -312,11 +312,11 @@ void measure_pair(Coverage& coverage, const Lengths& of, Noise kind, std::uint64
 }
 
 Coverage coverage_of(Noise kind, int pairs, Declares declares = Declares::all,
-                     bool tell_calibration = true) {
+                     bool declare_calibration = true) {
   Coverage coverage;
   for (int i = 0; i < pairs; ++i)
     measure_pair(coverage, kRigs[static_cast<std::size_t>(i) % std::size(kRigs)], kind,
-                 test::coverage_seed(5000) + static_cast<std::uint64_t>(i), tell_calibration,
+                 test::coverage_seed(5000) + static_cast<std::uint64_t>(i), declare_calibration,
                  declares);
   return coverage;
 }

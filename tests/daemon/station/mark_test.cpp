@@ -46,7 +46,7 @@ class StationMark : public FedStation {
     EXPECT_TRUE(ended) << ended.error().message;
     return stored(ended.value_or(0));
   }
-  std::string why_not_resumed(std::int64_t run) {
+  std::string resume_refusal(std::int64_t run) {
     auto reader = store::Store::open(folder_ / "mdof.db", store::Access::read_only).value();
     const auto request = request_to_resume(reader, run, station_->config());
     if (!request) return "no request: " + request.error().message;
@@ -97,7 +97,7 @@ TEST_F(StationMark, ARunEndsWhereTheMarkIsPassed) {
   for (const auto& p : run.points) EXPECT_LT(p.point.position_m, 0.0101);
   EXPECT_LE(run.header.scans, 1500u);
   // Two datums cannot be combined in one run.
-  EXPECT_SAYS(why_not_resumed(*id), "start a new run");
+  EXPECT_SAYS(resume_refusal(*id), "start a new run");
   EXPECT_EQ(measured().header.state, RunState::complete);
 }
 
@@ -122,9 +122,9 @@ TEST_F(StationMark, ARunFromTheMarkResumesOnlyFromTheMark) {
   give(axis_, 0, 2500);
   ASSERT_TRUE(stop(true));
   make_station(true, kMark_mm);
-  EXPECT_SAYS(why_not_resumed(*id), "move the axis over its reference mark");
+  EXPECT_SAYS(resume_refusal(*id), "move the axis over its reference mark");
   pass_mark();
-  EXPECT_EQ(why_not_resumed(*id), "goes on");
+  EXPECT_EQ(resume_refusal(*id), "goes on");
 }
 
 TEST_F(StationMark, AfterAPowerLossTheSameMarkIsTheSameDatum) {

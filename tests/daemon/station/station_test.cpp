@@ -68,7 +68,7 @@ TEST_F(StationTest, ARunAndAReplayOfItsRecordingHaveTheSameBits) {
 }
 
 TEST_F(StationTest, ARunEndsByItselfWhenItIsFull) {
-  options_.most_stops = 3;
+  options_.max_stops = 3;
   make_station();
   const auto id = start();
   give(axis_);

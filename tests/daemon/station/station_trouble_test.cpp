@@ -143,7 +143,7 @@ TEST_F(StationTrouble, TheLiveViewShowsTheAxisWithAndWithoutARun) {
 class StationDatum : public FedStation {
  protected:
   // Two seconds at rest, up to now: the position of the axis can then be set.
-  void stand_until_now(double mm) {
+  void rest_until_now(double mm) {
     TestAxis parked(mm);
     parked.stand(2);
     SampleBlock block = parked.whole();
@@ -169,7 +169,7 @@ TEST_F(StationDatum, IsThePositionThatTheUserSets) {
   EXPECT_EQ(station_->run(), 0);
   Result<EncoderDatum> datum = nothing;
   for (int i = 0; i < 20 && !datum; ++i) {  // a busy machine may be too slow
-    stand_until_now(2);
+    rest_until_now(2);
     datum = set(12.5);
   }
   ASSERT_TRUE(datum) << datum.error().message;
@@ -180,7 +180,7 @@ TEST_F(StationDatum, IsThePositionThatTheUserSets) {
 }
 
 TEST_F(StationDatum, CannotBeSetDuringARun) {
-  stand_until_now(2);
+  rest_until_now(2);
   ASSERT_TRUE(start());
   const auto datum = set(12.5);
   ASSERT_FALSE(datum);

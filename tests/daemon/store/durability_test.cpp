@@ -102,7 +102,7 @@ TEST_F(StoreTest, AFileThatCannotGrowStoresNothingPartly) {
 }
 
 // Appends to a live run and reports each acknowledged row through the pipe, until it is killed.
-[[noreturn]] void append_for_ever(const fs::path& file, int pipe_fd) {
+[[noreturn]] void append_until_killed(const fs::path& file, int pipe_fd) {
   auto store = Store::open(file, Access::read_write);
   if (!store) _exit(1);
   const auto run = store->begin_run(make_run().header);
@@ -117,7 +117,7 @@ TEST_F(StoreTest, NothingAcknowledgedIsLostBySigkill) {
     int fds[2];
     ASSERT_EQ(pipe(fds), 0);
     const pid_t child = fork();
-    if (child == 0) append_for_ever(file_, fds[1]);
+    if (child == 0) append_until_killed(file_, fds[1]);
     close(fds[1]);
     std::int64_t acknowledged = 0;
     while (acknowledged < turn && ::read(fds[0], &acknowledged, 8) == 8) continue;

@@ -13,7 +13,7 @@ DatumSetting setting(Axis axis, double position_m) {
   return {0, axis, "t7", 0.00003125, position_m, position_m - 0.00003125, "2026-11-23T07:00:00Z"};
 }
 
-HistoryEntry said_by_anna() {
+HistoryEntry set_by_anna() {
   return {.name = "encoder.set", .by = {1000, 100, 4711, "anna"}, .utc = "2026-11-23T07:00:00Z"};
 }
 
@@ -22,10 +22,10 @@ class EncoderData : public StoreTest {};
 TEST_F(EncoderData, TheLastSettingOfAnAxisIsReadBackUnchanged) {
   auto store = writer();
   EXPECT_FALSE(store->last_datum(Axis::x)->has_value());
-  ASSERT_EQ(store->add_datum(setting(Axis::x, 0.0125), said_by_anna()).value(), 1);
-  ASSERT_EQ(store->add_datum(setting(Axis::y, -0.2), said_by_anna()).value(), 2);
-  ASSERT_EQ(store->add_datum(setting(Axis::x, 0.037), said_by_anna()).value(), 3);
-  ASSERT_EQ(store->add_datum(setting(Axis::z, 0.1), said_by_anna()).value(), 4);
+  ASSERT_EQ(store->add_datum(setting(Axis::x, 0.0125), set_by_anna()).value(), 1);
+  ASSERT_EQ(store->add_datum(setting(Axis::y, -0.2), set_by_anna()).value(), 2);
+  ASSERT_EQ(store->add_datum(setting(Axis::x, 0.037), set_by_anna()).value(), 3);
+  ASSERT_EQ(store->add_datum(setting(Axis::z, 0.1), set_by_anna()).value(), 4);
   DatumSetting expected = setting(Axis::x, 0.037);
   expected.id = 3;
   EXPECT_EQ(store->last_datum(Axis::x).value(), expected);
@@ -35,7 +35,7 @@ TEST_F(EncoderData, TheLastSettingOfAnAxisIsReadBackUnchanged) {
 
 TEST_F(EncoderData, ItsActionStatesThePositionOfTheAxis) {
   auto store = writer();
-  ASSERT_TRUE(store->add_datum(setting(Axis::y, 0.0125), said_by_anna()));
+  ASSERT_TRUE(store->add_datum(setting(Axis::y, 0.0125), set_by_anna()));
   const auto actions = store->list_actions(0, 9).value();
   ASSERT_EQ(actions.size(), 1u);
   EXPECT_EQ(actions[0].name, "encoder.set");
@@ -43,7 +43,7 @@ TEST_F(EncoderData, ItsActionStatesThePositionOfTheAxis) {
   EXPECT_EQ(actions[0].row, 1);
   EXPECT_EQ(actions[0].by.user, "anna");
   EXPECT_EQ(actions[0].detail, "Y set to 12.5 mm; the position before was 0.03125 mm");
-  EXPECT_TRUE(store->add_run(make_run(3), said_by_anna()));
+  EXPECT_TRUE(store->add_run(make_run(3), set_by_anna()));
   EXPECT_EQ(store->list_actions(0, 1).value()[0].detail, "");
 }
 
@@ -55,7 +55,7 @@ TEST_F(EncoderData, AnyChangeIsDetected) {
         "UPDATE encoder_datum SET utc = '2026-11-23T08:00:00Z'",
         "INSERT INTO encoder_datum VALUES (9, 'X', 't7', 0, 0, 0, 'now')"}) {
     std::filesystem::remove(file_);
-    { ASSERT_TRUE(writer()->add_datum(setting(Axis::x, 0.0125), said_by_anna())); }
+    { ASSERT_TRUE(writer()->add_datum(setting(Axis::x, 0.0125), set_by_anna())); }
     ASSERT_TRUE(reader()->verify()->empty());
     tamper(std::string("DROP TRIGGER encoder_datum_no_update; DROP TRIGGER "
                        "encoder_datum_no_delete; ") +
@@ -68,7 +68,7 @@ TEST_F(EncoderData, AnyChangeIsDetected) {
 }
 
 TEST_F(EncoderData, IsAppendOnly) {
-  { ASSERT_TRUE(writer()->add_datum(setting(Axis::x, 0.0125), said_by_anna())); }
+  { ASSERT_TRUE(writer()->add_datum(setting(Axis::x, 0.0125), set_by_anna())); }
   auto db = sqlite::Connection::open(file_, sqlite::OpenMode::read_write);
   for (const char* sql : {"UPDATE encoder_datum SET offset_m = 0", "DELETE FROM encoder_datum",
                           "UPDATE deed SET uid = 0", "DELETE FROM deed"})
@@ -89,7 +89,7 @@ TEST_F(EncoderData, ActionsOfOlderVersionsKeepTheirHashes) {
   auto store = writer();
   ASSERT_TRUE(store) << store.error().message;
   EXPECT_TRUE(store->verify()->empty());
-  ASSERT_TRUE(store->add_datum(setting(Axis::x, 0.0125), said_by_anna()));
+  ASSERT_TRUE(store->add_datum(setting(Axis::x, 0.0125), set_by_anna()));
   const auto actions = store->list_actions(0, 9).value();
   ASSERT_EQ(actions.size(), 3u);
   EXPECT_EQ(actions[1].by.user, "bert");

@@ -64,7 +64,7 @@ class EveryWrite : public ::testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   // Copies the database of a mdofd that has run before.
-  fs::path begin_life(const std::string& name) {
+  fs::path make_data_folder(const std::string& name) {
     const fs::path life = folder_ / name;
     fs::create_directories(life);
     fs::copy_file(folder_ / "fresh.db", life / "mdof.db");
@@ -190,7 +190,7 @@ TEST_F(EveryWrite, ACrashBetweenAnyTwoLosesNothingAcknowledged) {
   for (const bool otherwise : {false, true}) {
     std::vector<Snapshot> crashes;
     {
-      const fs::path life = begin_life(otherwise ? "superseded" : "plain");
+      const fs::path life = make_data_folder(otherwise ? "superseded" : "plain");
       Told reported;
       const WatchedDisk disk([&] {
         crashes.emplace_back(life, reported);
@@ -229,7 +229,7 @@ TEST_F(EveryWrite, AFullDiskFromAnyWriteLosesNothingAndRecovers) {
   for (int first_refused = 0;; ++first_refused) {
     SCOPED_TRACE("full from write " + std::to_string(first_refused));
     const bool otherwise = first_refused % 2 == 1;
-    const fs::path life = begin_life("life" + std::to_string(first_refused));
+    const fs::path life = make_data_folder("life" + std::to_string(first_refused));
     std::atomic<bool> begun = false, has_room = false;
     std::atomic<int> writes = 0;
     Told reported, next;

@@ -214,7 +214,7 @@ TEST_F(HeldDatabase, IsWaitedForAndReceivesAllPointsAndTheEnd) {
   EXPECT_EQ(failed_, 0);
   EXPECT_EQ(keeper_->storage().state, "held");
   EXPECT_NE(keeper_->storage().reason.find("end that program"), std::string::npos);
-  EXPECT_NE(keeper_->why_open(id).find("not stored yet"), std::string::npos);
+  EXPECT_NE(keeper_->still_open_reason(id).find("not stored yet"), std::string::npos);
   foreign.end();
   EXPECT_TRUE(kept.get_future().get());
   EXPECT_EQ(ended.get_future().get().value(), id);
@@ -222,7 +222,7 @@ TEST_F(HeldDatabase, IsWaitedForAndReceivesAllPointsAndTheEnd) {
   EXPECT_EQ(run.header.state, RunState::complete);
   EXPECT_EQ(run.points.size(), 1u);
   EXPECT_TRUE(run.header.notices.empty());
-  EXPECT_EQ(keeper_->why_open(id), "");
+  EXPECT_EQ(keeper_->still_open_reason(id), "");
   for (int i = 0; i < 100 && keeper_->storage().state != "ok"; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   EXPECT_EQ(keeper_->storage().state, "ok");

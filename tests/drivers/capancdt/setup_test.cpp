@@ -63,7 +63,7 @@ TEST(CapancdtSetup, ReportsCorrectionsByTheController) {
             "linearised_twice A mode=5 input=1\nlinearised_by_controller B mode=2\n"
             "low_pass_on mode=1\n");
 
-  device.knows_corrections = false;
+  device.supports_corrections = false;
   Rack older(device);
   Capancdt untold(older.options);
   ASSERT_EQ(error_of(untold.open()), "");

@@ -13,7 +13,7 @@ constexpr double kMost = 30'000;
 
 // Time at which the guard reports lost counts at this rate from `from_s` on; INFINITY: not within 2
 // s.
-double told_s(double counts_per_s, double scans_hz, double from_s = 0.5) {
+double reported_s(double counts_per_s, double scans_hz, double from_s = 0.5) {
   CountGuard guard(kMost);
   for (int scan = 0; scan < 2 * scans_hz; ++scan) {
     const double t_s = scan / scans_hz;
@@ -26,8 +26,8 @@ double told_s(double counts_per_s, double scans_hz, double from_s = 0.5) {
 TEST(LabjackCountGuard, ReportsTooHighRatesWithin20Milliseconds) {
   for (const double scans_hz : {50.0, 100.0, 1000.0, 4000.0, 7142.0}) {
     for (const double way : {1.0, -1.0}) {
-      EXPECT_EQ(told_s(way * kMost * 0.99, scans_hz), INFINITY) << scans_hz;
-      EXPECT_LE(told_s(way * kMost * 1.1, scans_hz), 0.0201 + 1 / scans_hz) << scans_hz;
+      EXPECT_EQ(reported_s(way * kMost * 0.99, scans_hz), INFINITY) << scans_hz;
+      EXPECT_LE(reported_s(way * kMost * 1.1, scans_hz), 0.0201 + 1 / scans_hz) << scans_hz;
     }
   }
 }
@@ -79,12 +79,12 @@ TEST(LabjackCountGuard, AllowsOscillatingEdgesAndRestarts) {
 // negative, as in a first count.
 TEST(LabjackCounter, RestartedDeviceCountsFromItsOwnZero) {
   Counter counter;
-  counter.take_up(false);
+  counter.resume_count(false);
   (void)counter.take(0x7FFF'FFFF, 0);
   EXPECT_EQ(counter.take(0x8000'0010, 0.1), 0x8000'0010LL);
-  counter.take_up(true);
+  counter.resume_count(true);
   EXPECT_EQ(counter.take(0x8000'0011, 0.2), 0x8000'0011LL);
-  counter.take_up(false);
+  counter.resume_count(false);
   EXPECT_EQ(counter.take(0x8000'0010, 0.3), 0x8000'0010LL - 0x1'0000'0000LL);
   EXPECT_FALSE(counter.sure());
 }

@@ -163,7 +163,7 @@ void Bus::hold(int number, const std::string& driver) {
   EXPECT_EQ(error, nullptr) << error->message;
 }
 
-std::int64_t Bus::longest_unasked_ns(int number, std::uint8_t endpoint) {
+std::int64_t Bus::longest_idle_ns(int number, std::uint8_t endpoint) {
   const std::lock_guard lock(mutex_);
   return nodes_.at(number)->asked[endpoint].longest_ns;
 }

@@ -43,7 +43,7 @@ class Bus {
   void hold(int number, const std::string& driver);
 
   // Longest time without a pending transfer at an endpoint between two transfers, since plug().
-  std::int64_t longest_unasked_ns(int number, std::uint8_t endpoint);
+  std::int64_t longest_idle_ns(int number, std::uint8_t endpoint);
   int submitted(int number);  // number of transfers
 
   struct Node;  // of a device

@@ -98,7 +98,7 @@ TEST_F(UsbHandle, FindsAProgramThatHasAFileOpen) {
   char path[] = "/tmp/mdof-owner-XXXXXX";
   const int fd = ::mkstemp(path);
   ASSERT_GE(fd, 0);
-  EXPECT_EQ(program_that_opened(path), "");  // this process is ignored
+  EXPECT_EQ(find_program_with_file(path), "");  // this process is ignored
   int ready[2], stop[2];
   ASSERT_EQ(::pipe(ready) | ::pipe(stop), 0);
   const pid_t child = ::fork();
@@ -111,8 +111,8 @@ TEST_F(UsbHandle, FindsAProgramThatHasAFileOpen) {
   }
   char c = 0;
   ASSERT_EQ(::read(ready[0], &c, 1), 1);
-  EXPECT_TRUE(has(program_that_opened(path), " (" + std::to_string(child) + ")"))
-      << program_that_opened(path);
+  EXPECT_TRUE(has(find_program_with_file(path), " (" + std::to_string(child) + ")"))
+      << find_program_with_file(path);
   for (const int end : {ready[0], ready[1], stop[0], stop[1], fd}) ::close(end);
   ::unlink(path);
 }

@@ -243,9 +243,9 @@ void Bus::Node::serve(std::int64_t now_ns) {
 
 // For an endpoint that had pending transfers when it was served.
 void Bus::Node::note(Asked& a, bool waiting, std::int64_t now_ns) {
-  if (a.dry_since_ns) a.longest_ns = std::max(a.longest_ns, now_ns - *a.dry_since_ns);
-  a.dry_since_ns.reset();
-  if (!waiting) a.dry_since_ns = now_ns;
+  if (a.idle_since_ns) a.longest_ns = std::max(a.longest_ns, now_ns - *a.idle_since_ns);
+  a.idle_since_ns.reset();
+  if (!waiting) a.idle_since_ns = now_ns;
 }
 
 bool Bus::Node::run(Urb& urb, std::int64_t now_ns) {

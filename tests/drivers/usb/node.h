@@ -46,7 +46,7 @@ struct Bus::Node {
   std::list<Urb> urbs;  // in order of submission
   int submitted = 0;
   struct Asked {
-    std::optional<std::int64_t> dry_since_ns;  // set when the last pending transfer has ended
+    std::optional<std::int64_t> idle_since_ns;  // set when the last pending transfer has ended
     std::int64_t longest_ns = 0;
   };
   std::map<std::uint8_t, Asked> asked;  // by endpoint

@@ -24,7 +24,7 @@ constexpr double kFor_s = 1;
 struct Count {
   std::uint64_t scans = 0, lost = 0, wrong = 0;
   std::string error;
-  std::int64_t unasked_ns = 0;  // longest time without a pending transfer
+  std::int64_t idle_ns = 0;  // longest time without a pending transfer
 };
 
 // Reads the scans that a device takes in `seconds`, even if they arrive late on a busy machine.
@@ -54,7 +54,7 @@ void expect_all(const Count& count, double rate_hz) {
   std::printf(
       "%.0f scans at %.0f Hz, %.0f wrong, %.0f lost; at most %.1f ms without a transfer waiting\n",
       static_cast<double>(count.scans), rate_hz, static_cast<double>(count.wrong),
-      static_cast<double>(count.lost), static_cast<double>(count.unasked_ns) * 1e-6);
+      static_cast<double>(count.lost), static_cast<double>(count.idle_ns) * 1e-6);
 }
 
 // A clock with steps of a scan period, so that the number of the scan is always exact.
@@ -110,7 +110,7 @@ class UsbU6Rates : public testing::Test {
           last = value;
           return counter ? value != first + static_cast<double>(k) : step != 1 && step != -9999;
         });
-    count.unasked_ns = bus.longest_unasked_ns(number, kStreamIn);
+    count.idle_ns = bus.longest_idle_ns(number, kStreamIn);
     return count;
   }
 
@@ -179,7 +179,7 @@ class Usb1608Rates : public testing::Test {
           }
           return wrong;
         });
-    count.unasked_ns = bus.longest_unasked_ns(number, kSamplesIn);
+    count.idle_ns = bus.longest_idle_ns(number, kSamplesIn);
     return count;
   }
 
@@ -204,7 +204,7 @@ TEST_F(Usb1608Rates, DetectsAHostThatSleeps) {
   std::this_thread::sleep_for(milliseconds(600));
   SampleBlock block;
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(made->read(block, milliseconds(0)));
-  EXPECT_GT(bus.longest_unasked_ns(number, mcc_usb1608fs_plus::kSamplesIn), 100'000'000);
+  EXPECT_GT(bus.longest_idle_ns(number, mcc_usb1608fs_plus::kSamplesIn), 100'000'000);
 }
 
 // Shows that a loss is detected: one scan of 24,000 is missing without a report.

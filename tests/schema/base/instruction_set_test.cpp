@@ -11,7 +11,7 @@ namespace {
 class InstructionSetAskedFor : public testing::Test {
  protected:
   void TearDown() override {
-    if (was_set_) {
+    if (had_environment_value_) {
       ::setenv("MDOF_INSTRUCTION_SET", before_.c_str(), 1);
     } else {
       ::unsetenv("MDOF_INSTRUCTION_SET");
@@ -19,9 +19,9 @@ class InstructionSetAskedFor : public testing::Test {
   }
 
  private:
-  const char* const of_environment_ = std::getenv("MDOF_INSTRUCTION_SET");
-  const bool was_set_ = of_environment_ != nullptr;
-  const std::string before_ = was_set_ ? of_environment_ : "";
+  const char* const environment_value_ = std::getenv("MDOF_INSTRUCTION_SET");
+  const bool had_environment_value_ = environment_value_ != nullptr;
+  const std::string before_ = had_environment_value_ ? environment_value_ : "";
 };
 
 TEST_F(InstructionSetAskedFor, AcceptsEachSetOfTheProcessor) {

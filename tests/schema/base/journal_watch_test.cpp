@@ -38,7 +38,7 @@ class WatchedJournal : public testing::Test {
     MDOF_CHECK(db.execute("INSERT INTO t VALUES (1)"));
     return transaction.commit();
   }
-  std::int64_t rows_after() const {
+  std::int64_t rows_after_restart() const {
     auto db = Connection::open(file_, OpenMode::read_write);
     return db ? db->integer("SELECT count(*) FROM t").value_or(-1) : -1;
   }
@@ -88,7 +88,7 @@ TEST_F(WatchedJournal, KeepsTheContentOfARemovedOrReplacedWal) {
       EXPECT_EQ(status, 0);
       kept = in_transaction ? 2 : 1;
       acknowledged += kept;
-      EXPECT_EQ(rows_after(), acknowledged);
+      EXPECT_EQ(rows_after_restart(), acknowledged);
     }
   }
 }

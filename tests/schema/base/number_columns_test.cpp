@@ -55,7 +55,7 @@ std::vector<std::int64_t> read_all_ns(const Rows& rows, InstructionSet set) {
   return read;
 }
 
-void expect_as_baseline(const Rows& rows) {
+void expect_like_baseline(const Rows& rows) {
   const auto doubles = read_all(rows, InstructionSet::baseline);
   const auto times_ns = read_all_ns(rows, InstructionSet::baseline);
   for (const InstructionSet set : available_instruction_sets()) {
@@ -164,7 +164,7 @@ TEST(NumberColumns, RoundsHalvesToEven) {
 }
 
 // A cell as in usual files, or as an attacker would write it; without a stop byte.
-std::string hostile_cell(RandomFields& random) {
+std::string adversarial_field(RandomFields& random) {
   switch (random.below(16)) {
     case 0:
       return random.number(1, 17) + "e-" +
@@ -197,7 +197,7 @@ TEST(NumberColumns, ReadsAMillionHostileCellsLikeFromChars) {
   for (int round = 0; round < 100; ++round) {
     const auto cell = [&] {
       return random.below(24) > static_cast<std::uint64_t>(round % 25) ? random.number(3, 6)
-                                                                       : hostile_cell(random);
+                                                                       : adversarial_field(random);
     };
     expect_as_from_chars(Rows(many(10'007, cell), round % 2 ? "\n" : "\r\n"));
     if (HasFatalFailure()) return;
@@ -268,7 +268,7 @@ TEST(NumberColumns, StopsBeforeAFieldThatIsNoNumber) {
       std::vector<std::string> fields(24, at % 2 ? "-12.0625" : "1.23456789012345678");
       fields[at] = odd;
       const Rows rows(fields);
-      expect_as_baseline(rows);
+      expect_like_baseline(rows);
       if (std::string(odd).starts_with("1234567890")) continue;  // a number, although a long one
       EXPECT_EQ(read_all(rows, InstructionSet::baseline).size(), at) << odd;
     }
@@ -277,10 +277,10 @@ TEST(NumberColumns, StopsBeforeAFieldThatIsNoNumber) {
 
 TEST(NumberColumns, ReadsTimesToTheNanosecond) {
   RandomFields random;
-  expect_as_baseline(Rows(many(20'003, [&] { return random.number(9, 9); })));
+  expect_like_baseline(Rows(many(20'003, [&] { return random.number(9, 9); })));
   const Rows rows({"0.000250", "1.000000001", "-3.5", "9199999998.999999999", "0", "12.", "7.25",
                    "1e-3", "0.1234567894", "0.1234567895", "99.5", "4", "5", "6", "7", "8"});
-  expect_as_baseline(rows);
+  expect_like_baseline(rows);
   EXPECT_EQ(read_all_ns(rows, best_instruction_set()),
             (std::vector<std::int64_t>{
                 250'000, 1'000'000'001, -3'500'000'000, 9'199'999'998'999'999'999, 0,

@@ -57,7 +57,7 @@ void expect_as_from_chars(const std::string& text, bool must_scan = false) {
   ASSERT_TRUE(understood || !must_scan) << text;
 }
 
-void expect_as_printf(double x) {
+void expect_like_printf(double x) {
   char expected[64], got[kDouble17Size + 1];
   std::snprintf(expected, sizeof expected, "%.17g", x);
   *write_double_17(got, x) = 0;
@@ -65,7 +65,7 @@ void expect_as_printf(double x) {
 }
 
 // Each text equals that of a single number, for any neighbours.
-void expect_as_one_by_one(const std::vector<double>& x) {
+void expect_single_number_texts(const std::vector<double>& x) {
   for (const InstructionSet set : available_instruction_sets()) {
     SCOPED_TRACE(to_string(set));
     std::vector<DoubleText> got(x.size());
@@ -220,31 +220,31 @@ TEST(ParseDouble, ReturnsNullWithoutANumber) {
 
 TEST(WriteDouble17, MatchesPrintfForRandomBits) {
   Random random;
-  for (int i = 0; i < 1'000'000; ++i) expect_as_printf(random.any_bits());
+  for (int i = 0; i < 1'000'000; ++i) expect_like_printf(random.any_bits());
 }
 
 TEST(WriteDouble17, MatchesPrintfForMeasuredValues) {
   Random random;
   for (double scale = 1e-12; scale < 1e12; scale *= 10)
-    for (int i = 0; i < 100'000; ++i) expect_as_printf(random.uniform(-scale, scale));
+    for (int i = 0; i < 100'000; ++i) expect_like_printf(random.uniform(-scale, scale));
 }
 
 TEST(WriteDouble17, MatchesPrintfForShortDecimalsAndIntegers) {
   Random random;
   for (int i = 0; i < 500'000; ++i) {
     const double n = static_cast<double>(random.below(100'000'000));
-    for (double divisor : {1e0, 1e1, 1e3, 1e6, 1e9, 1e14}) expect_as_printf(n / divisor);
+    for (double divisor : {1e0, 1e1, 1e3, 1e6, 1e9, 1e14}) expect_like_printf(n / divisor);
   }
 }
 
 TEST(WriteDouble17, MatchesPrintfAroundPowersOfTwoAndTen) {
   for (int e = -1074; e <= 1023; ++e)
     for (double x : {std::ldexp(1, e), std::ldexp(3, e - 1), std::ldexp(5, e - 2)})
-      for (double y : {x, std::nextafter(x, 0), std::nextafter(x, 1e308)}) expect_as_printf(y);
+      for (double y : {x, std::nextafter(x, 0), std::nextafter(x, 1e308)}) expect_like_printf(y);
   for (int e = -320; e <= 308; ++e) {
     double x = std::stod("1e" + std::to_string(std::max(e, -307)));
     for (int i = 0; i < 20; ++i) x = std::nextafter(x, 0);
-    for (int i = 0; i < 40; ++i, x = std::nextafter(x, 1e308)) expect_as_printf(x);
+    for (int i = 0; i < 40; ++i, x = std::nextafter(x, 1e308)) expect_like_printf(x);
   }
 }
 
@@ -253,12 +253,12 @@ TEST(WriteDouble17,
   Random random;
   for (int e = -60; e <= -1; ++e)
     for (int i = 0; i < 2'000; ++i)
-      expect_as_printf(
+      expect_like_printf(
           std::ldexp(static_cast<double>(2 * random.below(std::uint64_t{1} << 52) + 1), e));
 }
 
 TEST(WriteDouble17, WritesZeroAndNonFiniteNumbers) {
-  for (double x : {0.0, -0.0, double{INFINITY}, -double{INFINITY}}) expect_as_printf(x);
+  for (double x : {0.0, -0.0, double{INFINITY}, -double{INFINITY}}) expect_like_printf(x);
 }
 
 TEST(WriteDoubles17, EqualsSingleNumbers) {
@@ -284,7 +284,7 @@ TEST(WriteDoubles17, EqualsSingleNumbers) {
   }
   for (const double y : {0.0, -0.0, 0.5, 0.1, 9999999.9999999981, 1e7, 1e-98, 1e-5, 1e-4, 99.999})
     x.push_back(y);
-  expect_as_one_by_one(x);
+  expect_single_number_texts(x);
 }
 
 }  // namespace

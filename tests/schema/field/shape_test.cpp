@@ -40,7 +40,7 @@ TEST(FieldNames, UncertaintyRefersToAnotherRow) {
 }
 
 TEST(FieldNames, RegularExpressionsMatchTheirFields) {
-  const std::regex error(regex_of("u_E{linear}{axis}_um"));
+  const std::regex error(field_regex("u_E{linear}{axis}_um"));
   EXPECT_TRUE(std::regex_match("u_EYX_um", error));
   EXPECT_FALSE(std::regex_match("u_ECX_um", error));
   EXPECT_FALSE(std::regex_match("EYX_um", error));

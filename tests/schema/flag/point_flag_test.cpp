@@ -20,7 +20,7 @@ TEST(PointFlag, HasTheNameStoredInDatabases) {
     flags.push_back(*flag);
     EXPECT_EQ(static_cast<std::size_t>(flag->flag), flags.size() - 1) << text;
   }
-  EXPECT_EQ(texts_of(flags), stored);
+  EXPECT_EQ(flag_texts(flags), stored);
   EXPECT_EQ(flags[2], (PointFlag{Flag::frozen, "A"}));
   EXPECT_EQ(flags[15].channel, "E:2");
   EXPECT_EQ(to_string({{Flag::lost, "B"}, {Flag::gap}}), "lost:B gap");

@@ -70,7 +70,7 @@ void finish(DeviceFinding& finding, const std::vector<Running>& running, const S
     finding.rate_hz = static_cast<double>(finding.scans - 1) * 1e9 / ns;
 }
 
-Status read_for(drivers::Driver& driver, double for_s, const StopAsked& stop,
+Status read_for(drivers::Driver& driver, double for_s, const StopRequested& stop,
                 DeviceFinding& finding) {
   const auto until = steady_clock::now() + std::chrono::duration<double>(for_s);
   std::vector<Running> running;
@@ -88,7 +88,7 @@ Status read_for(drivers::Driver& driver, double for_s, const StopAsked& stop,
   return status;
 }
 
-Status open_and_read(const drivers::DriverSpec& device, double for_s, const StopAsked& stop,
+Status open_and_read(const drivers::DriverSpec& device, double for_s, const StopRequested& stop,
                      DeviceFinding& finding) {
   MDOF_TRY(const auto driver, device.make());
   MDOF_CHECK(driver->open());
@@ -106,7 +106,8 @@ std::string value_text(double x, const std::string& unit) {
 
 }  // namespace
 
-DeviceFinding probe_device(const drivers::DriverSpec& device, double for_s, const StopAsked& stop) {
+DeviceFinding probe_device(const drivers::DriverSpec& device, double for_s,
+                           const StopRequested& stop) {
   DeviceFinding finding;
   finding.name = device.name;
   finding.driver = device.driver;
@@ -179,7 +180,7 @@ std::string finding_json(const DeviceFinding& f) {
   return json.take();
 }
 
-Status monitor_device(const drivers::DriverSpec& device, const StopAsked& stop) {
+Status monitor_device(const drivers::DriverSpec& device, const StopRequested& stop) {
   MDOF_TRY(const auto driver, device.make());
   MDOF_CHECK(driver->open());
   auto next = steady_clock::now();

@@ -26,15 +26,16 @@ struct DeviceFinding {
   std::optional<drivers::ClockState> clock;
 };
 
-using StopAsked = std::function<bool()>;
+using StopRequested = std::function<bool()>;
 
 // Reads for `for_s` seconds, or until stop() returns true. A failure is in `error`.
-DeviceFinding probe_device(const drivers::DriverSpec& device, double for_s, const StopAsked& stop);
+DeviceFinding probe_device(const drivers::DriverSpec& device, double for_s,
+                           const StopRequested& stop);
 std::string finding_text(const DeviceFinding& finding);
 std::string finding_json(const DeviceFinding& finding);
 
 // Prints the newest scan to the standard output ten times a second, until stop() returns true or an
 // error occurs.
-Status monitor_device(const drivers::DriverSpec& device, const StopAsked& stop);
+Status monitor_device(const drivers::DriverSpec& device, const StopRequested& stop);
 
 }  // namespace mdof::tools

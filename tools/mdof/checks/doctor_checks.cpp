@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using Level = Diagnosis::Level;
 
-constexpr double kLittleRoom = 1e9;  // bytes: some hours of recording
+constexpr double kMinFreeBytes = 1e9;  // bytes: some hours of recording
 
 std::string first_line(const fs::path& file) {
   std::ifstream in(file);
@@ -36,7 +36,7 @@ unsigned hex_in(const fs::path& file) {
   return number;
 }
 
-bool is_it(const drivers::UsbDevice& usb, const fs::path& device) {
+bool is_usb_device(const drivers::UsbDevice& usb, const fs::path& device) {
   return hex_in(device / "idVendor") == usb.vendor &&
          (!usb.product || hex_in(device / "idProduct") == *usb.product) &&
          (*usb.manufacturer == '\0' || first_line(device / "manufacturer") == usb.manufacturer);
@@ -53,7 +53,8 @@ fs::path usb_node(const Machine& machine, const fs::path& device) {
 
 // "/dev/hidraw0", "/dev/ttyUSB0": the first device node that Linux has made for a device; empty:
 // none.
-fs::path node_below(const Machine& machine, const fs::path& device, const drivers::UsbDevice& usb) {
+fs::path device_node(const Machine& machine, const fs::path& device,
+                     const drivers::UsbDevice& usb) {
   const bool hidraw = usb.node == drivers::UsbNode::hidraw;
   const std::string interface = ":1." + std::to_string(usb.interface) + "/";
   std::set<fs::path> nodes;
@@ -85,7 +86,7 @@ Diagnosis check_usb_device(const Machine& machine, const fs::path& device,
   const std::string what =
       std::string("USB: ") + usb.name + ", serial " + first_line(device / "serial");
   const fs::path node = usb.node == drivers::UsbNode::bus ? usb_node(machine, device)
-                                                          : node_below(machine, device, usb);
+                                                          : device_node(machine, device, usb);
   if (node.empty())
     return {Level::bad,
             what + ": Linux has no " +
@@ -181,7 +182,7 @@ Diagnosis check_storage(const daemon::Config& config) {
             "only the user of mdofd needs this permission; to check this permission, run mdof "
             "doctor as that user"};
   const auto room = fs::space(folder, ec);
-  if (!ec && static_cast<double>(room.available) < kLittleRoom)
+  if (!ec && static_cast<double>(room.available) < kMinFreeBytes)
     return {Level::bad, what + ": less than 1 GB is free",
             "delete files on this disk, or move the database to another disk"};
   return {Level::good, what, ""};
@@ -194,7 +195,8 @@ std::vector<Diagnosis> check_usb(const Machine& machine) {
     if (!usb) continue;
     std::error_code ec;
     for (const auto& entry : fs::directory_iterator(machine.at("sys/bus/usb/devices"), ec))
-      if (is_it(*usb, entry.path())) all.push_back(check_usb_device(machine, entry.path(), *usb));
+      if (is_usb_device(*usb, entry.path()))
+        all.push_back(check_usb_device(machine, entry.path(), *usb));
   }
   sort_by_text(all);
   return all;

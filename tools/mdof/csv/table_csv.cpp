@@ -34,7 +34,7 @@ double cell_of(const CompensationTable& t, const Columns& columns, std::size_t k
 
 double cell_along(const CompensationTable& t, const Columns& columns, std::size_t row) {
   if (columns.along.empty()) return kNoFigure;
-  return columns.combine ? t.u_of_positioning(&columns.along == &t.positioning.u_forward, row)
+  return columns.combine ? t.positioning_u_at(&columns.along == &t.positioning.u_forward, row)
                          : columns.along[row];
 }
 

@@ -54,7 +54,7 @@ Result<ReportFacts> facts_of(const std::vector<report::ReportRun>& runs,
 }
 
 // Tolerances by figure, in the unit of the figure.
-Result<std::vector<std::pair<std::string, double>>> tolerances_of(
+Result<std::vector<std::pair<std::string, double>>> parse_tolerances(
     const std::vector<std::string>& texts) {
   std::vector<std::pair<std::string, double>> found;
   for (const std::string& text : texts) {
@@ -78,7 +78,7 @@ Result<report::ReportRun> report_run(store::Store& store, std::int64_t number,
   }
   MDOF_TRY(run.result_sha256, store.result_sha256(number));
   MDOF_TRY(run.superseded_by, store.superseded_by(number));
-  run.against_decision = daemon::against_decision(store, run.results.run);
+  run.undecidable_reason = daemon::undecidable_reason(store, run.results.run);
   return run;
 }
 
@@ -104,11 +104,11 @@ Result<std::vector<daemon::Comparison>> compare_pairs(store::Store& store,
 }
 
 // The reason why no decision is possible for one of the two runs; empty: a decision is possible.
-std::string against_both(const report::Report& all, const Squareness& of) {
+std::string undecided_reason(const report::Report& all, const Squareness& of) {
   for (const report::ReportRun& run : all.runs) {
     const std::int64_t id = run.results.run.header.id;
-    if ((id == of.run_a || id == of.run_b) && !run.against_decision.empty())
-      return run.against_decision;
+    if ((id == of.run_a || id == of.run_b) && !run.undecidable_reason.empty())
+      return run.undecidable_reason;
   }
   return "";
 }
@@ -122,8 +122,9 @@ bool decide_squareness(report::Report& all, const std::string& figure, double to
       why = pair.reason;
       return false;
     }
-    all.decided.push_back({figure, algo::decision(pair.results->budget, from_um(tolerance),
-                                                  against_both(all, pair.results->squareness))});
+    all.decided.push_back(
+        {figure, algo::decision(pair.results->budget, from_um(tolerance),
+                                undecided_reason(all, pair.results->squareness))});
     return true;
   }
   return false;
@@ -139,7 +140,7 @@ Status decide(report::Report& all, const std::vector<std::pair<std::string, doub
     for (report::ReportRun& run : all.runs)
       if (const Budget* budget = find_budget(run.results.figures.budgets, figure)) {
         run.decided.push_back(
-            {figure, algo::decision(*budget, from_um(tolerance), run.against_decision)});
+            {figure, algo::decision(*budget, from_um(tolerance), run.undecidable_reason)});
         found = true;
       }
     if (!found) return fail(ErrorCode::usage, "--tolerance " + figure + ": " + why);
@@ -176,7 +177,7 @@ Result<report::Report> report_of_runs(const ReportRequest& request) {
   report::Report all;
   Reference reference{};
   reference_from(request.reference, reference);  // the option accepts only valid names
-  MDOF_TRY(const auto tolerances, tolerances_of(request.tolerances));
+  MDOF_TRY(const auto tolerances, parse_tolerances(request.tolerances));
   all.software_version = daemon::kVersion;
   MDOF_TRY(store::Store store, open_to_read(request.database));
   MDOF_TRY(const auto numbers, run_numbers(store, request.runs, request.axis));
@@ -197,9 +198,9 @@ Result<report::Report> report_of_runs(const ReportRequest& request) {
   return all;
 }
 
-void warn_of(const report::Report& report) {
+void print_report_marks(const report::Report& report) {
   for (const report::ReportRun& run : report.runs)
-    for (const std::string& mark : daemon::marks_of(run.results.run)) warn(mark);
+    for (const std::string& mark : daemon::warning_marks(run.results.run)) warn(mark);
   for (const daemon::Comparison& comparison : report.comparisons)
     show_notices(comparison.notices, false);
 }

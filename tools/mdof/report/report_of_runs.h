@@ -31,6 +31,6 @@ Result<report::Report> report_of_runs(const ReportRequest& request);
 
 // Prints the marks of each run (SIMULATED, DOUBTFUL) and the notices of comparisons to the standard
 // error.
-void warn_of(const report::Report& report);
+void print_report_marks(const report::Report& report);
 
 }  // namespace mdof::tools

@@ -23,8 +23,8 @@ Result<charts::SquarenessResults> squareness_of_two(store::Store& store,
   charts::SquarenessResults results;
   results.squareness = fitted.squareness;
   results.budget = std::move(fitted.budgets.front());
-  MDOF_TRY(results.run_a, daemon::run_stated_at(store, request.run_a, Reference::fixture));
-  MDOF_TRY(results.run_b, daemon::run_stated_at(store, request.run_b, Reference::fixture));
+  MDOF_TRY(results.run_a, daemon::restated_run(store, request.run_a, Reference::fixture));
+  MDOF_TRY(results.run_b, daemon::restated_run(store, request.run_b, Reference::fixture));
   return results;
 }
 
@@ -33,12 +33,12 @@ Result<charts::SquarenessResults> squareness_of_two(store::Store& store,
 Result<charts::StatedResults> stated_results(store::Store& store, std::int64_t run,
                                              Reference reference) {
   charts::StatedResults results;
-  MDOF_TRY(results.run, daemon::run_stated_at(store, run, reference));
+  MDOF_TRY(results.run, daemon::restated_run(store, run, reference));
   if (is_imported(results.run.header)) {
     results.run = daemon::with_positioning_notices(std::move(results.run));
     results.figures = daemon::positioning_figures(results.run);
     const bool declared =
-        !results.run.points.empty() && u_of_deviation(results.run.points.front()) > 0;
+        !results.run.points.empty() && deviation_uncertainty(results.run.points.front()) > 0;
     results.uncertainty.noise_only = !declared;
     return results;
   }

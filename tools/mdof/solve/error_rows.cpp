@@ -16,9 +16,9 @@
 namespace mdof::tools {
 namespace {
 
-constexpr std::size_t kMostOfAKey = 16;                  // ,"EYX_um":
-constexpr std::size_t kColumnsOfARow = kErrorCount + 1;  // the position is last
-constexpr std::size_t kMostOfARow = kColumnsOfARow * (kDouble17Size + kMostOfAKey) + 8;
+constexpr std::size_t kMaxKeyLength = 16;             // ,"EYX_um":
+constexpr std::size_t kRowColumns = kErrorCount + 1;  // the position is last
+constexpr std::size_t kMaxRowLength = kRowColumns * (kDouble17Size + kMaxKeyLength) + 8;
 constexpr std::size_t kAtOnce = 8;
 constexpr std::size_t kBlocks = 4;
 constexpr int kPipeBytes = 1 << 20;
@@ -93,7 +93,7 @@ void ErrorRows::work() {
 Status ErrorRows::write_all() {
   MDOF_CHECK(write_commands(head_));
   while (auto rows = filled_.pop()) {
-    text_.resize(std::max(text_.size(), rows->size() * kMostOfARow));
+    text_.resize(std::max(text_.size(), rows->size() * kMaxRowLength));
     char* const begin = text_.data();
     char* const end = form_ == RowForm::csv ? append_csv(*rows, begin) : append_json(*rows, begin);
     free_.try_push(std::move(*rows));
@@ -104,12 +104,12 @@ Status ErrorRows::write_all() {
 
 // The texts of up to kAtOnce rows, column by column. Errors are empty if the row is not solved.
 struct ErrorRows::Texts {
-  std::array<std::array<DoubleText, kAtOnce>, kColumnsOfARow> of;
+  std::array<std::array<DoubleText, kAtOnce>, kRowColumns> of;
 
   void fill(const std::array<ErrorName, 5>& names, const SolvedRows& rows, std::size_t begin,
             std::size_t n) {
     std::array<double, kAtOnce> x;
-    for (std::size_t k = 0; k < kColumnsOfARow; ++k) {
+    for (std::size_t k = 0; k < kRowColumns; ++k) {
       for (std::size_t j = 0; j < n; ++j)
         x[j] = k == kErrorCount ? in_written_mm(rows.encoder_m[begin + j])
                                 : in_key_unit(names[k], rows, begin + j);
@@ -131,7 +131,7 @@ char* ErrorRows::append_csv(const SolvedRows& rows, char* out) const {
     const std::size_t n = std::min(kAtOnce, rows.size() - begin);
     texts.fill(names_, rows, begin, n);
     for (std::size_t j = 0; j < n; ++j) {
-      for (std::size_t k = 0; k < kColumnsOfARow; ++k) {
+      for (std::size_t k = 0; k < kRowColumns; ++k) {
         out = texts.append(out, k, j);
         *out++ = ',';
       }
@@ -149,7 +149,7 @@ char* ErrorRows::append_json(const SolvedRows& rows, char* out) {
     for (std::size_t j = 0; j < n; ++j) {
       if (!first_row_) *out++ = ',';
       first_row_ = false;
-      for (std::size_t k = 0; k < kColumnsOfARow; ++k) {
+      for (std::size_t k = 0; k < kRowColumns; ++k) {
         out = append(out, json_keys_[k]);
         out = texts.of[k][j].size > 0 ? texts.append(out, k, j) : append(out, "null");
       }

@@ -36,7 +36,7 @@ Result<store::Store> open_to_write(const std::string& option) {
   return store;
 }
 
-Result<bool> somebody_writes(const std::string& option) {
+Result<bool> is_locked_by_writer(const std::string& option) {
   MDOF_TRY(const auto file, database_file(option));
   return store::WriterLock::held(file);
 }

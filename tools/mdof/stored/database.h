@@ -15,6 +15,6 @@ Result<store::Store> open_to_read(const std::string& option);
 Result<store::Store> open_to_write(const std::string& option);
 
 // True if mdofd or another mdof has the database open for writing.
-Result<bool> somebody_writes(const std::string& option);
+Result<bool> is_locked_by_writer(const std::string& option);
 
 }  // namespace mdof::tools

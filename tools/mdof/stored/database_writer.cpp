@@ -58,9 +58,9 @@ tl::unexpected<Error> held(const fs::path& database, const std::string& but) {
 
 }  // namespace
 
-Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database,
-                                                     const std::string& socket) {
-  MDOF_TRY(const bool busy, somebody_writes(database));
+Result<std::optional<rpc::Client>> writing_daemon(const std::string& database,
+                                                  const std::string& socket) {
+  MDOF_TRY(const bool busy, is_locked_by_writer(database));
   const bool is_asked_for = socket != daemon::default_socket();
   if (!busy && !is_asked_for) return std::nullopt;
   MDOF_TRY(const fs::path file, database_path(database));
@@ -84,9 +84,9 @@ Result<std::optional<rpc::Client>> mdofd_that_writes(const std::string& database
                         "; use --socket to give the socket of the mdofd that uses this database");
 }
 
-Result<std::optional<rpc::Client>> mdofd_that_serves(const std::string& database,
-                                                     const std::string& socket) {
-  auto mdofd = mdofd_that_writes(database, socket);
+Result<std::optional<rpc::Client>> serving_daemon(const std::string& database,
+                                                  const std::string& socket) {
+  auto mdofd = writing_daemon(database, socket);
   if (mdofd || mdofd.error().code == ErrorCode::conflict) return mdofd;
   return std::nullopt;
 }
@@ -97,8 +97,8 @@ std::string canonical_path(const std::string& file) {
   return none ? fs::absolute(file, ec) : path;
 }
 
-Result<Run> stored_by(rpc::Client& mdofd, const std::string& database, std::string_view method,
-                      std::string_view params) {
+Result<Run> store_in_daemon(rpc::Client& mdofd, const std::string& database,
+                            std::string_view method, std::string_view params) {
   const auto reply = mdofd.call(method, params, kPatience);
   if (!reply) return in_context("mdofd", reply.error());
   simdjson::dom::parser parser;

@@ -50,8 +50,8 @@ Status add_error(const Run& run, std::size_t k, double scale_period_m, RunPositi
                {notice(NoticeCode::readings_left_out, "",
                        {{"left_out", series.left_out}, {"points", run.points.size()}})});
   const ErrorName& name = error_names(run.header.axis)[k];
-  constexpr std::size_t kFewestOfALine = 3;  // a line through two targets leaves no residual
-  if (!name.angle && !found.keep_slope && figures->targets.size() < kFewestOfALine)
+  constexpr std::size_t kMinLineTargets = 3;  // a line through two targets leaves no residual
+  if (!name.angle && !found.keep_slope && figures->targets.size() < kMinLineTargets)
     return bad_input("run " + std::to_string(run.header.id) + ": the straightness " + name.name +
                      " needs at least three targets with error values; give --keep-slope to keep "
                      "the slope, or --error with an angular error");

@@ -16,7 +16,7 @@ Result<std::string> read_text(rpc::Client& daemon, std::int64_t id) {
   simdjson::dom::parser parser;
   const std::string database = text(parser.parse(simdjson::padded_string(info)), "database");
   MDOF_TRY(store::Store store, store::Store::open(database, store::Access::read_only));
-  MDOF_TRY(const Run run, daemon::run_stated_at(store, id, Reference::fixture));
+  MDOF_TRY(const Run run, daemon::restated_run(store, id, Reference::fixture));
   MDOF_TRY(const std::string sha256, store.result_sha256(id));
   MDOF_TRY(const auto actions, store.actions_of_run(id));
   const std::size_t width = terminal_columns();

@@ -52,7 +52,7 @@ std::optional<Sums> sum_blocks(const char* what, unsigned threads, std::uint64_t
   return all;
 }
 
-void warn_of_few(const char* what, std::uint64_t blocks, StudyResult& result) {
+void warn_few_common_pixels(const char* what, std::uint64_t blocks, StudyResult& result) {
   if (blocks >= algo::kFewSumBlocks) return;
   const double uncertain = 1 / std::sqrt(2 * (static_cast<double>(blocks) - 1));
   result.warnings.push_back(std::string(what) + ": the standard errors come from only " +
@@ -67,7 +67,7 @@ StudyState find_indices(const Study& study, unsigned threads, StudyResult& resul
   const std::uint64_t trials = study.plan->indices->trials;
   const std::uint64_t each = block_trials(study, trials);
   const std::uint64_t blocks = blocks_of(trials, each);
-  warn_of_few("indices", blocks, result);
+  warn_few_common_pixels("indices", blocks, result);
   const auto sums = sum_blocks<SobolSums>(
       "indices", threads, blocks, [&] { return SobolSums(experiment, each); },
       [&](SobolSums& part, std::uint64_t block) { part.add_block(experiment, block); });
@@ -106,7 +106,7 @@ Result<StudyState> compare(const Study& study, unsigned threads, StudyResult& re
   const std::uint64_t each = block_trials(study, trials);
   const algo::Experiment& ours = *study.scalable;
   const std::uint64_t blocks = blocks_of(trials, each);
-  warn_of_few("comparison", blocks, result);
+  warn_few_common_pixels("comparison", blocks, result);
   const auto sums = sum_blocks<ComparisonSums>(
       "comparison", threads, blocks, [&] { return ComparisonSums(ours, *other, each); },
       [&](ComparisonSums& part, std::uint64_t block) { part.add_block(ours, *other, block); });

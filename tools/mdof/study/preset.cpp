@@ -44,7 +44,7 @@ std::span<const PresetNumber> preset_numbers() {
 Result<Options> preset_defaults(const std::string& name) {
   if (name == "simulation-1") return algo::simulation_1_defaults();
   if (name == "simulation-2") return algo::simulation_2_defaults();
-  const std::string nearest = nearest_of(name, {"simulation-1", "simulation-2"});
+  const std::string nearest = nearest_candidate(name, {"simulation-1", "simulation-2"});
   return fail(ErrorCode::usage,
               "--preset: \"" + name + "\" is not a preset" +
                   (nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)") +

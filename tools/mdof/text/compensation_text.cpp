@@ -19,7 +19,7 @@ std::string positioning_text(const CompensationTable& t, bool is_forward) {
   TextTable out({"position/mm", error_label(positioning_name(t.axis) + "_um")});
   std::vector<double> all;
   for (std::size_t i = 0; i < t.position_m.size(); ++i)
-    all.push_back(t.u_of_positioning(is_forward, i));
+    all.push_back(t.positioning_u_at(is_forward, i));
   for (std::size_t i = 0; i < t.position_m.size(); ++i)
     out.add({in_mm(t.position_m[i]), um_with_u(values[i], all[i], column_u(all))});
   return out.text(terminal_columns());
@@ -62,7 +62,7 @@ std::string corrections_text(const CompensationTable& t, std::size_t width) {
            "; this is the same for a moving tool and a moving table\n";
   const CorrectionSigns signs = correction_signs(t.machine, t.axis, t.sides, t.stated.reference);
   if (!t.machine.known()) return wrapped("correction: unknown; " + signs.gap[0], width, 2) + "\n";
-  std::string text = "machine " + t.machine.text + " (" + travels_of(t.machine) + ")\n";
+  std::string text = "machine " + t.machine.text + " (" + chain_travels_text(t.machine) + ")\n";
   for (std::size_t k = 0; k < 5; ++k) {
     const ErrorName& name = error_names(t.axis)[k];
     text += signs.factor[k] == 0

@@ -29,8 +29,8 @@ std::string sense_text(const Run& run) {
 }  // namespace
 
 std::string imported_csv(const Run& run) {
-  const std::string key = error_of_imported(run.header).key();
-  const std::string covers = covers_text(daemon::covers_of_readings(run));
+  const std::string key = imported_run_error(run.header).key();
+  const std::string covers = covers_text(daemon::readings_coverage(run));
   const ImportedSense stated = run_options(run.header).imported;
   const std::string travel = !stated.against_command ? "" : *stated.against_command ? "-" : "+";
   CsvText csv;
@@ -41,7 +41,7 @@ std::string imported_csv(const Run& run) {
     csv.cell(std::to_string(p.target)).cell(std::to_string(p.run));
     csv.cell(p.point.direction == 0 ? std::string() : std::to_string(p.point.direction));
     csv.cell(to_mm(p.point.position_m)).cell(to_key_unit(deviation(p)));
-    csv.cell(to_key_unit(u_of_deviation(p)));
+    csv.cell(to_key_unit(deviation_uncertainty(p)));
     if (is_positioning(run)) csv.cell(to_string(stated.sense)).cell(travel);
     csv.cell(covers).end_row();
   }
@@ -50,14 +50,14 @@ std::string imported_csv(const Run& run) {
 
 std::string imported_text(const Run& run, const StatedFigures& figures,
                           const std::string& result_sha256, std::size_t width, bool all_warnings) {
-  const ImportedError error = error_of_imported(run.header);
+  const ImportedError error = imported_run_error(run.header);
   TextTable table({"target", "run", "dir", "at/mm", error_label(error.key())});
   for (const MeasuredPoint& p : run.points)
     table.add({std::to_string(p.target), std::to_string(p.run), arrow(p.point.direction),
                in_mm(p.point.position_m),
                error.angle ? in_urad(p.point.probe_m.at(0)) : in_um(p.point.probe_m.at(0))});
   const double u =
-      run.points.empty() ? std::nan("") : to_key_unit(u_of_deviation(run.points.front()));
+      run.points.empty() ? std::nan("") : to_key_unit(deviation_uncertainty(run.points.front()));
   return "IMPORTED: measured by another instrument; contains " + run.header.provenance.model +
          " only.\n" + head_text(run.header, result_sha256, width, all_warnings) + "\n" +
          table.text(width) +

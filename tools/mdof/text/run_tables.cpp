@@ -236,7 +236,7 @@ std::string straightness_text(const std::vector<StraightnessFigure>& figures,
                    "form/µrad", "end slope/µrad", "peak at/mm", "valley at/mm"},
                   2);
   for (const auto& f : figures) {
-    const Budget* budget = budget_of_slope(budgets, f);
+    const Budget* budget = slope_budget(budgets, f);
     table.add({f.error_key.substr(0, 3), f.approach, in_um(f.straightness_least_squares_m),
                in_um(f.straightness_end_point_m),
                value_with_u(f.slope_least_squares_rad, budget ? budget->u : kNaN, true),

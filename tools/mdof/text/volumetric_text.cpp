@@ -82,8 +82,8 @@ std::string volumetric_text(const VolumetricTable& t, std::int64_t generation) {
                      state_text(generation) + of + ", " + t.created_utc,
                  terminal_columns()) +
          "\n" +
-         wrapped("machine " + t.machine.text + " (" + travels_of(t.machine) + "), approach " +
-                     t.approach,
+         wrapped("machine " + t.machine.text + " (" + chain_travels_text(t.machine) +
+                     "), approach " + t.approach,
                  terminal_columns()) +
          "\n" + wrapped(std::to_string(t.nodes()) + " nodes: " + grid_text(t), terminal_columns()) +
          "\ncorrections, which are added to the commands\n" + out.text(terminal_columns()) +

@@ -36,7 +36,7 @@ struct PositioningPicture {
 std::string positioning_svg(const PositioningPicture& picture, output::Language language);
 
 // The readings of an imported run, with the means of ISO 230-2 if the readings give them.
-RunCharts charts_of_imported(const Run& run, output::Language language);
+RunCharts imported_run_charts(const Run& run, output::Language language);
 
 // Deviations in m over positions in m, with each reference line and the residuals about the
 // least-squares line.

@@ -26,9 +26,9 @@ std::string sense_of(const RunHeader& run) {
 
 }  // namespace
 
-RunCharts charts_of_imported(const Run& run, Language language) {
+RunCharts imported_run_charts(const Run& run, Language language) {
   RunCharts all;
-  const ImportedError error = error_of_imported(run.header);
+  const ImportedError error = imported_run_error(run.header);
   PositioningSeries series{error.key(), {}, {}};
   for (const MeasuredPoint& p : run.points)
     series.readings.push_back({p.target_m, p.point.direction, p.run, deviation(p)});
@@ -40,9 +40,9 @@ RunCharts charts_of_imported(const Run& run, Language language) {
     all.left_out.push_back(
         name + ": the means of ISO 230-2 cannot be calculated: " + figures.error().message);
   PositioningPicture picture;
-  picture.title = title_of_run(run.header, phrase(Phrase::positioning_of_run, language), language);
+  picture.title = run_title(run.header, phrase(Phrase::positioning_of_run, language), language);
   picture.about = about_run(run.header, language) + sense_of(run.header);
-  picture.warnings = daemon::marks_of(run, language);
+  picture.warnings = daemon::warning_marks(run, language);
   picture.series = {std::move(series)};
   all.charts.push_back({name + "-" + error.name + ".svg", positioning_svg(picture, language)});
   return all;

@@ -28,7 +28,7 @@ Legend legend_of_all(const MarkedChart& chart) {
   std::vector<Mark> all;
   for (const MarkedPanel& panel : chart.panels)
     all.insert(all.end(), panel.marks.begin(), panel.marks.end());
-  return legend_of(all);
+  return marks_legend(all);
 }
 
 void draw_named_line(Svg& svg, const Panel& panel, const NamedLine& line) {

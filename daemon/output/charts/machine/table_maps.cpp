@@ -39,7 +39,7 @@ algo::PlaneMap plane_through_middle(const VolumetricTable& table, std::size_t fi
 
 }  // namespace
 
-RunCharts charts_of_volume(const VolumetricTable& table, output::Language language) {
+RunCharts volumetric_table_charts(const VolumetricTable& table, output::Language language) {
   RunCharts all;
   const std::string name = "table-" + std::to_string(table.id);
   for (const auto& [first, second] : {std::pair{0, 1}, {0, 2}, {1, 2}}) {

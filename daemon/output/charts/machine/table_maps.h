@@ -9,6 +9,6 @@ namespace mdof::charts {
 // "table-3-XY.svg" and so on: a chart for each plane of two axes with several commands, through the
 // middle node of the third axis. A plane with more than kMostArrows nodes is left out, with the
 // reason.
-RunCharts charts_of_volume(const VolumetricTable& table, output::Language language);
+RunCharts volumetric_table_charts(const VolumetricTable& table, output::Language language);
 
 }  // namespace mdof::charts

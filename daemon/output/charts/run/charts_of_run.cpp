@@ -18,7 +18,7 @@ namespace {
 void add_budgets(const StatedResults& results, RunCharts& all, Language language) {
   const std::string number = std::to_string(results.run.header.id);
   const std::string run = "run " + number;
-  const std::vector<std::string> marks = daemon::marks_of(results.run, language);
+  const std::vector<std::string> marks = daemon::warning_marks(results.run, language);
   const std::string title =
       phrase(Phrase::run_axis, language, {number, std::string(1, letter(results.run.header.axis))});
   for (const Budget& budget : results.figures.budgets)
@@ -44,7 +44,7 @@ RunCharts charts_of_run(const StatedResults& results, Language language) {
     all.charts.push_back({"run-" + number + "-" + name + ".svg", std::move(svg)});
   };
   if (is_imported(results.run.header)) {
-    all = charts_of_imported(results.run, language);
+    all = imported_run_charts(results.run, language);
     add_budgets(results, all, language);
     return all;
   }

@@ -90,25 +90,26 @@ std::string five_errors_svg(const StatedResults& results, Language language) {
   Range x;
   std::vector<std::vector<Mark>> marks;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
-    marks.push_back(marks_of_error(results, k));
+    marks.push_back(error_marks(results, k));
     y.push_back(with_room(range_of_marks(marks.back())));
   }
   for (const Mark& mark : marks.front()) x.include(mark.x);
   const auto means = means_of(results.run);
   const auto notes = notes_of(results, marks.front(), language);
-  const std::vector<std::string> marks_of_head =
-      head_marks(results.uncertainty.noise_only, daemon::marks_of(results.run, language), language);
+  const std::vector<std::string> marks_of_head = head_marks(
+      results.uncertainty.noise_only, daemon::warning_marks(results.run, language), language);
   const double top = run_head_height(marks_of_head);
   const Sheet sheet(top + kLegendPx, y, kOutputPx);
-  const std::string title = title_of_run(header, phrase(Phrase::five_errors, language), language);
+  const std::string title = run_title(header, phrase(Phrase::five_errors, language), language);
   std::string words = about_run(header, language) + ".";
-  for (const std::string& mark : daemon::marks_of(results.run, language)) words += " " + mark + ".";
+  for (const std::string& mark : daemon::warning_marks(results.run, language))
+    words += " " + mark + ".";
   const double notes_top = sheet.bottom();
   Svg svg(kWidthPx, notes_top + notes_height(notes) + 12, title, words, Theme::light);
   draw_run_head(svg, title, about_run(header, language), marks_of_head, language);
   const std::array<LegendItem, 1> lines = {
       {{LegendSign::line, "blue thin", phrase(Phrase::mean_of_visits, language)}}};
-  draw_marks_legend(svg, top, legend_of(marks.front()), lines, language);
+  draw_marks_legend(svg, top, marks_legend(marks.front()), lines, language);
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     const ErrorName& name = error_names(header.axis)[k];
     const Panel panel = sheet.panel(k, with_room(x), false);

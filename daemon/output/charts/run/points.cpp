@@ -8,7 +8,7 @@ namespace mdof::charts {
 using output::Phrase;
 using output::phrase;
 
-std::vector<Mark> marks_of_error(const StatedResults& results, std::size_t named) {
+std::vector<Mark> error_marks(const StatedResults& results, std::size_t named) {
   const Run& run = results.run;
   std::vector<Mark> marks;
   marks.reserve(run.points.size());
@@ -30,7 +30,7 @@ std::vector<Mark> marks_of_error(const StatedResults& results, std::size_t named
   return marks;
 }
 
-Legend legend_of(std::span<const Mark> marks) {
+Legend marks_legend(std::span<const Mark> marks) {
   Legend legend;
   for (const Mark& mark : marks) {
     const bool known = std::isfinite(mark.y);
@@ -44,7 +44,7 @@ Legend legend_of(std::span<const Mark> marks) {
   return legend;
 }
 
-std::string title_of_run(const RunHeader& header, const std::string& what, Language language) {
+std::string run_title(const RunHeader& header, const std::string& what, Language language) {
   return phrase(Phrase::run_axis, language,
                 {std::to_string(header.id), std::string(1, letter(header.axis))}) +
          ": " + what;

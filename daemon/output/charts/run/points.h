@@ -12,11 +12,11 @@
 namespace mdof::charts {
 
 // Marks of one error, by its index in error_names(), in µm or µrad over mm.
-std::vector<Mark> marks_of_error(const StatedResults& results, std::size_t named);
-Legend legend_of(std::span<const Mark> marks);
+std::vector<Mark> error_marks(const StatedResults& results, std::size_t named);
+Legend marks_legend(std::span<const Mark> marks);
 
 // "run 3, axis X: five geometric errors against position"
-std::string title_of_run(const RunHeader& header, const std::string& what, Language language);
+std::string run_title(const RunHeader& header, const std::string& what, Language language);
 // "model rigid, complete, recording 0f3a…", without a time, so that a replay gives the same bytes.
 std::string about_run(const RunHeader& header, Language language);
 

@@ -67,14 +67,14 @@ std::string raw_stop_svg(const StatedResults& results, std::size_t row,
     for (const Mark& mark : marks.back()) x.include(mark.x);
   }
   const std::string side = p.point.direction > 0 ? "+" : p.point.direction < 0 ? "−" : "?";
-  const std::string title = title_of_run(
+  const std::string title = run_title(
       results.run.header,
       phrase(Phrase::raw_stop, language,
              {std::to_string(row), std::to_string(p.target), std::to_string(p.run), side}),
       language);
   const std::string about = about_run(results.run.header, language);
   const std::vector<std::string> notes = {phrase(Phrase::raw_note, language)};
-  const auto head = head_marks(false, daemon::marks_of(results.run, language), language);
+  const auto head = head_marks(false, daemon::warning_marks(results.run, language), language);
   const double top = run_head_height(head);
   const Sheet sheet(top + kRawLegendPx, y, kOutputPx);
   Svg svg(kWidthPx, sheet.bottom() + notes_height(notes) + 12, title, about, Theme::light);

@@ -46,7 +46,7 @@ Scatter scatter_of(const StatedResults& results) {
   Scatter scatter;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     std::map<Visited, Visits> targets;
-    const std::vector<Mark> all = marks_of_error(results, k);
+    const std::vector<Mark> all = error_marks(results, k);
     for (const Mark& mark : all)
       if (is_visit(mark)) {
         Visits& visits = targets[{mark.target, mark.direction}];
@@ -96,15 +96,17 @@ std::string scatter_svg(const StatedResults& results, const Scatter& scatter,
     for (const Mark& mark : marks) x.include(mark.x);
   }
   const std::vector<std::string> notes = {phrase(chart.note, language)};
-  const auto marks_of_head = head_marks(false, daemon::marks_of(results.run, language), language);
+  const auto marks_of_head =
+      head_marks(false, daemon::warning_marks(results.run, language), language);
   const double top = run_head_height(marks_of_head);
   const Sheet sheet(top + kScatterLegendPx, y, kOutputPx);
-  const std::string title = title_of_run(header, phrase(chart.title, language), language);
+  const std::string title = run_title(header, phrase(chart.title, language), language);
   std::string words = about_run(header, language) + ".";
-  for (const std::string& mark : daemon::marks_of(results.run, language)) words += " " + mark + ".";
+  for (const std::string& mark : daemon::warning_marks(results.run, language))
+    words += " " + mark + ".";
   Svg svg(kWidthPx, sheet.bottom() + notes_height(notes) + 12, title, words, Theme::light);
   draw_run_head(svg, title, about_run(header, language), marks_of_head, language);
-  draw_marks_legend(svg, top, legend_of(scatter.marks.front()), {}, language);
+  draw_marks_legend(svg, top, marks_legend(scatter.marks.front()), {}, language);
   for (std::size_t k = 0; k < kErrorCount; ++k) {
     const ErrorName& name = error_names(header.axis)[k];
     const Panel panel = sheet.panel(k, with_room(x), false);

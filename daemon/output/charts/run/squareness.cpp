@@ -130,8 +130,8 @@ std::string squareness_svg(const SquarenessResults& results, Language language) 
       path_of(results.run_a, straightness_along(s.axes.a, s.axes.b), s.slope_a_rad, 0);
   const AxisPath y = path_of(results.run_b, straightness_along(s.axes.b, s.axes.a), s.slope_b_rad,
                              -s.artefact.corner * s.artefact.angle_error_rad);
-  std::vector<std::string> of_runs = daemon::marks_of(results.run_a, language);
-  for (std::string& mark : daemon::marks_of(results.run_b, language))
+  std::vector<std::string> of_runs = daemon::warning_marks(results.run_a, language);
+  for (std::string& mark : daemon::warning_marks(results.run_b, language))
     of_runs.push_back(std::move(mark));
   const std::vector<std::string> marks = head_marks(b.noise_only, of_runs, language);
   const std::string title = phrase(Phrase::squareness_of_runs, language,

@@ -76,7 +76,7 @@ std::vector<TableSeries> series_of_table(const CompensationTable& table, Languag
   for (const bool forward : {true, false}) {
     std::vector<double> u;
     for (std::size_t i = 0; i < table.position_m.size(); ++i)
-      u.push_back(table.u_of_positioning(forward, i));
+      u.push_back(table.positioning_u_at(forward, i));
     add_marks(series.marks, table, forward ? 1 : -1, forward ? p.forward : p.reverse, u);
   }
   series.correction = correction_line(-1, std::string(1, letter(table.axis)), "", language);
@@ -90,10 +90,10 @@ bool has_table(const CompensationTable& table) {
   return !series_of_table(table, Language::english).empty();
 }
 
-std::string table_svg(const CompensationTable& table, const std::vector<std::string>& marks_of,
+std::string table_svg(const CompensationTable& table, const std::vector<std::string>& warning_marks,
                       Language language) {
   const std::vector<TableSeries> all = series_of_table(table, language);
-  const std::vector<std::string> marks = head_marks(table.noise_only(), marks_of, language);
+  const std::vector<std::string> marks = head_marks(table.noise_only(), warning_marks, language);
   std::vector<Range> y;
   Range x;
   for (const TableSeries& series : all) {
@@ -117,7 +117,7 @@ std::string table_svg(const CompensationTable& table, const std::vector<std::str
   const Sheet sheet(top + kTableLegendPx, y, kOutputPx);
   Svg svg(kWidthPx, sheet.bottom() + notes_height(notes) + 12, title, about, Theme::light);
   draw_run_head(svg, title, about, marks, language);
-  Legend legend = legend_of(all.front().marks);
+  Legend legend = marks_legend(all.front().marks);
   legend.band_is_u = true;
   draw_marks_legend(svg, top, legend, {}, language);
   for (std::size_t i = 0; i < all.size(); ++i) {

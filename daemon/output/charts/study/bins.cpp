@@ -77,7 +77,7 @@ std::vector<BinnedOutput> binned_outputs(const StudyResult& result) {
   return all;
 }
 
-std::array<LegendItem, 4> legend_of(const StudyResult& result) {
+std::array<LegendItem, 4> marks_legend(const StudyResult& result) {
   const double coverage = result.bins.front().outputs.front().coverage;
   return {
       {{LegendSign::line, "ink", "mean"},
@@ -128,7 +128,7 @@ std::string bins_svg(const StudyResult& result) {
   const std::string title = titled(result, "errors against " + split_key(result.binned_key).name);
   Svg svg(kWidthPx, sheet.bottom() + (cut ? 24 : 4), title, in_words(result, outputs));
   draw_head(svg, title, study_line(result));
-  draw_legend(svg, kHeadPx, legend_of(result));
+  draw_legend(svg, kHeadPx, marks_legend(result));
   for (std::size_t i = 0; i < outputs.size(); ++i)
     draw_output(svg, sheet.panel(i, x, false), outputs[i], result.binned_key);
   if (cut)

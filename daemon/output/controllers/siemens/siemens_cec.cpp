@@ -330,7 +330,7 @@ Result<Export> write_cec_volume(const VolumetricTable& t, const ExportOptions& o
   Export out;
   note_options(options, out);
   std::array<double, 3> step_m{};
-  for (const std::size_t axis : axes_of_grid(t)) {
+  for (const std::size_t axis : grid_axes(t)) {
     MDOF_TRY(step_m[axis], equal_step(t, axis, "CEC"));
     if (t.command_m[axis].size() > most_points(options))
       return bad_input(

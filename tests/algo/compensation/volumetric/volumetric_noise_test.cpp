@@ -94,7 +94,7 @@ TEST(VolumetricNoise, NodesShareTheNoiseOfCommonTargets) {
   }
   VolumetricTable table;
   table.command_m = {std::vector<double>{0.004, 0.007, 0.013}, {0}, {0}};
-  set_noise_of_axes(table, *machine, {}, MachineApproach::forward);
+  set_axis_noise(table, *machine, {}, MachineApproach::forward);
   ASSERT_EQ(table.noise[0].size(), 3u);
   EXPECT_TRUE(table.noise[1].empty() && table.noise[2].empty());
 
@@ -116,7 +116,7 @@ TEST(VolumetricNoise, NodesShareTheNoiseOfCommonTargets) {
   // Without a known covariance both errors are independent, each with its own targets.
   known = {};
   frame.error[5].position[2] = 0.021;
-  set_noise_of_axes(table, *machine, {}, MachineApproach::forward);
+  set_axis_noise(table, *machine, {}, MachineApproach::forward);
   EXPECT_NEAR(table.noise[0][1].with_next[1][0] /
                   (0.49 * (on_y(0.007, 1) * on_y(0.013, 1) * 9e-14 +
                            on_y(0.007, 5) * on_y(0.013, 5) * 25e-12 * (8.0 / 11 / 0.7))),

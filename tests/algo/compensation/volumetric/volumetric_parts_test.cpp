@@ -16,9 +16,9 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kTravelOfParts_m = 0.1;
-constexpr int kTrialsOfParts = 8000;
-constexpr double kSameSpread = 0.05;  // six standard deviations of this estimate
+constexpr double kPartsTravel_m = 0.1;
+constexpr int kPartsTrials = 8000;
+constexpr double kSpreadTolerance = 0.05;  // six standard deviations of this estimate
 
 using NoiseMixing = std::array<std::array<double, kBodyErrors>, kBodyErrors>;
 
@@ -37,7 +37,7 @@ struct Simulated {
 
 ErrorCovariance same_everywhere(const Axis6& axis) {
   ErrorCovariance all;
-  all.position = {0, kTravelOfParts_m};
+  all.position = {0, kPartsTravel_m};
   all.has.fill(true);
   Covariance6 noise{}, declared{};
   for (std::size_t k = 0; k < kBodyErrors; ++k) {
@@ -54,14 +54,14 @@ ErrorCovariance same_everywhere(const Axis6& axis) {
 Simulated simulated_axes(unsigned seed, const std::string& rotary = "") {
   test::RandomMachines random(seed);
   Simulated s;
-  s.machine = random.machine("XYZ" + rotary, 1e-6, 1e-5, kTravelOfParts_m);
+  s.machine = random.machine("XYZ" + rotary, 1e-6, 1e-5, kPartsTravel_m);
   for (MachineFrame& frame : s.machine.frames) {
     if (frame.kind != FrameKind::linear) {
       s.others[3 + frame.direction] = 1.9;
       continue;
     }
     Axis6& axis = s.axes[frame.direction];
-    frame.range = {0, kTravelOfParts_m};
+    frame.range = {0, kPartsTravel_m};
     for (std::size_t k = 0; k < kBodyErrors; ++k) {
       const double size = k < 3 ? 1e-7 : 1e-6;
       double noise = 0;
@@ -77,8 +77,8 @@ Simulated simulated_axes(unsigned seed, const std::string& rotary = "") {
   return s;
 }
 
-Machine measured_anew(const Simulated& s, std::mt19937_64& source, bool with_common,
-                      bool with_noise) {
+Machine simulated_measurement(const Simulated& s, std::mt19937_64& source, bool with_common,
+                              bool with_noise) {
   std::normal_distribution<double> normal;
   Machine machine = s.machine;
   for (MachineFrame& frame : machine.frames) {
@@ -100,7 +100,7 @@ Machine measured_anew(const Simulated& s, std::mt19937_64& source, bool with_com
   return machine;
 }
 
-struct SpreadOfNodes {
+struct NodeSpread {
   Vec3 first{}, last{}, product{};  // sums over the trials, about the truth
 };
 
@@ -119,26 +119,25 @@ std::array<test::Real, 3> as_commands(const Machine& machine, const Command& at,
   return {step[0][3], step[1][3], step[2][3]};
 }
 
-SpreadOfNodes spread_of_nodes(const Simulated& s, unsigned seed, bool with_common,
-                              bool with_noise) {
+NodeSpread node_spread(const Simulated& s, unsigned seed, bool with_common, bool with_noise) {
   std::mt19937_64 source(seed);
   const Command first = s.others;
   Command last = s.others;
-  std::fill_n(last.begin(), 3, kTravelOfParts_m);
+  std::fill_n(last.begin(), 3, kPartsTravel_m);
   const auto error_at = [&](const Machine& machine, const Command& at) {
     return as_commands(s.machine, at, test::true_error(machine, at).place);
   };
   const auto at_first = error_at(s.machine, first), at_last = error_at(s.machine, last);
-  SpreadOfNodes sums;
-  for (int trial = 0; trial < kTrialsOfParts; ++trial) {
-    const Machine machine = measured_anew(s, source, with_common, with_noise);
+  NodeSpread sums;
+  for (int trial = 0; trial < kPartsTrials; ++trial) {
+    const Machine machine = simulated_measurement(s, source, with_common, with_noise);
     const auto one = error_at(machine, first), other = error_at(machine, last);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto a = static_cast<double>(one[k] - at_first[k]);
       const auto b = static_cast<double>(other[k] - at_last[k]);
-      sums.first[k] += a * a / kTrialsOfParts;
-      sums.last[k] += b * b / kTrialsOfParts;
-      sums.product[k] += a * b / kTrialsOfParts;
+      sums.first[k] += a * a / kPartsTrials;
+      sums.last[k] += b * b / kPartsTrials;
+      sums.product[k] += a * b / kPartsTrials;
     }
   }
   return sums;
@@ -151,17 +150,18 @@ TEST(VolumetricParts, MatchTheSpreadOfTheirCauses) {
     const Simulated s = simulated_axes(seed, seed <= 2 ? "" : seed == 3 ? "C" : "B");
     VolumetricRequest request;
     request.others = s.others;
-    request.step_m = kTravelOfParts_m;
+    request.step_m = kPartsTravel_m;
     request.incomplete = true;
     const auto table = build_volumetric(s.machine, request);
     ASSERT_TRUE(table) << table.error().message;
     ASSERT_EQ(table->nodes(), 8U);
-    const SpreadOfNodes all = spread_of_nodes(s, seed, true, true),
-                        noise = spread_of_nodes(s, seed, false, true),
-                        common = spread_of_nodes(s, seed, true, false);
+    const NodeSpread all = node_spread(s, seed, true, true),
+                     noise = node_spread(s, seed, false, true),
+                     common = node_spread(s, seed, true, false);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto near = [&](double variance, double u_m) {
-        EXPECT_NEAR(std::sqrt(variance) / u_m, 1, kSameSpread) << "seed " << seed << " of " << k;
+        EXPECT_NEAR(std::sqrt(variance) / u_m, 1, kSpreadTolerance)
+            << "seed " << seed << " of " << k;
       };
       near(all.first[k], table->u_m[0][k]);
       near(all.last[k], table->u_m[7][k]);
@@ -179,7 +179,7 @@ TEST(VolumetricParts, MatchTheSpreadOfTheirCauses) {
 }
 
 // Control with a wrong rule: the noise of an axis at two neighbouring nodes is one quantity.
-double u_if_noise_were_common(const VolumetricTable& table, const Vec3& part, std::size_t k) {
+double u_with_common_noise(const VolumetricTable& table, const Vec3& part, std::size_t k) {
   double common = 0, noise = 0;
   for (std::size_t node = 0; node < 8; ++node) {
     double weight = 1;
@@ -193,15 +193,15 @@ double u_if_noise_were_common(const VolumetricTable& table, const Vec3& part, st
 
 // Two nodes; then places that are drawn anew in each simulation: inside the cell, on a face, on an
 // edge; and the centre of the cell, where linear interpolation deviates most.
-constexpr double kMiddle_m = kTravelOfParts_m / 2;
+constexpr double kMiddle_m = kPartsTravel_m / 2;
 using Places = std::array<Vec3, 6>;
-Places drawn_places(std::mt19937_64& source) {
-  std::uniform_real_distribution<double> along(0, kTravelOfParts_m);
+Places random_places(std::mt19937_64& source) {
+  std::uniform_real_distribution<double> along(0, kPartsTravel_m);
   return {{{0, 0, 0},
-           {kTravelOfParts_m, kTravelOfParts_m, kTravelOfParts_m},
+           {kPartsTravel_m, kPartsTravel_m, kPartsTravel_m},
            {along(source), along(source), along(source)},
            {along(source), along(source), 0},
-           {kTravelOfParts_m, along(source), 0},
+           {kPartsTravel_m, along(source), 0},
            {kMiddle_m, kMiddle_m, kMiddle_m}}};
 }
 using Held = std::array<std::array<int, 3>, 6>;
@@ -214,25 +214,25 @@ Vec3 true_correction(const Machine& machine, const Vec3& place) {
   return correction;
 }
 
-void measure_often(const Simulated& s, int simulations, std::mt19937_64& source, Held& held,
-                   Held& held_by_the_wrong_rule) {
+void count_coverage(const Simulated& s, int simulations, std::mt19937_64& source, Held& held,
+                    Held& held_by_wrong_rule) {
   constexpr double k95 = 1.959964;
   VolumetricRequest request;
-  request.step_m = kTravelOfParts_m;
+  request.step_m = kPartsTravel_m;
   request.incomplete = true;
   for (int n = 0; n < simulations; ++n) {
-    const auto table = build_volumetric(measured_anew(s, source, true, true), request);
+    const auto table = build_volumetric(simulated_measurement(s, source, true, true), request);
     ASSERT_TRUE(table) << table.error().message;
-    const Places places = drawn_places(source);
+    const Places places = random_places(source);
     for (std::size_t i = 0; i < places.size(); ++i) {
       const VolumetricValue value = volumetric_at(*table, places[i]);
       const Vec3 truth = true_correction(s.machine, places[i]);
       Vec3 part = places[i];
-      for (double& x : part) x /= kTravelOfParts_m;
+      for (double& x : part) x /= kPartsTravel_m;
       for (std::size_t k = 0; k < 3; ++k) {
         const double off = std::abs(value.correction_m[k] - truth[k]);
         held[i][k] += off <= k95 * value.u_m[k] ? 1 : 0;
-        held_by_the_wrong_rule[i][k] += off <= k95 * u_if_noise_were_common(*table, part, k);
+        held_by_wrong_rule[i][k] += off <= k95 * u_with_common_noise(*table, part, k);
       }
     }
   }
@@ -241,10 +241,10 @@ void measure_often(const Simulated& s, int simulations, std::mt19937_64& source,
 // Required: 94 to 96.5 % at nodes and between them.
 TEST(VolumetricParts, ValuesHoldTheTruth) {
   const int machines = 10, simulations = test::coverage_runs(300);
-  Held held{}, by_the_wrong_rule{};
+  Held held{}, wrong_rule_counts{};
   std::mt19937_64 source(test::coverage_seed(8));
   for (unsigned seed = 1; seed <= machines; ++seed)
-    measure_often(simulated_axes(seed), simulations, source, held, by_the_wrong_rule);
+    count_coverage(simulated_axes(seed), simulations, source, held, wrong_rule_counts);
   int too_often = 0;
   for (std::size_t i = 0; i < held.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -252,7 +252,7 @@ TEST(VolumetricParts, ValuesHoldTheTruth) {
       RecordProperty("held_" + std::to_string(i) + std::to_string(k), std::to_string(share));
       EXPECT_GE(share, 0.94) << i << " of " << k;
       EXPECT_LE(share, 0.965) << i << " of " << k;
-      too_often += by_the_wrong_rule[i][k] > 0.965 * machines * simulations ? 1 : 0;
+      too_often += wrong_rule_counts[i][k] > 0.965 * machines * simulations ? 1 : 0;
     }
   EXPECT_GE(too_often, 9);  // of twelve values between nodes
 }
@@ -262,10 +262,10 @@ TEST(VolumetricParts, ValuesHoldTheTruth) {
 TEST(VolumetricParts, GridFinerThanTheTargetsKeepsU) {
   Simulated s = simulated_axes(3);
   VolumetricRequest request;
-  request.step_m = kTravelOfParts_m;
+  request.step_m = kPartsTravel_m;
   request.incomplete = true;
   const auto coarse = build_volumetric(s.machine, request);
-  request.step_m = kTravelOfParts_m / 4;
+  request.step_m = kPartsTravel_m / 4;
   const auto fine = build_volumetric(s.machine, request);
   ASSERT_TRUE(coarse && fine);
   // At the first target u is unchanged. Beside it the noise of the nodes is mostly that of one
@@ -285,7 +285,7 @@ TEST(VolumetricParts, GridFinerThanTheTargetsKeepsU) {
 TEST(VolumetricParts, AtANodeAreTheValuesOfTheNode) {
   Simulated s = simulated_axes(3);
   for (MachineFrame& frame : s.machine.frames) {
-    frame.range = {0, kTravelOfParts_m / static_cast<double>(1 + frame.direction)};
+    frame.range = {0, kPartsTravel_m / static_cast<double>(1 + frame.direction)};
     for (std::size_t k = 0; k < kBodyErrors; ++k) {
       const double noise = frame.error[k].u_independent[0];
       frame.error[k].u_independent = {noise, 3 * noise};
@@ -293,7 +293,7 @@ TEST(VolumetricParts, AtANodeAreTheValuesOfTheNode) {
     }
   }
   VolumetricRequest request;
-  request.step_m = kTravelOfParts_m / 6;
+  request.step_m = kPartsTravel_m / 6;
   request.incomplete = true;
   const auto table = build_volumetric(s.machine, request);
   ASSERT_TRUE(table) << table.error().message;

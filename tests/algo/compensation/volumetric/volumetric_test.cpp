@@ -24,7 +24,7 @@ std::string machine_text(const std::string& chain, const std::string& x, const s
 }
 
 // The given errors of an axis, and 0 for all others.
-std::string others_zero(const std::string& axis, const std::string& given) {
+std::string zero_other_errors(const std::string& axis, const std::string& given) {
   std::string text = given;
   for (const char direction : std::string("XYZABC")) {
     const std::string name = std::string("E") + direction + axis;
@@ -38,9 +38,10 @@ Machine machine(const std::string& chain, const std::string& x = "", const std::
                 const std::string& z = "") {
   const std::string squares = "EC0Y_urad = 0", leans = "EA0Z_urad = 0\nEB0Z_urad = 0";
   const auto parsed = parse_machine(
-      machine_text(chain, others_zero("X", x),
-                   others_zero("Y", y.find("EC0Y") == std::string::npos ? y + "\n" + squares : y),
-                   others_zero("Z", z.find("0Z") == std::string::npos ? z + "\n" + leans : z)),
+      machine_text(
+          chain, zero_other_errors("X", x),
+          zero_other_errors("Y", y.find("EC0Y") == std::string::npos ? y + "\n" + squares : y),
+          zero_other_errors("Z", z.find("0Z") == std::string::npos ? z + "\n" + leans : z)),
       "m.toml");
   EXPECT_TRUE(parsed) << parsed.error().message;
   return *parsed;

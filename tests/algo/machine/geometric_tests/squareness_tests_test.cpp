@@ -237,15 +237,15 @@ TEST(Diagonals, CombineRepeatedAndDeclaredUncertainty) {
                       {{0.5 - 2e-6, 0.5, 0.5 + 2e-6}},
                       {},
                       0};
-  const auto by_repeats = squareness_of_diagonals(lines);
-  ASSERT_TRUE(by_repeats) << by_repeats.error().message;
+  const auto repeated_only = squareness_of_diagonals(lines);
+  ASSERT_TRUE(repeated_only) << repeated_only.error().message;
   // cos = (d² - x² - y²) / 2xy at a right angle: ∂/∂d = d/xy, ∂/∂x = -1/y, ∂/∂y = -1/x.
   const double of_x = 1e-6 / 0.3, of_y = 3e-6 / 0.4, of_d = 2e-6 / std::sqrt(3) * 0.5 / 0.12;
   const double u = std::hypot(of_x, of_y, of_d);
-  EXPECT_NEAR(by_repeats->u_repeat_rad, u, 1e-11);
-  EXPECT_NEAR(by_repeats->u_rad, by_repeats->u_repeat_rad, 1e-15);
+  EXPECT_NEAR(repeated_only->u_repeat_rad, u, 1e-11);
+  EXPECT_NEAR(repeated_only->u_rad, repeated_only->u_repeat_rad, 1e-15);
   const double fourths = std::pow(of_x, 4) + std::pow(of_y, 4) + std::pow(of_d, 4) / 2;
-  EXPECT_NEAR(by_repeats->freedom, std::pow(u, 4) / fourths, 1e-4);
+  EXPECT_NEAR(repeated_only->freedom, std::pow(u, 4) / fourths, 1e-4);
   // Y was read once: s² of all lines is (2 + 8) 1e-12 / 3, for the means of two (x), one (y) and
   // three (d) readings.
   DiagonalLines once = lines;
@@ -254,12 +254,12 @@ TEST(Diagonals, CombineRepeatedAndDeclaredUncertainty) {
   const double s = std::sqrt(10e-12 / 3);
   EXPECT_NEAR(pooled->u_rad, s * std::sqrt(1 / 0.09 / 2 + 1 / 0.16 + 0.25 / 0.0144 / 3), 1e-11);
   EXPECT_NEAR(pooled->freedom, 3, 1e-9);
-  EXPECT_NEAR(by_repeats->U_rad, by_repeats->k * by_repeats->u_rad, 1e-18);
+  EXPECT_NEAR(repeated_only->U_rad, repeated_only->k * repeated_only->u_rad, 1e-18);
   lines.u_line_m = 1e-6;
   const auto both = squareness_of_diagonals(lines);
   const double declared = 1e-6 * std::sqrt(1 / 0.09 + 1 / 0.16 + 0.25 / 0.0144);
-  EXPECT_NEAR(both->u_repeat_rad, by_repeats->u_repeat_rad, 1e-15);
-  EXPECT_NEAR(both->u_rad, std::hypot(declared, by_repeats->u_rad), 1e-11);
+  EXPECT_NEAR(both->u_repeat_rad, repeated_only->u_repeat_rad, 1e-15);
+  EXPECT_NEAR(both->u_rad, std::hypot(declared, repeated_only->u_rad), 1e-11);
 }
 
 }  // namespace

@@ -34,9 +34,9 @@ std::string placed(PlaceWatch& watch, const std::vector<TimedPlace>& places) {
   const FrameBlock frames = frames_at(places);
   std::string text;
   for (std::size_t from = 0; from < frames.size();) {
-    const std::size_t to = watch.end_of_placed(frames, from);
+    const std::size_t to = watch.find_placed_end(frames, from);
     text.append(to - from, '+');
-    from = watch.end_of_unplaced(frames, to);
+    from = watch.find_unplaced_end(frames, to);
     text.append(from - to, '-');
   }
   return text;

@@ -178,8 +178,8 @@ TEST(ProbeWatchRule, ChainWithAtMostOneWorkingProbeIsDead) {
 
 // Number of reported steps of `size_m` if `seen` steps are seen and the stops have the standard
 // deviations `sd_m`.
-std::size_t steps_told(double size_m, std::size_t seen, const std::vector<double>& sd_m,
-                       double resolution_m) {
+std::size_t reported_step_count(double size_m, std::size_t seen, const std::vector<double>& sd_m,
+                                double resolution_m) {
   FrameBlock frames;
   frames.probe_m.resize(2);
   frames.probe_quality.resize(2);
@@ -204,19 +204,19 @@ std::size_t steps_told(double size_m, std::size_t seen, const std::vector<double
 TEST(ProbeWatchRule, StepIs12TimesTheNoiseAnd4TimesTheResolution) {
   const std::vector<double> median_2_nm = {9e-9, 1e-9, 2e-9};
   for (const double sign : {1.0, -1.0}) {
-    EXPECT_EQ(steps_told(sign * 23.9e-9, 1, median_2_nm, 1e-9), 0u);
-    EXPECT_EQ(steps_told(sign * 24.1e-9, 1, median_2_nm, 1e-9), 1u);
-    EXPECT_EQ(steps_told(sign * 39.9e-9, 1, median_2_nm, 10e-9), 0u);
-    EXPECT_EQ(steps_told(sign * 40.1e-9, 1, median_2_nm, 10e-9), 1u);
+    EXPECT_EQ(reported_step_count(sign * 23.9e-9, 1, median_2_nm, 1e-9), 0u);
+    EXPECT_EQ(reported_step_count(sign * 24.1e-9, 1, median_2_nm, 1e-9), 1u);
+    EXPECT_EQ(reported_step_count(sign * 39.9e-9, 1, median_2_nm, 10e-9), 0u);
+    EXPECT_EQ(reported_step_count(sign * 40.1e-9, 1, median_2_nm, 10e-9), 1u);
   }
-  EXPECT_EQ(steps_told(1e-13, 1, {}, 0), 0u);  // rounding of exact numbers only
-  EXPECT_EQ(steps_told(1e-11, 1, {}, 0), 1u);
+  EXPECT_EQ(reported_step_count(1e-13, 1, {}, 0), 0u);  // rounding of exact numbers only
+  EXPECT_EQ(reported_step_count(1e-11, 1, {}, 0), 1u);
 }
 
 TEST(ProbeWatchRule, IgnoresProbesWithManySteps) {
-  EXPECT_EQ(steps_told(1e-6, 127, {}, 0), 127u);
-  EXPECT_EQ(steps_told(1e-6, 128, {}, 0), 0u);
-  EXPECT_EQ(steps_told(1e-6, 1000, {}, 0), 0u);
+  EXPECT_EQ(reported_step_count(1e-6, 127, {}, 0), 127u);
+  EXPECT_EQ(reported_step_count(1e-6, 128, {}, 0), 0u);
+  EXPECT_EQ(reported_step_count(1e-6, 1000, {}, 0), 0u);
 }
 
 }  // namespace

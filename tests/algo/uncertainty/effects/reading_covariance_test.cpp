@@ -269,7 +269,7 @@ Eigen::MatrixXd covariance_of(const std::string& declared, double travel_m) {
   return declared_covariance(rig, solver, travel_m, carriage, std::vector<double>(5, 0.0), 0);
 }
 
-void expect_by_travel(const Eigen::MatrixXd& found, double u_m) {
+void expect_travel_covariance(const Eigen::MatrixXd& found, double u_m) {
   const double by[] = {kPitch_rad, kPitch_rad, kPitch_rad, -kYaw_rad, -kYaw_rad};
   for (Eigen::Index a = 0; a < 5; ++a)
     for (Eigen::Index b = 0; b < 5; ++b) {
@@ -279,7 +279,7 @@ void expect_by_travel(const Eigen::MatrixXd& found, double u_m) {
 }
 
 TEST(EncoderCovariance, IsCommonToAllReadings) {
-  expect_by_travel(covariance_of("[encoder]\nu_um = 20\n", 0.03), 20e-6);
+  expect_travel_covariance(covariance_of("[encoder]\nu_um = 20\n", 0.03), 20e-6);
   EXPECT_EQ(covariance_of("", 0.03).norm(), 0);
 }
 

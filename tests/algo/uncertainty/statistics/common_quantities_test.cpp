@@ -104,7 +104,7 @@ TEST(CommonQuantities, SurfaceHasTheSameHeightForRunsAlongXAndY) {
       declared_as({ContributorKind::probe_calibration, "A"}, "u_calibration_um", 1e-6),
       over_surface(places, false)};
   std::vector<Contributor> of_b = {over_surface(places, true)};
-  const PartsOfTwo parts = parts_of_two(of_a, Axis::x, of_b, Axis::y);
+  const TwoRunParts parts = parts_of_both_runs(of_a, Axis::x, of_b, Axis::y);
   ASSERT_EQ(parts.a.size(), 2u);
   ASSERT_EQ(parts.b.size(), 1u);
   ASSERT_EQ(parts.a[1].size(), parts.b[0].size());
@@ -135,12 +135,12 @@ TEST(CommonQuantities, TwoSurfacesHaveSeparateParts) {
   std::vector<Contributor> of_a = {over_surface({{0.01, 0, 0.02}}, false)};
   std::vector<Contributor> of_b = {over_surface({{0.01, 0, 0.02}}, true)};
   of_b[0].surface_as = "another top";
-  const PartsOfTwo parts = parts_of_two(of_a, Axis::x, of_b, Axis::y);
+  const TwoRunParts parts = parts_of_both_runs(of_a, Axis::x, of_b, Axis::y);
   EXPECT_EQ(of_a[0].common_as + of_b[0].common_as, "");
   EXPECT_EQ(parts.a[0][0][0][0], 7);
   of_a[0].surface_as = "";
   of_b = {declared_as({ContributorKind::probe_calibration, "A"}, "u_calibration_um", 1e-6)};
-  EXPECT_EQ(parts_of_two(of_a, Axis::x, of_b, Axis::y).b[0][0][0][0], 7);
+  EXPECT_EQ(parts_of_both_runs(of_a, Axis::x, of_b, Axis::y).b[0][0][0][0], 7);
   EXPECT_EQ(parts.b[0][0][0][0], 7);
 }
 

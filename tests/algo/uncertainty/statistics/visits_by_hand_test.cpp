@@ -234,31 +234,32 @@ const std::vector<double> kVisitsByHand = {1, 10, 0, 2, 3, 11, 0, 4, 5, 12, 3, 6
 TEST(RepeatabilityOfVisits, MatchesTheStandard) {
   const VisitGroups groups = groups_by_hand();
   const double* values = kVisitsByHand.data();
-  EXPECT_NEAR(repeatability_of(groups, values, RepeatabilityOf::forward), 8, 1e-12);
-  EXPECT_NEAR(repeatability_of(groups, values, RepeatabilityOf::reverse), 8, 1e-12);
+  EXPECT_NEAR(repeatability_R(groups, values, RepeatabilityKind::forward), 8, 1e-12);
+  EXPECT_NEAR(repeatability_R(groups, values, RepeatabilityKind::reverse), 8, 1e-12);
   // 2 * 2 + 2 * 1 + |11 - 3| at target 1.
-  EXPECT_NEAR(repeatability_of(groups, values, RepeatabilityOf::both), 14, 1e-12);
+  EXPECT_NEAR(repeatability_R(groups, values, RepeatabilityKind::both), 14, 1e-12);
   // Forward lower than reverse gives the same result.
   std::vector<double> mirrored = kVisitsByHand;
   for (double& v : mirrored) v = -v;
-  EXPECT_NEAR(repeatability_of(groups, mirrored.data(), RepeatabilityOf::both), 14, 1e-12);
+  EXPECT_NEAR(repeatability_R(groups, mirrored.data(), RepeatabilityKind::both), 14, 1e-12);
   // Without a reversal, the larger scatter counts four times.
   const VisitGroups one{{0, 0, 1, 1}, 1};
   const std::vector<double> still = {0, 0, -1, 1};
-  EXPECT_NEAR(repeatability_of(one, still.data(), RepeatabilityOf::both), 4 * std::sqrt(2), 1e-12);
+  EXPECT_NEAR(repeatability_R(one, still.data(), RepeatabilityKind::both), 4 * std::sqrt(2), 1e-12);
   const std::vector<double> moving = {-1, 1, 0, 0};
-  EXPECT_NEAR(repeatability_of(one, moving.data(), RepeatabilityOf::both), 4 * std::sqrt(2), 1e-12);
-  EXPECT_EQ(repeatability_of(one, moving.data(), RepeatabilityOf::forward), 0);
+  EXPECT_NEAR(repeatability_R(one, moving.data(), RepeatabilityKind::both), 4 * std::sqrt(2),
+              1e-12);
+  EXPECT_EQ(repeatability_R(one, moving.data(), RepeatabilityKind::forward), 0);
 }
 
 TEST(RepeatabilityOfVisits, IsUnknownForASingleVisit) {
   const VisitGroups groups{{0, 0, 1}, 1};
   const std::vector<double> values = {0, 1, 5};
-  EXPECT_TRUE(std::isnan(repeatability_of(groups, values.data(), RepeatabilityOf::forward)));
-  EXPECT_TRUE(std::isnan(repeatability_of(groups, values.data(), RepeatabilityOf::both)));
-  EXPECT_NEAR(repeatability_of(groups, values.data(), RepeatabilityOf::reverse), 4 * std::sqrt(0.5),
-              1e-12);
-  EXPECT_TRUE(std::isnan(repeatability_U(groups, values, {0, 0, 0}, RepeatabilityOf::forward)));
+  EXPECT_TRUE(std::isnan(repeatability_R(groups, values.data(), RepeatabilityKind::forward)));
+  EXPECT_TRUE(std::isnan(repeatability_R(groups, values.data(), RepeatabilityKind::both)));
+  EXPECT_NEAR(repeatability_R(groups, values.data(), RepeatabilityKind::reverse),
+              4 * std::sqrt(0.5), 1e-12);
+  EXPECT_TRUE(std::isnan(repeatability_U(groups, values, {0, 0, 0}, RepeatabilityKind::forward)));
 }
 
 // Errors of e times the readings increase R by e R, for any true R: U = e R. The 95 % point of 40
@@ -272,8 +273,8 @@ TEST(RepeatabilityOfVisits, UIsThe95PercentPoint) {
   };
   const VisitGroups groups = groups_by_hand();
   for (const auto& [of, R] :
-       {std::pair(RepeatabilityOf::forward, 8.0), std::pair(RepeatabilityOf::reverse, 8.0),
-        std::pair(RepeatabilityOf::both, 14.0)}) {
+       {std::pair(RepeatabilityKind::forward, 8.0), std::pair(RepeatabilityKind::reverse, 8.0),
+        std::pair(RepeatabilityKind::both, 14.0)}) {
     const double U = repeatability_U(groups, kVisitsByHand, errors_up_to(0.4), of);
     EXPECT_GE(U, 0.39 * R - 1e-9);
     EXPECT_LE(U, (0.39 + 1 / 256.) * R + 1e-9);
@@ -287,7 +288,7 @@ TEST(RepeatabilityOfVisits, UIsThe95PercentPoint) {
 TEST(RepeatabilityOfVisits, UIsAtLeastTheErrorOfTheReadings) {
   std::vector<double> errors;
   for (const double v : kVisitsByHand) errors.push_back(-0.75 * v);
-  EXPECT_NEAR(repeatability_U(groups_by_hand(), kVisitsByHand, errors, RepeatabilityOf::both),
+  EXPECT_NEAR(repeatability_U(groups_by_hand(), kVisitsByHand, errors, RepeatabilityKind::both),
               0.75 * 14, 1e-9);
 }
 

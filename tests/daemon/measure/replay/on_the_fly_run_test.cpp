@@ -69,7 +69,7 @@ TEST(OnTheFlyRun, ASingleSuspectScanAffectsNoPoint) {
 TEST(OnTheFlyRun, RejectsMorePointsThanARunHolds) {
   PipelineOptions options;
   options.on_the_fly.emplace();
-  options.most_stops = 30;
+  options.max_stops = 30;
   OnTheFlyRun run = OnTheFlyRun::create(five_probe_rig(), options).value();
   SampleBlock block = to_and_fro();  // about 20 points, of the finished pass
   ASSERT_TRUE(run.push(block));

@@ -11,13 +11,13 @@ namespace {
 
 const std::string kCount = R"({"jsonrpc":"2.0","method":"count","id":1})";
 const std::string kSpin = R"({"jsonrpc":"2.0","method":"spin","id":2})";
-const std::string kSpinUntold = R"({"jsonrpc":"2.0","method":"spin"})";
+const std::string kSpinNotification = R"({"jsonrpc":"2.0","method":"spin"})";
 constexpr int kMany = 60;
 
 // `count` returns how often `spin` was run, which takes 3 ms.
 class Turns : public ::testing::Test {
  protected:
-  Turns() : server_(quick_to_look()) {
+  Turns() : server_(short_drain_options()) {
     server_.table.add({.name = "spin",
                        .summary = "Takes long.",
                        .result = "1",
@@ -34,13 +34,13 @@ class Turns : public ::testing::Test {
                          return std::to_string(spins_);
                        }});
   }
-  static ServerOptions quick_to_look() {
+  static ServerOptions short_drain_options() {
     ServerOptions options;
     options.drain_timeout = 40ms;  // the clients are checked eight times in this time
     return options;
   }
   // Number of calls of `many` that were run before another client, who asks later, has its answer.
-  int run_before_another(const std::string& many) {
+  int calls_run_before_another(const std::string& many) {
     RawClient greedy(server_.path), other(server_.path);
     other.ask(kCount);
     greedy.send(many);
@@ -56,14 +56,14 @@ TEST_F(Turns, ConsecutiveRequestsLetOthersIn) {
   server_.start();
   std::string many;
   for (int i = 0; i < kMany; ++i) many += kSpin + "\n";
-  EXPECT_LT(run_before_another(many), kMany / 2);
+  EXPECT_LT(calls_run_before_another(many), kMany / 2);
 }
 
 TEST_F(Turns, ABatchLetsOthersInBetweenItsMembers) {
   server_.start();
   std::string many = "[" + kSpin;
   for (int i = 1; i < kMany; ++i) many += "," + kSpin;
-  EXPECT_LT(run_before_another(many + "]\n"), kMany / 2);
+  EXPECT_LT(calls_run_before_another(many + "]\n"), kMany / 2);
 }
 
 TEST_F(Turns, ADividedBatchHasOneReplyBeforeTheNext) {
@@ -86,7 +86,7 @@ TEST_F(Turns, DropsTheRequestsOfAClosedConnection) {
   {
     RawClient client(server_.path);
     std::string many;
-    for (int i = 0; i < 10 * kMany; ++i) many += kSpinUntold + "\n";
+    for (int i = 0; i < 10 * kMany; ++i) many += kSpinNotification + "\n";
     client.send(many);
     while (spins_ == 0) std::this_thread::yield();
   }
@@ -97,7 +97,7 @@ TEST_F(Turns, DropsTheRequestsOfAClosedConnection) {
 TEST_F(Turns, RunsRequestsSentJustBeforeTheConnectionClosed) {
   server_.start();
   for (int i = 1; i <= 20; ++i) {
-    RawClient(server_.path).send(kSpinUntold + "\n");
+    RawClient(server_.path).send(kSpinNotification + "\n");
     for (const auto end = Clock::now() + 20s; spins_ < i && Clock::now() < end;)
       std::this_thread::yield();
     ASSERT_EQ(spins_, i);

@@ -118,7 +118,7 @@ TEST_F(Sessions, ABatchHasOneReplyAtOnce) {
                               call("one", 2) + "]"),
             "[" + result("1", 1) + "," + result("1", 2) + "]");
   EXPECT_TRUE(transport.sent.empty());
-  EXPECT_TRUE(session->awaits_nothing());
+  EXPECT_TRUE(session->has_nothing_pending());
 }
 
 TEST_F(Sessions, ALongBatchIsProcessedInParts) {
@@ -130,7 +130,7 @@ TEST_F(Sessions, ALongBatchIsProcessedInParts) {
   const Time over = Session::Clock::now() - 1s;
   std::string out;
   EXPECT_FALSE(session->handle(batch, out, over));
-  EXPECT_FALSE(session->awaits_nothing());
+  EXPECT_FALSE(session->has_nothing_pending());
   EXPECT_TRUE(replies.empty());
   EXPECT_FALSE(session->handle(batch, out, over));
   ASSERT_EQ(replies.size(), 1u);
@@ -138,19 +138,19 @@ TEST_F(Sessions, ALongBatchIsProcessedInParts) {
   EXPECT_TRUE(session->handle(batch, out, over));
   EXPECT_EQ(out, "[" + result("1", 1) + "," + result("22", 2) + "," + result("1", 3) + "]");
   EXPECT_TRUE(transport.sent.empty());
-  EXPECT_TRUE(session->awaits_nothing());
+  EXPECT_TRUE(session->has_nothing_pending());
 }
 
 TEST_F(Sessions, ALateReplyIsSentInALaterTurn) {
   const auto session = admit();
   EXPECT_EQ(ask(*session, call("later", 7)), "");
-  EXPECT_FALSE(session->awaits_nothing());
+  EXPECT_FALSE(session->has_nothing_pending());
   replies.at(0)(Result<std::string>("5"));
   EXPECT_TRUE(transport.sent.empty());
   turns.take();
   EXPECT_EQ(transport.sent, std::vector{result("5", 7)});
   EXPECT_EQ(transport.wakes, 1);
-  EXPECT_TRUE(session->awaits_nothing());
+  EXPECT_TRUE(session->has_nothing_pending());
 }
 
 TEST_F(Sessions, ABatchWaitsForItsLateMembers) {
@@ -171,7 +171,7 @@ TEST_F(Sessions, ALateNotificationSendsNothingAndFreesItsRoom) {
   answer(0, "1");
   EXPECT_TRUE(transport.sent.empty());
   EXPECT_EQ(transport.wakes, 1);
-  EXPECT_TRUE(session->awaits_nothing());
+  EXPECT_TRUE(session->has_nothing_pending());
 }
 
 TEST_F(Sessions, EachOpenCallReservesTheLargestReply) {
@@ -275,7 +275,7 @@ TEST_F(Sessions, AnEndedSessionSendsNothingMore) {
   EXPECT_EQ(
       transport.sent[0],
       R"({"jsonrpc":"2.0","error":{"code":-32600,"message":"Invalid Request","data":"too long"},"id":null})");
-  EXPECT_FALSE(service().wanted_every("live"));
+  EXPECT_FALSE(service().wanted_interval("live"));
   answer(0, "1");
   EXPECT_EQ(transport.sent.size(), 1u);
   EXPECT_EQ(service().session_count(), 1u);  // until its client has read the reply

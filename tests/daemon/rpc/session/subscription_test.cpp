@@ -116,7 +116,7 @@ class Subscriptions : public ::testing::Test {
     });
   }
   bool wanted(const std::string& topic) {
-    return server_.on_loop([&] { return server_.service->wanted_every(topic).has_value(); });
+    return server_.on_loop([&] { return server_.service->wanted_interval(topic).has_value(); });
   }
   bool becomes_unwanted(const std::string& topic) {
     for (int i = 0; i < 2000 && wanted(topic); ++i) std::this_thread::sleep_for(5ms);
@@ -155,7 +155,7 @@ TEST_F(Subscriptions, ValuesAreNotSentFasterThanRequested) {
 // must be made often enough that each subscriber gets a recent one.
 TEST_F(Subscriptions, ValuesAreRequestedAtTheIntervalOfAll) {
   const auto every = [&] {
-    return server_.on_loop([&] { return server_.service->wanted_every("live.frame"); });
+    return server_.on_loop([&] { return server_.service->wanted_interval("live.frame"); });
   };
   const auto becomes = [&](std::chrono::milliseconds wanted) {
     for (int i = 0; i < 2000 && every() != wanted; ++i) std::this_thread::sleep_for(5ms);

@@ -30,10 +30,10 @@ void require(bool holds) {
 void read_as_head(std::string_view text, std::size_t first_part) {
   constexpr HttpLimits kLimits{8192, 65536};
   std::size_t whole = 0, parts = 0;
-  const auto end = end_of_head(text, whole, kLimits.head_bytes);
-  const auto before = end_of_head(text.substr(0, first_part), parts, kLimits.head_bytes);
+  const auto end = head_length(text, whole, kLimits.head_bytes);
+  const auto before = head_length(text.substr(0, first_part), parts, kLimits.head_bytes);
   if (before && *before == 0) {
-    const auto after = end_of_head(text, parts, kLimits.head_bytes);
+    const auto after = head_length(text, parts, kLimits.head_bytes);
     require(after.has_value() == end.has_value() && (!end || *after == *end));
   }
   if (!end || *end == 0) return;

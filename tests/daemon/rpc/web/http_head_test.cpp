@@ -10,7 +10,7 @@ constexpr HttpLimits kLimits{8192, 65536};
 // The head of `text` as a connection reads it, or the status that rejects it; 0: incomplete.
 int status_of_head(const std::string& text, HttpHead* head = nullptr) {
   std::size_t scanned = 0;
-  const auto end = end_of_head(text, scanned, kLimits.head_bytes);
+  const auto end = head_length(text, scanned, kLimits.head_bytes);
   if (!end) return end.error().status;
   if (*end == 0) return 0;
   auto read = read_head(std::string_view(text).substr(0, *end), kLimits);
@@ -118,8 +118,8 @@ TEST(HttpHead, EndsAtTheSamePlace) {
   const std::string text = with_fields("Content-Length: 2\r\n") + "{}";
   std::size_t scanned = 0;
   for (std::size_t n = 1; n < text.size() - 2; ++n)
-    EXPECT_EQ(*end_of_head(text.substr(0, n), scanned, 8192), 0U) << n;
-  EXPECT_EQ(*end_of_head(text, scanned, 8192), text.size() - 2);
+    EXPECT_EQ(*head_length(text.substr(0, n), scanned, 8192), 0U) << n;
+  EXPECT_EQ(*head_length(text, scanned, 8192), text.size() - 2);
 }
 
 }  // namespace

@@ -195,7 +195,7 @@ TEST(Acquisition, ReopensAFailedDeviceAndReportsLostSamples) {
 }
 
 // Whether healthy() is true during a whole read that takes 0.7 s.
-bool healthy_all_through(Script::Act act) {
+bool is_healthy_throughout(Script::Act act) {
   Collector collector;
   Acquisition acquisition(spec_of({open, block, act, block}), collector.sink());
   acquisition.start();
@@ -208,8 +208,8 @@ bool healthy_all_through(Script::Act act) {
 }
 
 TEST(Acquisition, AnAnnouncedLongStepIsNotAHangUp) {
-  EXPECT_TRUE(healthy_all_through(slow_read));
-  EXPECT_FALSE(healthy_all_through(hang));
+  EXPECT_TRUE(is_healthy_throughout(slow_read));
+  EXPECT_FALSE(is_healthy_throughout(hang));
 }
 
 TEST(Acquisition, ReportsALossAndARecoveryOnceEach) {

@@ -209,7 +209,7 @@ TEST_F(SharedDeviceTest, ContinuesForTheOtherAxisAndClosesWithTheLast) {
   ASSERT_TRUE(comes_true([&] { return y_.blocks().size() > had + 5; }));
   EXPECT_EQ(x_.blocks().size(), x);
   EXPECT_EQ(state_->destroyed, 0);
-  part_y_->cease();
+  part_y_->request_stop();
   part_y_->stop();
   EXPECT_EQ(state_->destroyed, 1);
   EXPECT_EQ(part_y_->status().state, "closed");

@@ -31,7 +31,7 @@ struct NamedLog {
 };
 
 // "X=one.csv,Y=other.csv"
-Result<std::vector<NamedLog>> logs_of(const std::string& clamping) {
+Result<std::vector<NamedLog>> parse_log_names(const std::string& clamping) {
   std::vector<NamedLog> logs;
   std::istringstream words(clamping);
   for (std::string word; std::getline(words, word, ',');) {
@@ -80,7 +80,7 @@ Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& 
         log.file +
         ": the axis stops at only one position in this log, but the calibration needs two or more "
         "positions. " +
-        hazard_of(rig, log.axis) +
+        clearance_warning(rig, log.axis) +
         "Record the log again with two or more stops, as far apart as the clearance allows");
   return traverse;
 }
@@ -88,7 +88,7 @@ Result<algo::Traverse> read_traverse(const MountingCommand& command, const Rig& 
 Result<Sources> read_all(const MountingCommand& command, const Rig& rig) {
   Sources sources;
   for (const std::string& clamping : command.clampings) {
-    MDOF_TRY(const auto logs, logs_of(clamping));
+    MDOF_TRY(const auto logs, parse_log_names(clamping));
     sources.clampings.emplace_back();
     for (const NamedLog& log : logs) {
       MDOF_TRY(auto traverse, read_traverse(command, rig, log, sources));
@@ -110,7 +110,7 @@ CalibratedProbe as_record(const MountedProbe& found, const Probe& probe) {
     kept.u_direction_rad = found.u_direction_rad;
   }
   if (found.zero_seen) {
-    kept.offset_um = offset_um_with(probe, found.zero_m);
+    kept.offset_um = offset_for_zero_um(probe, found.zero_m);
     kept.u_offset_m = found.u_zero_m;
   }
   return kept;

@@ -88,13 +88,13 @@ Status write_record(const std::string& file, const std::string& text) {
   return write_file(file, text, Existing::refuse);
 }
 
-std::string hazard_of(const Rig& rig, Axis axis) {
+std::string clearance_warning(const Rig& rig, Axis axis) {
   const auto motions = algo::motion_clearances(rig);
   if (!motions) return "";
   return algo::clearance_text((*motions)[static_cast<std::size_t>(axis)]) + ". ";
 }
 
-double offset_um_with(const Probe& probe, double zero_m) {
+double offset_for_zero_um(const Probe& probe, double zero_m) {
   const double zero_um = to_um(zero_m);
   return probe.calibration.offset_um + (probe.calibration.reads_gap ? -zero_um : zero_um);
 }

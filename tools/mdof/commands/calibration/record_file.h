@@ -34,10 +34,10 @@ Result<CalibrationRecord> begin_record(const std::string& kind, const Rig& rig,
 Status write_record(const std::string& file, const std::string& text);
 
 // A sentence that warns which probes a motion of the target along this axis may touch.
-std::string hazard_of(const Rig& rig, Axis axis);
+std::string clearance_warning(const Rig& rig, Axis axis);
 
 // The key offset_um of the rig for a measured zero. If the probe reads a gap, the zero counts in
 // the opposite sense.
-double offset_um_with(const Probe& probe, double zero_m);
+double offset_for_zero_um(const Probe& probe, double zero_m);
 
 }  // namespace mdof::tools

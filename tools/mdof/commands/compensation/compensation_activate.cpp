@@ -22,7 +22,7 @@ struct ActivateCommand {
 };
 
 Result<std::string> activated(const ActivateCommand& command) {
-  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
+  MDOF_TRY(auto mdofd, writing_daemon(command.database, command.socket));
   if (mdofd) {
     JsonWriter params;
     params.begin_object()

@@ -46,7 +46,7 @@ Result<daemon::BuiltTable> build_and_store(const BuildCommand& command) {
 
 // If mdofd holds the database, it builds and stores the table. This program then reads and shows
 // it.
-Result<daemon::BuiltTable> build_there(rpc::Client& mdofd, const BuildCommand& command) {
+Result<daemon::BuiltTable> build_in_daemon(rpc::Client& mdofd, const BuildCommand& command) {
   JsonWriter params;
   params.begin_object().key("runs").begin_array();
   for (const std::int64_t id : command.runs) params.value(id);
@@ -100,8 +100,8 @@ Status build(const BuildCommand& asked) {
         {asked.volume, asked.limits, asked.database, asked.socket, asked.json, asked.all_warnings});
   BuildCommand command = asked;
   MDOF_CHECK(choose_runs(command));
-  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
-  MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
+  MDOF_TRY(auto mdofd, writing_daemon(command.database, command.socket));
+  MDOF_TRY(const auto built, mdofd ? build_in_daemon(*mdofd, command) : build_and_store(command));
   const auto& [table, notices, doubtful] = built;
   show_notices(notices, command.all_warnings);
   const std::string document = daemon::table_document(table, 0, !doubtful.empty());

@@ -63,8 +63,8 @@ Status show_volume(store::Store& store, const ShowTableCommand& command, std::in
   show_notices(judged.doubtful);
   if (command.csv && table.simulated) warn("simulated data: no machine was measured");
   if (command.csv)
-    return write_out(noise_only_comment(table.noise_only) + csv_marks(daemon::marks_of(judged)) +
-                     volumetric_csv(table));
+    return write_out(noise_only_comment(table.noise_only) +
+                     csv_marks(daemon::warning_marks(judged)) + volumetric_csv(table));
   return command.json
              ? write_line(daemon::volumetric_document(table, generation, !judged.doubtful.empty()))
              : write_out(volumetric_text(table, generation));
@@ -84,7 +84,7 @@ Status show(const ShowTableCommand& command) {
   const Notices doubtful = read.value_or(Notices{notice(NoticeCode::run_unreadable)});
   show_notices(doubtful);
   if (command.csv && table.simulated) warn("simulated data: no machine was measured");
-  const auto marks = daemon::marks_of(
+  const auto marks = daemon::warning_marks(
       {daemon::JudgedKind::table, std::to_string(table.id), table.simulated, doubtful});
   if (command.csv)
     return write_out(noise_only_comment(table.noise_only()) + csv_marks(marks) + table_csv(table));

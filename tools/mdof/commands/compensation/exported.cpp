@@ -77,7 +77,7 @@ void mark_limits(const ExportRequest& request, const algo::TableLimits& limits,
 Status judge(const daemon::Judged& judged, const ExportRequest& request, ExportedTables& out) {
   MDOF_CHECK(daemon::check_gate(judged, request.consent, "it is not exported"));
   auto& marks = out.options.marks;
-  for (auto& mark : daemon::marks_of(judged)) marks.push_back(std::move(mark));
+  for (auto& mark : daemon::warning_marks(judged)) marks.push_back(std::move(mark));
   out.simulated = out.simulated || judged.simulated;
   out.doubtful = out.doubtful || !judged.doubtful.empty();
   return {};
@@ -122,7 +122,7 @@ Status judge_sign(const controllers::Format& format, const ExportRequest& reques
 }
 
 // Reads "X=0,Y=1,Y=3".
-Status take_joints(const ExportRequest& request, ExportedTables& out) {
+Status read_joint_options(const ExportRequest& request, ExportedTables& out) {
   if ((!request.joints.empty() || request.units != "mm") && !out.format->takes_joints)
     return fail(
         ErrorCode::usage,
@@ -151,7 +151,7 @@ Status take_joints(const ExportRequest& request, ExportedTables& out) {
 }
 
 // Takes MAX_ACCELERATION from an option or from the ini file; without both it is unknown.
-Status take_ramps(const ExportRequest& request, ExportedTables& out) {
+Status read_ramp_options(const ExportRequest& request, ExportedTables& out) {
   const bool given = request.max_acceleration_mm_s2.has_value();
   if (!given && request.ini.empty()) return {};
   if (!out.format->takes_joints)
@@ -180,8 +180,8 @@ Status take_siemens_limits(const ExportRequest& request, ExportedTables& out) {
 }
 
 // If requested, errors that were measured in one approach only apply to both approaches.
-Status take_one_approach(CompensationTable& table, const ExportRequest& request,
-                         ExportedTables& out) {
+Status apply_one_approach(CompensationTable& table, const ExportRequest& request,
+                          ExportedTables& out) {
   const auto has = [](const std::vector<double>& x) {
     return std::any_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); });
   };
@@ -250,20 +250,20 @@ Status export_axes(store::Store& store, const ExportRequest& request,
     MDOF_TRY(CompensationTable table, store.table(id));
     MDOF_CHECK(judge_table(store, table, request, out));
     MDOF_CHECK(algo::check_limits(table, limits));
-    MDOF_CHECK(take_one_approach(table, request, out));
+    MDOF_CHECK(apply_one_approach(table, request, out));
     MDOF_CHECK(mark_unknown_approach(store, table, out));
     tables.push_back(std::move(table));
   }
   std::string axes;
   for (const CompensationTable& table : tables) axes += letter(table.axis);
-  if (out.format->takes_home) MDOF_CHECK(give_homes_to(axes, out.options.homes));
+  if (out.format->takes_home) MDOF_CHECK(assign_home_axes(axes, out.options.homes));
   MDOF_TRY(out.files, out.format->axes.write(tables, out.options));
   MDOF_TRY(out.check, controllers::check_export(*out.format, tables, out.files, out.options));
   return {};
 }
 
 // Some formats hold both kinds; the kind of the table then decides.
-Result<bool> takes_a_volume(store::Store& store, const controllers::Format& format,
+Result<bool> exports_volume(store::Store& store, const controllers::Format& format,
                             const ExportRequest& request) {
   if (!format.volume.write || !format.axes.write) return format.volume.write != nullptr;
   if (request.tables.size() > 1) return false;
@@ -376,15 +376,15 @@ Result<ExportedTables> exported_tables(const ExportRequest& request) {
   MDOF_TRY(const algo::TableLimits limits, request.limits.limits());
   mark_limits(request, limits, out.options.marks);
   MDOF_TRY(out.options.homes, home_positions(request.home_mm));
-  MDOF_CHECK(take_joints(request, out));
-  MDOF_CHECK(take_ramps(request, out));
+  MDOF_CHECK(read_joint_options(request, out));
+  MDOF_CHECK(read_ramp_options(request, out));
   MDOF_CHECK(take_siemens_limits(request, out));
   MDOF_CHECK(judge_sign(*out.format, request, out.options.marks));
   MDOF_TRY(store::Store store, open_to_read(request.database));
   if (square) {
     MDOF_CHECK(export_square(store, request, out));
   } else {
-    MDOF_TRY(const bool volume, takes_a_volume(store, *out.format, request));
+    MDOF_TRY(const bool volume, exports_volume(store, *out.format, request));
     MDOF_CHECK(volume ? export_volume(store, request, limits, out)
                       : export_axes(store, request, limits, out));
   }

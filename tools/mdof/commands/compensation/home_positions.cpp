@@ -48,7 +48,7 @@ Result<Homes> home_positions(const std::string& text) {
   return homes;
 }
 
-Status give_homes_to(std::string_view axes, Homes& homes) {
+Status assign_home_axes(std::string_view axes, Homes& homes) {
   for (auto& home : homes) {
     if (home.axis == 0 && axes.size() == 1) home.axis = axes.front();
     if (home.axis == 0)

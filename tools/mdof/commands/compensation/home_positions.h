@@ -17,6 +17,6 @@ Result<Homes> home_positions(const std::string& text);
 
 // Assigns a number without axis to the axis of the only table. Errors: a number for several tables;
 // a home of an axis without a table.
-Status give_homes_to(std::string_view axes, Homes& homes);
+Status assign_home_axes(std::string_view axes, Homes& homes);
 
 }  // namespace mdof::tools

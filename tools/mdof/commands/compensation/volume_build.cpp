@@ -39,7 +39,7 @@ Status check_options(const VolumeOptions& o) {
 
 // Positions of the axes that are not in the grid. If three numbers are given, the numbers of the
 // axes in the grid must be 0.
-Result<algo::Command> others_from(const Machine& machine, const VolumeOptions& o) {
+Result<algo::Command> fixed_axis_positions(const Machine& machine, const VolumeOptions& o) {
   MDOF_TRY(const algo::Command at, command_from(machine, o.at));
   const bool named = o.at.find('=') != std::string::npos;
   for (const char axis : axes_of(o)) {
@@ -64,7 +64,7 @@ Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
   for (const char axis : axes_of(o)) request.grid.along[kAxes.find(axis)] = true;
   request.grid.step_m = from_mm(*o.step_mm);
   if (!o.at.empty()) {
-    MDOF_TRY(request.grid.others, others_from(request.machine, o));
+    MDOF_TRY(request.grid.others, fixed_axis_positions(request.machine, o));
   }
   request.grid.approach = approach_from(o.approach);
   request.grid.incomplete = o.incomplete;
@@ -80,7 +80,7 @@ Result<daemon::BuiltVolumetric> build_and_store(const VolumeBuild& command) {
 
 // If mdofd holds the database, it builds and stores the table. This program then reads and shows
 // it.
-Result<daemon::BuiltVolumetric> build_there(rpc::Client& mdofd, const VolumeBuild& command) {
+Result<daemon::BuiltVolumetric> build_in_daemon(rpc::Client& mdofd, const VolumeBuild& command) {
   const VolumeOptions& o = command.options;
   MDOF_TRY(const std::string text, read_text_file(o.machine));
   JsonWriter params;
@@ -90,7 +90,7 @@ Result<daemon::BuiltVolumetric> build_there(rpc::Client& mdofd, const VolumeBuil
   params.field("axes", axes_of(o)).field("step_mm", *o.step_mm);
   if (!o.at.empty()) {
     MDOF_TRY(const Machine machine, described_machine(o.machine));
-    MDOF_TRY(const algo::Command at, others_from(machine, o));
+    MDOF_TRY(const algo::Command at, fixed_axis_positions(machine, o));
     for (const MachineFrame& frame : machine.frames)
       if (frame.kind != FrameKind::fixed && axes_of(o).find(frame.id) == std::string::npos)
         params.field(frame.id + "_" + position_unit(frame),
@@ -153,8 +153,8 @@ void add_volume_options(CLI::App& command, VolumeOptions& o) {
 
 Status build_volume(const VolumeBuild& command) {
   MDOF_CHECK(check_options(command.options));
-  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
-  MDOF_TRY(const auto built, mdofd ? build_there(*mdofd, command) : build_and_store(command));
+  MDOF_TRY(auto mdofd, writing_daemon(command.database, command.socket));
+  MDOF_TRY(const auto built, mdofd ? build_in_daemon(*mdofd, command) : build_and_store(command));
   const VolumetricTable& table = built.table;
   show_notices(built.notices, command.all_warnings);
   MDOF_CHECK(command.json ? write_line(with_notices(

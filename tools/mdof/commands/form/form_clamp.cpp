@@ -61,8 +61,8 @@ Result<Clamped> clamped(const FormClampCommand& o) {
   } else {
     MDOF_TRY(found.clamping, algo::clamping_by_K(before, after, o.K.value_or(0)));
   }
-  warn_of_few(before, algo::figures_of(found.clamping.clamping).pixels,
-              "the clamping deformation at the remaining pixels is unknown");
+  warn_few_common_pixels(before, algo::figures_of(found.clamping.clamping).pixels,
+                         "the clamping deformation at the remaining pixels is unknown");
   if (!o.thickness_mm) return found;
   const algo::Plate plate{from_mm(*o.thickness_mm), *o.young_GPa * 1e9, *o.poisson};
   // The elastic part carries the stress; the plastic part remains without a load.

@@ -43,17 +43,17 @@ constexpr double kPixelsMoved = 1, kMuchLeft = 0.5;
 Notices notices_of(const Compared& compared, const FormCompareCommand& o) {
   const algo::Comparison& found = compared.found;
   Notices notices;
-  if (is_few(found.pixels, compared.measured))
+  if (has_few_common_pixels(found.pixels, compared.measured))
     notices.push_back(notice(NoticeCode::map_pixels_not_compared, o.a,
                              {{"compared", found.pixels}, {"measured", compared.measured}}));
   if (found.undetermined > 0)
     notices.push_back(
         notice(NoticeCode::map_movements_undetermined, o.a, {{"directions", found.undetermined}}));
-  if (found.moved_m > kPixelsMoved * compared.pixel_m && found.left_by_movement > kMuchLeft)
+  if (found.moved_m > kPixelsMoved * compared.pixel_m && found.residual_ratio > kMuchLeft)
     notices.push_back(
         notice(NoticeCode::map_movement_gains_little, o.b,
                {{"moved_mm", to_mm(found.moved_m)},
-                {"removed_percent", std::max(0.0, 100 * (1 - found.left_by_movement))}}));
+                {"removed_percent", std::max(0.0, 100 * (1 - found.residual_ratio))}}));
   return notices;
 }
 

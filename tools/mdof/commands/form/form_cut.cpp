@@ -115,7 +115,7 @@ Status form_cut(const FormCutCommand& o) {
   if (o.random_um) passes.random_rms_m = from_um(*o.random_um);
   passes.smooth_m = from_mm(o.smooth_mm);
   MDOF_TRY(const algo::CuttingResult found, algo::next_cut(passes));
-  warn_of_few(
+  warn_few_common_pixels(
       passes.wanted, found.pixels,
       "the next path has no height at the remaining pixels, and mdof form path bridges these gaps");
   MDOF_CHECK(save_map(found.next, o.out));

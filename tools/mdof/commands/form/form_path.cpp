@@ -93,7 +93,7 @@ Result<double> measured_radius_m(const SurfaceMap& map, double x_centre_m, doubl
 
 Result<algo::SpiralRequest> request_of(const FormPathCommand& o, const SurfaceMap& map) {
   algo::SpiralRequest request;
-  if (!run_of_map(o.map)) {  // a scan has the spindle axis at (0, 0)
+  if (!scanned_run_number(o.map)) {  // a scan has the spindle axis at (0, 0)
     const algo::MapMiddle middle = algo::middle_of(map);
     request.x_centre_m = middle.x_m;
     request.y_centre_m = middle.y_m;
@@ -161,7 +161,7 @@ Result<FoundPath> write_path(const FormPathCommand& o, const SurfaceMap& map) {
 }
 
 // nullopt if the feed leaves a ring between two turns.
-std::optional<algo::FeedRoughness> roughness_of(const FoundPath& found) {
+std::optional<algo::FeedRoughness> feed_roughness_if_closed(const FoundPath& found) {
   const algo::SpiralRequest& request = found.request;
   if (!(request.feed_m < 2 * request.tool_radius_m)) return {};
   return algo::feed_roughness(request.tool_radius_m, request.feed_m);
@@ -175,7 +175,7 @@ Notices notices_of(const FoundPath& found, const FormPathCommand& o) {
   const algo::SpiralRequest& request = found.request;
   const algo::SpiralCounts& counts = found.counts;
   Notices notices;
-  if (request.tool_radius_m > 0 && !roughness_of(found))
+  if (request.tool_radius_m > 0 && !feed_roughness_if_closed(found))
     notices.push_back(
         notice(NoticeCode::feed_leaves_rings, "",
                {{"feed_um", to_um(request.feed_m)}, {"radius_um", to_um(request.tool_radius_m)}}));
@@ -221,7 +221,7 @@ std::string path_json(const FoundPath& found, const FormPathCommand& o) {
       .field("bridged", static_cast<std::uint64_t>(found.counts.bridged))
       .end_object();
   if (found.request.tool_radius_m > 0) {
-    const auto rough = roughness_of(found);
+    const auto rough = feed_roughness_if_closed(found);
     json.field("Ra_nm", rough ? rough->Ra_m * 1e9 : std::nan(""))
         .field("Rt_nm", rough ? rough->Rt_m * 1e9 : std::nan(""));
   }
@@ -247,7 +247,7 @@ std::string path_text(const FoundPath& found, const FormPathCommand& o) {
     text += "a low-pass filter of " + plain_number(*o.bandwidth_hz) +
             " Hz removes from the path: PV " + in_um(found.left_out->pv) + " µm, RMS " +
             in_um(found.left_out->rms) + " µm\n";
-  if (const auto rough = roughness_of(found))
+  if (const auto rough = feed_roughness_if_closed(found))
     text += "roughness by feed and tool radius: Ra " + plain_number(rough->Ra_m * 1e9) +
             " nm, Rt " + plain_number(rough->Rt_m * 1e9) + " nm\n";
   return text;

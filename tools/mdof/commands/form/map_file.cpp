@@ -63,7 +63,7 @@ class MapReader {
 
 }  // namespace
 
-std::optional<std::int64_t> run_of_map(const std::string& name) {
+std::optional<std::int64_t> scanned_run_number(const std::string& name) {
   constexpr std::string_view kRun = "run:";
   const bool says_run = name.starts_with(kRun);
   const std::string digits = says_run ? name.substr(kRun.size()) : name;
@@ -76,19 +76,19 @@ std::optional<std::int64_t> run_of_map(const std::string& name) {
 Status check_out(const std::string& out, const std::vector<std::string>& maps) {
   std::error_code unknown;  // for a file that does not exist yet
   for (const std::string& map : maps)
-    if (!out.empty() && !run_of_map(map) && std::filesystem::equivalent(out, map, unknown))
+    if (!out.empty() && !scanned_run_number(map) && std::filesystem::equivalent(out, map, unknown))
       return fail(ErrorCode::usage, "--out " + out + ": this is the file of the map " + map +
                                         ", which mdof would overwrite; give another file");
   return {};
 }
 
-bool is_few(std::size_t common, std::size_t measured) {
+bool has_few_common_pixels(std::size_t common, std::size_t measured) {
   return 10 * common < 9 * measured;
 }
 
-void warn_of_few(const SurfaceMap& map, std::size_t common, const std::string& rest) {
+void warn_few_common_pixels(const SurfaceMap& map, std::size_t common, const std::string& rest) {
   const std::size_t measured = map.measured();
-  if (!is_few(common, measured)) return;
+  if (!has_few_common_pixels(common, measured)) return;
   warn(map.name + ": the map has " + std::to_string(measured) + " measured pixels, but only " +
        std::to_string(common) + " of these pixels are measured in all maps; " + rest);
 }
@@ -117,7 +117,7 @@ Result<daemon::RadialScan> load_scan(const std::vector<std::int64_t>& runs,
 }
 
 Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options) {
-  if (const auto run = run_of_map(file)) {
+  if (const auto run = scanned_run_number(file)) {
     MDOF_TRY(daemon::RadialScan scan, load_scan({*run}, std::nullopt, options.database));
     return std::move(scan.map);
   }

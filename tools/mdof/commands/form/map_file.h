@@ -21,16 +21,16 @@ struct MapOptions {
   std::string unit, database;
 };
 // The run number in "run:12", or in "12" if no file has this name.
-std::optional<std::int64_t> run_of_map(const std::string& name);
+std::optional<std::int64_t> scanned_run_number(const std::string& name);
 
 // Error (usage): `out` is the file of one of these maps and would be overwritten.
 Status check_out(const std::string& out, const std::vector<std::string>& maps);
 
 // True if `common` is less than nine tenths of the measured pixels.
-bool is_few(std::size_t common, std::size_t measured);
+bool has_few_common_pixels(std::size_t common, std::size_t measured);
 // Warns if `common` is less than nine tenths of the measured pixels of `map`. `rest`: what happens
 // to the other pixels.
-void warn_of_few(const SurfaceMap& map, std::size_t common, const std::string& rest);
+void warn_few_common_pixels(const SurfaceMap& map, std::size_t common, const std::string& rest);
 
 void add_map_options(CLI::App& command, MapOptions& options);
 

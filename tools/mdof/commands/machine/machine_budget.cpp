@@ -35,7 +35,7 @@ std::vector<std::string> beyond_tables(const algo::BudgetModel& model) {
 }
 
 // Adds the runs as if the descriptions of their axes named them.
-Status name_runs(Machine& machine, const MachineBudgetCommand& o) {
+Status add_named_runs(Machine& machine, const MachineBudgetCommand& o) {
   if (o.runs.empty()) return {};
   MDOF_TRY(store::Store store, open_to_read(o.database));
   for (const std::string& word : o.runs) {
@@ -59,7 +59,7 @@ Status machine_budget(const MachineBudgetCommand& o) {
   Machine machine;
   MDOF_TRY(machine, o.file.empty() ? parse_machine(co_planar_machine(), o.preset)
                                    : described_machine(o.file));
-  MDOF_CHECK(name_runs(machine, o));
+  MDOF_CHECK(add_named_runs(machine, o));
   MDOF_CHECK(add_stored_errors(machine, o.database));
   BudgetRequest request;
   if (!o.at.empty()) {
@@ -72,7 +72,7 @@ Status machine_budget(const MachineBudgetCommand& o) {
   request.target_um = o.target_um;
   auto found = find_machine_budget(machine, request);
   if (!found) return in_context(o.file.empty() ? o.preset : o.file, std::move(found.error()));
-  warn_beyond(beyond_tables(found->now.model));
+  warn_outside_tables(beyond_tables(found->now.model));
   return o.json ? write_line(machine_budget_json(machine, request, *found))
                 : write_out(machine_budget_text(machine, request, *found));
 }

@@ -316,7 +316,7 @@ Status machine_circle(const MachineCircleCommand& o) {
     found.largest = largest_difference(*found.measured, *found.predicted);
     found.largest->U_m = expanded_at(machine, request, found.largest->angle_rad);
   }
-  warn_beyond(found.beyond);
+  warn_outside_tables(found.beyond);
   MDOF_CHECK(draw_circles(o, found));
   if (o.csv && !found.not_measured.empty())
     warn("these errors were not measured, so the values do not contain them: " +

@@ -137,7 +137,7 @@ Status predict(const MachineDiagonalCommand& o) {
       return bad_input(csv.source + ": column \"diagonal\" must be 1 (" + diagonals[0].name +
                        ") or 2 (" + diagonals[1].name + ")");
   }
-  for (const auto& d : diagonals) warn_beyond(d.beyond);
+  for (const auto& d : diagonals) warn_outside_tables(d.beyond);
   return o.json ? write_line(diagonals_json(machine, diagonals, measured))
                 : write_out(diagonals_text(machine, diagonals, measured));
 }
@@ -166,7 +166,7 @@ const char* covers_of(const MachineDiagonalCommand& o) {
   return o.u_um > 0 ? "repeatability and the declared u of each line" : "repeatability only";
 }
 
-std::string squareness_json(const MachineDiagonalCommand& o, const algo::SquarenessOfDiagonals& s,
+std::string squareness_json(const MachineDiagonalCommand& o, const algo::DiagonalSquareness& s,
                             bool simulated) {
   JsonWriter json;
   const AxisPair axes = axes_of(o.plane);

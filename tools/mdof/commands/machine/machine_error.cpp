@@ -139,7 +139,7 @@ Status machine_error(const MachineErrorCommand& o) {
                   [](const MachineFrame& f) { return f.kind == FrameKind::linear; })) {
     MDOF_TRY(found.compensating, algo::compensating_command(machine, found.at, approach));
   }
-  warn_beyond(found.error.beyond);
+  warn_outside_tables(found.error.beyond);
   return o.json ? write_line(error_json(machine, found, o.approach))
                 : write_out(error_text(machine, found));
 }

@@ -40,7 +40,7 @@ Result<DescribedMachine> described_with_text(const std::string& file) {
   MDOF_TRY(described.text, read_text_file(file));
   MDOF_TRY(described.machine, parse_machine(described.text, file));
   MDOF_TRY(const std::string hashes,
-           daemon::read_machine_files(described.machine, daemon::files_beside(file)));
+           daemon::read_machine_files(described.machine, daemon::files_in_same_folder(file)));
   described.text += hashes;
   return described;
 }
@@ -120,7 +120,7 @@ void write_command(JsonWriter& json, const char* key, const Machine& machine,
   json.end_object();
 }
 
-void warn_beyond(const std::vector<std::string>& names) {
+void warn_outside_tables(const std::vector<std::string>& names) {
   if (!names.empty())
     warn("positions are beyond the ends of the error tables of " + joined(names) +
          "; there, mdof uses the value at the nearest end of each table");

@@ -46,7 +46,7 @@ void write_components(JsonWriter& json, const char* key, const algo::Vector6& er
 void write_command(JsonWriter& json, const char* key, const Machine& machine,
                    const algo::Command& command);
 
-void warn_beyond(const std::vector<std::string>& names);
+void warn_outside_tables(const std::vector<std::string>& names);
 std::string missing_text(const std::vector<std::string>& not_measured,
                          const std::vector<std::string>& no_u, std::size_t width);
 

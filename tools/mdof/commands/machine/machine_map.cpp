@@ -256,7 +256,7 @@ Status machine_map(const MachineMapCommand& o) {
     maps.push_back({name, std::move(map)});
     if (!o.bidirectional) break;
   }
-  warn_beyond(maps.front().map.beyond);
+  warn_outside_tables(maps.front().map.beyond);
   MDOF_CHECK(draw_maps(machine, o, maps));
   if (o.csv || o.json) {
     if (o.csv && !maps.front().map.not_measured.empty())

@@ -55,7 +55,7 @@ void write_grooving_state(JsonWriter& json, const char* key, const algo::Groovin
   json.field("angle_error_urad", to_urad(s.square.angle_error_rad))
       .field("u_urad", to_urad(s.square.u_rad))
       .field("U_urad", to_urad(s.square.U_rad))
-      .field("by_one_diagonal_urad", to_urad(s.angle_of_one_diagonal_rad))
+      .field("by_one_diagonal_urad", to_urad(s.one_diagonal_angle_rad))
       .end_object();
   json.key("diagonals").begin_array();
   for (const algo::DiagonalRange& d : s.diagonals)
@@ -159,7 +159,7 @@ std::string grooving_plane_text(const algo::GroovingStudy& s) {
 
 std::string grooving_square_text(const algo::GroovingStudy& s) {
   TextTable table({"angle between X and Y minus 90°, in µrad", "before", "after"});
-  const auto both = [](const algo::SquarenessOfDiagonals& q) {
+  const auto both = [](const algo::DiagonalSquareness& q) {
     return with_u(urad_to_place(q.angle_error_rad, q.u_rad), urad_to_place(q.u_rad, q.u_rad));
   };
   const auto in_the_middle = [](const algo::GroovingState& g) {
@@ -168,8 +168,8 @@ std::string grooving_square_text(const algo::GroovingStudy& s) {
   };
   table.add(
       {"from straightness and optical square", in_the_middle(s.before), in_the_middle(s.after)});
-  table.add({"from one diagonal (Eq. 2)", angle_urad(s.before.angle_of_one_diagonal_rad),
-             angle_urad(s.after.angle_of_one_diagonal_rad)});
+  table.add({"from one diagonal (Eq. 2)", angle_urad(s.before.one_diagonal_angle_rad),
+             angle_urad(s.after.one_diagonal_angle_rad)});
   table.add({"from both diagonals (Eq. 2)", both(s.before.square), both(s.after.square)});
   return table.text(terminal_columns());
 }

@@ -142,7 +142,7 @@ Status export_document(ExportCommand& command) {
   MDOF_TRY(const report::Report report, report_of_runs(command.request));
   MDOF_TRY(const std::string text, document_text(command.format, report));
   MDOF_CHECK(write_file(command.out, text, Existing::replace));
-  warn_of(report);
+  print_report_marks(report);
   return write_line(command.out);
 }
 

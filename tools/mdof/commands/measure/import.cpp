@@ -42,8 +42,8 @@ std::string params_of(const ImportCommand& command) {
 }
 
 Result<Run> import_and_store(const ImportCommand& command) {
-  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
-  if (mdofd) return stored_by(*mdofd, command.database, "run.import", params_of(command));
+  MDOF_TRY(auto mdofd, writing_daemon(command.database, command.socket));
+  if (mdofd) return store_in_daemon(*mdofd, command.database, "run.import", params_of(command));
   MDOF_TRY(Run run, daemon::imported_run(command.request));
   MDOF_TRY(store::Store store, open_to_write(command.database));
   MDOF_TRY(run.header.id,

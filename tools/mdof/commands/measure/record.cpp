@@ -85,8 +85,8 @@ std::string progress_line(const auto& event) {
 }
 
 // Shows the event. Returns the run to read when the axis has ended its run.
-std::optional<std::int64_t> take_event(std::string_view notification, std::int64_t run,
-                                       const std::string& axis) {
+std::optional<std::int64_t> handle_event(std::string_view notification, std::int64_t run,
+                                         const std::string& axis) {
   simdjson::dom::parser parser;
   const auto event = parser.parse(simdjson::padded_string(notification))["params"]["value"];
   if (text(event, "axis") != axis) return std::nullopt;
@@ -112,7 +112,7 @@ Result<std::int64_t> follow(rpc::Client& client, std::int64_t run, const RecordC
   for (;;) {
     const auto notification = client.next_notification(kEventWait);
     if (notification) {
-      if (const auto ended = take_event(*notification, run, command.axis)) return *ended;
+      if (const auto ended = handle_event(*notification, run, command.axis)) return *ended;
     }
     const auto now = steady_clock::now();
     const bool over = command.for_s && now - begin > std::chrono::duration<double>(*command.for_s);

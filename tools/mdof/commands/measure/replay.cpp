@@ -59,13 +59,13 @@ std::string params_of(const daemon::ReplayRequest& request) {
 }
 
 // If mdofd holds the database, it reads the log, evaluates and stores.
-Result<Run> replay_there(rpc::Client& mdofd, const ReplayCommand& command) {
+Result<Run> replay_in_daemon(rpc::Client& mdofd, const ReplayCommand& command) {
   const daemon::ReplayRequest& request = command.request;
   if (request.log == "-")
     return fail(ErrorCode::conflict,
                 "mdofd uses the database and cannot read the standard input of this program; write "
                 "the log to a file, or give another database with --db");
-  return stored_by(mdofd, command.database, "run.replay", params_of(request));
+  return store_in_daemon(mdofd, command.database, "run.replay", params_of(request));
 }
 
 Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
@@ -76,8 +76,8 @@ Result<StatedAt> asked_reference(const ReplayCommand& command, const Run& run) {
 }
 
 Result<Run> replay_and_store(const ReplayCommand& command) {
-  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
-  if (mdofd) return replay_there(*mdofd, command);
+  MDOF_TRY(auto mdofd, writing_daemon(command.database, command.socket));
+  if (mdofd) return replay_in_daemon(*mdofd, command);
   MDOF_TRY(Run run, replay_here(command.request));
   MDOF_CHECK(asked_reference(command, run));  // a run that cannot be shown is not stored
   MDOF_TRY(store::Store store, open_to_write(command.database));

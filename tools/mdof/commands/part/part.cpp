@@ -45,7 +45,7 @@ std::vector<std::size_t> ranked(const std::vector<algo::PartShare>& shares) {
 }
 
 // If causes have no u, a U of 0 and a residual that consists of u only are unknown.
-void forget_unknown(FoundPart& found) {
+void clear_unknown_figures(FoundPart& found) {
   if (found.part.no_u.empty()) return;
   const auto forget = [](double& x) {
     if (x == 0) x = std::nan("");
@@ -67,7 +67,7 @@ void write_share(JsonWriter& json, const algo::PartShare& share) {
 }
 
 // Number of path points at which the layer has no value and counts as 0.
-std::uint64_t lacking_points(const LoadedPart& part, const std::string& layer) {
+std::uint64_t uncovered_point_count(const LoadedPart& part, const std::string& layer) {
   for (const Notice& each : part.notices)
     if (each.code == NoticeCode::map_lacks_points && each.subject == layer)
       return part.points_off_form_map;
@@ -110,7 +110,7 @@ std::string part_json(const FoundPart& found) {
     else
       json.value(layer.compensated_by);
     json.field("left_um", to_um(found.left.layers[k].rms_m))
-        .field("points_lacking", lacking_points(part, layer.plan.name))
+        .field("points_lacking", uncovered_point_count(part, layer.plan.name))
         .end_object();
   }
   json.end_array().key("causes").begin_array();
@@ -183,7 +183,7 @@ Status part(const PartCommand& o) {
   found.left = algo::part_error(found.part.path, found.part.left, layers, none);
   found.layers = ranked(found.error.layers);
   found.causes = ranked(found.error.causes);
-  forget_unknown(found);
+  clear_unknown_figures(found);
   show_notices(found.part.notices);
   return o.json ? write_line(part_json(found)) : write_out(part_text(found));
 }

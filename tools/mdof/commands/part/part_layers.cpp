@@ -54,7 +54,7 @@ Result<algo::PartPath> load_path(const std::string& file) {
 // ---- axes and budget ----
 
 // Adds the tables of the plan as if the machine file named them, with its checks and their senses.
-Status name_tables(LoadedPart& part, const PartLayer& layer, const std::string& database) {
+Status add_named_tables(LoadedPart& part, const PartLayer& layer, const std::string& database) {
   if (layer.from.empty()) return {};
   Machine& machine = part.machine;
   MDOF_TRY(store::Store store, open_to_read(database));
@@ -188,7 +188,7 @@ Status add_machine_layers(LoadedPart& part) {
         ": the machine file has no [[source]]; the layer \"budget\" needs one or more");
   part.not_measured = found.not_measured;
   part.beyond_tables = found.beyond;
-  warn_beyond(found.beyond);
+  warn_outside_tables(found.beyond);
   if (axes) {
     add_layer(part, *axes, "compensating command (mdof machine error, mdof compensation export)",
               found.axes);
@@ -215,7 +215,7 @@ Result<LoadedPart> load_part(const std::string& file, const std::string& databas
   const auto beside = [&folder](const std::string& name) { return (folder / name).string(); };
   MDOF_TRY(part.machine, described_machine(beside(part.plan.machine)));
   for (const PartLayer& layer : part.plan.layers)
-    if (layer.name == "axes") MDOF_CHECK(name_tables(part, layer, database));
+    if (layer.name == "axes") MDOF_CHECK(add_named_tables(part, layer, database));
   MDOF_CHECK(add_stored_errors(part.machine, database));
   MDOF_TRY(part.path, load_path(beside(part.plan.path)));
   MDOF_CHECK(add_machine_layers(part));

@@ -95,7 +95,7 @@ Result<Marked> marked(store::Store& store, const std::vector<std::int64_t>& ids)
   for (const std::int64_t id : ids) {
     MDOF_TRY(const Run run, store.run(id));
     all.runs += (all.runs.empty() ? "" : ", ") + std::to_string(id);
-    for (std::string& mark : daemon::marks_of(run)) all.marks.push_back(std::move(mark));
+    for (std::string& mark : daemon::warning_marks(run)) all.marks.push_back(std::move(mark));
   }
   return all;
 }
@@ -140,7 +140,7 @@ Status budget(const BudgetCommand& command) {
       warn("run " + std::to_string(id) + " has only the " + approach +
            " approach: the figures are valid for this approach, and the reversal error is unknown");
     MDOF_CHECK(warn_if_superseded(store, id));
-    if (against.empty()) against = daemon::against_decision(store, run);
+    if (against.empty()) against = daemon::undecidable_reason(store, run);
   }
   const auto decided = command.tolerance
                            ? std::optional(algo::decision(found.budgets.front(),

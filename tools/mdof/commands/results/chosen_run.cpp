@@ -27,7 +27,7 @@ Result<Run> load_run(store::Store& store, const ChosenRun& choice) {
   Reference reference{};
   reference_from(choice.reference, reference);  // the option accepts only valid names
   MDOF_TRY(const auto id, run_number(store, choice.run, axis_from(choice.axis)));
-  return daemon::run_stated_at(store, id, reference);
+  return daemon::restated_run(store, id, reference);
 }
 
 Status warn_if_superseded(store::Store& store, std::int64_t run) {
@@ -38,11 +38,12 @@ Status warn_if_superseded(store::Store& store, std::int64_t run) {
   return {};
 }
 
-Status write_csv_of(const Run& run, bool noise_only, const std::string& csv,
-                    const ChosenRun& choice) {
+Status write_marked_csv(const Run& run, bool noise_only, const std::string& csv,
+                        const ChosenRun& choice) {
   if (run.header.simulated) warn("simulated data: no machine was measured");
   show_notices(run.header.notices, choice.all_warnings);
-  const std::string text = noise_only_comment(noise_only) + csv_marks(daemon::marks_of(run)) + csv;
+  const std::string text =
+      noise_only_comment(noise_only) + csv_marks(daemon::warning_marks(run)) + csv;
   return choice.out.empty() ? write_out(text) : write_file(choice.out, text, Existing::replace);
 }
 

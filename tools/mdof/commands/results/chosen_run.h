@@ -28,8 +28,8 @@ Status warn_if_superseded(store::Store& store, std::int64_t run);
 
 // Writes a table of bare numbers with the lines "# SIMULATED" and "# DOUBTFUL" before it, so that
 // the file itself contains these marks, and prints the notices.
-Status write_csv_of(const Run& run, bool noise_only, const std::string& csv,
-                    const ChosenRun& choice);
+Status write_marked_csv(const Run& run, bool noise_only, const std::string& csv,
+                        const ChosenRun& choice);
 
 // Prints the run in the format of mdof show and mdof export.
 Status show_run(const ChosenRun& choice);

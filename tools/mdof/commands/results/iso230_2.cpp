@@ -102,10 +102,10 @@ Status draw_run(const Run& run, const RunPositioning& found, const std::string& 
   if (folder.empty()) return {};
   const auto language = words::Language::english;
   charts::PositioningPicture picture;
-  picture.title = charts::title_of_run(
+  picture.title = charts::run_title(
       run.header, output::phrase(output::Phrase::positioning_of_run, language), language);
   picture.about = charts::about_run(run.header, language);
-  picture.warnings = daemon::marks_of(run);
+  picture.warnings = daemon::warning_marks(run);
   for (const PositioningColumn& column : found.columns)
     for (std::size_t k = 0; k < kErrorCount; ++k)
       if (column.name == error_names(run.header.axis)[k].name)
@@ -120,7 +120,7 @@ Status iso230_of_run(const Iso230Command& command) {
   reference_from(command.reference, reference);  // the option accepts only valid names
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto id, run_number(store, command.run, axis_from(command.axis)));
-  MDOF_TRY(const Run run, daemon::run_stated_at(store, id, reference));
+  MDOF_TRY(const Run run, daemon::restated_run(store, id, reference));
   if (is_imported(run.header))
     return bad_input(
         "run " + std::to_string(id) + " was imported from " + run.header.provenance.recording_path +

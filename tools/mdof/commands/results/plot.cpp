@@ -63,7 +63,7 @@ Status draw_table(store::Store& store, std::int64_t number, output::Language lan
   MDOF_TRY(const bool is_volumetric, store.is_volumetric(number));
   if (is_volumetric) {
     MDOF_TRY(const VolumetricTable volume, store.volumetric(number));
-    plotted.take(charts::charts_of_volume(volume, language));
+    plotted.take(charts::volumetric_table_charts(volume, language));
     return {};
   }
   MDOF_TRY(const CompensationTable table, store.table(number));
@@ -71,7 +71,8 @@ Status draw_table(store::Store& store, std::int64_t number, output::Language lan
   const std::string name = "table-" + std::to_string(number);
   if (charts::has_table(table))
     plotted.charts.push_back(
-        {name + ".svg", charts::table_svg(table, daemon::marks_of(judged, language), language)});
+        {name + ".svg",
+         charts::table_svg(table, daemon::warning_marks(judged, language), language)});
   else
     plotted.left_out.push_back("table " + std::to_string(number) + " has no values");
   return {};

@@ -63,7 +63,7 @@ Status write_report(const ReportCommand& command) {
   MDOF_TRY(report.head, company_head(command.head));
   attach_certificate(report);
   MDOF_CHECK(write_file(command.out, report::report_html(report), Existing::replace));
-  warn_of(report);
+  print_report_marks(report);
   const std::string pdf =
       command.pdf ? std::filesystem::path(out).replace_extension(".pdf").string() : "";
   if (command.pdf) {

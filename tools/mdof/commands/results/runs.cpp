@@ -115,7 +115,7 @@ std::string runs_text(const element& document) {
 }
 
 Status list_runs(const RunsCommand& command) {
-  MDOF_TRY(auto mdofd, mdofd_that_serves(command.database, command.socket));
+  MDOF_TRY(auto mdofd, serving_daemon(command.database, command.socket));
   MDOF_TRY(const std::string document,
            mdofd ? listed_there(*mdofd, command) : listed_here(command));
   if (command.json) return write_line(document);

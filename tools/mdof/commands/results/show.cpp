@@ -28,7 +28,7 @@ Status write_json(const ChosenRun& choice, const std::string& json) {
 Status show_imported(store::Store& store, Run run, const ChosenRun& choice) {
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));
-  if (choice.csv) return write_csv_of(run, false, imported_csv(run), choice);
+  if (choice.csv) return write_marked_csv(run, false, imported_csv(run), choice);
   run = daemon::with_positioning_notices(std::move(run));
   const StatedFigures figures = daemon::positioning_figures(run);
   if (choice.json)
@@ -42,7 +42,7 @@ Status show_imported(store::Store& store, Run run, const ChosenRun& choice) {
 Status figures_csv_or_json(store::Store& store, const Run& run, const ChosenRun& choice) {
   if (choice.csv) {
     const StatedFigures stated = daemon::figure_budgets(run);
-    return write_csv_of(run, are_noise_only(stated.budgets), figures_csv(run, stated), choice);
+    return write_marked_csv(run, are_noise_only(stated.budgets), figures_csv(run, stated), choice);
   }
   MDOF_TRY(const std::string document, daemon::analysis_document(store, run));
   return write_json(choice, document);
@@ -61,7 +61,7 @@ Status show_run(const ChosenRun& choice) {
   if (is_imported(run.header)) return show_imported(store, run, choice);
   if (choice.csv) {
     const RunUncertainty uncertainty = daemon::uncertainty_of(run);
-    return write_csv_of(run, uncertainty.noise_only, points_csv(run, uncertainty), choice);
+    return write_marked_csv(run, uncertainty.noise_only, points_csv(run, uncertainty), choice);
   }
   MDOF_TRY(const std::string sha256, store.result_sha256(run.header.id));
   MDOF_TRY(const auto actions, store.actions_of_run(run.header.id));

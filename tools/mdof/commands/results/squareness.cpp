@@ -57,7 +57,7 @@ Result<std::string> fit_here(const SquarenessCommand& command) {
 }
 
 // If mdofd holds the database, it fits and stores.
-Result<std::string> fit_there(rpc::Client& mdofd, const SquarenessCommand& command) {
+Result<std::string> fit_in_daemon(rpc::Client& mdofd, const SquarenessCommand& command) {
   JsonWriter params;
   params.begin_object().field("run_a", command.run_a).field("run_b", command.run_b);
   if (command.artefact_urad) params.field("artefact_angle_error_urad", *command.artefact_urad);
@@ -154,14 +154,14 @@ std::string undeclared_text(const element& document) {
 }
 
 // The chart needs the readings of both runs.
-Status draw_both_axes(const SquarenessCommand& command) {
+Status draw_squareness_chart(const SquarenessCommand& command) {
   if (command.plots.empty()) return {};
   MDOF_TRY(store::Store store, open_to_read(command.database));
   MDOF_TRY(const auto fitted, fit(store, command, false));
   const Squareness& s = fitted.squareness;
   charts::SquarenessResults drawn{s, fitted.budgets.front(), {}, {}};
-  MDOF_TRY(drawn.run_a, daemon::run_stated_at(store, s.run_a, Reference::fixture));
-  MDOF_TRY(drawn.run_b, daemon::run_stated_at(store, s.run_b, Reference::fixture));
+  MDOF_TRY(drawn.run_a, daemon::restated_run(store, s.run_a, Reference::fixture));
+  MDOF_TRY(drawn.run_b, daemon::restated_run(store, s.run_b, Reference::fixture));
   const std::string name =
       "squareness-" + std::to_string(s.run_a) + "-" + std::to_string(s.run_b) + ".svg";
   return write_plots({{name, charts::squareness_svg(drawn, words::Language::english)}},
@@ -172,13 +172,13 @@ Status squareness(SquarenessCommand command) {
   MDOF_TRY(const auto runs, run_pair(command.database, command.words, command.axes));
   command.run_a = runs[0];
   command.run_b = runs[1];
-  MDOF_TRY(auto mdofd, mdofd_that_writes(command.database, command.socket));
-  MDOF_TRY(const std::string reply, mdofd ? fit_there(*mdofd, command) : fit_here(command));
+  MDOF_TRY(auto mdofd, writing_daemon(command.database, command.socket));
+  MDOF_TRY(const std::string reply, mdofd ? fit_in_daemon(*mdofd, command) : fit_here(command));
   simdjson::dom::parser parser;
   const element document = parser.parse(simdjson::padded_string(reply));
   show_notices(notices_of(document), command.all_warnings);
   if (const std::string text = undeclared_text(document); !text.empty()) warn(text);
-  MDOF_CHECK(draw_both_axes(command));
+  MDOF_CHECK(draw_squareness_chart(command));
   return command.json ? write_line(reply) : write_out(squareness_text({document}));
 }
 

@@ -34,7 +34,7 @@ Status check_map(const SeparationRecord& record, const daemon::Judged& judged,
 }
 
 // The algorithm names "set-up 2"; adds the names of the files and runs.
-Error with_names(Error error, const SeparationRecord& record) {
+Error with_set_up_names(Error error, const SeparationRecord& record) {
   std::string names;
   for (std::size_t k = 0; k < record.sources.size(); ++k)
     names += (k > 0 ? ", " : "") + std::to_string(k + 1) + " is " + record.sources[k].name;
@@ -60,7 +60,8 @@ void add_output_options(CLI::App& command, OutputOptions& o) {
 
 Status separate_and_print(LoadedSources loaded, const char* method, const OutputOptions& options) {
   auto separated = algo::separate(loaded.request);
-  if (!separated) return tl::unexpected(with_names(std::move(separated.error()), loaded.record));
+  if (!separated)
+    return tl::unexpected(with_set_up_names(std::move(separated.error()), loaded.record));
   SeparationRecord& record = loaded.record;
   record.method = method;
   record.created_utc = daemon::utc_now();
@@ -71,7 +72,7 @@ Status separate_and_print(LoadedSources loaded, const char* method, const Output
   const daemon::Judged judged{daemon::JudgedKind::separation, "", record.simulated,
                               daemon::doubtful_notices(notices)};
   MDOF_CHECK(check_map(record, judged, options));
-  record.marks = daemon::marks_of(judged);
+  record.marks = daemon::warning_marks(judged);
   record.doubtful = !judged.doubtful.empty();
   if (options.rig_toml) return write_out(separation_plane_toml(record));
   if (options.csv) return write_out(separation_csv(record));

@@ -166,7 +166,7 @@ Result<std::vector<Run>> runs_of(store::Store& store, const SourceOptions& optio
   for (const std::string& word : options.sources) {
     MDOF_TRY(const auto id,
              run_number(store, word, options.axis_given ? axis_from(options.axis) : std::nullopt));
-    MDOF_TRY(Run run, daemon::run_stated_at(store, id, Reference::fixture));
+    MDOF_TRY(Run run, daemon::restated_run(store, id, Reference::fixture));
     runs.push_back(std::move(run));
     MDOF_CHECK(check_alike(runs.front(), runs.back()));
   }

@@ -70,7 +70,7 @@ Diagnosis diagnosis_from(const simdjson::dom::element& device) {
 }
 
 // A running mdofd holds its devices, so it is asked for their states.
-std::vector<Diagnosis> ask_daemon(const daemon::Config& config, const std::string& socket) {
+std::vector<Diagnosis> query_device_list(const daemon::Config& config, const std::string& socket) {
   std::vector<Diagnosis> all = {
       {Level::good, "mdofd is running (" + socket + ") and uses the devices", ""}};
   auto client = rpc::Client::connect(socket);
@@ -115,7 +115,7 @@ std::vector<Diagnosis> check_devices(const daemon::Config& config, const std::st
         {Level::bad,
          "devices: not checked, because mdofd may have opened them: " + words::text(runs.error()),
          ""}};
-  return *runs ? ask_daemon(config, socket) : try_devices(config, socket);
+  return *runs ? query_device_list(config, socket) : try_devices(config, socket);
 }
 
 std::vector<Diagnosis> examine(const DoctorCommand& command) {

@@ -47,7 +47,7 @@ Result<std::string> field_text(const std::string& name, std::size_t width) {
            wrapped(meaning_text(*found->row, found->meaning), width) + "\n";
   std::vector<std::string> names;
   for (const Field& row : fields()) names.emplace_back(row.name);
-  const std::string nearest = nearest_of(name, names);
+  const std::string nearest = nearest_candidate(name, names);
   return fail(ErrorCode::usage,
               "help: unknown field \"" + name + "\"" +
                   (nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)") +

@@ -119,7 +119,7 @@ Status judge(const Study& study, const StudyResult& result, const StudyRecorder&
   }
   return fail(ErrorCode::check,
               "interrupted after " + std::to_string(result.trials) + " trials; " +
-                  (recorder.id() ? "continue with " + recorder.how_to_continue()
+                  (recorder.id() ? "continue with " + recorder.continue_command()
                                  : std::string("only a study with --db FILE can be continued")));
 }
 

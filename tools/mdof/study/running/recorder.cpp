@@ -100,7 +100,7 @@ Status StudyRecorder::end(const StudyResult& result, const std::string& figures_
                          checkpoint);
 }
 
-std::string StudyRecorder::how_to_continue() const {
+std::string StudyRecorder::continue_command() const {
   return "mdof sensitivity --continue " + std::to_string(*id_) +
          (database_.empty() ? "" : " --db " + database_);
 }

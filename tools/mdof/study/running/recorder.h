@@ -41,7 +41,7 @@ class StudyRecorder {
   Status end(const StudyResult& result, const std::string& figures_json,
              const StudyWork& state) const;
   // "mdof sensitivity --continue 3 --db FILE"
-  std::string how_to_continue() const;
+  std::string continue_command() const;
 
  private:
   std::string database_;  // The argument of --db.

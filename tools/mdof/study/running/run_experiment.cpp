@@ -20,7 +20,7 @@ namespace {
 constexpr double kNotSolved = std::numeric_limits<double>::quiet_NaN();
 
 // A clock that never waits: the result of a trial must not depend on the time.
-drivers::Clock standing_clock() {
+drivers::Clock constant_clock() {
   return {[] { return std::int64_t{0}; }, [](std::int64_t) {}};
 }
 
@@ -56,7 +56,7 @@ class RunTrial {
   Result<Run> measure() {
     if (!mounted_) return bad_input("an angle exceeds 0.25 rad, the limit of the models");
     MDOF_TRY(auto simulator,
-             drivers::Simulator::make("study", plan_.rig, options(), model(), standing_clock()));
+             drivers::Simulator::make("study", plan_.rig, options(), model(), constant_clock()));
     daemon::PipelineOptions settings;
     settings.model = plan_.model;
     for (const double t : plan_.run.targets_mm) settings.sequence.targets_m.push_back(from_mm(t));

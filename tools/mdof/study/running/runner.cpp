@@ -101,13 +101,13 @@ StudyRunner::Round StudyRunner::next_round() {
 
 // True also if the rule can never settle, because more trials would not help.
 bool StudyRunner::rule_ended() const {
-  return rule_ && (rule_->settled() || rule_->output_that_never_settles());
+  return rule_ && (rule_->settled() || rule_->unsettled_output());
 }
 
 std::string StudyRunner::not_settled() const {
   if (!rule_ || rule_->settled()) return "";
   const std::string what = "the requested tolerance was not reached";
-  const auto output = rule_->output_that_never_settles();
+  const auto output = rule_->unsettled_output();
   if (!output) return what + " within the permitted number of trials; give a larger --trials";
   return what + ": a block of " + std::to_string(batch_trials_) +
          " trials gave fewer than two values of " + experiment_->outputs()[*output] +
@@ -177,7 +177,7 @@ std::uint64_t StudyRunner::work_share(const Round& round, Parts& parts, Figures*
     return size > 1 || !Interrupt::requested();
   };
   const std::uint64_t done = in_parallel(options_.threads, mine, piece, tick);
-  if (divided_ && divided_->cut_short()) {
+  if (divided_ && divided_->was_interrupted()) {
     parts = Parts(options_.threads);
     return round.begin;
   }

@@ -33,7 +33,7 @@ struct Shared {
   std::exception_ptr failure;  // under mutex
 };
 
-void work_off(Shared& shared, unsigned worker) {
+void run_pieces(Shared& shared, unsigned worker) {
   pthread_setname_np(pthread_self(), ("study " + std::to_string(worker + 1)).c_str());
   std::exception_ptr failure;
   try {
@@ -60,7 +60,7 @@ std::size_t in_parallel(unsigned threads, std::size_t count,
   if (workers == 0) return 0;
   Shared shared(count, work, workers);
   std::vector<std::jthread> pool;
-  for (unsigned w = 0; w < workers; ++w) pool.emplace_back([&shared, w] { work_off(shared, w); });
+  for (unsigned w = 0; w < workers; ++w) pool.emplace_back([&shared, w] { run_pieces(shared, w); });
   {
     std::unique_lock lock(shared.mutex);
     while (!shared.ended.wait_for(lock, kTick, [&shared] { return shared.running == 0; })) {

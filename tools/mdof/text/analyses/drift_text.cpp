@@ -92,7 +92,7 @@ std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_
   return text;
 }
 
-std::string drift_text(const Run& run, const DriftOfStored& drift, std::size_t width) {
+std::string drift_text(const Run& run, const StoredDrift& drift, std::size_t width) {
   std::string text;
   if (!drift.found.closures.empty()) text = closures_text(run, drift.found.closures, width) + "\n";
   if (!drift.found.not_seen.empty())

@@ -10,12 +10,12 @@
 namespace mdof::tools {
 
 using daemon::drift_of;
-using daemon::DriftOfStored;
+using daemon::StoredDrift;
 
 // Sentences about a significant drift, one line each; empty: no significant drift.
 std::string drift_notice(const Run& run, const algo::RunDrift& drift, std::size_t width);
 // The output of `mdof show --figures` about drift: closures, drift of each error, effect on
 // straightness.
-std::string drift_text(const Run& run, const DriftOfStored& drift, std::size_t width);
+std::string drift_text(const Run& run, const StoredDrift& drift, std::size_t width);
 
 }  // namespace mdof::tools

@@ -74,7 +74,7 @@ std::string temperature_text(const daemon::ParkedLog& log, const algo::WarmUp& f
 
 // Names the series that exceeds its limit most in the last window, or a series that cannot be
 // judged.
-std::string limiting_cause(const daemon::ParkedLog& log, const algo::WarmUp& found) {
+std::string not_ready_reason(const daemon::ParkedLog& log, const algo::WarmUp& found) {
   std::string worst;
   double most = 0;
   for (std::size_t s = 0; s < found.windows.size(); ++s) {
@@ -110,7 +110,7 @@ std::string parked_verdict(const daemon::ParkedLog& log, const algo::WarmUp& fou
   if (found.ready_after_s)
     return "ready after " + minutes(*found.ready_after_s) +
            " min: after this time, the drift is below the limit in every window";
-  const std::string what = limiting_cause(log, found);
+  const std::string what = not_ready_reason(log, found);
   return "not ready yet: " +
          (what.empty() ? "at the end of the log, at least " + std::to_string(algo::kFewestBelow) +
                              " windows (together at least " + minutes(algo::kShortestBelow_s) +

@@ -37,7 +37,8 @@ std::string sources_text(const SeparationRecord& record, std::size_t width) {
 }
 
 std::string series_text(const std::string& title, const std::string& place,
-                        const std::string& value, const SeenSeries& series, std::size_t width) {
+                        const std::string& value, const DeterminedSeries& series,
+                        std::size_t width) {
   TextTable table({place, value + (series.whole() ? "" : ", determined part"), "U/µm"});
   const double u_m = column_u(series.u_m);
   for (std::size_t i = 0; i < series.place_m.size(); ++i) {
@@ -87,7 +88,7 @@ std::string heights(const std::vector<double>& height_m) {
 }
 
 // Root mean square over the places; NaN: unknown.
-double mean_u(const SeenSeries& series) {
+double mean_u(const DeterminedSeries& series) {
   double sum = 0;
   for (const double u : series.u_m) sum += u * u;
   return std::sqrt(sum / static_cast<double>(series.u_m.size()));
@@ -118,9 +119,9 @@ std::string provenance_comment(const SeparationRecord& record) {
 
 }  // namespace
 
-std::string unseen_text(const SeenSeries& series) {
+std::string unseen_text(const DeterminedSeries& series) {
   std::vector<std::string> words;
-  for (const UnseenShape& shape : series.unseen) words.push_back(shape.name);
+  for (const UndeterminedShape& shape : series.unseen) words.push_back(shape.name);
   return words.empty() ? "nothing" : joined(words);
 }
 
@@ -137,7 +138,7 @@ std::string separation_text(const SeparationRecord& record, std::size_t width) {
                      "place/mm", "height/µm", r.target, width) +
          "\n" +
          wrapped("± is the standard uncertainty u (" + r.u_reason + "). " + expanded_text(r) +
-                     "u does not include: " + not_in_separation_u(),
+                     "u does not include: " + separation_u_omits(),
                  width) +
          "\n";
 }
@@ -146,7 +147,7 @@ std::string separation_csv(const SeparationRecord& record) {
   CsvText csv;
   csv.cells({"series", "place_mm", "seen_um", "u_um", "U_um", "whole", "u_covers", "k", "nu_eff"});
   csv.end_row();
-  const auto add = [&](std::string_view name, const SeenSeries& series) {
+  const auto add = [&](std::string_view name, const DeterminedSeries& series) {
     for (std::size_t i = 0; i < series.place_m.size(); ++i) {
       csv.cell(name).cell(to_mm(series.place_m[i])).cell(to_um(series.seen_m[i]));
       csv.cell(to_um(series.u_m[i])).cell(to_um(series.U_m(i)));
@@ -161,7 +162,7 @@ std::string separation_csv(const SeparationRecord& record) {
 }
 
 std::string separation_plane_toml(const SeparationRecord& record) {
-  const SeenSeries& target = record.result.target;
+  const DeterminedSeries& target = record.result.target;
   const double u_m = mean_u(target);
   std::string text = noise_only_comment(record.result.noise_only) + provenance_comment(record) +
                      "# A rig with a [[plane]] table needs one [[plane]] table for each surface "

@@ -19,6 +19,6 @@ std::string separation_csv(const SeparationRecord& record);
 std::string separation_plane_toml(const SeparationRecord& record);
 
 // "offset, slope and 2 of period 10 mm"
-std::string unseen_text(const SeenSeries& series);
+std::string unseen_text(const DeterminedSeries& series);
 
 }  // namespace mdof::tools

@@ -36,6 +36,8 @@ class MapTextReader {
   void expect_bytes(std::size_t bytes) { bytes_expected_ = bytes; }
   Status feed(std::string_view piece);
   Result<SurfaceMap> finish();
+  // Whether the file has a header, whose names state the units. `units` is then not used.
+  bool has_header() const { return form_ == Form::csv; }
 
  private:
   enum class Form { unknown, csv, xyz };

@@ -22,6 +22,11 @@ namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{2} << 30;  // of a file read as a whole
 
+std::string_view without_byte_order_mark(std::string_view piece) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  return piece.starts_with(kMark) ? piece.substr(kMark.size()) : piece;
+}
+
 // The first piece shows the format of the file. Text is read piece by piece, so that a large map is
 // not also in memory as text.
 class MapReader {
@@ -36,6 +41,7 @@ class MapReader {
   Status take(std::string_view piece) {
     if (!is_reported_) {
       is_reported_ = true;
+      if (is_sdf(without_byte_order_mark(piece))) piece = without_byte_order_mark(piece);
       is_complete_ = is_sdf(piece) || is_zygo_dat(piece);
       if (piece.starts_with("PK\x03\x04"))
         return bad_input(file_ +
@@ -50,6 +56,7 @@ class MapReader {
     whole_.append(piece);
     return {};
   }
+  bool states_units() const { return is_complete_ || text_.has_header(); }
   Result<SurfaceMap> map() {
     if (!is_complete_) return text_.finish();
     return is_sdf(whole_) ? parse_sdf(whole_, file_) : parse_zygo_dat(whole_, file_);
@@ -130,6 +137,8 @@ Result<SurfaceMap> load_map(const std::string& file, const MapOptions& options) 
   MapReader reader(file, units);
   MDOF_CHECK(read_in_pieces(file, [&](std::string_view piece) { return reader.take(piece); }));
   MDOF_TRY(SurfaceMap map, reader.map());
+  if (units && reader.states_units())
+    warn(file + ": --unit is not used for this map, because the file states its units");
   show_notices(map.notices, true);
   return map;
 }

@@ -169,7 +169,7 @@ void add_budget_methods(rpc::MethodTable& table, Methods& m) {
             {"mixed", ParamType::boolean,
              "also use runs with other rigs, models or evaluation options", false, "false"}},
        .members = "{reference, figures: {{figure}?: {values: [{runs: [integer], started_utc, "
-                  "value, u, u_random, low, high, signal}], centre, sigma, baseline, moved: "
+                  "...stated, low, high, signal}], centre, sigma, baseline, moved: "
                   "{since_runs, by, u_by}, ...covers, left_out: [string], ...notices}}}",
        .example = R"({"figure": "EYX_straightness_um"})",
        .handler = on_query(m, trend)});

@@ -129,8 +129,10 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
 
 void add_value(Trend& trend, std::vector<std::int64_t> runs, const std::string& started_utc,
                const Budget& budget, bool u_is_known) {
-  trend.values.push_back({std::move(runs), started_utc, budget.value,
-                          u_is_known ? budget.u : std::nan(""), budget.u_random});
+  trend.values.push_back({std::move(runs), started_utc, budget});
+  Budget& stated = trend.values.back().stated;
+  stated.lines.clear();
+  if (!u_is_known) stated.u = stated.U = stated.freedom = stated.coverage_factor = std::nan("");
   // The chart does not include a contribution that one value does not include.
   const bool is_first = trend.values.size() == 1;
   if (is_first || budget.noise_only) trend.u_covers = covers(budget);
@@ -265,7 +267,7 @@ Result<std::vector<Trend>> trends(store::Store& store, const TrendRequest& reque
     if (!request.axis || *request.axis == axis) MDOF_CHECK(add_axis(store, axis, request, out));
   for (Trend& trend : out) {
     std::vector<algo::ChartValue> values;
-    for (const TrendValue& v : trend.values) values.push_back({v.value, v.u_random});
+    for (const TrendValue& v : trend.values) values.push_back({v.stated.value, v.stated.u_random});
     trend.baseline = request.baseline;
     trend.chart = algo::control_chart(values, request.baseline);
   }

@@ -11,6 +11,7 @@
 #include "schema/axis.h"
 #include "schema/base/result.h"
 #include "schema/notice/notice.h"
+#include "schema/uncertainty/budget.h"
 #include "schema/uncertainty/covers.h"
 #include "schema/uncertainty/noise_only.h"
 
@@ -27,10 +28,9 @@ struct TrendRequest {
 struct TrendValue {
   std::vector<std::int64_t> runs;  // one, or two for a squareness
   std::string started_utc;         // start of the last run
-  // SI units. u: combined, NaN if it cannot be calculated. u_random: the part of noise and
-  // repeatability. The chart uses u_random, because declared uncertainties are the same in all
-  // runs.
-  double value = 0, u = 0, u_random = 0;
+  // Without its lines. u, U and k are NaN if u cannot be calculated. The chart uses u_random, the
+  // part of noise and repeatability, because declared uncertainties are the same in all runs.
+  Budget stated;
 };
 struct Trend {
   std::string figure;

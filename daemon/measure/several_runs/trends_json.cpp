@@ -5,6 +5,7 @@
 #include "daemon/words/words.h"
 #include "schema/notice/notice_json.h"
 #include "schema/sample.h"
+#include "schema/uncertainty/budget_json.h"
 #include "schema/uncertainty/run_uncertainty.h"
 #include "schema/units.h"
 
@@ -25,12 +26,9 @@ void write_trend(JsonWriter& json, const Trend& trend) {
     const auto& v = trend.values[i];
     json.begin_object().key("runs").begin_array();
     for (const std::int64_t run : v.runs) json.value(run);
-    json.end_array()
-        .field("started_utc", v.started_utc)
-        .field("value", to_key_unit(v.value))
-        .field("u", to_key_unit(v.u))
-        .field("u_random", to_key_unit(v.u_random))
-        .field("low", chart ? to_key_unit(chart->low[i]) : kNaN)
+    json.end_array().field("started_utc", v.started_utc);
+    write_stated_members(json, v.stated);
+    json.field("low", chart ? to_key_unit(chart->low[i]) : kNaN)
         .field("high", chart ? to_key_unit(chart->high[i]) : kNaN)
         .field("signal", chart ? trend_signal(*chart, i) : "")
         .end_object();

@@ -188,7 +188,7 @@ class OneQuantity(unittest.TestCase):
         compared = client.call("run.compare", before=1, after=2)
         replies["run.compare"] = compared | {"figures": {k: f["before"] for k, f in compared["figures"].items()}}
         trend = client.call("run.trend", axis="X")
-        replies["run.trend"] = trend | {"figures": {k: f | {"value": f["values"][-1]["value"], "u": f["values"][-1]["u"], "U": None}
+        replies["run.trend"] = trend | {"figures": {k: f | {key: f["values"][-1][key] for key in ("value", "u", "U")}
                                                     for k, f in trend["figures"].items()}}
         replies["compensation.build"] = client.call("compensation.build", runs=[1])
         replies["compensation.status"] = client.call("compensation.status")
@@ -225,7 +225,7 @@ class OneQuantity(unittest.TestCase):
             figures(n, where + ", uncertainty", s["uncertainty"])
         for where in ("trend", "trend of EC0Y"):
             for name, f in cls.documents[where]["figures"].items():
-                n.add(name, where, value=f["values"][-1]["value"], u=f["values"][-1]["u"])
+                n.add(name, where, **{key: f["values"][-1][key] for key in ("value", "u", "U")})
         table(n, "compensation show", cls.documents["compensation show"]["points"])
         table(n, "compensation build", cls.documents["compensation build"]["points"])
         table(n, "compensation.grid", cls.replies["compensation.grid"]["points"])
@@ -245,7 +245,7 @@ class OneQuantity(unittest.TestCase):
         for where in ("trend", "trend of EC0Y"):
             last = {r["figure"]: r for r in cls.csvs[where]}
             for name, r in last.items():
-                n.add(name, where + " --csv", value=r["value"], u=r["u"])
+                n.add(name, where + " --csv", value=r["value"], u=r["u"], U=r["U"])
         for r in cls.csvs["show --figures"]:
             if r["approach"] != "mean":
                 continue

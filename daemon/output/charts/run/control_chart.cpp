@@ -42,8 +42,9 @@ void draw_limit(Svg& svg, const Panel& panel, const char* name, const char* mark
 
 void draw_value(Svg& svg, const Panel& panel, const daemon::Trend& trend, std::size_t i) {
   const daemon::TrendValue& v = trend.values[i];
-  const double x = static_cast<double>(i + 1), y = to_key_unit(v.value);
-  svg.data("row", static_cast<double>(i)).data("x", x).data("y", y).data("u", to_key_unit(v.u));
+  const double x = static_cast<double>(i + 1), y = to_key_unit(v.stated.value);
+  svg.data("row", static_cast<double>(i)).data("x", x).data("y", y);
+  svg.data("u", to_key_unit(v.stated.u));
   if (trend.chart)
     svg.data("low", to_key_unit(trend.chart->low[i]))
         .data("high", to_key_unit(trend.chart->high[i]));
@@ -74,7 +75,7 @@ std::string control_chart_svg(const daemon::Trend& trend, Language language) {
   Range x, y;
   x.include(1);
   x.include(static_cast<double>(trend.values.size()));
-  for (const daemon::TrendValue& v : trend.values) y.include(to_key_unit(v.value));
+  for (const daemon::TrendValue& v : trend.values) y.include(to_key_unit(v.stated.value));
   if (trend.chart)
     for (const auto* limits : {&trend.chart->low, &trend.chart->high})
       for (const double limit : *limits) y.include(to_key_unit(limit));

@@ -7,7 +7,6 @@
 #include "daemon/output/charts/plot_files.h"
 #include "daemon/output/charts/run/control_chart.h"
 #include "daemon/words/words.h"
-#include "schema/base/json_writer.h"
 #include "schema/notice/notice_json.h"
 #include "schema/sample.h"
 #include "schema/uncertainty/run_uncertainty.h"
@@ -86,7 +85,7 @@ std::string text_of(const daemon::Trend& trend) {
   for (std::size_t i = 0; i < trend.values.size(); ++i) {
     const auto& v = trend.values[i];
     const bool has = trend.chart.has_value();
-    table.add({runs_of(v), v.started_utc, with_u(trend, v.value, v.u),
+    table.add({runs_of(v), v.started_utc, with_u(trend, v.stated.value, v.stated.u),
                has ? shown(trend, trend.chart->low[i]) : "-",
                has ? shown(trend, trend.chart->high[i]) : "-",
                has ? daemon::trend_signal(*trend.chart, i) : ""});
@@ -129,7 +128,7 @@ std::string brief_text(const std::vector<daemon::Trend>& trends) {
     table.add({name, unit_of(trend), std::to_string(trend.values.size()),
                trend.values.empty()
                    ? "-"
-                   : with_u(trend, trend.values.back().value, trend.values.back().u),
+                   : with_u(trend, trend.values.back().stated.value, trend.values.back().stated.u),
                has ? shown(trend, trend.chart->low.back()) : "-",
                has ? shown(trend, trend.chart->high.back()) : "-",
                !has    ? "too few values"
@@ -153,29 +152,19 @@ std::string text_of(const std::vector<daemon::Trend>& trends, bool all) {
   return noise_only_notice(noise_only_of(trends)) + out;
 }
 
-std::string json_of(const std::vector<daemon::Trend>& trends) {
-  JsonWriter json;
-  json.begin_object().field("reference", "fixture").key("figures").begin_object();
-  for (const daemon::Trend& trend : trends) {
-    json.key(trend.figure).begin_object();
-    daemon::write_trend(json, trend);
-    json.field("says", sentence_of(trend)).end_object();
-  }
-  json.end_object().end_object();
-  return json.take();
-}
-
 std::string csv_of(const std::vector<daemon::Trend>& trends) {
   CsvText csv;
-  csv.cells({"figure", "runs", "started_utc", "value", "u", "u_random", "centre", "low", "high",
-             "signal", "u_covers", "not_declared"});
+  csv.cells({"figure", "runs", "started_utc", "value", "u", "u_random", "k", "U", "centre", "low",
+             "high", "signal", "u_covers", "not_declared"});
   csv.end_row();
   for (const daemon::Trend& trend : trends)
     for (std::size_t i = 0; i < trend.values.size(); ++i) {
       const auto& v = trend.values[i];
       const auto& chart = trend.chart;
       csv.cells({trend.figure, runs_of(v), v.started_utc});
-      csv.cell(to_key_unit(v.value)).cell(to_key_unit(v.u)).cell(to_key_unit(v.u_random));
+      for (const double x : {v.stated.value, v.stated.u, v.stated.u_random})
+        csv.cell(to_key_unit(x));
+      csv.cell(v.stated.coverage_factor).cell(to_key_unit(v.stated.U));
       csv.cell(chart ? to_key_unit(chart->centre) : kNaN);
       csv.cell(chart ? to_key_unit(chart->low[i]) : kNaN);
       csv.cell(chart ? to_key_unit(chart->high[i]) : kNaN);
@@ -202,7 +191,7 @@ Status trend(const TrendCommand& command) {
                        charts::control_chart_svg(of, words::Language::english)});
   MDOF_CHECK(write_plots(drawn, command.plots));
   MDOF_CHECK(command.csv    ? write_out(csv_of(found))
-             : command.json ? write_line(json_of(found))
+             : command.json ? write_line(daemon::trends_json(found))
                             : write_out(text_of(found, command.all)));
   std::string moved;
   for (const daemon::Trend& of : found)

@@ -28,7 +28,7 @@ constexpr double kRankTolerance = 1e-9;
 // not give such a value. Errors that give it change all readings in the same way, and Birge's
 // factor does not cover them.
 constexpr double kMostMisfit = 20;
-constexpr double kFarthest_m = 1e-3;  // from the rig's position; clamping by hand is better
+constexpr double kFarthest_m = 1e-3;  // from the rig's position; clamping by hand is closer
 
 // The space of the unknowns of the clampings, with its least-squares solution.
 struct PoseSpace {

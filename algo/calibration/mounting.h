@@ -13,7 +13,7 @@
 // units of the rig's prior uncertainties, show which combinations the logs determine: those that
 // they determine at least twice as well as the rig. All other combinations keep the rig's values,
 // and the result names them. The logs can never determine what a clamping does as well: a common
-// shift of all probes of a plane along it, or a common change of their zeros.
+// shift of all probes of a plane along this plane, or a common change of their zeros.
 #pragma once
 
 #include <Eigen/Core>

@@ -14,7 +14,7 @@ constexpr double kWhole = 0.99;       // share of a combination in the unseen sp
 constexpr double kSamePlane = 1e-9;   // 1 - cosine
 constexpr double kIndependent = 0.1;  // remainder of a combination outside others
 
-using Group = std::vector<std::size_t>;  // probes with one plane of the target
+using Group = std::vector<std::size_t>;  // probes that measure one plane of the target
 
 std::vector<Group> groups_of(const Fixture& fixture) {
   std::vector<Group> groups;
@@ -67,7 +67,8 @@ class Naming {
   Unseen take() { return std::move(out_); }
 
  private:
-  // Whether `v`, in the unknowns' own units, is entirely unseen. Then adds it to the common shifts.
+  // Whether `v`, in the unknowns' own units, is entirely unseen; if so, adds it to the common
+  // shifts.
   bool is_unseen(const Eigen::VectorXd& v, double& length) {
     Eigen::VectorXd scaled = v;
     for (Eigen::Index i = 0; i < v.size(); ++i)

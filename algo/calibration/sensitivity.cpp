@@ -32,8 +32,8 @@ struct Reading {
   double true_m, read_m, u_m;
 };
 
-// Groups by position along the axis, ascending. A group ends at a gap of more than a fifth of a
-// step.
+// Groups by position along the axis, ascending. The readings of a group are at most `apart_m`, or a
+// fifth of the mean step if this is more, from its first reading.
 std::vector<std::vector<Reading>> group_by_position(std::vector<Reading> all, double apart_m) {
   std::sort(all.begin(), all.end(),
             [](const Reading& a, const Reading& b) { return a.true_m < b.true_m; });

@@ -134,7 +134,8 @@ Status add_node(VolumetricTable& table, const Machine& machine, const Volumetric
   return {};
 }
 
-// Moves the command by half a cell along each axis of `half`; false: there is no such cell.
+// Sets the command to the node plus half a cell along each axis of `half`; false: there is no such
+// cell.
 bool move_half_cell(const VolumetricTable& table, std::size_t node, unsigned half,
                     Vec3& command_m) {
   command_m = table.command_at(node);

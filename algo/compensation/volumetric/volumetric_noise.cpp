@@ -59,8 +59,8 @@ double weight_of(const TablePlace& place, std::size_t target) {
   return target == place.cell + 1 ? place.part : 0;
 }
 
-// Covariance of the noise of error k at one command with the noise of error l at another command:
-// both share targets.
+// Covariance of the noise of error k at one command with the noise of error l at another command,
+// due to the targets that both commands have in common.
 double covariance_of(const MachineFrame& frame, std::size_t k, std::size_t l, double at,
                      double there) {
   const ErrorCovariance& known = frame.covariance;

@@ -20,8 +20,8 @@ struct TimedVisit {
 };
 
 // Data for the estimation of slow noise, in order of time. If there are many places, neighbouring
-// places visited one after the other share a row with their mean, because the time grows with
-// places².
+// places visited one after the other share a row with their mean, because the calculation time
+// grows with places².
 struct DriftRows {
   std::vector<double> time_s;
   std::vector<std::size_t> place;

@@ -10,13 +10,13 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLeastNoise2 = 1e-24;                // (1 pm)²: of readings without any noise
-constexpr double kNearlyAsLikely = 7, kAsLikely = 2;  // of -2 log of the likelihood
-constexpr double kTaken = 1e-6;      // of the sd of a score, which rounding leaves of one
-constexpr Eigen::Index kWaves = 12;  // of the slow noise over a log, half a period and more
+constexpr double kLeastNoise2 = 1e-24;                // (1 pm)², for readings without noise
+constexpr double kNearlyAsLikely = 7, kAsLikely = 2;  // in -2 log of the likelihood
+constexpr double kTaken = 1e-6;      // in sd of a score: the rounding of a subtracted drift
+constexpr Eigen::Index kWaves = 12;  // waves of the slow noise: 1 to 12 half periods in a log
 constexpr double kPi = 3.14159265358979323846;
 
-// Lower L of L Lᵀ = S; what rounding makes negative is 0.
+// Lower triangular L with L Lᵀ = S; values that rounding makes negative are set to 0.
 Eigen::MatrixXd root_of(const Eigen::MatrixXd& S) {
   Eigen::MatrixXd root = Eigen::MatrixXd::Zero(S.rows(), S.rows());
   for (Eigen::Index a = 0; a < S.rows(); ++a)
@@ -96,9 +96,9 @@ void DriftFit::estimate(Eigen::Index k, const std::vector<WeighedFit>& fits, dou
     series_[static_cast<std::size_t>(k)].u_change = sd_of(best) * best.shapes(whole).norm();
 }
 
-// Waves over the log, cosines of m half periods, in which the slow noise is independent (nearly; of
-// its spectrum 2 τ/(1 + ω²τ²)), and what they do to the scores. The rest of the scores is of white
-// noise.
+// Splits the slow noise into cosines of m half periods over the log, which are nearly independent
+// (spectrum 2 τ/(1 + ω²τ²)), and finds their effect on the scores. The rest of the variance of the
+// scores is from white noise.
 void DriftFit::split_noise(Estimate& of) const {
   const auto n = static_cast<Eigen::Index>(design_.visits().size());
   Eigen::MatrixXd y(n, kWaves);

@@ -1,5 +1,5 @@
-// The drift of several series of readings that were taken together: which is significant, how much,
-// and how well it is known.
+// The drifts of several series of readings that were taken together: their significance, size and
+// uncertainty.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,23 +10,25 @@
 
 namespace mdof::algo {
 
-// Chance that any of the series of a fit without drift is given one.
+// Probability that a fit finds a significant drift in any of its series, if no series has one.
 inline constexpr double kDriftLevel = 0.01;
 
 struct SeriesDrift {
-  int order = 0;                    // the highest that is significant; 0: none
+  int order = 0;                    // the highest significant order; 0: no drift
   double change = 0, u_change = 0;  // from the first visit to the last
   double range = 0;                 // highest - lowest at the visits
   double least_found = 0;           // a steady change of this size or more is significant
-  bool steps = false;               // or steps from run to run, as likely (run_drift.h): it is left
+  bool steps = false;  // steps from run to run are as likely (run_drift.h): not removed
   bool significant() const { return order > 0; }
 };
 
-// `y`: visits × series; `noise2`: of each series the mean u² of its readings, which the scatter of
-// the residuals is not taken below. Noise may last from one visit to the next, and nobody knows for
-// how long: a drift is significant only if it is by every noise (slow_noise.h) that the log makes
-// nearly as likely as the likeliest; by that one it is estimated. Orders are tested from the
-// highest down, each at kDriftLevel / (orders × series), with the variance that the highest leaves.
+// `y`: visits × series; `noise2`: for each series the mean u² of its readings, the lower limit of
+// the variance from the residuals. Noise may be correlated from one visit to the next, for an
+// unknown time. So a drift is significant only if it is significant with every model of the noise
+// (slow_noise.h) that is nearly as likely as the likeliest one. The estimate is from the model with
+// the largest uncertainty among those about as likely as the likeliest one; u_change is from the
+// likeliest one. Orders are tested from the highest to the lowest, each at kDriftLevel / (orders ×
+// series), with the residual variance of the highest order.
 class DriftFit {
  public:
   DriftFit(DriftDesign design, const Eigen::MatrixXd& y, const Eigen::VectorXd& noise2);
@@ -35,21 +37,21 @@ class DriftFit {
   double freedom() const { return freedom_; }
   const std::vector<SeriesDrift>& series() const { return series_; }
   void take_for_steps(std::size_t series) { series_[series].steps = true; }
-  // Of each series what is to be taken from a reading at that time, against the first visit; 0
-  // where no drift is significant, or it is one of steps.
+  // For each series the drift since the first visit, to be subtracted from a reading at this time;
+  // 0 if no drift is significant, or if steps are as likely.
   Eigen::VectorXd drift(double time_s) const;
-  // Where such drifts were taken from the readings before: by how much these may be wrong at each
-  // of the times, as columns whose squares add, series × columns. Whether one was taken is seen:
-  // its scores are 0. What lasts of the noise is in it, as the fit has taken a part of that, too.
+  // Uncertainty of readings from which such drifts were subtracted before, at each of the times:
+  // series × columns, and the squares of the columns add. A subtracted drift is recognised by its
+  // scores, which are 0. The slow noise is included, because the fit has removed a part of it, too.
   std::vector<Eigen::MatrixXd> parts(const std::vector<double>& time_s);
 
  private:
-  struct Estimate {  // of one series
+  struct Estimate {  // for one series
     Eigen::VectorXd scores;
     Eigen::MatrixXd root;
-    double sd = 0;  // of a score
+    double sd = 0;  // sd of a score
     SlowNoise noise;
-    Eigen::MatrixXd of_waves, of_white;  // what these make of the scores
+    Eigen::MatrixXd of_waves, of_white;  // their effects on the scores
   };
   void estimate(Eigen::Index series, const std::vector<WeighedFit>& fits, double noise2,
                 double critical_t);

@@ -18,7 +18,7 @@ struct ParkedSeries {
 };
 
 struct ParkedReadings {
-  double step_s = 0;                  // each value is a mean over this time
+  double step_s = 0;                  // time between values; each value is a mean over it
   std::vector<ParkedSeries> series;   // SI, all of the same length
   std::vector<double> temperature_C;  // same length; empty: no temperature
 };
@@ -43,8 +43,8 @@ struct WarmUp {
   std::vector<std::vector<DriftWindow>> windows;  // [series][window]
   std::vector<WithTemperature> with_temperature;  // [series]; empty: no temperature
   bool limited = false;                           // whether any series has a limit
-  // From this time every window of every series with a limit is below its limit, and at least
-  // kFewestBelow windows with a length of kShortestBelow_s in total follow. Empty: not ready, or no
+  // From this time on every window of every series with a limit is below its limit; these are at
+  // least kFewestBelow windows and last at least kShortestBelow_s in total. Empty: not ready, or no
   // limit.
   std::optional<double> ready_after_s;
 };

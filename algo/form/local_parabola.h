@@ -17,7 +17,7 @@ struct Parabola {
 
 class LocalParabola {
  public:
-  // Keeps a reference to `map`. `least_share`: required share of measured pixels in the square.
+  // `map` must outlive this object. `least_share`: required share of measured pixels in the square.
   LocalParabola(const SurfaceMap& map, double side_m, double least_share);
 
   // False: the side is below two pixels, so the square is smaller than 3 x 3.

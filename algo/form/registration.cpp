@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kForSearch = 1500, kForCourse = 50'000, kForFit = 250'000;  // pixels
 constexpr double kLeastOverlap = 0.1;   // share of A's pixels
-constexpr double kSearchOverlap = 0.6;  // share for poses found by search
+constexpr double kSearchOverlap = 0.6;  // the same for poses found by search
 constexpr double kSearchShift = 0.2;    // part of the size of A, to each side
 constexpr int kSearchSteps = 10;        // to each side
 constexpr double kSearchTurn_deg = 2;   // in each step; five steps to each side
@@ -32,7 +32,8 @@ constexpr std::size_t kTurnsFitted = 6;
 constexpr double kAlike = 5e-3;  // part of the mean size of A: below it no search is needed
 constexpr double kPlaceResidualLimit =
     4;  // times the mean size of A: limit of the residual of one place
-// A pose found by search must leave less than this part of the first residual, and of A.
+// A pose found by search must leave less than this part of the first residual, and of the mean size
+// of A.
 constexpr double kMuchBetter = 0.5;
 
 // The best pose of a grid of shifts and turns, with few pixels.

@@ -81,7 +81,8 @@ bool is_one_sided(const std::vector<Cell>& cells) {
 struct Fitted {
   double z_m = SurfaceMap::kMissing;  // missing: the points do not determine it
   double variance = 0;                // variance of z, for points of variance 1
-  double squares = 0, freedom = 0;    // sum of squares of the residuals, per point
+  // Sum of squares of the residuals, for the variance of one point, and its degrees of freedom.
+  double squares = 0, freedom = 0;
 };
 
 Fitted fitted(const std::vector<Cell>& cells) {

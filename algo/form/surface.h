@@ -26,7 +26,7 @@ struct SurfacePoint {
 // If pixels are missing, the differences are over three pixels, or the interpolation is linear.
 class Surface {
  public:
-  // The outermost `extension` pixels are heights; a few more are used for the slopes only.
+  // Extends the map by `extension` pixels, and by a few more that are used for the slopes only.
   Surface(const SurfaceMap& map, std::size_t extension, Extension how);
 
   // False: a pixel that contributes at this place is more than `rings` pixels away from a measured

@@ -31,8 +31,8 @@ PoseFit fit_at(const Places& a, const Surface& b, const MapPose& pose);
 PoseFit fitted_from(const Places& a, const Surface& b, const MapPose& start,
                     const Eigen::MatrixXd& directions, double pixel_m, int most);
 
-// Mean size of the residuals over the places where `counts` is true and B is measured, each at most
-// `most_m`; and the share of these places.
+// Mean size of the residuals over the places where `counts` is true and B is measured; a residual
+// above `most_m` counts as `most_m`. `share`: share of these places.
 struct MeanLeft {
   double size_m = 0, share = 0;
 };

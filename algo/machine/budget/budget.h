@@ -37,7 +37,7 @@ struct BudgetModel {
   std::vector<FrameValues> values;  // values of the measured errors
   std::vector<BudgetCause> causes;
   std::vector<std::string> replaced;      // "screw B on EXX"
-  std::vector<std::string> not_declared;  // errors that act on the tool without a cause or a u
+  std::vector<std::string> not_declared;  // errors that act on the tool, with neither cause nor u
 };
 
 // Effect of one unit of the source on the error at this command: m or rad.
@@ -60,7 +60,7 @@ struct MeasuredError {
   // Effect on the place: u times |derivative of the place|.
   double designed_effect_m = 0, measured_effect_m = 0;
 };
-// Sorted by the excess of the measured error over its design, largest first.
+// Sorted by measured_effect_m² - designed_effect_m², largest first.
 std::vector<MeasuredError> designed_against_measured(const Machine& machine, const Command& at);
 
 }  // namespace mdof::algo

@@ -32,7 +32,7 @@ struct Perpendicularity {
   double mean_m = 0, residual_sd_m = 0;
   double turns = 0;  // total turns of the spot, in either direction
   // Linear drift of the height between the turns, from the first reading to the last. It is not
-  // fitted (0) unless the readings cover more than a turn and a sixth.
+  // fitted (0) unless `turns` is more than a turn and a sixth.
   bool drift_fitted = false;
   double drift_m = 0, u_drift_m = 0;
   std::vector<Harmonic> harmonics;  // orders 1 ... highest, without tilt and axes

@@ -95,7 +95,7 @@ MachineFrame axis_c(const ChainAxis& chain) {
   return c;
 }
 
-// Errors that are not given are set to 0 as known.
+// Sets errors that are not given to a known 0.
 void set_missing_errors_to_zero(Machine& machine) {
   for (MachineFrame& frame : machine.frames)
     for (std::size_t k = 0; k < kBodyErrors; ++k) {

@@ -15,8 +15,8 @@ namespace mdof::algo {
 
 class Solver {
  public:
-  // Error: the probes of the rig do not determine all five errors (the error names them), or the
-  // fixture does not fit the small-angle models.
+  // Error: the probes of the rig do not determine all five errors (the error names those they do
+  // not determine); or, for a small-angle model, the fixture is not of the paper's kind.
   static Result<Solver> create(const Rig& rig, Model model);
 
   // `readings_m`: displacement of each probe in the order of the rig, NaN if it is lost. `u_m`:

@@ -17,14 +17,15 @@ Eigen::MatrixXd first_order_jacobian(const Fixture& fixture, double travel_m,
 struct Visibility {
   int rank = 0;                     // 0 to 5
   double condition = 0;             // largest by smallest singular value, angles scaled by 10 mm
-  std::vector<std::string> unseen;  // ISO names in a combination that no probe sees
+  std::vector<std::string> unseen;  // ISO names in a combination that is not determined
   bool complete() const { return rank == kErrorCount; }
 };
 
 // Rank by singular values relative to 1e-6 of the largest. `use`: probes to use.
 Visibility visibility(const Fixture& fixture, const std::vector<bool>& use);
 
-// "cannot see ECX and EYX" with the probes and the remedy; for an incomplete visibility.
+// "probes A B cannot separate ECX and EYX" with the rank and the remedy; for an incomplete
+// visibility.
 std::string describe_unseen(const Fixture& fixture, const std::vector<bool>& use,
                             const Visibility& visibility);
 

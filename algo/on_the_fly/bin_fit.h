@@ -9,7 +9,7 @@ namespace mdof::algo {
 
 struct BinFit {
   double value = 0, slope = 0;  // at the target; the slope is per half bin
-  double sd = 0;                // residuals of single readings from the parabola
+  double sd = 0;                // standard deviation of single readings about the parabola
   double u = 0;                 // standard uncertainty of the value, see below
   std::size_t used = 0, rejected = 0;
 };

@@ -27,8 +27,8 @@ Status check_on_the_fly(const OnTheFlyOptions& options, const std::vector<double
 
 class TargetGrid {
  public:
-  // Accepts only options that check_on_the_fly() accepts. `targets_m` is ascending and used if
-  // there is no interval.
+  // `options` must pass check_on_the_fly(). `targets_m` is ascending and used if there is no
+  // interval.
   TargetGrid(const OnTheFlyOptions& options, std::vector<double> targets_m);
 
   struct Target {

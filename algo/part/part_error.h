@@ -33,8 +33,8 @@ struct PartPath {
 };
 
 struct PartShare {
-  double rms_m = 0, U_rms_m = 0;  // rms of the layer or cause; U_rms_m includes its unknown part
-  double share = 0, U_share = 0;  // share of the sum of all mean squares
+  double rms_m = 0, U_rms_m = 0;  // rms of the layer or cause, with its U
+  double share = 0, U_share = 0;  // share of the sum of all mean squares, with its U
 };
 
 struct PartError {

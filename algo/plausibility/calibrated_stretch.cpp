@@ -10,7 +10,7 @@
 namespace mdof::algo {
 namespace {
 
-constexpr double kLetPass = 0.1;  // allowed excess, of the calibrated range
+constexpr double kLetPass = 0.1;  // allowed excess, as a share of the calibrated range
 
 // Displacements at the ends of the calibrated range, um.
 std::array<double, 2> displacements_um(const Calibration& c) {

@@ -113,8 +113,8 @@ void Aligner::take_whole(SampleBlock& block, FrameBlock& out) {
   append_or_take(out.time_ns, block.time_ns, before == 0);
 }
 
-// If the encoder's quality is not good (or is simulated, as the probes then are), no probe's is
-// better.
+// If the quality of the encoder is neither good nor simulated (the probes are then simulated, too),
+// the quality of no probe is better.
 void Aligner::taint(FrameBlock& out, std::size_t before, const SampleBlock& block) const {
   const auto encoder = static_cast<std::size_t>(channel_of_.back());
   if (block.quality.empty() ||

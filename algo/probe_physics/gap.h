@@ -15,7 +15,7 @@
 
 namespace mdof::algo {
 
-// θ times the unit vector of the tilt axis of the target at a probe; its square is sin²θ.
+// sin θ times the unit vector of the axis about which the target is tilted at a probe.
 Eigen::Vector3d tilt_of(const FixtureProbe& probe, const Eigen::Matrix3d& R_MC);
 
 // k (r θ)²/(4 d): decrease of the shown gap of a tilted target.

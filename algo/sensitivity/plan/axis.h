@@ -46,6 +46,7 @@ class PlanAxis {
     std::array<double, 5> phase_turns{};
     Errors5 at(double travel_m, double period_m) const;  // local frame
   };
+  // Sets the mounting and the true errors of trial j of `numbers`.
   void deviate(const DrawnNumbers& numbers, std::size_t j, Mounting& mounting,
                TrueErrors& truth) const;
   Mounting nominal_mounting() const;

@@ -10,7 +10,7 @@
 namespace mdof::algo {
 
 // Errors: fewer than two set-ups, or identical set-ups; fewer than three readings in one, or too
-// many readings; numbers that are not finite.
+// many readings; numbers that are not finite or above 1000 km; a negative standard uncertainty.
 Status check_request(const SeparationRequest& request);
 
 // Error: the set-ups share no place of the machine, or no place of the target.

@@ -92,7 +92,7 @@ Cycle by_turns(const std::vector<Visit>& visits, int targets) {
   return at_target > beyond ? Cycle::pendulum : Cycle::standard;
 }
 
-// Whether every target is visited about equally often from both sides.
+// Whether all targets are visited about equally often, and so from both sides.
 bool is_balanced(const std::vector<Visit>& visits, const RunNumbers& runs, int targets) {
   if (visits.empty()) return false;
   const int most = *std::max_element(runs.begin(), runs.end());

@@ -44,7 +44,7 @@ bool merge_into(MeasuredPoint& stop, MeasuredPoint& part);
 // reversal. Targets without points are removed from `targets_m`, and the others are renumbered.
 std::vector<StopLeftOut> leave_out_odd_stops(std::vector<MeasuredPoint>& points,
                                              std::vector<double>& targets_m);
-// The same for a first stop at a target that the axis approaches regularly later.
+// The same for a first stop at a target that the axis leaves and then approaches again.
 std::vector<StopLeftOut> leave_out_parked_start(std::vector<MeasuredPoint>& points);
 
 }  // namespace mdof::algo

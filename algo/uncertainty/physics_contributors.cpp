@@ -170,7 +170,8 @@ class Physics {
     if (!physics().knows_air()) return;
     const DeclaredAir& air = *physics().air;
     const double calibration = air_permittivity(air.calibration);
-    // Replaces conditions of the run that only a log has: the slopes agree to a hundredth.
+    // If only a log has a condition of the run, the condition of the calibration replaces it: the
+    // slopes agree to a hundredth.
     Air run = air.calibration;
     bool known = true;
     for (std::size_t q = 0; q < kAirQuantities; ++q) {

@@ -46,9 +46,9 @@ class RunBudgets {
   // on the figure. It includes the correlation in time that the residuals of the visits show
   // (correlated_noise.h), and the shift that all targets of a pass share (repeatability.h). If the
   // scatter of the runs gives the figure a variance s²/n that is more than kRunsScatterMore times
-  // this effect, the excess is added. U is k u, but for a range that of range_interval.h. If all
-  // deviations of a range are equal, first order gives only rounding, and u is the root mean square
-  // of the trials. A figure that is NaN has a budget of NaN.
+  // this effect, its excess over the effect is added. U is k u, but for a range that of
+  // range_interval.h. If all deviations of a range are equal, first order gives only rounding, and
+  // u is the root mean square of the trials. A figure that is NaN has a budget of NaN.
   Budget of(const Figure& figure) const;
   // Budgets of all figures; the trials are drawn once for all of them.
   std::vector<Budget> of(const std::vector<Figure>& figures) const;

@@ -1,4 +1,4 @@
-// What is random in a figure: by the visits of the targets, and by the runs.
+// The random part of a figure: by the visits of the targets, and by the runs.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,8 +20,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
   const std::size_t targets = means_.targets.size();
   double square = 0, freedom = kInfinity;
-  bool asked = false;                // whether what the figure is made of is known by the scatter
-  std::optional<std::size_t> error;  // the only one that the figure depends on
+  bool asked = false;                // whether a target with an effect on the figure was found
+  std::optional<std::size_t> error;  // the only error that the figure depends on
   std::vector<double> by_target(targets);
   MeanShifts together;
   for (std::size_t i = 0; i < targets; ++i) {
@@ -74,7 +74,7 @@ RunBudgets::Random RunBudgets::random_of_targets(const Figure& figure) const {
   return {u, effective_freedom(parts(square, freedom)), without, without.u > 0 ? u / without.u : 1};
 }
 
-// The error of whose mean at target i the figure is made; none: of several.
+// The only error whose mean at target i has an effect on the figure; empty: several errors or none.
 std::optional<std::size_t> RunBudgets::only_error(const Figure& figure, std::size_t i) const {
   std::optional<std::size_t> only;
   for (std::size_t k = 0; k < kErrorCount; ++k) {
@@ -99,7 +99,7 @@ RunBudgets::Random RunBudgets::random_of_runs(const Figure& figure) const {
   return {std::sqrt(square / (n - 1) / n), n - 1, {}};
 }
 
-// The slow noise of a removed drift scatters from run to run, too: the variance of that.
+// Variance of the figure by removed drifts: their slow noise scatters from run to run, too.
 double RunBudgets::by_removed_drift(const Figure& figure) const {
   double square = 0;
   for (const Shifted& shifted : shifted_) {

@@ -47,8 +47,8 @@ CorrelatedNoise::CorrelatedNoise(std::vector<NoisyVisit> visits, double freedom)
   for (Model& model : models_) model.probability /= sum;
 }
 
-// The logarithm of the restricted likelihood, but for a constant. The residuals are without the
-// means of their targets, so that each of them counts as a part of one.
+// The logarithm of the restricted likelihood, without a constant. The means of the targets are
+// subtracted from the residuals, so each residual counts as less than one degree of freedom.
 double CorrelatedNoise::fit(Model& model) const {
   double square = 0, log_determinants = 0;
   std::size_t counted = 0;
@@ -76,7 +76,8 @@ double CorrelatedNoise::fit(Model& model) const {
 }
 
 double CorrelatedNoise::variance(const Model& model, std::span<const double> by_visit) const {
-  double sum = 0, before = 0;  // of the earlier visits, each by its correlation with this one
+  // `before`: sum over the earlier visits, each times its correlation with this visit.
+  double sum = 0, before = 0;
   for (std::size_t i = 0; i < visits_.size(); ++i) {
     if (i > 0 && model.noise.share > 0)
       before =
@@ -105,7 +106,7 @@ CorrelatedNoise::Widened CorrelatedNoise::of(std::span<const double> by_target) 
     mean += model.probability * v;
     mean_square += model.probability * v * v * (1 + 2 / freedom_);
   }
-  // Of a variance with ν degrees of freedom the relative variance is 2/ν.
+  // The relative variance of a variance with ν degrees of freedom is 2/ν.
   return {mean / white, 2 * mean * mean / (mean_square - mean * mean)};
 }
 

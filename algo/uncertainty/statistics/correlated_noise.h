@@ -14,8 +14,9 @@ namespace mdof::algo {
 struct NoisyVisit {
   std::size_t target = 0, pass = 0;
   double time_s = 0;
-  double weight = 0;  // of the visit in the mean of its target
-  // Without its target and approach, and without the level of its pass. NaN: no other visit of it.
+  double weight = 0;  // weight of the visit in the mean of its target
+  // Error minus the effects of its target with approach, and of its pass. NaN: the only visit of
+  // the target from this side.
   double residual = 0;
 };
 
@@ -25,12 +26,12 @@ struct NoisyVisit {
 class CorrelatedNoise {
  public:
   // `visits` in the order of time; `freedom`: degrees of freedom of their residuals, more than 0.
-  // White noise alone where two times are not one after the other, or all residuals are 0.
+  // Assumes white noise if two times are equal, or if all residuals are 0.
   CorrelatedNoise(std::vector<NoisyVisit> visits, double freedom);
 
-  // The variance of a figure over what it is if the visits are independent, and its degrees of
-  // freedom. `by_target`: the change of the figure by a unit of the mean at each target. The level
-  // of a pass is left out.
+  // `square`: ratio of the variance of a figure to its variance with independent visits; `freedom`:
+  // its degrees of freedom. `by_target`: change of the figure by a unit of the mean at each target.
+  // The level of a pass is left out.
   struct Widened {
     double square = 1, freedom = 0;
   };
@@ -39,9 +40,9 @@ class CorrelatedNoise {
  private:
   struct Model {
     SlowNoise noise;
-    double probability = 1, variance = 0;  // of a visit, any unit
+    double probability = 1, variance = 0;  // variance of a visit, any unit
   };
-  double fit(Model& model) const;  // also the variance
+  double fit(Model& model) const;  // sets model.variance; returns the log of the likelihood
   double variance(const Model& model, std::span<const double> by_visit) const;
 
   std::vector<NoisyVisit> visits_;

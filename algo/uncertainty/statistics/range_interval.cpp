@@ -59,7 +59,7 @@ double RangeTrials::end_distance() const {
   return point_of_95_percent(std::move(off));
 }
 
-// By regula falsi (Illinois): c(T) falls slowly as T grows.
+// Uses regula falsi (Illinois): c(T) falls slowly as T grows.
 double RangeTrials::U() const {
   const double range = highest_ - lowest_;
   const double most = distance_at_95_percent(0);

@@ -21,7 +21,7 @@ class RangeTrials {
   RangeTrials(std::vector<double> measured, std::vector<double> changes);
   double U() const;
   double standard_deviation() const;  // standard deviation of the ranges of the trials
-  double root_mean_square() const;    // of the ranges, relative to the measured range
+  double root_mean_square() const;    // rms of the ranges minus the measured range
 
  private:
   // c(T)

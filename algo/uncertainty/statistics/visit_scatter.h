@@ -13,7 +13,7 @@ class VisitScatter {
   // Uses the points that count in means (uneven_visits.h).
   explicit VisitScatter(const std::vector<MeasuredPoint>& points);
 
-  bool has_repeats() const { return freedom_ > 0; }  // a target was visited again from one side
+  bool has_repeats() const { return freedom_ > 0; }  // a target was revisited from the same side
   bool are_single() const { return !visits_.empty() && !has_repeats(); }
 
   // Variance of a visit and its degrees of freedom; 0 without repeats.

@@ -62,7 +62,7 @@ std::string header_item(const RunHeader& header, std::optional<std::int64_t> sup
     json.end_object();
     return json.take();
   };
-  constexpr std::size_t kMostBytes = 16 * 1024;  // so that a page always contains several runs
+  constexpr std::size_t kMostBytes = 16 * 1024;  // so that several runs fit into a page
   std::string whole = item(header, false);
   return whole.size() <= kMostBytes ? whole : item(shortened(header), true);
 }

@@ -25,7 +25,7 @@
 namespace mdof::daemon {
 
 inline constexpr const char* kLiveTopic = "live.update";  // newest value wins
-inline constexpr const char* kRunTopic = "run.event";     // every message is sent
+inline constexpr const char* kRunTopic = "run.event";     // no message replaces another one
 
 // The active tables, on the main thread. Each activation replaces the whole struct.
 struct ActiveTables {

@@ -61,7 +61,8 @@ void QueryThread::admit(const Key& client) {
                                                   // always come first
 }
 
-// A client keeps its turn while it has calls, also while the thread works on one of them.
+// Gives the next call to the thread. The call stays at the front of its client's calls until
+// done(), so that answer() does not add the client to order_ a second time.
 void QueryThread::deliver() {
   while (!order_.empty()) {
     const Key key = order_.take();

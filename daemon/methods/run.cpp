@@ -218,8 +218,8 @@ Result<QueryThread::Work> list_runs(Methods& m, const Params& params) {
   };
 }
 
-// Limits the time of a call, because other clients wait: a long run has no figures with
-// uncertainty.
+// Limits the time of a call, because other clients wait: for a long run no figures with uncertainty
+// are calculated.
 StatedRun limited_stated_run(const Run& run) {
   constexpr std::size_t kMostStated = 5'000;  // some 0.2 s; 110 points: 0.02 s
   if (run.points.size() <= kMostStated) return stated_run(run);

@@ -34,6 +34,6 @@ struct CodeMeaning {
 std::span<const CodeMeaning> code_meanings();
 
 int code_of(ErrorCode code);
-ErrorCode error_code_of(int code);  // the code on the client's side
+ErrorCode error_code_of(int code);  // the ErrorCode that a client gets for it
 
 }  // namespace mdof::rpc

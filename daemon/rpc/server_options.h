@@ -27,7 +27,6 @@ struct ServerOptions {
   std::size_t max_subscriptions = 32;
   std::size_t max_queued_events = 64;  // length of the queue of one subscription to events; when
                                        // full, the oldest event is dropped
-                                       // dropped
   milliseconds request_timeout{5000};  // limit for a whole line, from its first byte
   milliseconds stall_timeout{10000};   // time during which the client takes none of the unsent
                                        // output

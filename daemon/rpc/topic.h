@@ -11,7 +11,8 @@ namespace mdof::rpc {
 struct Topic {
   std::string name;
   // false: a value, of which only the newest of each axis is sent; a slow client gets fewer values.
-  // true: an event, of which each is sent; for a slow client up to max_queued_events are queued.
+  // true: an event; events do not replace each other. For a slow client up to max_queued_events are
+  // queued; then the oldest event is dropped.
   bool event = false;
   std::chrono::milliseconds min_interval{20};  // between two messages to a client; for values only
 };

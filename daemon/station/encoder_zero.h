@@ -74,7 +74,7 @@ class EncoderZero {
   // The last setting, before or since the start of this program. Protected by mutex_.
   std::optional<DatumSetting> last_;
   bool since_start_ = false;
-  bool found_ = false;  // set by find(), reset when its device loses power
+  bool found_ = false;  // set by find(), reset when the count gets a new origin
 
   // Statistics of the values with their offset since the axis stopped.
   double rest_m_ = 0, sum_m_ = 0;

@@ -19,7 +19,7 @@ class RecentRange {
   };
   // NaN readings are ignored. If the time decreases (another pass of a file), it starts again.
   void add(const FrameBlock& frames);
-  // Range over the last 0.9 to 1 s before the newest instant.
+  // Range over the last 0.9 to 1 s up to and including the newest instant.
   Range of(std::size_t probe) const;
 
  private:

@@ -4,7 +4,8 @@
 //   devices -> queue      measure: queue -> recording (store thread) -> pipeline -> points
 //
 // Live devices are read from the start, for the view; a replay is read only during a run. The
-// thread "resume-X" prepares a run that continues another one and then joins.
+// thread "resume-X" prepares a run that continues another one; the measure thread then continues
+// it.
 #pragma once
 
 #include <atomic>
@@ -163,7 +164,7 @@ class Station {
   std::optional<Pipeline> view_;   // measure thread only: between runs
   RecentRange recent_;             // readings of the present pipeline
   std::chrono::steady_clock::time_point last_live_{};
-  std::int64_t newest_ns_ = 0;  // time of the newest instant
+  std::int64_t newest_ns_ = 0;  // time of the newest instant, which arrived at newest_since_
   std::chrono::steady_clock::time_point newest_since_{};
   std::vector<std::unique_ptr<DeviceReader>> acquisitions_;
   std::thread measure_thread_;

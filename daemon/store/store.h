@@ -96,8 +96,8 @@ class Store {
                             StoreOptions options = {});
 
   // ---- runs ----
-  // Stores a complete run in one transaction. The header's id is ignored; its state must not be
-  // open. Returns the run's id.
+  // Stores a whole run or nothing, in one transaction. The header's id is ignored; its state must
+  // not be open. Returns the run's id.
   Result<std::int64_t> add_run(const Run& run,
                                const std::optional<HistoryEntry>& action = std::nullopt,
                                const std::optional<RunUncertainty>& uncertainty = std::nullopt);
@@ -108,7 +108,7 @@ class Store {
                                  const std::optional<HistoryEntry>& action = std::nullopt);
   Status append_points(std::int64_t run, const std::vector<MeasuredPoint>& points);
   Status end_run(std::int64_t run, const RunEnd& end);
-  // Ends the run and stores its final result as a run that supersedes it, in one transaction. Of
+  // Ends the run and stores its final result as a run that supersedes it, in one transaction. From
   // the header of `result` only state and notices are used. Returns the new run's id.
   Result<std::int64_t> end_and_supersede(
       std::int64_t run, const RunEnd& end, Run result,
@@ -131,7 +131,7 @@ class Store {
                                             std::int64_t count);
   Result<std::int64_t> count_points(std::int64_t run);
   Result<Run> run(std::int64_t run);
-  // Of the result rows as stored now; see result_hash.h for the bytes.
+  // The hash of the result rows as stored now; see result_hash.h for the bytes.
   Result<std::string> result_sha256(std::int64_t run);
 
   // ---- squareness ----
@@ -147,10 +147,10 @@ class Store {
   Result<CompensationTable> table(std::int64_t id);
   Result<std::vector<CompensationTable>> list_tables(std::int64_t offset, std::int64_t count,
                                                      std::optional<Axis> axis = std::nullopt);
-  // Activates a table on its axis; returns the new generation. Generations increase over all axes,
-  // so that one number shows whether anything has changed. `expected`: the generation() on which
-  // the decision was based, checked in the same transaction. Error (conflict) if it differs: the
-  // message names the active tables, and nothing changes.
+  // Activates a table on its axis; returns the new generation. Generations increase strictly over
+  // all axes, so that one number shows whether anything has changed. `expected`: the generation()
+  // on which the decision was based, checked in the same transaction. Error (conflict) if it
+  // differs: the message names the active tables, and nothing changes.
   Result<Activation> activate(std::int64_t table, const std::string& actor, const std::string& utc,
                               const std::optional<HistoryEntry>& action = std::nullopt,
                               std::optional<std::int64_t> expected = std::nullopt);

@@ -109,7 +109,7 @@ class Storekeeper {
 
   StorageState storage() const;
   // Why nothing can be stored: the database is lost, or could not yet be opened for writing. Empty:
-  // it can be stored.
+  // data can be stored.
   std::string fault() const;
   // Why a run whose measurement has ended is still stored as open; empty: it is not.
   std::string still_open_reason(std::int64_t run) const;

@@ -163,7 +163,8 @@ void Storekeeper::discard_waiting_items() {
   for (const Ending& ending : waiting_ends_) ending.done(error);
 }
 
-// Seals the recording and adds its hash to the result. Does nothing if called again.
+// Seals the recording and adds its hash to the result. If the recording cannot be sealed, the run
+// has failed. Does nothing if called again.
 void Storekeeper::seal(Ending& ending) {
   RunHeader& header = ending.result.header;
   if (const auto recording = recordings_.find(ending.run); recording != recordings_.end()) {

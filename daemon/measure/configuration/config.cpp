@@ -129,7 +129,8 @@ bool read_measure(TomlTable& root, PipelineOptions& m) {
   return table->has("max_gap_s");
 }
 
-// Rejects a rig that the model cannot solve now, not at the first run.
+// Error: the model cannot solve the rig. This check is here so that mdofd reports the error at its
+// start, not at the first run.
 Result<Rig> read_rig(TomlTable& table, const std::filesystem::path& base, Model model) {
   const std::string name = table.string("rig");
   if (name.empty()) return Rig{};  // the table has kept its own error

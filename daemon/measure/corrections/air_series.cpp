@@ -7,7 +7,8 @@
 
 namespace mdof::daemon {
 
-// A column temperature_C is the channel "temperature" in °C. The other quantities have no unit.
+// A column temperature_C is the channel "temperature" in °C. The units of the other quantities are
+// not in Unit, so that their channels have the names of the columns.
 bool is_channel_of(const Channel& channel, std::size_t quantity) {
   const AirQuantity& of = air_quantities()[quantity];
   if (channel.unit == Unit::deg_c) return quantity == 0 && channel.id == of.name;

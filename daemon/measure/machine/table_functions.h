@@ -32,8 +32,8 @@ std::vector<double> scaled(std::vector<double> values, double by);
 
 // Index of the table's named error among the six errors of a body.
 std::size_t body_error_of(const CompensationTable& table, std::size_t named);
-// Sets the covariance of the frame's errors, and u of each error that has a u. `table` gives the
-// rows of the covariances.
+// Sets the covariance of the frame's errors and, from it, u of each error that already has a u. The
+// rows of `covariances` are those of `table`; an error may lack some of them.
 void set_covariance(MachineFrame& frame, const CompensationTable& table,
                     const algo::ErrorCovariances& covariances);
 // Adds a shared quantity and subtracts it from the declared covariance.

@@ -119,8 +119,8 @@ Result<std::vector<Run>> runs_of(store::Store& store, const VolumetricTable& tab
   return runs;
 }
 
-// Axes whose targets were all approached from one side. The errors of this side are then used for
-// the other side, too, so that the table contains no reversal error.
+// Axes whose targets were all approached from one side, which is not the approach of the table. The
+// table then uses the errors of this side for its own approach, so it contains no reversal error.
 Notices one_sided(const VolumetricTable& table, const std::vector<Run>& runs) {
   std::map<std::pair<Axis, bool>, std::set<std::string>> seen;  // positioning is a separate
                                                                 // measurement

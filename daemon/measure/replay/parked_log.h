@@ -32,7 +32,7 @@ struct ParkedLog {
   bool declares = false;   // whether the rig declares an uncertainty
   std::size_t probes = 0;  // number of the first series that are probes; the others are the five
                            // errors
-  algo::ParkedReadings readings;  // errors of the moving body at the fixture
+  algo::ParkedReadings readings;  // of the probes, and errors of the moving body at the fixture
   Notices notices;
 };
 

@@ -129,7 +129,8 @@ struct Motion {
   }
 };
 
-// The rig with the scanning probe alone and without planes.
+// The rig with the scanning probe alone. Without planes, the probe measures a plane perpendicular
+// to its direction.
 Rig with_scanning_probe(Rig rig, const RigScan& scan) {
   rig.planes.clear();
   rig.probes.assign(1, {});

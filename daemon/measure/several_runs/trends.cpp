@@ -97,7 +97,7 @@ Result<Chosen> choose(store::Store& store, Axis axis, bool mixed) {
     for (const RunHeader& run : page) {
       MDOF_TRY(const auto by, store.superseded_by(run.id));
       std::string recording = run.provenance.recording_sha256;
-      // One run per recording and kind.
+      // One run for each recording and kind; if `mixed`, one for each recording.
       if (!recording.empty() && !mixed) recording += kind_of(run);
       if (is_imported(run))
         imported.push_back(run.id);

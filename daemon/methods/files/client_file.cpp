@@ -58,8 +58,8 @@ Status check_file(const FileUser& user, const std::string& path, int place) {
 }
 
 // Opens the path with O_PATH first, which reads nothing, does not block and does not affect locks
-// of other programs. After the check, exactly this file is opened for reading, even if its name now
-// refers to another file.
+// on the file (closing a normal descriptor would release locks of mdofd itself). After the check,
+// exactly this file is opened for reading, even if its name now refers to another file.
 Result<Descriptor> open_checked(const FileUser& user, const std::string& path) {
   const Descriptor place(::open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
   if (place.get() < 0) return cannot_open(path, errno);

@@ -25,10 +25,10 @@ struct ClientFile {
                         // none
 };
 
-// Opens the file for reading. Never becomes the controlling process of a terminal and does not wait
-// for the writer of a pipe. Errors: a path that is not absolute or is a link; no regular file; a
-// file that the user or mdofd may not read. May block on the file system, so do not call it on the
-// event loop.
+// Opens the file for reading. A terminal does not become the controlling terminal of mdofd; a pipe
+// without writer does not block. Errors: a path that is not absolute or is a link; no regular file;
+// a file that the user or mdofd may not read. May block on the file system, so do not call it on
+// the event loop.
 Result<ClientFile> open_for(const FileUser& user, const std::string& path);
 
 }  // namespace mdof::daemon

@@ -25,8 +25,8 @@ constexpr std::array<Colour, 17> kColours = {{
     {"halo", "stroke", "#ffffff", "#0d1117"},
 }};
 
-// Rules for light and dark. dash and dot are line styles; elements of Svg::dot have a colour class
-// only, such as ink-dot.
+// Rules that are the same for light and dark. dash and dot are line styles; elements of Svg::dot
+// have a colour class only, such as ink-dot.
 constexpr const char* kShapes =
     ".mdof text{font-family:system-ui,'DejaVu Sans',Arial,sans-serif;font-size:12px}"
     ".mdof .title{font-size:17px;font-weight:600}"

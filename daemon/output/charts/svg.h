@@ -38,7 +38,7 @@ class Svg {
   void polyline(std::string_view mark, std::span<const Place> places);
   void polygon(std::string_view mark, std::span<const Place> places);
   void dot(std::string_view mark, Place centre, double radius);
-  // no element for ""
+  // Writes no element for an empty text.
   void text(std::string_view mark, Place base, Anchor anchor, std::string_view text);
   // Gives the next element the attribute data-NAME, for programs. A number is written as by
   // exact_text(), or left out if that is empty.

@@ -24,15 +24,16 @@ struct CheckedError {
   double before = 0;     // largest error without the correction, m or rad
   double residual = 0;   // largest error with the correction, both approaches, at and between the
                          // points
-  // Parts of the residual that the file cannot correct. by_reversal: one value for errors that
-  // differ by approach (not in the residual if the mean is judged). between_nodes: between the
-  // nodes of a volumetric table.
+  // Parts of the residual that the file cannot correct. by_reversal: the error in each
+  // approach if one value corrects errors that differ by approach (not part of the residual if the
+  // mean is judged). between_nodes: the error between the nodes of a volumetric table.
   double by_reversal = 0, between_nodes = 0;
   // Also part of the residual: the error after a reversal, because the ramp of the controller does
   // not start (LinuxCNC; ExportOptions::ramps).
   double by_ramp = 0;
-  // Limit from thinning, the step of the numbers and second order; at most the limit of
-  // ExportOptions.
+  // Limit of the residual: thinning, the step of the numbers, second order, by_ramp and (unless the
+  // mean is judged) by_reversal; at most the limit of ExportOptions. For volumetric tables and the
+  // squareness only the limit of ExportOptions.
   double bound = 0;
   bool cancels = false;
   bool nothing = false;  // no error exceeds a step of the numbers

@@ -10,7 +10,7 @@ namespace {
 constexpr double kRoundingOfGrid_m = 1e-12;
 constexpr std::string_view kCommands = "XYZ";
 
-// Measured residuals without and with the correction, and with deliberate mistakes.
+// Calculated residuals without and with the correction, and with deliberate mistakes.
 struct Residuals {
   double before = 0, with = 0, wrong_sign = 0;
   std::optional<double> exchanged;  // X and Y exchanged; nullopt: this mistake is not possible

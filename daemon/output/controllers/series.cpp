@@ -30,7 +30,7 @@ std::string place_text(double position_m) {
   return plain_number(to_mm(position_m), 9) + " mm";
 }
 
-// First index and end index of the longest sequence of positions with both values.
+// First index and last index + 1 of the longest sequence of positions with both values.
 std::pair<std::size_t, std::size_t> longest_range(const Series& s) {
   std::pair<std::size_t, std::size_t> best{0, 0};
   for (std::size_t i = 0, begin = 0; i <= s.position_m.size(); ++i) {

@@ -83,8 +83,8 @@ Result<double> shear_of(const SquareAxes& axes) {
 
 Result<Export> write_klipper(const SquareAxes& axes, const ExportOptions& options) {
   MDOF_TRY(const double k, shear_of(axes));
-  // The machine's square ABCD with A as origin: B is along X; D is along Y, and by -k of it along
-  // X.
+  // The square ABCD that the machine draws, with its origin in A and the side s: B is at (s, 0) and
+  // D at (-k, 1) times a factor that makes AD = s.
   const double cosine = k / std::hypot(1, k);  // cosine of the angle at B between BA and BC
   const double AC = kSide_mm * std::sqrt(2 - 2 * cosine);
   const double BD = kSide_mm * std::sqrt(2 + 2 * cosine);

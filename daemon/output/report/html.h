@@ -22,7 +22,7 @@ class Html {
   // A link that saves `bytes`, which the page contains, as `file_name`.
   void attachment(std::string_view text, std::string_view file_name, std::string_view media_type,
                   std::string_view bytes);
-  // Inserts an SVG document and numbers it.
+  // Inserts an SVG document into the page, without the text before its element "svg".
   void figure(std::string_view svg);
 
   // `pictures`: show images from data: URLs, for example in the company's head.

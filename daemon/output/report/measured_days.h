@@ -13,7 +13,7 @@ struct Days {
   std::string first, last;  // UTC, YYYY-MM-DD
 };
 
-// The days of a recorded run. nullopt if the run was not recorded (a CSV log has no date).
+// The days on which a run was recorded. nullopt if they are unknown (a CSV log has no date).
 std::optional<Days> recorded_days(const ReportRun& run);
 
 // Uses the stated date of the report for runs without a date: calibrations must have been valid on

@@ -20,8 +20,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The group of the socket, if its folder is readable. Users must not join the group of root, so
-// mdof is named instead.
+// The group of the socket; "mdof" if the socket cannot be found or belongs to the group of root,
+// because users must not join that group.
 std::string group_of(const std::string& path) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0 || info.st_gid == 0) return "mdof";

@@ -257,7 +257,7 @@ void HttpConnection::wait() {
   if (closed_) return;
   if (output_.unsent() > 0) wait_writable();
   if (is(State::draining) && output_.unsent() == 0) end_output();
-  if (is(State::answering)) return;  // until the reply is sent
+  if (is(State::answering)) return;  // until there is a reply
   if (is(State::reading)) {
     if (output_.unsent() > 0) return;
     if (input_ended_) return close();

@@ -50,7 +50,7 @@ class DeviceReader {
  public:
   virtual ~DeviceReader() = default;  // stops the device
   virtual void start() = 0;
-  virtual void stop() = 0;          // no samples follow
+  virtual void stop() = 0;          // no call of the sink follows
   virtual void request_stop() = 0;  // stops soon, without waiting
   // A user has set the position of the axis, so that the datum is no longer lost.
   virtual void trust_count() = 0;

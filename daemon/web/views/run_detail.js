@@ -84,7 +84,7 @@ class Budget {
     const turn = this.turn = (this.turn ?? 0) + 1;
     try {
       const reply = await call("run.budget", {run, figure});
-      if (turn !== this.turn) return;  // another run was selected meanwhile
+      if (turn !== this.turn) return;  // another result was selected meanwhile
       const budget = reply.figures[figure], unit = unitOf(figure);
       this.place.replaceChildren(h("p", {class: "result"}, `${titleOf(figure)}: ${measured(budget, unit)}; u = ${fixed(budget.u, decimals(budget.u))} ${unit}`),
         budgetBars(budget, unit), covers(budget) ?? "");

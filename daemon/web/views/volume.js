@@ -7,7 +7,7 @@ import {call} from "../rpc.js";
 import {facts} from "./run_detail.js";
 
 const kAxes = "XYZ";
-// The axes to the right, upwards, and towards the viewer.
+// Index of the axis to the right, index of the upward axis, description of the view.
 const kPlanes = {XY: [0, 1, "from above: X to the right, Y to the back"], XZ: [0, 2, "from the front: X to the right, Z up"],
   YZ: [1, 2, "from the right side: Y to the right, Z up"]};
 const kWidth = 760, kEdge = 60;

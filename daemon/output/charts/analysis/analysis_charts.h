@@ -1,7 +1,6 @@
 // Charts of analyses, one function each: it takes results and returns an SVG document. Pure: the
 // same results give the same bytes. Drawn elements have their numbers as data-… attributes, in the
 // units of the result documents.
-// result documents, as data-… attributes.
 #pragma once
 
 #include <string>

@@ -32,8 +32,9 @@ class KeptEvents {
   std::uint64_t last_id() const { return next_ - 1; }
   std::size_t size() const { return events_.size(); }
 
-  // The position at which a client with the last event `id` continues, and the number of lost
-  // events. It is unknown if `id` is from an earlier start of mdofd.
+  // The position at which a client with the last event `id` continues. `count` is the number of
+  // lost events; nullopt if `id` is from an earlier start of mdofd, because the number is then
+  // unknown.
   struct Resumed {
     std::uint64_t after;
     bool lost = false;
@@ -41,9 +42,10 @@ class KeptEvents {
   };
   Resumed resume(std::string_view id) const;
 
-  // The first event after `after`, of any topic, unless `lost` events are no longer kept.
+  // The first event after `after`, of any topic. If `lost` events after it are no longer kept,
+  // there is no event in the result.
   struct Next {
-    const Event* event = nullptr;  // nullptr: no further event
+    const Event* event = nullptr;  // nullptr: no further event, or lost > 0
     std::uint64_t lost = 0;
   };
   Next next(std::uint64_t after) const;

@@ -25,10 +25,10 @@ struct DeviceInfo {
   double rate_hz = 0;             // scans a second; 0: not known
   bool simulated = false;         // no machine behind it; every result is marked as simulated
   std::optional<ClockState> clock;  // if the device counts or stamps its samples
-  // Why the datum of an incremental encoder is lost since the driver first opened it: the encoder
-  // lost power, its source restarted, or counts may have been lost. Its positions stay suspect for
-  // the life of the driver (see trust_count() and marks_passed()). "": the datum is valid, or the
-  // encoder is absolute.
+  // Reason why an incremental encoder has lost its datum after the driver first opened it: the
+  // encoder lost power, its source restarted, or counts may have been lost. Its positions are then
+  // suspect for the life of the driver, unless trust_count() is called or marks_passed() increases.
+  // "": the datum is valid, or the encoder is absolute.
   std::string datum_lost = {};
   // Settings of the device that change the readings; results must state them.
   Notices notices = {};

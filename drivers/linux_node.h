@@ -39,8 +39,8 @@ struct SysfsFile {
   const char* name;       // "IIO converter"
   const char* subsystem;  // "iio"
   const char* devices;    // `name` of the device, as udev matches it: "ad7745|ad7746"
-  const char*
-      files;  // in the folder of the device, for a shell: "count*/preset count*/preset_enable"
+  // Files in the folder of the device, for a shell: "count*/preset count*/preset_enable".
+  const char* files;
   const char* key;  // key of mdofd.toml that needs them: "sampling_hz"
   const char* note = "";
 };

@@ -11,7 +11,7 @@
 
 namespace mdof::drivers::capancdt {
 
-// Thread-bound. A command takes at most twice `reply_timeout`.
+// Thread-bound. Each command blocks for at most twice `reply_timeout`.
 class CommandPort {
  public:
   CommandPort(ByteStream stream, std::chrono::milliseconds reply_timeout);

@@ -11,7 +11,7 @@
 
 namespace mdof::drivers::capancdt {
 
-inline constexpr std::chrono::milliseconds kConnect{3000};  // longest wait, for both ports
+inline constexpr std::chrono::milliseconds kConnect{3000};  // longest wait for each port
 
 // State of the controller after set-up.
 struct Setup {

@@ -18,7 +18,8 @@ inline constexpr int kDataPort = 10001;  // default of the controller
 // Averaging types: $AVT of the manual.
 enum class Averaging { none = 0, moving = 1, arithmetic = 2, median = 3, dynamic = 4 };
 const char* to_string(Averaging averaging);  // name in the configuration
-// Checks that a filtered reading contains no samples older than `settle_s`. `settle_s` 0: no check.
+// Error: the filter takes longer than `settle_s`, so that a reading would contain samples from
+// before the stop. `settle_s` 0: no check.
 Status check_filter(double sample_time_us, int averaged_values, double settle_s);
 
 struct Options {

@@ -71,7 +71,7 @@ std::optional<Reply> find_reply(std::string_view command, std::string_view recei
 Welcome parse_welcome(std::string_view received) {
   Welcome welcome;
   while (const auto line = take_line(received)) {
-    if (line->empty()) continue;  // text between CR and LF
+    if (line->empty()) continue;  // the empty text between CR and LF
     ++welcome.lines;
     if (welcome.lines == 2) welcome.name = after_colon(*line);
     if (welcome.lines == 3) welcome.serial = after_colon(*line);

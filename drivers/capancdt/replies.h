@@ -22,7 +22,7 @@ struct Reply {
 std::optional<Reply> find_reply(std::string_view command, std::string_view received);
 
 struct Welcome {
-  std::string name, serial;  // text after the colon in lines 2 and 3
+  std::string name, serial;  // text after the colon in lines 2 and 3; empty: none
   int lines = 0;             // number of complete lines
 };
 Welcome parse_welcome(std::string_view received);

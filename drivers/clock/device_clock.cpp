@@ -12,13 +12,13 @@ namespace {
 constexpr double kStretch_ns = 0.25e9;
 constexpr std::size_t kStretches = 256;       // 64 s
 constexpr std::size_t kStretchesToFit = 16;   // 4 s; before that, the nominal rate is used
-constexpr std::size_t kStretchesToBegin = 4;  // 1 s: packets that were late at the opening soon end
+constexpr std::size_t kStretchesToBegin = 4;  // 1 s: delays from opening the device end soon
 constexpr std::size_t kShareToRefit = 32;     // refit when 1/32 of the stretches are new
 constexpr double kMostDrift = 1e-3;           // 1000 ppm: no clock deviates more
 constexpr double kSlew = 2e-3;                // share of the elapsed time, in addition to the drift
-constexpr double kFirstSlew = 0.2;            // before the first fit
-constexpr double kStep_ns = 0.1e9;            // not explained by jitter: such a packet is late
-constexpr std::int64_t kLongestLateness_ns = 60'000'000'000;  // then it is a step
+constexpr double kFirstSlew = 0.2;  // the same before the first fit, to correct the offset quickly
+constexpr double kStep_ns = 0.1e9;  // larger than any jitter: a later packet counts as late
+constexpr std::int64_t kLongestLateness_ns = 60'000'000'000;  // longer lateness is a step
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

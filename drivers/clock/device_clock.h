@@ -73,7 +73,7 @@ class DeviceClock {
   std::int64_t given_ns_ = INT64_MIN;
   bool fitted_ = false, given_any_ = false;
   std::size_t uncertain_stretches_ = 0;  // stretches after a step until the clock is certain
-  double late_ns_ = 0;                   // delay of the newest packet, while packets are late
+  double late_ns_ = 0;                   // delay of the newest packet against the line, if late
   std::optional<std::int64_t> late_since_ns_;
   std::uint64_t steps_ = 0;
 };

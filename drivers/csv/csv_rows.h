@@ -20,8 +20,8 @@ namespace mdof::drivers {
 
 struct CsvRowsOptions {
   CsvKind kind = CsvKind::probe_log;
-  CsvLimits limits;    // bad_lines = 0 if each row must be a line of the file
-  bool sha256 = true;  // takes as long as parsing, on another core
+  CsvLimits limits;                                // bad_lines = 0 if each line must give a row
+  bool sha256 = true;                              // takes as long as parsing, on another core
   std::size_t chunk_bytes = std::size_t{1} << 18;  // does not change the result
   int descriptor = -1;  // read from its beginning instead of opening the path; owned by the caller
 };

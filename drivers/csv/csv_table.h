@@ -23,12 +23,12 @@ struct CsvTable {
   std::string where(std::size_t row) const;  // "file.csv:7: "
 };
 
-// Reads the columns `names` of `path` ("-": standard input), plain or gzip; other columns may lie
-// between them. A column of `optional` is read if it exists and has a value in any row. Errors name
-// file, line, column and remedy: any error of CsvRows; a missing column; a column whose name
-// differs from that of a missing optional column only by case or one letter ("Direction"); a cell
-// without a value; an invalid line; more than `most_rows` rows. `descriptor`: of the open file
-// (byte_source.h), or -1.
+// Reads the columns `names` of `path` ("-": standard input), plain or gzip. Columns may have any
+// order; other columns are ignored. A column of `optional` is read if it exists and has a value in
+// any row. Errors name file, line, column and remedy: any error of CsvRows; a missing column; a
+// column whose name differs from that of a missing optional column only by case or one letter
+// ("Direction"); a cell without a value; an invalid line; more than `most_rows` rows. `descriptor`:
+// of the open file (byte_source.h), or -1.
 inline constexpr std::size_t kMostTableRows = 10'000'000;  // all rows are in memory at once
 Result<CsvTable> read_csv_table(const std::string& path, const std::vector<std::string>& names,
                                 const std::vector<std::string>& optional = {},

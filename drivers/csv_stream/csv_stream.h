@@ -53,9 +53,8 @@ class CsvStream final : public Driver {
 
   void trust_count() override;
 
-  std::uint64_t bad_lines() const {
-    return protocol_ ? protocol_->bad_lines() : 0;
-  }  // since open()
+  // Number since open().
+  std::uint64_t bad_lines() const { return protocol_ ? protocol_->bad_lines() : 0; }
   Notices notices() const;
 
  private:

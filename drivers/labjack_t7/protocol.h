@@ -105,9 +105,9 @@ std::uint32_t flash_address(int block);
 // --- Stream --------------------------------------------------------------------------------------
 
 namespace status {
-inline constexpr int recovering = 2940;    // the buffer was full; scans are being dropped
-inline constexpr int recovered = 2941;     // `info` scans were dropped; a scan of 0xFFFF is there
-inline constexpr int scan_overlap = 2942;  // rate too high
+inline constexpr int recovering = 2940;         // the buffer was full; scans are being dropped
+inline constexpr int recovered = 2941;          // `info` scans were dropped; 0xFFFF marks where
+inline constexpr int scan_overlap = 2942;       // rate too high
 inline constexpr int recovery_overflow = 2943;  // more scans were dropped than can be counted
 inline constexpr int burst_complete = 2944;
 inline constexpr int buffer_full = 2945;

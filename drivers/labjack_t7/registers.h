@@ -12,7 +12,7 @@
 
 namespace mdof::drivers::labjack_t7 {
 
-inline constexpr std::chrono::milliseconds kConnect{2000};  // longest wait, for both ports
+inline constexpr std::chrono::milliseconds kConnect{2000};  // longest wait for each port
 
 // Thread-bound. Errors name the register; a refusal contains the text of LAST_ERR_DETAIL. After an
 // error the connection may be unusable.

@@ -13,7 +13,7 @@ namespace mdof::drivers::labjack_u6 {
 // belongs.
 Result<std::string> ask(usb::Handle& handle, const std::string& command);
 
-// Discards earlier replies that were not read.
+// Discards earlier replies that were not read, then reads the identity.
 Result<Identity> identify(usb::Handle& handle);
 // Ends a running stream, also that of another program, and discards its remaining data.
 Status stop_stream(usb::Handle& handle);

@@ -16,7 +16,7 @@ using std::chrono::steady_clock;
 
 constexpr std::size_t kBuffer = 65536;
 constexpr double kSilence_s = 2;
-constexpr double kBoardFifo_samples = 1024;  // samples: a board may keep half of its FIFO
+constexpr double kBoardFifo_samples = 1024;  // half of a large FIFO, which a board may keep
 
 milliseconds left_until(steady_clock::time_point until) {
   return std::max(milliseconds(0), std::chrono::ceil<milliseconds>(until - steady_clock::now()));

@@ -10,8 +10,8 @@
 
 namespace mdof::drivers {
 
-// 8.192 pF in 24 bits. The driver's scale attribute is truncated to 0.000000488, an error of 0.06
-// %.
+// 8.192 pF in 24 bits. The driver's scale attribute is truncated to 0.000000488, which is an error
+// of 0.06 %.
 inline constexpr double kAd7746_pF_per_count = 8.192 / 16'777'216;
 inline constexpr std::int64_t kAd7746LeastRaw = -8'388'608, kAd7746MostRaw = 8'388'607;
 

@@ -47,7 +47,7 @@ class ModbusClient {
   // untrusted, tests its line with the next calls. After an exception a TCP client is still
   // trusted.
   bool trusted() const;
-  // Number of rejected replies since the start: late, truncated or foreign replies, exceptions.
+  // Number of errors since the start: missing, late, truncated or foreign replies, exceptions.
   std::uint64_t rejected() const;
   // Exception 1 ... 255 in the answer to the last request; 0: none.
   int exception() const;

@@ -48,7 +48,7 @@ struct Value {
   std::optional<Check> check;      // checked if the value is used
 };
 
-// If any of these status bits is set, the values are invalid.
+// If any of these status bits is set, the quality of the values is `makes` or worse.
 struct StatusBits {
   Register at;
   std::uint16_t mask = 0;

@@ -17,7 +17,7 @@ using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 constexpr milliseconds kTickEvery{1000}, kQuiet{10};
-// Reports for the requests of another program that may still arrive.
+// Largest number of reports for the requests of another program that may still arrive.
 constexpr int kMostStale = 200;
 // Tolerances of the device's tick against the host's clock.
 constexpr double kTickSlack_ms = 500, kTickDrift = 0.001;

@@ -108,7 +108,8 @@ Status SysfsPoller::count_failure(const Error& why) {
                   " readings in a row failed; the last error: " + why.message);
 }
 
-// Schedules the next poll on the even time grid that is not in the past.
+// Schedules the next poll on the even time grid. A poll that is late by less than a period is still
+// made; earlier polls are lost.
 void SysfsPoller::schedule_next(std::int64_t now_ns) {
   next_ns_ += period_ns_;
   if (next_ns_ > now_ns - period_ns_) return;  // late, but not lost

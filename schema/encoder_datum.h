@@ -22,8 +22,8 @@ struct EncoderDatum {
   Kind kind = Kind::absolute;
   double offset_m = 0;
   std::string device;  // device of the encoder; empty for `absolute`
-  std::string utc,
-      by;  // for `set`: when and by whom; `utc` also for `index`: when the mark was passed
+  // For `set`: when and by whom. `utc` also for `index`: when the mark was passed.
+  std::string utc, by;
   bool operator==(const EncoderDatum&) const = default;
 };
 const char* to_string(EncoderDatum::Kind kind);

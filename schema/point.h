@@ -47,8 +47,8 @@ struct AxisErrors {
 // One row of a run: a point, its place in the sequence and its errors.
 struct MeasuredPoint {
   int target = 0;  // 1 ... m, ascending in position (ISO 230-2 index i)
-  double target_m =
-      0;        // nominal; without nominal targets: position of the first stop at this target
+  // Nominal position; without nominal targets, the position of the first stop at this target.
+  double target_m = 0;
   int run = 0;  // 1 ... n (ISO 230-2 index j)
   Point point;
   AxisErrors errors;

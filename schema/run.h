@@ -19,8 +19,8 @@ namespace mdof {
 struct Provenance {
   std::string recording_kind;  // "csv", "recording", "live"
   std::string recording_path;  // absolute
-  std::string
-      recording_sha256;  // of the bytes of the file (csv) or of the chain of chunks (recording)
+  // Hash of the bytes of the file (csv) or of the chain of chunks (recording).
+  std::string recording_sha256;
   std::string rig_text;  // rig and calibration as TOML
   std::string model;
   std::string software_version;
@@ -84,8 +84,8 @@ struct Run {
   std::vector<MeasuredPoint> points;
   std::vector<StraightnessFigure> straightness;
   std::vector<AngleFigure> angles;
-  std::optional<Plausibility>
-      plausibility;  // none: the run has no points or is older than this member
+  // None: the run has no points or is older than this member.
+  std::optional<Plausibility> plausibility;
 };
 
 }  // namespace mdof

@@ -18,8 +18,8 @@ struct TargetSpacing {
   std::int64_t seed = 1;
 };
 
-// Checks a spacing. Returns the first invalid key and why: an empty range, 10,000 targets or more,
-// a jitter of half an interval or more. nullopt: the spacing is valid.
+// Checks a spacing. Returns the first invalid key and why: an empty range, more than 10,000
+// targets, a jitter of half an interval or more. nullopt: the spacing is valid.
 struct WrongKey {
   const char* key;
   std::string why;

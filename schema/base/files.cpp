@@ -55,8 +55,8 @@ Result<std::size_t> read_some(const Descriptor& in, const std::filesystem::path&
 
 Result<std::string> read_text_file(const std::filesystem::path& file, std::size_t limit_bytes) {
   MDOF_TRY(const auto in, opened(file));
-  std::string
-      text;  // reserves no more than the size of the file, because the caller may keep the text
+  // Reserves no more than the size of the file, because the caller may keep the text.
+  std::string text;
   std::array<char, 16 * 1024> piece;
   while (text.size() <= limit_bytes) {
     MDOF_TRY(const std::size_t n, read_some(*in, file, piece.data(), piece.size()));

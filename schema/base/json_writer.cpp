@@ -35,8 +35,8 @@ std::size_t utf8_length(std::string_view text) {
 }
 
 void append_escaped(std::string& text, char c) {
-  constexpr std::string_view kShort =
-      "\"\"\\\\\nn\rr\tt";  // pairs: character, letter of its escape
+  // Pairs: character, letter of its escape.
+  constexpr std::string_view kShort = "\"\"\\\\\nn\rr\tt";
   for (std::size_t i = 0; i < kShort.size(); i += 2)
     if (kShort[i] == c) {
       text += {'\\', kShort[i + 1]};

@@ -1,6 +1,6 @@
 // The binary format of Zygo's MetroPro: a header, the intensities, the connected phase. Numbers are
-// big-endian. The phase is an integer, and `phase_res` gives the counts per fringe: height = phase
-// * intf_scale_factor * obliquity_factor * wavelength / counts per fringe.
+// big-endian. The phase is an integer, and `phase_res` gives the counts per fringe:
+// height = phase * intf_scale_factor * obliquity_factor * wavelength / counts per fringe.
 #include <bit>
 #include <cmath>
 #include <cstdint>

@@ -113,7 +113,7 @@ struct MachineFrame {
   // converted. none: values in the description are of the body, and a file must state the sense if
   // it matters.
   StatedSense positioning_sense = StatedSense::none;
-  StoredRows runs;    // runs of the axis, with five probes or imported; their means count
+  StoredRows runs;    // runs of the axis, with five probes or imported; their means are used
   StoredRows tables;  // compensation tables of the axis
 };
 

@@ -26,7 +26,7 @@ class Reader {
   Reader(TomlTable& root, std::vector<std::pair<const MillingInput*, double>>& u)
       : root_(root), u_(u) {}
 
-  // The table; a missing table is reported as an error.
+  // The table of this name; a missing table is reported as an error.
   TomlTable& table(const char* name) {
     name_ = name;
     table_ = root_.table(name);

@@ -34,8 +34,8 @@ struct Plausibility {
   int runs = 0;
   std::vector<TargetVisits> n_ij;  // in the order of the targets
   std::vector<StopLeftOut> left_out;
-  std::uint64_t short_stops =
-      0;  // stops at a target that were too short or too slow (creeping) to be averaged
+  // Stops at a target that are not averaged, because they were too short or the axis crept.
+  std::uint64_t short_stops = 0;
   double rate_hz = 0;
   double encoder_min_m = 0, encoder_max_m = 0;
   std::uint64_t scans = 0, scans_lost = 0, gaps = 0;  // gaps: intervals over three periods

@@ -20,10 +20,10 @@ namespace mdof {
 inline constexpr int kCsvMargin = 64;  // bytes around a piece of text that must be readable
 
 struct CsvLimits {
-  std::size_t bad_lines =
-      100;  // number skipped and reported; one more is an error. 0: none is skipped
-  std::size_t scans_per_block =
-      8192;  // half a megabyte of columns, which fits into the cache of a core
+  // Number of lines that are skipped and reported; one more is an error. 0: none is skipped.
+  std::size_t bad_lines = 100;
+  // Half a megabyte of columns, which fits into the cache of a core.
+  std::size_t scans_per_block = 8192;
   // Size of consecutive empty lines; one more is an error, because a gzip file of some MB may
   // contain hours of them.
   std::size_t blank_bytes = std::size_t{4} << 20;
@@ -78,8 +78,8 @@ class CsvRowParser {
   std::size_t next_stop_ = 0;  // the stop before the next line
   std::size_t begin_ = 0;      // start of the next line in text_
   std::uint64_t line_ = 0;     // number of the next line
-  std::uint64_t blank_lines_ =
-      0;  // directly before the next line; at the end of a file they are ignored
+  // Number directly before the next line; at the end of a file they are ignored.
+  std::uint64_t blank_lines_ = 0;
   std::size_t blank_bytes_ = 0;  // bytes of the blank lines
   SampleBlock block_;            // current block: columns at full length, row_ rows filled
   std::size_t row_ = 0;

@@ -15,8 +15,8 @@ namespace mdof {
 struct ChainAxis {
   char letter = 'X';          // X Y Z linear, A B C rotary
   bool carries_work = false;  // else it moves the tool
-  bool against_command =
-      false;  // travel "-": its body moves in the - direction when the command increases
+  // travel "-": its body moves in the - direction when the command increases.
+  bool against_command = false;
   bool operator==(const ChainAxis&) const = default;
 };
 

@@ -8,8 +8,8 @@
 //   the tool                  +E                                   +E + s_k c = 0, c = -E / s_k
 //
 // s_k is the movement (X Y Z) or rotation (A B C) of the tool against the work per unit of c:
-// -travel if the axis k moves the work, +travel if it moves the tool. As s_k is +1 or -1, 1 / s_k =
-// s_k.
+// -travel if the axis k moves the work, +travel if it moves the tool. As s_k is +1 or -1,
+// 1 / s_k = s_k.
 #pragma once
 
 #include <array>

@@ -30,11 +30,11 @@ struct Calibration {
   std::optional<double> um_per_V;  // required if the log has volts
   std::string scale_record;        // id of the calibration record that contains um_per_V
   double offset_um = 0;            // raw reading at the nominal surface
-  std::vector<std::array<double, 2>>
-      linearity;  // [reading_um, correction_um], ascending; constant beyond the ends
+  // [reading_um, correction_um], ascending; constant beyond the ends.
+  std::vector<std::array<double, 2>> linearity;
   std::vector<double> polynomial_um;  // alternative: correction in µm, Σ c_i (reading_um)^i
-  std::optional<std::array<double, 2>>
-      valid_um;  // raw_um from, to; default: from range_um and `reads`
+  // raw_um from, to; default: from range_um and `reads`.
+  std::optional<std::array<double, 2>> valid_um;
   // Range of t in which a calibration record has calibrated the probe; nullopt: unknown.
   std::optional<std::array<double, 2>> calibrated_um = std::nullopt;
   std::string certificate;  // number of the calibration certificate
@@ -104,8 +104,8 @@ struct Rig {
   // rig declares none.
   std::shared_ptr<const RigPhysics> physics = nullptr;
   ReportFacts report;  // [report]
-  std::vector<CalibrationRecord>
-      records;         // calibration records of the rig, already applied (schema/rig/calibrated.h)
+  // Calibration records of the rig, already applied (schema/rig/calibrated.h).
+  std::vector<CalibrationRecord> records;
   std::string text;    // the TOML text with its records, for provenance
   std::string source;  // file name, for messages
 

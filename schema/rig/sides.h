@@ -8,8 +8,8 @@ namespace mdof {
 
 struct Sides {
   bool fixture_moves = false;  // moves = "fixture"; else the target moves
-  bool against_encoder =
-      false;  // travel = "-": the body moves in the - direction of M as the encoder increases
+  // travel = "-": the body moves in the - direction of M as the encoder increases.
+  bool against_encoder = false;
 
   bool operator==(const Sides&) const = default;
 

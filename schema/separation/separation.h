@@ -47,16 +47,16 @@ struct DeterminedSeries {
 
 struct Separation {
   DeterminedSeries machine;  // error of the moving body over the encoder's position
-  DeterminedSeries
-      target;  // height over the place on the target, in C with the orientation of the first set-up
+  // Height over the place on the target, in C with the orientation of the first set-up.
+  DeterminedSeries target;
   std::size_t set_ups = 0, readings = 0, unknowns = 0, rank = 0;
   std::size_t freedom() const { return readings - rank; }
-  // Root mean square residual of the fit, divided by its degrees of freedom; NaN: no degrees of
-  // freedom.
+  // Standard deviation of the residuals: the root of their sum of squares divided by the degrees of
+  // freedom of the fit. NaN: no degrees of freedom.
   double residual_m = std::numeric_limits<double>::quiet_NaN();
   std::string u_reason;  // origin of u, or why it is unknown
-  bool noise_only =
-      false;  // u contains noise and repeatability of runs only, because nothing is declared
+  // u contains noise and repeatability of runs only, because nothing is declared.
+  bool noise_only = false;
   Notices notices;
 };
 

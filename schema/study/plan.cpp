@@ -61,7 +61,8 @@ namespace {
 using namespace plan_parts;
 using Path = std::filesystem::path;
 
-// Returns the index of the word among the choices; 0 if the word is invalid.
+// Returns the index of the word among the choices. A missing or invalid word gives `fallback`; an
+// invalid word is also rejected.
 std::size_t read_choice(TomlTable& table, std::string_view key,
                         const std::vector<std::string>& choices, std::size_t fallback) {
   const std::string word = table.string(key, choices[fallback]);

@@ -77,8 +77,8 @@ struct Allocation {
   double reached = 0;                     // P with the tolerances of the plan
   std::vector<AllocatedTolerance> alone;  // each alone, the others as planned
   double common_factor = 0;               // factor on all allocated tolerances together
-  std::vector<std::vector<AllocatedTolerance>>
-      frontier;  // pairs: a value of the first, and the largest of the second
+  // Pairs: for a value of the first tolerance, the largest value of the second.
+  std::vector<std::vector<AllocatedTolerance>> frontier;
 };
 
 // Two fixtures compared with the same random numbers.

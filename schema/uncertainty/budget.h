@@ -46,8 +46,8 @@ struct Budget {
   // is declared.
   bool noise_only = false;
   bool is_imported = false;  // from readings of another instrument, without a rig
-  bool is_single_run =
-      false;  // no target was visited again: u does not include noise slower than a stop
+  // No target was visited again: u does not include noise slower than a stop.
+  bool is_single_run = false;
   // Keys that the rig does not declare; U does not include their contributions.
   std::vector<std::string> not_declared;
   std::vector<BudgetLine> lines;  // the largest first

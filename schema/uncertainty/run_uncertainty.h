@@ -33,8 +33,8 @@ struct RunUncertainty {
   bool declares = false;
   VisitsCovered visits = VisitsCovered::single;
   std::string why;
-  std::vector<std::string>
-      not_declared;  // undeclared keys of the rig; u does not include their contributions
+  // Undeclared keys of the rig; u does not include their contributions.
+  std::vector<std::string> not_declared;
 };
 
 // Applies is_noise_only() of schema/uncertainty/budget.h to all points.

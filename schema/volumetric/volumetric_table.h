@@ -34,8 +34,8 @@ struct VolumetricTable {
   std::string description;         // text of MACHINE.toml
   std::vector<std::int64_t> runs;  // runs whose errors the table corrects
   bool simulated = false;          // wholly or partly
-  NoiseOnly noise_only =
-      NoiseOnly::none;            // of the errors; `some` in an older table may also mean all
+  // Of the errors; `some` in an older table may also mean all.
+  NoiseOnly noise_only = NoiseOnly::none;
   std::string approach = "mean";  // of all axes: "mean", "forward", "reverse"
   Vec3 tool_m{};                  // point of the tool in machine coordinates, all axes at 0
   std::array<std::vector<double>, 3> command_m;  // X, Y, Z; each strictly increasing

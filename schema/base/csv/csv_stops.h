@@ -12,8 +12,8 @@
 namespace mdof {
 
 // Positions of all bytes below '-' (as signed numbers): ',', LF, CR and bytes that do not belong in
-// a row of plain numbers (space, '#', '+', '"', bytes beyond ASCII). Field k of the text is [at[k]
-// + 1, at[k + 1]), where at[0] is -1 (mod 2^32).
+// a row of plain numbers (space, '#', '+', '"', bytes beyond ASCII). Field k of the text is
+// [at[k] + 1, at[k + 1]), where at[0] is -1 (mod 2^32).
 struct CsvStops {
   std::size_t count = 0;
   std::unique_ptr<std::uint32_t[]> at;

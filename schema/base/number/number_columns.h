@@ -9,9 +9,9 @@
 
 namespace mdof {
 
-// Fields of one column in consecutive rows: field j is the text between stop[j stride] and stop[j
-// stride + 1], both excluded. kColumnMargin bytes before the first field and after the last are
-// readable.
+// Fields of one column in consecutive rows: field j is the text between stop[j stride] and
+// stop[j stride + 1], both excluded. kColumnMargin bytes before the first field and after the last
+// are readable.
 struct ColumnText {
   const char* text;
   const std::uint32_t* stop;

@@ -6,8 +6,8 @@
 #include "schema/base/compiled_for.h"
 #include "schema/base/number/number_scan.h"
 
-#define HWY_DISABLE_F16C  // so that the targets require no more than has_avx2() and has_avx512()
-                          // check
+// F16C, PCLMUL and AES are disabled, because has_avx2() and has_avx512() do not check for them.
+#define HWY_DISABLE_F16C
 #define HWY_DISABLE_PCLMUL_AES
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "schema/base/number/number_columns_vector.cpp"

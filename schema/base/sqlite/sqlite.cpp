@@ -89,8 +89,8 @@ enum class Reading { shared, unchanging, copied };
 // In WAL mode a reader needs the -shm file and creates it if it is missing. If the folder is
 // read-only and the -wal file is empty, the database cannot change while it is read.
 Reading read_open_mode(const fs::path& file, OpenMode mode) {
-  if (is_open_for_writing(file))
-    return Reading::shared;  // a file of this process: its locks must remain
+  // A file of this process: its locks must remain.
+  if (is_open_for_writing(file)) return Reading::shared;
   if (has_journal(file)) return Reading::copied;
   const bool foreign = mode == OpenMode::snapshot;
   const fs::path folder = beside(file, "").parent_path();

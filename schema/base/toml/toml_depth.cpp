@@ -56,8 +56,8 @@ class DepthScan {
     const std::string_view three = quote == '"' ? R"(""")" : "'''";
     if (!is_next(three)) return skip_to_end(text_.substr(at_, 1), quote == '"', "\n");
     skip_to_end(three, quote == '"', {});
-    for (int more = 0; more < 2 && is_next(three.substr(0, 1)); ++more)
-      ++at_;  // up to two quotes belong to the text
+    // Up to two quotes belong to the text.
+    for (int more = 0; more < 2 && is_next(three.substr(0, 1)); ++more) ++at_;
   }
 
   // Skips from the opening quotes to the end of the closing ones, or to `end` if they are missing.
@@ -78,9 +78,8 @@ class DepthScan {
   std::string_view text_;
   std::size_t bound_;
   std::size_t at_ = 0, line_ = 1;
-  std::size_t dots_ = 0,
-              outer_dots_ =
-                  0;  // dots of the current key; dots of the keys before all open brackets
+  // Dots of the current key; dots of the keys before all open brackets.
+  std::size_t dots_ = 0, outer_dots_ = 0;
   std::vector<std::size_t> open_;  // dots before each open bracket
 };
 

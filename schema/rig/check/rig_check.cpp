@@ -16,7 +16,7 @@ namespace {
 struct Bounds {
   double least_possible, least_usual, most_usual, most_possible;
 };
-constexpr double kMost_m = 0.5;  // any coordinate of a fixture, from the origin of M
+constexpr double kMost_m = 0.5;  // largest distance of a probe or plane from its origin
 constexpr Bounds kExtent_mm = {0.1, 1, 500, 500};     // largest distance of two probes
 constexpr Bounds kRange_um = {1, 5, 20e3, 100e3};     // capacitive: 10 µm to 10 mm
 constexpr Bounds kFull_V = {1e-3, 0.05, 100, 1000};   // full range in volts, from um_per_V

@@ -3,9 +3,8 @@
 // are ready to be bound; the store also keeps provenance, references and the hash of the results.
 //
 //   bench_store [FOLDER]    prints both rates and their ratio for small and large runs; exit status
-// 1
-//                           below 0.8. FOLDER must be on a disk: in memory, durability costs
-// nothing
+//                           1 below 0.8. FOLDER must be on a disk: in memory, durability costs
+//                           nothing
 #include <sqlite3.h>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 Prints ns per trial for the best array size, first with histograms (like mdof: equal bins, np.bincount, constant
 memory), then with all trials kept and partitioned (exact quantiles, no constant memory). All work is in place in
 buffers that are created once; random numbers come from NumPy's Philox.
-Statistics over all trials and in each of 20 bins of travel: mean, sd, min, max, quantiles, symmetric and shortest 95
-% interval.
+Statistics over all trials and in each of 20 bins of travel: mean, sd, min, max, quantiles, symmetric and shortest
+95 % interval.
   sensitivity_numpy.py [TRIALS]
 """
 import sys

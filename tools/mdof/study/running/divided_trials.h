@@ -25,9 +25,8 @@ class DividedTrials final : public algo::Experiment {
   void run(std::uint64_t first, std::uint64_t step, std::size_t n,
            std::span<double* const> out) const override;
   std::uint64_t trials_run() const { return trials_run_; }  // Any thread.
-  bool was_interrupted() const {
-    return cut_short_;
-  }  // trials are missing: the results are invalid
+  // True: trials are missing, so the results are invalid.
+  bool was_interrupted() const { return cut_short_; }
 
  private:
   const algo::Experiment& experiment_;

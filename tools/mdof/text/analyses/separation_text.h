@@ -10,8 +10,8 @@ namespace mdof::tools {
 
 std::string separation_text(const SeparationRecord& record, std::size_t width);
 
-// Columns: series ("machine" or "target"), place_mm, seen_um, u_um, U_um, whole (1: only offset and
-// slope are not determined).
+// Columns: series ("machine" or "target"), place_mm, seen_um, u_um, U_um, whole (1: at most offset
+// and slope are undetermined).
 std::string separation_csv(const SeparationRecord& record);
 
 // The height of the target as [[plane]] flatness_... of a rig. Comments state the date, the

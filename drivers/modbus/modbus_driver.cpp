@@ -145,7 +145,7 @@ Result<ReadState> ModbusDriver::read(SampleBlock& block, milliseconds timeout) {
   return ReadState::more;
 }
 
-// A line that needs a test is tried again immediately.
+// A line that needs a test is tried again after kBetweenAttempts, not after a whole period.
 Status ModbusDriver::poll(SampleBlock& block) {
   const auto start = steady_clock::now();
   for (std::size_t i = 0; i < readings_.blocks().size(); ++i) {

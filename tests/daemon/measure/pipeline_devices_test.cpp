@@ -13,7 +13,7 @@ namespace {
 
 const std::vector<std::string> kTop = {kEncoderChannel, "A", "B", "C"}, kSide = {"D", "E"};
 
-// `side_falls_silent`: the scan after which the second device delivers nothing.
+// `side_falls_silent`: the scan from which on the second device delivers nothing.
 class TwoDevices {
  public:
   explicit TwoDevices(std::size_t side_falls_silent = SIZE_MAX) : silent_(side_falls_silent) {

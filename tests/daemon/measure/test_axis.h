@@ -21,7 +21,7 @@ inline Rig five_probe_rig(char axis = 'X') {
   return load_rig(std::string(MDOF_TEST_DATA) + "/five-probe/rig_" + axis + ".toml").value();
 }
 
-// The five errors of the target in the axis' frame at travel d, in the units of the rig's readings.
+// The five errors of the target in the axis' frame at travel d, as they act on the rig's readings.
 struct TrueErrors {
   double dy_um, dz_um, ex_urad, ey_urad, ez_urad;  // of the point of the target at the origin of C
 

@@ -53,7 +53,7 @@ TEST_F(StoreTest, ACheckpointIsReplacedAndDeletedAtCompletion) {
                                  StudyCheckpoint{3000, bytes}));
     EXPECT_TRUE(store->verify()->empty());
   }
-  auto store = writer();  // any store may continue
+  auto store = writer();  // a new store may continue the study
   const auto kept = store->study_checkpoint(id).value();
   ASSERT_TRUE(kept);
   EXPECT_EQ(kept->trials, 3000u);

@@ -245,7 +245,7 @@ TEST_F(Sessions, AnUnknownCallerMayWriteIfConfigured) {
   EXPECT_EQ(ask(*admit(kTcp), call("write", 1)), result("true", 1));
 }
 
-TEST_F(Sessions, ApprovalNeedsMembershipInAnyGroup) {
+TEST_F(Sessions, PrimaryOrFurtherGroupPermitsApproval) {
   options.approvers = ServerOptions::Group{200, "metrology"};
   EXPECT_EQ(ask(*admit({Credentials{1000, 200, 42}}), call("approve", 1)), result("true", 1));
   EXPECT_EQ(ask(*admit({Credentials{1000, 100, 42}, {5, 200}}), call("approve", 1)),
@@ -281,7 +281,7 @@ TEST_F(Sessions, AnEndedSessionSendsNothingMore) {
   EXPECT_EQ(service().session_count(), 1u);  // until its client has read the reply
 }
 
-TEST_F(Sessions, IsIdleIfNothingIsPendingBeyondTheLimit) {
+TEST_F(Sessions, IsIdleAfterTheLimitIfNothingIsPending) {
   options.idle_timeout = 1s;
   service().add_topic({"live", false, 20ms});
   const auto session = admit();

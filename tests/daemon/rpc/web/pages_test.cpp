@@ -48,7 +48,7 @@ TEST_F(WebPage, AnswersHeadWithoutABody) {
   EXPECT_EQ(client.ask(get("/")).body, kTestPage[0].text);  // no bytes remain in between
 }
 
-TEST_F(WebPage, NamesWhatItDoesNotAccept) {
+TEST_F(WebPage, RejectsUnknownPathsMethodsAndTypes) {
   const auto asked = [this](const std::string& method, const std::string& path) {
     return ask(method + " " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
   };

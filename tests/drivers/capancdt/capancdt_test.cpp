@@ -37,7 +37,7 @@ TEST(Capancdt, TimesAreOneSampleTimeApart) {
   device.sample_time_us = 960;
   device.frames_per_packet = 4;
   Rack rack(device);
-  rack.options.sample_time_us = 1000;  // the controller uses its nearest sample time
+  rack.options.sample_time_us = 1000;  // the controller uses its next shorter sample time
   Capancdt driver(rack.options);
   ASSERT_EQ(error_of(driver.open()), "");
   const Collected got = collect(driver, 100);

@@ -1,4 +1,4 @@
-// A position that was set, and a new start of the script.
+// Whether a position that was set survives a new start of the script.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

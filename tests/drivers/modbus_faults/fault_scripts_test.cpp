@@ -177,7 +177,7 @@ int scripts() {
   return number ? std::atoi(number) : 5000;
 }
 
-TEST(ModbusFaults, ReportsFaultsAndRecoversWithinTwoPolls) {
+TEST(ModbusFaults, GivesNoWrongValueAndRecoversWithinTwoPolls) {
   std::array<int, static_cast<std::size_t>(FaultKind::kinds)> tried{};
   std::int64_t right = 0;
   double longest = 0;  // in poll periods

@@ -54,8 +54,7 @@ TEST(StudyRun, ASensitivityErrorAppearsInTheRun) {
   }
 }
 
-// Means of at least about 100 samples with 50 nm noise: a pitch (A, B, C) of a few µrad without
-// motion.
+// Means of about 100 samples with 50 nm noise: a pitch (A, B, C) of a few µrad without motion.
 TEST(StudyRun, NoiseIsAveragedByTheDwell) {
   const std::string noise =
       "[[quantity]]\nname = \"probe.*.noise_nm\"\ndistribution = \"normal\"\nsd = 50\n";

@@ -112,7 +112,7 @@ TEST(JsonText, ShowsMembersAndTables) {
             "a: 1\nb.c: x\ng: -\n\nd\n e  f\n--  -\n 1  -\n20\n");
 }
 
-TEST(JsonText, ReturnsOtherTextUnchanged) {
+TEST(JsonText, ReturnsInvalidJsonWithANewline) {
   EXPECT_EQ(readable("{"), "{\n");
 }
 

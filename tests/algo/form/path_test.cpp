@@ -160,7 +160,7 @@ TEST(SpiralPath, EdgesAreExtendedAndBridged) {
     const PathPoint& p = walked.points[k];
     const XY at = place(p, per_turn);
     ++counted[static_cast<int>(p.on_part)];
-    const double little = 0.011 * d;  // a pixel extends 0.01 pixel beyond its edge
+    const double little = 0.011 * d;  // the part extends 0.01 pixel beyond its last pixel
     if (std::abs(at.x) < 19.9e-3 && std::abs(std::abs(at.y) - half) > little &&
         std::abs(std::abs(at.y) - half - 3 * d) > little) {
       const OnPart expected = std::abs(at.y) < half           ? OnPart::measured

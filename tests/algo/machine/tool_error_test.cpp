@@ -252,7 +252,7 @@ TEST(Compensating, CorrectsThePositionCompletely) {
   for (int i = 0; i < 2000; ++i) {
     const auto machine = random.machine(i % 2 == 0 ? "XYZ" : "XYZC", 50e-6, 200e-6, 0.1);
     auto wanted = random.command(0.098);
-    for (std::size_t k = 0; k < 3; ++k) wanted[k] += 0.001;  // tables end at the ends
+    for (std::size_t k = 0; k < 3; ++k) wanted[k] += 0.001;  // 1 mm inside the ends of the tables
     wanted[5] /= 10;  // at a quarter of a turn an axis beyond C may lie along another
     const auto c = compensating_command(machine, wanted, MachineApproach::mean);
     ASSERT_TRUE(c);

@@ -57,13 +57,14 @@ TEST(TargetsOfStops, AreTenTimesAsFarApartAsTheirStops) {
   EXPECT_EQ(stop_targets(stops_at({0, part_m, 10.9 * part_m})).size(), 3u);
 }
 
-// One gap is 20 times as large as the distance before it, the next one 11 times; the first gap is
-// the larger step.
+// The first gap is 20 times the smallest scatter of 2 um, the next one 11 times the first gap: the
+// first ratio is larger.
 TEST(TargetsOfStops, FirstGapDecidesIfItIsLarger) {
   EXPECT_EQ(stop_targets(stops_at({0, 1e-7, 40.1e-6, 480.1e-6})), (Places{0, 40.1e-6, 480.1e-6}));
 }
 
-// The larger of two gaps decides: the ratios of 4, 60 and 6000 um are 15 and 100.
+// The larger ratio decides: 10 and 149 for steps of 4, 40 and 5956 um. A step of 60 um is too large
+// for scatter, so the ratio after it does not count.
 TEST(TargetsOfStops, LargestGapDecides) {
   EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 64e-6, 6e-3})).size(), 3u);
   EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 44e-6, 6e-3})), (Places{0, 6e-3}));

@@ -82,7 +82,7 @@ TEST(UsableRuns, RejectsSimulatedWithMeasuredRuns) {
   EXPECT_EQ(refusal({a, b}), "");
 }
 
-// The same readings, counted twice, would reduce u by the square root of two.
+// The same readings, counted twice, would make u smaller by a factor of √2.
 TEST(UsableRuns, RejectsTheSameRecordingTwice) {
   const auto run = [](std::int64_t id, const char* recording) {
     return run_of(id, RunState::complete, recording);

@@ -9,7 +9,7 @@ EXT4_GOING_FLAGS_NOLOGFLUSH; linux/fs/ext4/ioctl.c), so that data not flushed to
 is killed, the file system is mounted again, and the checks of kill_test follow: each acknowledged point and chunk is
 present, database and recording are sound, the daemon serves again. At the same time other programs write and read
 (storekeeper/others.py); their acknowledged data are present as well. Only data received before the cut began count:
-a flush during the ioctl can return success for lost bytes, which no real power cut can report.
+a flush during the ioctl can return success for lost bytes; in a real power cut no program is left to receive this.
 
 With --durability normal acknowledged rows must be lost; otherwise these cuts would prove nothing. The command then
 exits with 1 if nothing was lost."""

@@ -216,8 +216,8 @@ def main():
     print("\n".join(bad[:20]))
     without = {name for name in known if not next(m for m in bench.methods if m["name"] == name)["params"]}
     checks = {"wrong answers": not bad, "a method was never asked": known == set(answers),
-              # The axis of the simulator is seldom at rest for encoder.set; with few requests some methods are never
-              # tried.
+              # The axis of the simulator is seldom at rest for encoder.set; with few requests some methods
+              # never succeed.
               f"never with success: {sorted(known - served)}":
                   known - served <= ({"encoder.set"} if o.requests >= 50_000 else {"encoder.set", "run.import", "run.replay", "run.resume", "run.start", "run.stop"}),
               f"never refused: {sorted(known - refused - without)}": known - refused <= without | {"rpc.discover"},

@@ -59,13 +59,13 @@ TEST(TargetsOfStops, AreTenTimesAsFarApartAsTheirStops) {
 
 // The first gap is 20 times the smallest scatter of 2 um, the next one 11 times the first gap: the
 // first ratio is larger.
-TEST(TargetsOfStops, FirstGapDecidesIfItIsLarger) {
+TEST(TargetsOfStops, FirstGapDecidesIfItsRatioIsLarger) {
   EXPECT_EQ(stop_targets(stops_at({0, 1e-7, 40.1e-6, 480.1e-6})), (Places{0, 40.1e-6, 480.1e-6}));
 }
 
 // The larger ratio decides: 10 and 149 for steps of 4, 40 and 5956 um. A step of 60 um is too large
 // for scatter, so the ratio after it does not count.
-TEST(TargetsOfStops, LargestGapDecides) {
+TEST(TargetsOfStops, LargestGapRatioDecides) {
   EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 64e-6, 6e-3})).size(), 3u);
   EXPECT_EQ(stop_targets(stops_at({0, 4e-6, 44e-6, 6e-3})), (Places{0, 6e-3}));
 }
